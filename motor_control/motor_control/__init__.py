@@ -1,0 +1,1 @@
+"""PI speed controller that acts on every encoder sample."""

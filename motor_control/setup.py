@@ -1,0 +1,23 @@
+from setuptools import find_packages, setup
+
+package_name = "motor_control"
+
+setup(
+    name=package_name,
+    version="0.1.0",
+    description="PI speed controller that acts on every encoder sample.",
+    license="Apache-2.0",
+    packages=find_packages(exclude=["test"]),
+    package_data={package_name: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
+        (f"share/{package_name}", ["package.xml"]),
+    ],
+    install_requires=["setuptools"],
+    zip_safe=False,
+    entry_points={
+        "console_scripts": [
+            "motor_control = motor_control.node:main",
+        ],
+    },
+)

@@ -1,0 +1,1 @@
+"""The commands of this package: arguments in, one sentence or a table out."""

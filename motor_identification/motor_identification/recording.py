@@ -1,0 +1,107 @@
+"""A recording: one motor's samples as arrays, checked, with what has to be known to read them."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_model.errors import RecordingError
+from motor_model.sample import Info
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Samples of one motor in the order of its own clock; every array has shape (K,).
+
+    `voltage[k]` holds from `sample_time[k]` until the next sample. `notes` are sentences a user has to read beside any
+    result (such as: the bag was cut off, this is what could be read).
+    """
+
+    uri: str
+    info: Info
+    sample_time: Integers  # [ns] strictly increasing
+    voltage: Floats  # [V]
+    speed: Floats  # [rad/s]
+    edge_count: Integers
+    edge_time: Integers  # [ns]
+    edge_period: Floats  # [s]
+    supply_voltage: Floats  # [V] NaN if unmeasured
+    current: Floats  # [A] NaN if unmeasured
+    notes: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.sample_time)
+
+    @property
+    def time(self) -> Floats:
+        """[s] since the first sample, shape (K,); exact to a nanosecond for recordings shorter than 100 days."""
+        return np.asarray((self.sample_time - self.sample_time[0]) * 1e-9, dtype=np.float64)
+
+    @property
+    def duration(self) -> float:
+        """[s] from the first sample to the last."""
+        return float((self.sample_time[-1] - self.sample_time[0]) * 1e-9)
+
+    def between(self, start: float, stop: float) -> "Recording":
+        """The part from `start` to `stop` seconds after the first sample; 0, 0 is all of it.
+
+        Raises:
+            RecordingError: the window is empty, reversed or outside the recording.
+        """
+        if start == 0.0 and stop == 0.0:
+            return self
+        end = stop if stop > 0.0 else np.inf
+        if not (0.0 <= start < end):
+            raise RecordingError(f"--start {start:g} s must be before --stop {stop:g} s, and neither negative.")
+        inside = (self.time >= start) & (self.time <= end)
+        if np.count_nonzero(inside) < 2:
+            raise RecordingError(
+                f"{self.uri} has no samples from {start:g} to {stop:g} s: it is {self.duration:.3g} s long."
+            )
+        return self._select(inside)
+
+    def _select(self, which: NDArray[np.bool_]) -> "Recording":
+        return replace(
+            self,
+            sample_time=self.sample_time[which],
+            voltage=self.voltage[which],
+            speed=self.speed[which],
+            edge_count=self.edge_count[which],
+            edge_time=self.edge_time[which],
+            edge_period=self.edge_period[which],
+            supply_voltage=self.supply_voltage[which],
+            current=self.current[which],
+        )
+
+
+def check(recording: Recording) -> Recording:
+    """Return the recording if identification can use it.
+
+    Raises:
+        RecordingError: no samples, voltages or speeds that are not finite, a clock that steps back, or no motion.
+    """
+    uri = recording.uri
+    if len(recording) < 2:
+        raise RecordingError(f"{uri} holds {len(recording)} samples; record at least a second of motion.")
+    for name, values in (("voltage", recording.voltage), ("speed", recording.speed)):
+        bad = int(np.count_nonzero(~np.isfinite(values)))
+        if bad:
+            first = float(recording.time[int(np.argmin(np.isfinite(values)))])
+            raise RecordingError(
+                f"{uri} has {bad} {name} values that are not numbers (the first at {first:.3f} s): "
+                "cut them out with --start and --stop, or record again."
+            )
+    if np.any(np.diff(recording.sample_time) <= 0):
+        at = float(recording.time[int(np.argmax(np.diff(recording.sample_time) <= 0))])
+        raise RecordingError(
+            f"{uri}: the plant's clock stands still or steps back after {at:.3f} s; "
+            "this happens when a plant restarts while recording: use the part before it (--stop)."
+        )
+    if not np.any(recording.speed) and np.ptp(recording.edge_count) == 0:
+        raise RecordingError(
+            f"{uri}: the motor never moves; check supply, wiring and enable, and record with a voltage that turns it."
+        )
+    return recording

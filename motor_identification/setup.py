@@ -1,0 +1,28 @@
+from setuptools import find_packages, setup
+
+package_name = "motor_identification"
+
+setup(
+    name=package_name,
+    version="0.1.0",
+    description="Fits motor models to recorded bags by particle swarm and least squares; experiments, recording, replay, import.",
+    license="Apache-2.0",
+    packages=find_packages(exclude=["test"]),
+    package_data={package_name: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
+        (f"share/{package_name}", ["package.xml"]),
+    ],
+    install_requires=["setuptools", "numpy>=1.26", "scipy>=1.11", "tqdm>=4.66", "rosbags>=0.10.9", "mcap>=1.1"],
+    zip_safe=False,
+    entry_points={
+        "console_scripts": [
+            "motor_identification = motor_identification.node:main",
+            "identify = motor_identification.cli.identify:main",
+            "experiment = motor_identification.cli.experiment:main",
+            "record = motor_identification.cli.record:main",
+            "play = motor_identification.cli.play:main",
+            "import_csv = motor_identification.cli.import_csv:main",
+        ],
+    },
+)

@@ -1,0 +1,44 @@
+"""What a plant reports: one sample, and what has to be known to read it; plain values without ROS."""
+
+from dataclasses import dataclass
+from enum import Enum
+from math import nan
+
+
+class Measurement(str, Enum):
+    """What a recording's numbers are exact about."""
+
+    EDGES = "edges"  # every edge has a time stamp
+    COUNTS = "counts"  # a count is read at each sample: the angle is known to one slot, at that instant
+    SPEED = "speed"  # a mean speed over a window is all there is
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """One encoder sample: the fields of `motor_msgs/msg/MotorSpeed` without the header."""
+
+    sample_time: int  # [ns] on the plant's own monotonic clock
+    speed: float  # [rad/s] signed
+    voltage: float  # [V] latched at this sample, held until the next
+    edge_count: int = 0  # edges of one polarity since power-up
+    edge_time: int = 0  # [ns] latest edge; 0 before the first
+    edge_period: float = 0.0  # [s] between the latest two edges; 0 before the second
+    supply_voltage: float = nan  # [V] NaN if unmeasured
+    current: float = nan  # [A] NaN if unmeasured
+
+
+@dataclass(frozen=True, slots=True)
+class Info:
+    """How to read a plant's samples: the fields of `motor_msgs/msg/MotorInfo` without the header."""
+
+    name: str = "motor"
+    source: str = "simulation"  # hardware | simulation | import
+    measurement: Measurement = Measurement.EDGES
+    edges_per_revolution: int = 96  # of one polarity
+    single_channel: bool = True
+    edge_resolution: float = 4e-6  # [s] tick of the timer that stamps edges
+    sample_period: float = 0.005  # [s]
+    speed_window: float = 0.0  # [s] what a speed-only source averages over
+    speed_lag: float = 0.0  # [s] how old the middle of that window is at the stamp
+    max_voltage: float = 12.0  # [V] at full duty
+    decay: str = "unknown"  # brake | coast | unknown

@@ -1,0 +1,87 @@
+"""Our messages and the plain values they carry, both ways."""
+
+from builtin_interfaces.msg import Time
+
+from motor_model.sample import Info, Measurement, Sample
+from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
+
+
+def speed_message(sample: Sample, stamp: Time, name: str) -> MotorSpeed:
+    """A sample as it goes out on `motor/speed`."""
+    message = MotorSpeed(
+        sample_time=sample.sample_time,
+        speed=sample.speed,
+        voltage=sample.voltage,
+        edge_count=sample.edge_count,
+        edge_time=sample.edge_time,
+        edge_period=sample.edge_period,
+        supply_voltage=sample.supply_voltage,
+        current=sample.current,
+    )
+    message.header.stamp = stamp
+    message.header.frame_id = name
+    return message
+
+
+def sample_of(message: MotorSpeed) -> Sample:
+    """The sample in a message."""
+    return Sample(
+        sample_time=message.sample_time,
+        speed=message.speed,
+        voltage=message.voltage,
+        edge_count=message.edge_count,
+        edge_time=message.edge_time,
+        edge_period=message.edge_period,
+        supply_voltage=message.supply_voltage,
+        current=message.current,
+    )
+
+
+def info_message(info: Info, stamp: Time) -> MotorInfo:
+    """What `motor/info` says."""
+    message = MotorInfo(
+        name=info.name,
+        source=info.source,
+        measurement=info.measurement.value,
+        edges_per_revolution=info.edges_per_revolution,
+        single_channel=info.single_channel,
+        edge_resolution=info.edge_resolution,
+        sample_period=info.sample_period,
+        speed_window=info.speed_window,
+        speed_lag=info.speed_lag,
+        max_voltage=info.max_voltage,
+        decay=info.decay,
+    )
+    message.header.stamp = stamp
+    message.header.frame_id = info.name
+    return message
+
+
+def info_of(message: MotorInfo) -> Info:
+    """The plain value of a `motor/info` message."""
+    return Info(
+        name=message.name,
+        source=message.source,
+        measurement=Measurement(message.measurement),
+        edges_per_revolution=message.edges_per_revolution,
+        single_channel=message.single_channel,
+        edge_resolution=message.edge_resolution,
+        sample_period=message.sample_period,
+        speed_window=message.speed_window,
+        speed_lag=message.speed_lag,
+        max_voltage=message.max_voltage,
+        decay=message.decay,
+    )
+
+
+def voltage_message(voltage: float, stamp: Time, name: str) -> MotorVoltage:
+    """A command as it goes out on `motor/voltage`."""
+    message = MotorVoltage(voltage=voltage)
+    message.header.stamp = stamp
+    message.header.frame_id = name
+    return message
+
+
+def time_message(nanoseconds: int) -> Time:
+    """Integer nanoseconds as a ROS time; no float in between, which would lose 240 ns."""
+    return Time(sec=nanoseconds // 1_000_000_000, nanosec=nanoseconds % 1_000_000_000)

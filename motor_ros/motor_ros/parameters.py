@@ -1,0 +1,57 @@
+"""Node parameters as a table: name, default, meaning, unit and range stand in one row."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
+from rclpy.node import Node
+
+from motor_model.errors import MotorError
+
+Value = bool | int | float | str
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One parameter; `low` and `high` apply to numbers, `read_only` parameters are fixed at the start."""
+
+    name: str
+    default: Value
+    description: str
+    unit: str = ""
+    low: float | None = None
+    high: float | None = None
+    read_only: bool = False
+
+    def descriptor(self) -> ParameterDescriptor:
+        """What `ros2 param describe` shows."""
+        text = f"{self.description} [{self.unit}]" if self.unit else self.description
+        descriptor = ParameterDescriptor(name=self.name, description=text, read_only=self.read_only)
+        if self.low is None or self.high is None:
+            return descriptor
+        if isinstance(self.default, float):
+            descriptor.floating_point_range = [FloatingPointRange(from_value=self.low, to_value=self.high)]
+        else:
+            descriptor.integer_range = [IntegerRange(from_value=int(self.low), to_value=int(self.high))]
+        return descriptor
+
+
+def declare(node: Node, rows: Iterable[Row]) -> dict[str, Value]:
+    """Declare all rows on the node and return the values in force.
+
+    Raises:
+        MotorError: a value given on the command line or in a file has the wrong type or is out of range.
+    """
+    values: dict[str, Value] = {}
+    for row in rows:
+        try:
+            values[row.name] = node.declare_parameter(row.name, row.default, row.descriptor()).value
+        except (InvalidParameterTypeException, InvalidParameterValueException) as error:
+            span = f" from {row.low:g} to {row.high:g}" if row.low is not None and row.high is not None else ""
+            kind = type(row.default).__name__
+            raise MotorError(
+                f"parameter {row.name} ({row.description}) takes a {kind}{span} {row.unit}".rstrip()
+                + f", for example {row.default!r}."
+            ) from error
+    return values

@@ -1,0 +1,17 @@
+"""The QoS of every topic, in one place: publishers and subscribers that share a row always connect."""
+
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+
+def _reliable(depth: int, durability: DurabilityPolicy = DurabilityPolicy.VOLATILE) -> QoSProfile:
+    return QoSProfile(depth=depth, reliability=ReliabilityPolicy.RELIABLE, durability=durability)
+
+
+SPEED = _reliable(100)
+INFO = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
+VOLTAGE = _reliable(1)
+REFERENCE = _reliable(1)
+CONTROL_STATE = _reliable(100)
+MODEL = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
+JOINT_STATES = _reliable(10)
+DIAGNOSTICS = _reliable(10)

@@ -1,0 +1,79 @@
+"""How every node of the workbench starts and ends: on this machine only, without a traceback, and never with power on."""
+
+import os
+import signal
+import sys
+from collections.abc import Callable
+from types import FrameType
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+
+from motor_model.errors import MotorError
+
+LOOK_FOR_SIGNALS_EVERY = 0.1  # [s] how long an idle node takes at most to notice Ctrl-C
+
+
+def stay_on_this_machine() -> None:
+    """Keep discovery on the loopback unless the user has decided otherwise."""
+    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+
+
+def start_ros(args: list[str] | None = None) -> None:
+    """Initialise rclpy with our own handling of signals, so that a node can still publish after Ctrl-C."""
+    stay_on_this_machine()
+    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+
+
+class Interrupt:
+    """Becomes true at the first SIGINT or SIGTERM."""
+
+    def __init__(self) -> None:
+        self.received = False
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._on_signal)
+
+    def _on_signal(self, number: int, frame: FrameType | None) -> None:
+        self.received = True
+
+    def __bool__(self) -> bool:
+        return self.received
+
+
+def spin(node: Node, until: Callable[[], bool]) -> None:
+    """Run the node's callbacks until the condition holds or ROS is shut down from outside."""
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    try:
+        while rclpy.ok() and not until():
+            executor.spin_once(timeout_sec=LOOK_FOR_SIGNALS_EVERY)
+    except ExternalShutdownException:
+        pass
+    finally:
+        executor.shutdown(timeout_sec=0.5)
+
+
+def run(create: Callable[[], Node], args: list[str] | None = None) -> int:
+    """Create a node, run it until Ctrl-C, let it `close()`, and return the exit status.
+
+    A node that has a `close` method is asked to leave the motor at 0 V while it can still publish.
+    """
+    interrupt = Interrupt()
+    start_ros(args)
+    node: Node | None = None
+    try:
+        node = create()
+        spin(node, lambda: bool(interrupt))
+    except MotorError as error:
+        print(error, file=sys.stderr)
+        return 1
+    finally:
+        if node is not None:
+            close = getattr(node, "close", None)
+            if close is not None and rclpy.ok():
+                close()
+            node.destroy_node()
+        rclpy.try_shutdown()
+    return 0

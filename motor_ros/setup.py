@@ -1,0 +1,18 @@
+from setuptools import find_packages, setup
+
+package_name = "motor_ros"
+
+setup(
+    name=package_name,
+    version="0.1.0",
+    description="What every node of the workbench does alike: QoS, parameter tables, the plant's shell, starting and stopping.",
+    license="Apache-2.0",
+    packages=find_packages(exclude=["test"]),
+    package_data={package_name: ["py.typed"]},
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
+        (f"share/{package_name}", ["package.xml"]),
+    ],
+    install_requires=["setuptools"],
+    zip_safe=False,
+)

@@ -1,0 +1,1 @@
+"""A simulated motor with an honest encoder that swaps in for the real board."""
