@@ -1,0 +1,180 @@
+"""The table of effects: every physical effect the workbench knows, its parameters, their units and where to search.
+
+The equation they belong to, in armature voltages throughout (see `motor.py`, which is its one home):
+
+    ka dω/dt = drive − friction(ω) − loads,    drive = u_eff − kv ω,    dθ/dt = ω
+
+Adding an effect is adding a row here and its term in `motor.py`.
+"""
+
+from dataclasses import dataclass
+from enum import Enum
+from math import inf, pi
+
+from motor_model.errors import ModelError
+
+
+class Scale(Enum):
+    """What a search bound is a multiple of: powers of a recording's largest voltage, largest speed and duration."""
+
+    ABSOLUTE = (0, 0, 0)
+    VOLTAGE = (1, 0, 0)  # V
+    SPEED = (0, 1, 0)  # rad/s
+    GAIN = (1, -1, 0)  # V·s/rad
+    DRAG = (1, -2, 0)  # V·s²/rad²
+    DURATION = (0, 0, 1)  # s
+
+    def of(self, voltage: float, speed: float, duration: float) -> float:
+        """The scale's size for a recording that reaches `voltage` [V] and `speed` [rad/s] in `duration` [s]."""
+        powers = self.value
+        return float(voltage ** powers[0] * speed ** powers[1] * duration ** powers[2])
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterSpec:
+    """One parameter: `off` makes its effect vanish, `low`..`high` (times `scale`) is where a search looks.
+
+    `minimum` and `maximum` are what physics allows at all; `logarithmic` parameters are searched by their logarithm.
+    """
+
+    name: str
+    unit: str
+    off: float
+    low: float
+    high: float
+    scale: Scale = Scale.ABSOLUTE
+    logarithmic: bool = False
+    minimum: float = 0.0
+    maximum: float = inf
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """A named physical effect: what it does, its parameters, and the effect it cannot be without."""
+
+    name: str
+    summary: str
+    parameters: tuple[ParameterSpec, ...]
+    implies: str | None = None
+
+
+P = ParameterSpec
+
+BASE = (
+    P("kv", "V·s/rad", 0.0, 0.1, 4.0, Scale.GAIN, True),
+    # ka = kv · time constant; 0.5 ms to 5 s of it are searched.
+    P("ka", "V·s²/rad", 0.0, 5e-4, 5.0, Scale.GAIN, True),
+)
+
+EFFECTS = (
+    Effect("coulomb_friction", "ks·sign ω while moving", (P("ks", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE),)),
+    Effect(
+        "static_friction",
+        "more friction at low speed, and a breakaway level at rest",
+        (
+            P("breakaway_voltage", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE),
+            P("stribeck_speed", "rad/s", 1.0, 0.002, 0.3, Scale.SPEED, True, minimum=1e-6),
+        ),
+        implies="coulomb_friction",
+    ),
+    Effect("quadratic_drag", "drag·ω·|ω|", (P("drag", "V·s²/rad²", 0.0, 0.0, 2.0, Scale.DRAG),)),
+    Effect(
+        "load_bias",
+        "constant load, same sign both ways",
+        (P("bias_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf),),
+    ),
+    Effect(
+        "load_step",
+        "a load that appears once and stays",
+        (
+            P("step_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf),
+            P("step_time", "s", 0.0, 0.0, 1.0, Scale.DURATION),
+        ),
+    ),
+    Effect(
+        "dead_zone", "the bridge swallows this much voltage", (P("dead_zone_voltage", "V", 0.0, 0.0, 0.5, Scale.VOLTAGE),)
+    ),
+    Effect(
+        "voltage_limit",
+        "the output saturates here, below max_voltage",
+        (P("limit_voltage", "V", inf, 0.2, 1.0, Scale.VOLTAGE),),
+    ),
+    Effect("direction_asymmetry", "negative commands act stronger or weaker", (P("reverse_gain", "–", 1.0, 0.5, 1.5),)),
+    Effect(
+        "coast_drive",
+        "the bridge coasts in the off time, so that back-EMF brakes less at low duty",
+        (P("coast_share", "–", 0.0, 0.0, 1.0, maximum=1.0),),
+    ),
+    Effect("supply_sag", "the supply gives way under load", (P("sag", "–", 0.0, 0.0, 1.0),)),
+    Effect(
+        "armature_inductance",
+        "first-order lag on the drive",
+        (P("electrical_time_constant", "s", 0.0, 1e-5, 0.03, logarithmic=True),),
+    ),
+    Effect("transport_delay", "the bridge acts late", (P("delay", "s", 0.0, 0.0, 0.1),)),
+    Effect(
+        "torque_ripple",
+        "load periodic in the shaft angle",
+        (
+            P("ripple_voltage", "V", 0.0, 0.0, 0.3, Scale.VOLTAGE),
+            P("ripple_cycles", "1/rev", 1.0, 1.0, 48.0),
+            P("ripple_phase", "rad", 0.0, -pi, pi, minimum=-inf),
+        ),
+    ),
+    Effect(
+        "encoder_eccentricity",
+        "the disc shows θ + e·sin(θ + phase)",
+        (
+            P("eccentricity", "rad", 0.0, 0.0, 0.2, maximum=0.9),
+            P("eccentricity_phase", "rad", 0.0, -pi, pi, minimum=-inf),
+        ),
+    ),
+    Effect(
+        "backlash",
+        "after a reversal the load's share of inertia is missing until the play is taken up",
+        (
+            P("backlash_angle", "rad", 0.0, 0.0, 1.0),
+            P("load_fraction", "–", 0.0, 0.0, 0.95, maximum=0.99),
+        ),
+    ),
+    Effect(
+        "warm_up",
+        "copper heats: ka, friction and loads grow by 1 + rise·(1 − e^(−t/τ))",
+        (
+            P("resistance_rise", "–", 0.0, 0.0, 0.6),
+            P("warm_up_time", "s", 1.0, 0.5, 600.0, logarithmic=True, minimum=1e-3),
+        ),
+    ),
+    Effect("missed_edges", "that share of edges is not counted", (P("miss_rate", "–", 0.0, 0.0, 0.2, maximum=0.9),)),
+)
+
+EFFECT_BY_NAME = {effect.name: effect for effect in EFFECTS}
+SPECS = BASE + tuple(spec for effect in EFFECTS for spec in effect.parameters)
+SPEC_BY_NAME = {spec.name: spec for spec in SPECS}
+
+# The vector the compiled code works on: every parameter in the order of the table, then the supply.
+MAX_VOLTAGE = "max_voltage"
+VECTOR_NAMES = (*SPEC_BY_NAME, MAX_VOLTAGE)
+INDEX = {name: i for i, name in enumerate(VECTOR_NAMES)}
+
+
+def normalised(effects: tuple[str, ...]) -> tuple[str, ...]:
+    """The effects with what they imply, each once, in the order of the table.
+
+    Raises:
+        ModelError: an effect is not in the table.
+    """
+    wanted = set()
+    for name in effects:
+        if name not in EFFECT_BY_NAME:
+            raise ModelError(f"'{name}' is not an effect; the effects are {', '.join(EFFECT_BY_NAME)}.")
+        wanted.add(name)
+        implied = EFFECT_BY_NAME[name].implies
+        if implied is not None:
+            wanted.add(implied)
+    return tuple(name for name in EFFECT_BY_NAME if name in wanted)
+
+
+def specs_of(effects: tuple[str, ...]) -> tuple[ParameterSpec, ...]:
+    """kv, ka and the parameters of these effects, in the order of the table."""
+    return BASE + tuple(spec for name in normalised(effects) for spec in EFFECT_BY_NAME[name].parameters)

@@ -1,0 +1,94 @@
+"""Model files: a motor's parameters as YAML that a person can read and edit.
+
+    name: my_motor
+    max_voltage: 12.0
+    effects: [coulomb_friction]
+    parameters:
+      kv: {value: 0.0689, standard_error: 1.2e-06, unit: V·s/rad}
+      …
+    origin: {bags: [step], created: …}
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from motor_model.effects import SPEC_BY_NAME
+from motor_model.errors import ModelError
+from motor_model.parameters import Parameters
+
+
+def load(path: str | Path) -> Parameters:
+    """Read a model file.
+
+    Raises:
+        ModelError: there is no such file, it is not YAML of this form, or it does not describe a motor.
+    """
+    try:
+        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ModelError(f"cannot read the model file {path}: {error.strerror}.") from error
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        raise ModelError(f"{path} is not YAML; write one with 'identify --output model.yaml'.") from error
+    try:
+        return _parameters(content, Path(path).stem)
+    except ModelError as error:
+        raise ModelError(f"{path}: {error}") from error
+
+
+def _parameters(content: Any, default_name: str) -> Parameters:
+    if not isinstance(content, Mapping) or not isinstance(content.get("parameters"), Mapping):
+        raise ModelError("a model file has 'effects' and 'parameters'; write one with 'identify --output model.yaml'.")
+    effects = content.get("effects") or []
+    if not isinstance(effects, list) or not all(isinstance(effect, str) for effect in effects):
+        raise ModelError("'effects' must be a list of names, such as [coulomb_friction].")
+    values = {str(name): _number(str(name), entry) for name, entry in content["parameters"].items()}
+    return Parameters(
+        values,
+        tuple(effects),
+        _number("max_voltage", content.get("max_voltage", 12.0)),
+        str(content.get("name", default_name)),
+    )
+
+
+def _number(name: str, entry: Any) -> float:
+    value = entry.get("value") if isinstance(entry, Mapping) else entry
+    if isinstance(value, str):  # YAML 1.1 reads 1e-6 as text
+        try:
+            value = float(value)
+        except ValueError:
+            pass
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ModelError(f"'{name}' must have a number as its value, not {value!r}.")
+    return float(value)
+
+
+def save(
+    path: str | Path,
+    parameters: Parameters,
+    standard_errors: Mapping[str, float] | None = None,
+    origin: Mapping[str, Any] | None = None,
+) -> None:
+    """Write a model file; `origin` says where the numbers came from.
+
+    Raises:
+        ModelError: the file cannot be written.
+    """
+    errors = standard_errors or {}
+    rows = {
+        name: {"value": value, "standard_error": errors.get(name), "unit": SPEC_BY_NAME[name].unit}
+        for name, value in parameters.values.items()
+    }
+    content = {
+        "name": parameters.name,
+        "max_voltage": parameters.max_voltage,
+        "effects": list(parameters.effects),
+        "parameters": rows,
+        "origin": dict(origin or {}),
+    }
+    try:
+        Path(path).write_text(yaml.safe_dump(content, sort_keys=False, allow_unicode=True), encoding="utf-8")
+    except OSError as error:
+        raise ModelError(f"cannot write the model file {path}: {error.strerror}.") from error

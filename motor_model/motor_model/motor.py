@@ -1,0 +1,355 @@
+"""The motor: one compiled step, the only home of its equation.
+
+In armature voltages throughout (symbols and parameters: `effects.py`; gain = 1/kv, time constant = ka/kv):
+
+    ka·w dω/dt = v − w·friction(ω) − w·loads(θ, t),   dθ/dt = ω
+    drive      = (u_eff − kv·ω·(1 − share·(1 − |u_eff|/u_max))) / (1 + sag·(u_eff/u_max)²)
+    τ dv/dt    = drive − v                            (v = drive where the armature has no inductance)
+    friction   = sign ω·(ks + max(breakaway − ks, 0)·exp(−(ω/ω_s)²)) + drag·ω·|ω|
+    loads      = bias + step(t) + ripple·sin(cycles·θ + phase)
+    w          = 1 + rise·(1 − e^(−t/t_w))            (warm copper)
+
+At rest the motor holds while |v − w·loads| ≤ w·max(ks, breakaway). u_eff is the command after delay, limit, dead zone
+and asymmetry (`bridge.py`).
+
+Between events (a zero of the speed, the end of the play, the load step) the equation is linear but for Stribeck
+friction, drag and ripple. A piece is solved by the exponential Rosenbrock-Euler method (Hochbruck & Ostermann, Acta
+Numerica 19, 2010): exact for everything linear, second order for those three, for which pieces are kept short.
+"""
+
+from math import copysign, cos, exp, expm1, inf, log1p, sin
+from typing import NamedTuple
+
+from motor_model.bridge import effective_voltage
+from motor_model.compiled import compiled
+from motor_model.effects import INDEX
+
+KV, KA = INDEX["kv"], INDEX["ka"]
+KS, BREAKAWAY, STRIBECK = INDEX["ks"], INDEX["breakaway_voltage"], INDEX["stribeck_speed"]
+DRAG, BIAS = INDEX["drag"], INDEX["bias_voltage"]
+STEP, STEP_TIME = INDEX["step_voltage"], INDEX["step_time"]
+COAST, SAG, LAG = INDEX["coast_share"], INDEX["sag"], INDEX["electrical_time_constant"]
+RIPPLE, CYCLES, PHASE = INDEX["ripple_voltage"], INDEX["ripple_cycles"], INDEX["ripple_phase"]
+PLAY, LOAD_FRACTION = INDEX["backlash_angle"], INDEX["load_fraction"]
+RISE, WARM_UP = INDEX["resistance_rise"], INDEX["warm_up_time"]
+U_MAX = INDEX["max_voltage"]
+
+MAX_PIECES = 100_000  # between two outputs; a guard against endless chatter, never reached in a physical case
+
+
+class State(NamedTuple):
+    """Where the motor is: all a step needs to know of the past."""
+
+    angle: float  # [rad] shaft angle θ
+    speed: float  # [rad/s] ω
+    drive: float  # [V] v, where the armature has inductance
+    play: float  # [rad] travel left until the load is taken along again
+    direction: float  # −1, 0, +1: of the latest motion
+    turned: float  # [rad] added to θ in the ripple's argument (an angle taken from measured edges)
+
+
+class Coefficients(NamedTuple):
+    """The equation of one piece: inertia·dω/dt = v − torque − slope·(ω − ω0), τ dv/dt = source − back_emf·ω − v."""
+
+    inertia: float
+    torque: float
+    slope: float
+    source: float
+    back_emf: float
+
+
+@compiled
+def at_rest(angle):
+    """A motor that stands at this angle [rad] and has not moved yet."""
+    return State(angle, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@compiled
+def _phi1(z):
+    """(1 − e^(−z))/z."""
+    if abs(z) < 1e-5:
+        return 1.0 - z * (0.5 - z / 6.0)
+    return -expm1(-z) / z
+
+
+@compiled
+def _phi2(z):
+    """(z − 1 + e^(−z))/z²."""
+    if abs(z) < 1e-3:
+        return 0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0 - z * (1.0 / 120.0 - z / 720.0)))
+    return (z + expm1(-z)) / (z * z)
+
+
+@compiled
+def warmth(p, t):
+    """w: how much warm copper raises ka, friction and loads at time t [s]."""
+    if p[RISE] == 0.0:
+        return 1.0
+    return 1.0 - p[RISE] * expm1(-t / p[WARM_UP])
+
+
+@compiled
+def _loads(p, angle, t):
+    load = p[BIAS]
+    if p[STEP] != 0.0 and t >= p[STEP_TIME]:
+        load += p[STEP]
+    if p[RIPPLE] != 0.0:
+        load += p[RIPPLE] * sin(p[CYCLES] * angle + p[PHASE])
+    return load
+
+
+@compiled
+def _friction(p, speed, direction):
+    """Friction at a speed, in V, and its slope over speed."""
+    friction = direction * p[KS]
+    slope = 0.0
+    more = p[BREAKAWAY] - p[KS]
+    if more > 0.0:
+        x = speed / p[STRIBECK]
+        stribeck = more * exp(-x * x)
+        friction += direction * stribeck
+        slope -= direction * stribeck * 2.0 * x / p[STRIBECK]
+    if p[DRAG] != 0.0:
+        friction += p[DRAG] * speed * abs(speed)
+        slope += 2.0 * p[DRAG] * abs(speed)
+    return friction, slope
+
+
+@compiled
+def _drive(p, u):
+    """The drive's constant part and the back-EMF per speed, for an effective voltage u."""
+    share = u / p[U_MAX]
+    sag = 1.0 + p[SAG] * share * share
+    return u / sag, p[KV] * (1.0 - p[COAST] * max(0.0, 1.0 - abs(share))) / sag
+
+
+@compiled
+def _longest_piece(p, s, acceleration):
+    """[s] for which a piece's linearisation holds: unlimited for a linear motor."""
+    longest = inf
+    if p[BREAKAWAY] > p[KS]:
+        above = abs(s.speed) - 4.0 * p[STRIBECK]  # up there Stribeck friction is gone
+        if above > 0.0:
+            longest = max(above / (abs(acceleration) + 1e-9), 1e-4)
+        else:
+            longest = max(min(0.05 * p[STRIBECK] / (abs(acceleration) + 1e-9), 1e-3), 1e-6)
+    if p[DRAG] != 0.0:
+        longest = min(longest, 1e-3)
+    if p[RIPPLE] != 0.0:
+        turning = abs(s.speed) + 1e-3 * abs(acceleration)
+        longest = min(longest, 0.2 / (p[CYCLES] * turning + 1e-9), 1e-3)
+    if p[RISE] != 0.0:
+        longest = min(longest, 0.01 * p[WARM_UP])
+    return longest
+
+
+@compiled
+def _hold(p, s, source, load, level, h):
+    """A motor at rest: how long it holds (up to h), v at the end of that, and the direction it starts in (0: holds)."""
+    tau = p[LAG]
+    if tau == 0.0:
+        net = source - load
+        return (h, source, 0.0) if abs(net) <= level else (0.0, source, copysign(1.0, net))
+    net = s.drive - load
+    if abs(net) > level * (1.0 + 1e-12):
+        return 0.0, s.drive, copysign(1.0, net)
+    final = source - load
+    if abs(final) > level:
+        limit = copysign(level, final)
+        released = tau * log1p((limit - net) / (final - limit))
+        if released < h:
+            return released, limit + load + copysign(1e-12 + 2e-12 * level, final), copysign(1.0, final)
+    return h, source + (s.drive - source) * exp(-h / tau), 0.0
+
+
+@compiled
+def _first_order(c, speed, h):
+    """Speed and travel after h of inertia·dω/dt = source − torque − back_emf·ω − slope·(ω − ω0)."""
+    z = (c.back_emf + c.slope) * h / c.inertia
+    start = (c.source - c.torque - c.back_emf * speed) / c.inertia
+    return speed + start * h * _phi1(z), h * (speed + start * h * _phi2(z))
+
+
+@compiled
+def _phi_pair(z):
+    """(e^z − 1)/z and (e^z − 1 − z)/z² of a complex number."""
+    if abs(z) < 1e-2:
+        second = 0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + z * (1.0 / 120.0 + z * (1.0 / 720.0 + z / 5040.0))))
+        return 1.0 + z * second, second
+    growth = exp(z.real) * complex(cos(z.imag), sin(z.imag)) - 1.0
+    return growth / z, (growth - z) / (z * z)
+
+
+@compiled
+def _second_order(c, tau, speed, drive, h):
+    """Speed, v and travel after h of the motor with inductance: x1 = x0 + h φ1(hM) f0, exact by eigenvalues of M."""
+    a, b = -c.slope / c.inertia, 1.0 / c.inertia
+    d, e = -c.back_emf / tau, -1.0 / tau
+    f0 = (drive - c.torque) * b
+    f1 = (c.source - c.back_emf * speed - drive) / tau
+    mean = 0.5 * (a + e)
+    gap = complex(0.25 * (a - e) * (a - e) + b * d, 0.0) ** 0.5
+    if abs(gap) * h < 1e-5:
+        gap = complex(1e-5 / h, 0.0)
+    upper1, upper2 = _phi_pair((mean + gap) * h)
+    lower1, lower2 = _phi_pair((mean - gap) * h)
+    even1, odd1 = 0.5 * (upper1 + lower1).real, (0.5 * (upper1 - lower1) / gap).real
+    even2, odd2 = 0.5 * (upper2 + lower2).real, (0.5 * (upper2 - lower2) / gap).real
+    g0 = (a - mean) * f0 + b * f1
+    g1 = d * f0 + (e - mean) * f1
+    travel = h * (speed + h * (even2 * f0 + odd2 * g0))
+    return speed + h * (even1 * f0 + odd1 * g0), drive + h * (even1 * f1 + odd1 * g1), travel
+
+
+@compiled
+def _solve(p, c, s, h):
+    """Speed, v and travel after h, whichever order the motor has."""
+    if p[LAG] == 0.0:
+        speed, travel = _first_order(c, s.speed, h)
+        return speed, s.drive, travel
+    return _second_order(c, p[LAG], s.speed, s.drive, h)
+
+
+@compiled
+def _time_of_rest(p, c, s, h):
+    """[s] until the speed reaches zero, known to happen within h."""
+    if p[LAG] == 0.0:
+        total = c.source - c.torque + c.slope * s.speed
+        damping = c.back_emf + c.slope
+        x = -damping * s.speed / total if total != 0.0 else inf
+        if abs(x) < 1e-9:
+            return min(h, -c.inertia * s.speed / total)
+        if x > -1.0 and x < inf:
+            return min(h, c.inertia / damping * log1p(x))
+    low, high = 0.0, h
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if _solve(p, c, s, middle)[0] * s.speed > 0.0:
+            low = middle
+        else:
+            high = middle
+        if high - low < 1e-15 * h:
+            break
+    return high
+
+
+@compiled
+def _time_of_travel(p, c, s, h, travel):
+    """[s] until the shaft has travelled that far, known to happen within h (Newton, kept inside by bisection)."""
+    low, high, guess = 0.0, h, 0.5 * h
+    for _ in range(60):
+        speed, _drive_then, done = _solve(p, c, s, guess)
+        error = done - travel
+        if error * travel > 0.0:
+            high = guess
+        else:
+            low = guess
+        step = error / speed if speed != 0.0 else inf
+        if abs(step) <= 1e-14 * h:
+            break
+        guess -= step
+        if not low < guess < high:
+            guess = 0.5 * (low + high)
+    return guess
+
+
+@compiled
+def piece(p, u, s, t, h):
+    """The motion until the next event, at most h [s] long, in which the shaft does not reverse.
+
+    p: parameter vector, u: effective voltage [V], s: state, t: time [s]. Returns the state and the time it took.
+    """
+    if p[STEP] != 0.0 and t < p[STEP_TIME] < t + h:
+        h = p[STEP_TIME] - t
+    w = warmth(p, t)
+    source, back_emf = _drive(p, u)
+    direction, drive, play = s.direction, s.drive, s.play
+    if p[LAG] == 0.0:
+        drive = source - back_emf * s.speed
+    if s.speed == 0.0:
+        load = w * _loads(p, s.angle + s.turned, t)
+        held, drive, started = _hold(p, s, source, load, w * max(p[KS], p[BREAKAWAY]), h)
+        if held > 0.0:
+            return State(s.angle, 0.0, drive, play, direction, s.turned), held
+        if started * direction < 0.0:
+            play = p[PLAY] - play
+        direction = started
+    else:
+        direction = copysign(1.0, s.speed)
+    s = State(s.angle, s.speed, drive, play, direction, s.turned)
+
+    friction, slope = _friction(p, s.speed, direction)
+    engaged = p[KA] * w * (1.0 - (p[LOAD_FRACTION] if play > 0.0 else 0.0))
+    torque = w * (friction + _loads(p, s.angle + s.turned, t))
+    acceleration = (s.drive - torque) / engaged
+    h = min(h, _longest_piece(p, s, acceleration))
+    if p[RISE] != 0.0 or p[RIPPLE] != 0.0:  # what changes with time and angle is taken in the middle
+        middle = s.angle + s.turned + 0.5 * h * (s.speed + 0.25 * h * acceleration)
+        w = warmth(p, t + 0.5 * h)
+        engaged = p[KA] * w * (1.0 - (p[LOAD_FRACTION] if play > 0.0 else 0.0))
+        torque = w * (friction + _loads(p, middle, t))
+    c = Coefficients(engaged, torque, w * slope, source, back_emf)
+    return _until_event(p, c, s, h)
+
+
+@compiled
+def _until_event(p, c, s, h):
+    """Solve a piece of h, or up to where the shaft comes to rest or the play is taken up."""
+    speed, drive, travel = _solve(p, c, s, h)
+    event = 0
+    if s.speed == 0.0 and speed * s.direction <= 0.0:  # what let it start is gone before it has moved
+        return State(s.angle, 0.0, drive, s.play, s.direction, s.turned), h
+    if speed * s.direction <= 0.0:
+        event, h = 1, _time_of_rest(p, c, s, h)
+        speed, drive, travel = _solve(p, c, s, h)
+    play = s.play
+    if play > 0.0:
+        if abs(travel) >= play:
+            event, h = 2, _time_of_travel(p, c, s, h, s.direction * play)
+            speed, drive, travel = _solve(p, c, s, h)
+            play = 0.0
+        else:
+            play -= abs(travel)
+    if event == 1:
+        speed = 0.0
+    return State(s.angle + travel, speed, drive, play, s.direction, s.turned), h
+
+
+@compiled
+def advance(p, command, s, t, dt):
+    """THE step: the state after dt [s] of a command [V] that has passed the delay.
+
+    p: parameter vector (see `Parameters.vector`), s: state, t: time [s] since the recording's start.
+    """
+    u = effective_voltage(p, command)
+    end = t + dt
+    for _ in range(MAX_PIECES):
+        left = end - t
+        if left <= 0.0:
+            break
+        s, taken = piece(p, u, s, t, left)
+        t = end if taken >= left else t + taken
+    return s
+
+
+@compiled
+def time_in_piece(p, u, s, t, h, angle):
+    """[s] after t at which the shaft passes an angle [rad] that it is known to reach within a piece of h.
+
+    Newton's method on the same solution that `piece` returns, kept inside by bisection; exact to 1e-13 s.
+    """
+    low, high, guess = 0.0, h, 0.5 * h
+    for _ in range(80):
+        then, taken = piece(p, u, s, t, guess)
+        error = then.angle - angle
+        if error * then.direction > 0.0:
+            high = guess
+        else:
+            low = guess
+        step = error / then.speed if then.speed != 0.0 else inf
+        if abs(step) < 1e-13 or high - low < 1e-13:
+            break
+        guess -= step
+        if not low < guess < high:
+            guess = 0.5 * (low + high)
+    return guess

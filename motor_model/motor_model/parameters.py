@@ -1,0 +1,88 @@
+"""A motor in numbers: which effects it has and the value of each of their parameters."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_model.effects import INDEX, MAX_VOLTAGE, SPEC_BY_NAME, VECTOR_NAMES, normalised, specs_of
+from motor_model.errors import ModelError
+
+PAPER_KV = 12.0 / 174.097  # [V·s/rad] the base paper's coefficient0: 174.097 rad/s at 12 V
+PAPER_KA = 0.0055  # [V·s²/rad] its coefficient1 is not published; a time constant of 80 ms is our reference
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """kv, ka and the parameters of `effects`, by name, in the units of the effect table.
+
+    Raises:
+        ModelError: an unknown effect, a missing, superfluous or non-physical value.
+    """
+
+    values: Mapping[str, float]
+    effects: tuple[str, ...] = ()
+    max_voltage: float = 12.0
+    name: str = field(default="motor", compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "effects", normalised(self.effects))
+        names = [spec.name for spec in specs_of(self.effects)]
+        missing = [name for name in names if name not in self.values]
+        if missing:
+            raise ModelError(f"the model lacks {', '.join(missing)}; give each a value.")
+        for name in self.values:
+            if name not in SPEC_BY_NAME:
+                raise ModelError(f"'{name}' is not a parameter of any effect; this model's are {', '.join(names)}.")
+            if name not in names:
+                raise ModelError(f"'{name}' is given, but its effect is not listed: add the effect or drop the value.")
+        object.__setattr__(self, "values", {name: float(self.values[name]) for name in names})
+        self._check_physics()
+
+    def _check_physics(self) -> None:
+        for name, value in self.values.items():
+            spec = SPEC_BY_NAME[name]
+            if not isfinite(value) or not spec.minimum <= value <= spec.maximum:
+                raise ModelError(
+                    f"{name} = {value:g} {spec.unit} is not physical: it must be "
+                    + (f"at least {spec.minimum:g}" if spec.maximum == np.inf else f"{spec.minimum:g} to {spec.maximum:g}")
+                    + "."
+                )
+        if self.values["kv"] <= 0.0 or self.values["ka"] <= 0.0:
+            raise ModelError("kv and ka must be positive: a motor with neither back-EMF nor inertia is none.")
+        if not np.isfinite(self.max_voltage) or self.max_voltage <= 0.0:
+            raise ModelError(f"max_voltage = {self.max_voltage:g} V must be positive.")
+
+    def value(self, name: str) -> float:
+        """The parameter's value, or the value that makes its effect vanish if this motor does not have it."""
+        return self.values.get(name, SPEC_BY_NAME[name].off)
+
+    def vector(self) -> NDArray[np.float64]:
+        """Every parameter of the table in its order, then max_voltage: what the compiled code takes. Shape (P,)."""
+        vector = neutral(self.max_voltage)
+        for name, value in self.values.items():
+            vector[INDEX[name]] = value
+        return vector
+
+    @property
+    def gain(self) -> float:
+        """[rad/s/V] steady speed per volt without friction."""
+        return 1.0 / self.values["kv"]
+
+    @property
+    def time_constant(self) -> float:
+        """[s] mechanical time constant ka/kv."""
+        return self.values["ka"] / self.values["kv"]
+
+
+def neutral(max_voltage: float) -> NDArray[np.float64]:
+    """A vector with every effect off; kv and ka are yet to be set. Shape (P,)."""
+    vector = np.array([SPEC_BY_NAME[name].off for name in VECTOR_NAMES if name != MAX_VOLTAGE] + [max_voltage])
+    return vector
+
+
+def paper_motor() -> Parameters:
+    """The base paper's motor."""
+    return Parameters({"kv": PAPER_KV, "ka": PAPER_KA}, name="paper")
