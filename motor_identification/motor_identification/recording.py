@@ -1,12 +1,14 @@
 """A recording: one motor's samples as arrays, checked, with what has to be known to read them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motor_model.errors import RecordingError
-from motor_model.sample import Info
+from motor_model.sample import Info, Sample
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -75,6 +77,18 @@ class Recording:
             supply_voltage=self.supply_voltage[which],
             current=self.current[which],
         )
+
+
+def recording_of(samples: Sequence[Sample], info: Info, uri: str, notes: tuple[str, ...] = ()) -> Recording:
+    """The recording that a sequence of samples makes; not checked."""
+
+    def column(name: str, kind: type[np.generic]) -> NDArray[Any]:
+        return np.array([getattr(sample, name) for sample in samples], dtype=kind)
+
+    integers = {name: column(name, np.int64) for name in ("sample_time", "edge_count", "edge_time")}
+    names = ("voltage", "speed", "edge_period", "supply_voltage", "current")
+    floats = {name: column(name, np.float64) for name in names}
+    return Recording(uri=uri, info=info, notes=notes, **integers, **floats)
 
 
 def check(recording: Recording) -> Recording:

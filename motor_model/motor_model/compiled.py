@@ -32,7 +32,7 @@ def compiled(function: F) -> F:
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(CACHE)
     try:
-        decorated: F = njit(cache=True, nogil=True, error_model="numpy")(function)
+        decorated: F = njit(cache=True, nogil=True, error_model="numpy", forceinline=True)(function)
     finally:
         numba.config.CACHE_DIR = before
     return decorated

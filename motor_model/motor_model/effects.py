@@ -50,10 +50,14 @@ class ParameterSpec:
 
 @dataclass(frozen=True, slots=True)
 class Effect:
-    """A named physical effect: what it does, its parameters, and the effect it cannot be without."""
+    """A named physical effect: what it does, its parameters, and the effect it cannot be without.
+
+    `shown_by` is the excitation profile (`excitation.py`) that makes it visible.
+    """
 
     name: str
     summary: str
+    shown_by: str
     parameters: tuple[ParameterSpec, ...]
     implies: str | None = None
 
@@ -67,54 +71,69 @@ BASE = (
 )
 
 EFFECTS = (
-    Effect("coulomb_friction", "ks·sign ω while moving", (P("ks", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE),)),
+    Effect("coulomb_friction", "ks·sign ω while moving", "staircase", (P("ks", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE),)),
     Effect(
         "static_friction",
         "more friction at low speed, and a breakaway level at rest",
+        "ramps",
         (
             P("breakaway_voltage", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE),
             P("stribeck_speed", "rad/s", 1.0, 0.002, 0.3, Scale.SPEED, True, minimum=1e-6),
         ),
         implies="coulomb_friction",
     ),
-    Effect("quadratic_drag", "drag·ω·|ω|", (P("drag", "V·s²/rad²", 0.0, 0.0, 2.0, Scale.DRAG),)),
+    Effect("quadratic_drag", "drag·ω·|ω|", "staircase", (P("drag", "V·s²/rad²", 0.0, 0.0, 2.0, Scale.DRAG),)),
     Effect(
         "load_bias",
         "constant load, same sign both ways",
+        "staircase",
         (P("bias_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf),),
     ),
     Effect(
         "load_step",
         "a load that appears once and stays",
+        "rich",
         (
             P("step_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf),
             P("step_time", "s", 0.0, 0.0, 1.0, Scale.DURATION),
         ),
     ),
     Effect(
-        "dead_zone", "the bridge swallows this much voltage", (P("dead_zone_voltage", "V", 0.0, 0.0, 0.5, Scale.VOLTAGE),)
+        "dead_zone",
+        "the bridge swallows this much voltage",
+        "coast",
+        (P("dead_zone_voltage", "V", 0.0, 0.0, 0.5, Scale.VOLTAGE),),
     ),
     Effect(
         "voltage_limit",
         "the output saturates here, below max_voltage",
+        "staircase",
         (P("limit_voltage", "V", inf, 0.2, 1.0, Scale.VOLTAGE),),
     ),
-    Effect("direction_asymmetry", "negative commands act stronger or weaker", (P("reverse_gain", "–", 1.0, 0.5, 1.5),)),
+    Effect(
+        "direction_asymmetry",
+        "negative commands act stronger or weaker",
+        "staircase",
+        (P("reverse_gain", "–", 1.0, 0.5, 1.5),),
+    ),
     Effect(
         "coast_drive",
         "the bridge coasts in the off time, so that back-EMF brakes less at low duty",
+        "coast",
         (P("coast_share", "–", 0.0, 0.0, 1.0, maximum=1.0),),
     ),
-    Effect("supply_sag", "the supply gives way under load", (P("sag", "–", 0.0, 0.0, 1.0),)),
+    Effect("supply_sag", "the supply gives way under load", "staircase", (P("sag", "–", 0.0, 0.0, 1.0),)),
     Effect(
         "armature_inductance",
         "first-order lag on the drive",
+        "prbs",
         (P("electrical_time_constant", "s", 0.0, 1e-5, 0.03, logarithmic=True),),
     ),
-    Effect("transport_delay", "the bridge acts late", (P("delay", "s", 0.0, 0.0, 0.1),)),
+    Effect("transport_delay", "the bridge acts late", "prbs", (P("delay", "s", 0.0, 0.0, 0.1),)),
     Effect(
         "torque_ripple",
         "load periodic in the shaft angle",
+        "ramps",
         (
             P("ripple_voltage", "V", 0.0, 0.0, 0.3, Scale.VOLTAGE),
             P("ripple_cycles", "1/rev", 1.0, 1.0, 48.0),
@@ -124,6 +143,7 @@ EFFECTS = (
     Effect(
         "encoder_eccentricity",
         "the disc shows θ + e·sin(θ + phase)",
+        "staircase",
         (
             P("eccentricity", "rad", 0.0, 0.0, 0.2, maximum=0.9),
             P("eccentricity_phase", "rad", 0.0, -pi, pi, minimum=-inf),
@@ -132,6 +152,7 @@ EFFECTS = (
     Effect(
         "backlash",
         "after a reversal the load's share of inertia is missing until the play is taken up",
+        "reversals",
         (
             P("backlash_angle", "rad", 0.0, 0.0, 1.0),
             P("load_fraction", "–", 0.0, 0.0, 0.95, maximum=0.99),
@@ -140,12 +161,18 @@ EFFECTS = (
     Effect(
         "warm_up",
         "copper heats: ka, friction and loads grow by 1 + rise·(1 − e^(−t/τ))",
+        "rich",
         (
             P("resistance_rise", "–", 0.0, 0.0, 0.6),
             P("warm_up_time", "s", 1.0, 0.5, 600.0, logarithmic=True, minimum=1e-3),
         ),
     ),
-    Effect("missed_edges", "that share of edges is not counted", (P("miss_rate", "–", 0.0, 0.0, 0.2, maximum=0.9),)),
+    Effect(
+        "missed_edges",
+        "that share of edges is not counted",
+        "staircase",
+        (P("miss_rate", "–", 0.0, 0.0, 0.2, maximum=0.9),),
+    ),
 )
 
 EFFECT_BY_NAME = {effect.name: effect for effect in EFFECTS}

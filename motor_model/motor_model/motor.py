@@ -65,19 +65,13 @@ def at_rest(angle):
 
 
 @compiled
-def _phi1(z):
-    """(1 − e^(−z))/z."""
-    if abs(z) < 1e-5:
-        return 1.0 - z * (0.5 - z / 6.0)
-    return -expm1(-z) / z
-
-
-@compiled
-def _phi2(z):
-    """(z − 1 + e^(−z))/z²."""
-    if abs(z) < 1e-3:
-        return 0.5 - z * (1.0 / 6.0 - z * (1.0 / 24.0 - z * (1.0 / 120.0 - z / 720.0)))
-    return (z + expm1(-z)) / (z * z)
+def _phi(z):
+    """φ1 = (1 − e^(−z))/z and φ2 = (z − 1 + e^(−z))/z² = (1 − φ1)/z; short pieces need no exponential."""
+    if abs(z) < 0.03:
+        second = 0.5 - z * (1 / 6 - z * (1 / 24 - z * (1 / 120 - z * (1 / 720 - z * (1 / 5040 - z / 40320)))))
+        return 1.0 - z * second, second
+    first = -expm1(-z) / z
+    return first, (1.0 - first) / z
 
 
 @compiled
@@ -167,7 +161,8 @@ def _first_order(c, speed, h):
     """Speed and travel after h of inertia·dω/dt = source − torque − back_emf·ω − slope·(ω − ω0)."""
     z = (c.back_emf + c.slope) * h / c.inertia
     start = (c.source - c.torque - c.back_emf * speed) / c.inertia
-    return speed + start * h * _phi1(z), h * (speed + start * h * _phi2(z))
+    first, second = _phi(z)
+    return speed + start * h * first, h * (speed + start * h * second)
 
 
 @compiled

@@ -1,0 +1,148 @@
+"""Identification: particle swarm over the whole box, least squares from its best place, and how sure the result is."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from motor_identification.problem import Problem, make_problem
+from motor_identification.recording import Floats, Recording
+from motor_identification.statistics import certainty, not_told_apart
+from motor_identification.swarm import SwarmConfig, minimise
+from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
+from motor_model.parameters import Parameters
+
+Progress = Callable[[str, float], None]  # what is being done, share done 0 to 1
+
+ENOUGH = 1e-3  # relative improvement per epoch below which the swarm hands over to least squares
+PATIENCE = 25  # epochs without such an improvement
+ON_BOUND = 1e-4  # of the box
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to fit and how hard to search."""
+
+    effects: tuple[str, ...] = ()
+    particles: int = 50
+    epochs: int = 200
+    seed: int = 0
+    workers: int = 1
+
+
+@dataclass(frozen=True)
+class Fit:
+    """An identified motor and how far it is to be trusted; dictionaries are by parameter name."""
+
+    parameters: Parameters
+    standard_errors: dict[str, float]  # NaN where not identifiable
+    on_bound: dict[str, bool]
+    not_identifiable: tuple[str, ...]
+    not_told_apart: dict[str, tuple[str, ...]]  # fitted effect → absent effects with the same trace
+    suggested_experiment: str  # a profile, or empty
+    residual_rms: float  # [rad/s] time-weighted, of simulated − measured mean speed
+    noise_floor: float  # [rad/s] what timer tick or count quantisation alone leave
+    r_squared: float
+    start_speed: float  # [rad/s]
+    trace: Floats  # [rad/s] best RMS after each epoch of the swarm
+    evaluations: int
+    duration: float  # [s]
+    uris: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def identify(recording: Recording, request: Request, progress: Progress | None = None) -> Fit:
+    """Fit kv, ka and the requested effects to a checked recording.
+
+    Raises:
+        ModelError: an effect is not in the table.
+        RecordingError: the recording cannot answer.
+    """
+    begun = perf_counter()
+    tell = progress or (lambda stage, share: None)
+    problem = make_problem(recording, request.effects, request.workers)
+    config = SwarmConfig(request.particles, request.epochs, request.seed, stall=PATIENCE, tolerance=ENOUGH)
+    swarm = minimise(
+        problem.costs,
+        problem.unknowns.low,
+        problem.unknowns.high,
+        config,
+        lambda epoch, cost: tell("swarm", 0.9 * epoch / request.epochs),
+    )
+    tell("least squares", 0.9)
+    place, evaluations = _polish(problem, swarm.place)
+    fit = _judge(problem, place, np.sqrt(swarm.trace), swarm.evaluations + evaluations, begun)
+    tell("done", 1.0)
+    return fit
+
+
+def _polish(problem: Problem, place: Floats) -> tuple[Floats, int]:
+    """Least squares (trust region reflective) from the swarm's best place; keeps that place if it is not improved."""
+    low, high = problem.unknowns.low, problem.unknowns.high
+    margin = 1e-9 * (high - low)
+    root = np.sqrt(problem.intervals.weight)[:, None]
+    solution = least_squares(
+        problem.weighted_residuals,
+        np.clip(place, low + margin, high - margin),
+        jac=lambda x: root * problem.jacobian(x),
+        bounds=(low, high),
+        x_scale=high - low,
+        ftol=1e-12,
+        xtol=1e-12,
+        gtol=1e-14,
+        max_nfev=60,
+    )
+    evaluations = int(solution.nfev + 2 * len(place) * (solution.njev or 0))
+    better = 2.0 * solution.cost <= problem.costs(place[None])[0]
+    return np.asarray(solution.x if better else place), evaluations
+
+
+def _judge(problem: Problem, place: Floats, trace: Floats, evaluations: int, begun: float) -> Fit:
+    """Everything a user should know about a fitted place."""
+    unknowns, data, recording = problem.unknowns, problem.intervals, problem.recording
+    jacobian = problem.jacobian(place)
+    sure = certainty(problem, place, jacobian)
+    alike = not_told_apart(problem, place, jacobian, sure.not_identifiable)
+    cost = float(problem.costs(place[None])[0])
+    span = unknowns.high - unknowns.low
+    at_wall = (place - unknowns.low < ON_BOUND * span) | (unknowns.high - place < ON_BOUND * span)
+    bounds = {name: bool(at_wall[i]) and _is_a_wall(name, at_low=place[i] < 0.5 * (unknowns.low + unknowns.high)[i])
+              for i, name in enumerate(unknowns.names)}  # fmt: skip
+    mean = float(np.sum(data.weight * data.speed))
+    variance = float(np.sum(data.weight * (data.speed - mean) ** 2))
+    return Fit(
+        parameters=unknowns.parameters(place, recording.info.name),
+        standard_errors=unknowns.value_errors(place, sure.errors),
+        on_bound=bounds,
+        not_identifiable=sure.not_identifiable,
+        not_told_apart=alike,
+        suggested_experiment=_suggestion(sure.not_identifiable, alike),
+        residual_rms=float(np.sqrt(cost)),
+        noise_floor=data.noise_floor,
+        r_squared=1.0 - cost / variance if variance > 0.0 else float("nan"),
+        start_speed=float(place[-1]) if unknowns.moving_at_start else 0.0,
+        trace=trace,
+        evaluations=evaluations,
+        duration=perf_counter() - begun,
+        uris=(recording.uri,),
+        notes=recording.notes,
+    )
+
+
+def _is_a_wall(name: str, at_low: bool) -> bool:
+    """A parameter at the value where its effect vanishes is an answer, not the edge of the search."""
+    spec = SPEC_BY_NAME[name]
+    return not (at_low and spec.low == spec.off)
+
+
+def _suggestion(not_identifiable: tuple[str, ...], alike: dict[str, tuple[str, ...]]) -> str:
+    """The profile that would show what this recording cannot; empty if nothing is open."""
+    for effect in EFFECT_BY_NAME.values():
+        if any(spec.name in not_identifiable for spec in effect.parameters):
+            return effect.shown_by
+    if not_identifiable:
+        return "staircase"
+    profiles = {EFFECT_BY_NAME[rival].shown_by for rivals in alike.values() for rival in rivals}
+    return profiles.pop() if len(profiles) == 1 else "rich" if profiles else ""

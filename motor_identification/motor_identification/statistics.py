@@ -1,0 +1,111 @@
+"""How sure a fit is: standard errors, what the recording cannot separate, and what it could not tell apart from it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from motor_identification.problem import Problem
+from motor_identification.recording import Floats
+from motor_model.effects import EFFECT_BY_NAME, INDEX, SPEC_BY_NAME
+
+BLOCKS = 40  # of consecutive intervals; neighbours share an edge, so that their residuals are correlated
+COLLINEAR = 1e-4  # sine of the angle between a column of the Jacobian and the others, below which they are one
+TOO_UNSURE = 0.3  # standard error as a share of the value
+ALIKE = 0.05  # share of an effect's trace that the fitted parameters cannot imitate, below which it is not told apart
+
+# Effects whose absence is a value that a small step can leave: their trace is a derivative.
+RIVALS = ("coulomb_friction", "load_bias", "dead_zone", "quadratic_drag")
+
+
+@dataclass(frozen=True)
+class Certainty:
+    """Standard errors of a place (D,) (NaN where not identifiable), and which physical parameters are not."""
+
+    errors: Floats
+    not_identifiable: tuple[str, ...]
+
+
+def certainty(problem: Problem, place: Floats, jacobian: Floats) -> Certainty:
+    """Judge a fitted place by the Jacobian (I, D) of the unweighted residuals there.
+
+    The errors are a sandwich estimate, (JᵀWJ)⁻¹ (Σ_b s_b s_bᵀ) (JᵀWJ)⁻¹ with s_b the sum of wᵢJᵢrᵢ over a block of
+    consecutive intervals, so that correlation shorter than a block needs no model (Liang & Zeger, Biometrika 73, 1986).
+    """
+    weight = problem.intervals.weight
+    scale = _scales(problem, place)
+    scaled = jacobian * scale
+    root = np.sqrt(weight)[:, None] * scaled
+    alone = _independence(root)
+    inverse = np.linalg.pinv(root.T @ root, rcond=1e-14, hermitian=True)
+    scores = weight[:, None] * scaled * problem.residuals(place)[:, None]
+    order = np.argsort(problem.intervals.first, kind="stable")
+    blocks = np.array_split(scores[order], min(BLOCKS, max(len(scores) // 8, 2)))
+    sums = np.array([block.sum(axis=0) for block in blocks])
+    correction = len(blocks) / max(len(blocks) - len(place), 1)
+    errors = np.sqrt(np.diag(inverse @ (sums.T @ sums * correction) @ inverse))
+    unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE)
+    names = tuple(name for name, bad in zip(problem.unknowns.names, unsure, strict=False) if bad)
+    return Certainty(np.where(unsure, np.nan, errors * scale), names)
+
+
+def _scales(problem: Problem, place: Floats) -> Floats:
+    """What 100 % of each unknown is: itself, or a twentieth of the box where it is near zero; 1 for logarithms."""
+    box = problem.unknowns.high - problem.unknowns.low
+    return np.where(problem.unknowns.logarithmic, 1.0, np.maximum(np.abs(place), 0.05 * box))
+
+
+def _independence(columns: Floats) -> Floats:
+    """Sine of the angle between each column (I, D) and the space of the others, shape (D,); 0 for a column of zeros."""
+    norms = np.linalg.norm(columns, axis=0)
+    unit = columns / np.where(norms > 0.0, norms, 1.0)
+    sines = np.zeros(columns.shape[1])
+    for j in np.flatnonzero(norms > 0.0):
+        sines[j] = _unexplained(unit[:, j], np.delete(unit, j, axis=1))
+    return sines
+
+
+def _unexplained(column: Floats, others: Floats) -> float:
+    """Norm of what is left of a unit column (I,) after the best combination of the others (I, D)."""
+    if others.shape[1] == 0:
+        return 1.0
+    combination = np.linalg.lstsq(others, column, rcond=1e-10)[0]
+    return float(np.linalg.norm(column - others @ combination))
+
+
+def not_told_apart(
+    problem: Problem, place: Floats, jacobian: Floats, unsure: tuple[str, ...]
+) -> dict[str, tuple[str, ...]]:
+    """For each fitted effect, the absent effects that would have left the same trace in this recording.
+
+    Effects with a parameter that is `unsure` anyway are passed over.
+    """
+    root = np.sqrt(problem.intervals.weight)[:, None]
+    columns = root * jacobian * _scales(problem, place)
+    found: dict[str, list[str]] = {}
+    for rival in RIVALS:
+        if rival in problem.unknowns.effects:
+            continue
+        trace = root[:, 0] * _trace(problem, place, rival)
+        size = float(np.linalg.norm(trace))
+        if size < 1e-9 or _unexplained(trace / size, columns) > ALIKE:
+            continue
+        imitation = np.linalg.lstsq(columns, trace / size, rcond=1e-10)[0] * np.linalg.norm(columns, axis=0)
+        for effect in problem.unknowns.effects:
+            if any(spec.name in unsure for spec in EFFECT_BY_NAME[effect].parameters):
+                continue
+            shares = [abs(imitation[problem.unknowns.names.index(s.name)]) for s in EFFECT_BY_NAME[effect].parameters]
+            if max(shares) > 0.3 * np.abs(imitation).max():
+                found.setdefault(effect, []).append(rival)
+    return {effect: tuple(rivals) for effect, rivals in found.items()}
+
+
+def _trace(problem: Problem, place: Floats, effect: str) -> Floats:
+    """Derivative of the residuals (I,) over an absent effect's first parameter, one step into the effect."""
+    name = EFFECT_BY_NAME[effect].parameters[0].name
+    spec, recording = SPEC_BY_NAME[name], problem.recording
+    voltage, speed = float(np.abs(recording.voltage).max()), float(np.abs(recording.speed).max())
+    step = 1e-4 * spec.high * spec.scale.of(voltage, speed, recording.duration)
+    vectors, starts = problem.unknowns.decode(np.tile(place, (2, 1)))
+    vectors[1, INDEX[name]] += step
+    without, with_it = problem.evaluate_vectors(vectors, starts)[0]
+    return np.asarray((with_it - without) / step)

@@ -1,0 +1,122 @@
+"""Particle swarm: finds the minimum of a cost over a box; knows nothing about motors.
+
+A ring of neighbours shares its best place, inertia and pulls are Clerc and Kennedy's constriction values:
+
+    v ← χ v + c·r1·(own best − x) + c·r2·(neighbours' best − x),   x ← x + v,   χ = 0.7298, c = 1.49618
+
+(M. Clerc, J. Kennedy, IEEE Trans. Evol. Comput. 6(1), 2002; ring: Kennedy & Mendes, CEC 2002.) The ring keeps several
+valleys alive for longer than one global best does. A particle that leaves the box is put back on its wall and loses the
+velocity that carried it out, so that a minimum on the wall is found and nothing outside is ever evaluated.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Cost = Callable[[Floats], Floats]  # places (S, D) → costs (S,)
+Progress = Callable[[int, float], None]  # epoch, best cost so far
+
+INERTIA = 0.7298
+PULL = 1.49618
+FASTEST = 0.5  # of the box per epoch
+ON_BOUND = 1e-6  # of the box
+
+
+@dataclass(frozen=True, slots=True)
+class SwarmConfig:
+    """How to search; `stall` epochs without an improvement by `tolerance` (relative) end it early, 0 never does."""
+
+    particles: int = 50
+    epochs: int = 200
+    seed: int = 0
+    neighbours: int = 2  # on each side of the ring
+    stall: int = 40
+    tolerance: float = 1e-9
+
+
+@dataclass(frozen=True)
+class SwarmResult:
+    """The best place found; `places` and `costs` are every particle's own best, best first."""
+
+    place: Floats  # (D,)
+    cost: float
+    on_bound: NDArray[np.bool_]  # (D,)
+    trace: Floats  # best cost after each epoch, the first entry before any
+    evaluations: int
+    places: Floats  # (S, D)
+    costs: Floats  # (S,)
+
+
+def minimise(
+    cost: Cost, low: Floats, high: Floats, config: SwarmConfig | None = None, progress: Progress | None = None
+) -> SwarmResult:
+    """Search the box low..high, both of shape (D,), for the least cost; a cost that is not a number counts as infinite.
+
+    Raises:
+        ValueError: the box is empty or not finite, or there are fewer than two particles.
+    """
+    config = config or SwarmConfig()
+    low, high = np.asarray(low, dtype=np.float64), np.asarray(high, dtype=np.float64)
+    if not (np.all(np.isfinite(low)) and np.all(np.isfinite(high)) and np.all(low < high)):
+        raise ValueError("the box must have finite bounds, each low below its high")
+    if config.particles < 2:
+        raise ValueError("a swarm has at least two particles")
+    random = np.random.default_rng(config.seed)
+    span = high - low
+
+    def evaluate(x: Floats) -> Floats:
+        costs = np.asarray(cost(low + span * x), dtype=np.float64)
+        return np.where(np.isfinite(costs), costs, np.inf)
+
+    x = _latin_hypercube(random, config.particles, len(low))
+    velocity = (random.random(x.shape) - 0.5) * FASTEST
+    best, best_cost = x.copy(), evaluate(x)
+    trace, stalled = [float(best_cost.min())], 0
+    for epoch in range(config.epochs):
+        leader = best[_ring_leaders(best_cost, config.neighbours)]
+        own, others = random.random(x.shape), random.random(x.shape)
+        velocity = INERTIA * velocity + PULL * (own * (best - x) + others * (leader - x))
+        velocity = np.clip(velocity, -FASTEST, FASTEST)
+        x, velocity = _keep_in_box(x + velocity, velocity)
+        costs = evaluate(x)
+        better = costs < best_cost
+        best[better], best_cost[better] = x[better], costs[better]
+        trace.append(float(best_cost.min()))
+        stalled = 0 if trace[-1] < trace[-2] * (1.0 - config.tolerance) else stalled + 1
+        if progress is not None:
+            progress(epoch + 1, trace[-1])
+        if config.stall and stalled >= config.stall:
+            break
+    order = np.argsort(best_cost, kind="stable")
+    top = best[order[0]]
+    return SwarmResult(
+        place=low + span * top,
+        cost=float(best_cost[order[0]]),
+        on_bound=(top < ON_BOUND) | (top > 1.0 - ON_BOUND),
+        trace=np.array(trace),
+        evaluations=config.particles * len(trace),
+        places=low + span * best[order],
+        costs=best_cost[order],
+    )
+
+
+def _latin_hypercube(random: np.random.Generator, particles: int, dimensions: int) -> Floats:
+    """Places in the unit box such that every row of every axis holds one."""
+    rows = np.array([random.permutation(particles) for _ in range(dimensions)]).T
+    return np.asarray((rows + random.random((particles, dimensions))) / particles)
+
+
+def _ring_leaders(costs: Floats, neighbours: int) -> NDArray[np.intp]:
+    """Index of the best among each particle and its neighbours on the ring, shape (S,)."""
+    index = np.arange(len(costs))
+    around = (index[:, None] + np.arange(-neighbours, neighbours + 1)) % len(costs)
+    return np.asarray(around[index, np.argmin(costs[around], axis=1)])
+
+
+def _keep_in_box(x: Floats, velocity: Floats) -> tuple[Floats, Floats]:
+    """Put strays on the wall they crossed and stop them there."""
+    inside = np.clip(x, 0.0, 1.0)
+    return inside, np.where(inside == x, velocity, 0.0)

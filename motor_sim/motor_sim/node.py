@@ -1,0 +1,67 @@
+"""The simulated motor: pretends to be the board, in real time, with an honest encoder."""
+
+from dataclasses import replace
+
+from rclpy.node import Node
+
+from motor_model.board import BoardConfig, SimulatedBoard
+from motor_model.model_file import load
+from motor_model.parameters import paper_motor
+from motor_ros.gate import Gate
+from motor_ros.messages import time_message
+from motor_ros.parameters import Row, declare
+from motor_ros.plant import SHARED_PARAMETERS, Plant, max_voltage_row
+from motor_ros.run import run
+
+PARAMETERS = (
+    Row("model", "", "model file (YAML) to simulate; empty: the paper's motor", read_only=True),
+    Row("edge_resolution", 4e-6, "tick of the timer that stamps edges; 0: exact", "s", 0.0, 1e-3, read_only=True),
+    Row("slot_irregularity", 0.0, "standard deviation of the disc's flanks as a share of a slot", "", 0.0, 0.2, read_only=True),
+    Row("seed", 0, "of the disc, its starting angle and missed edges", "", 0, 2**31 - 1, read_only=True),
+)
+MOST_BEHIND = 0.5  # [s] a process that was held up longer than this does not catch up
+
+
+class MotorSim(Node):
+    """Samples a `SimulatedBoard` on the wall clock and publishes what it reports."""
+
+    def __init__(self) -> None:
+        super().__init__("motor_sim")
+        values = declare(self, (*SHARED_PARAMETERS, *PARAMETERS))
+        model = load(str(values["model"])) if values["model"] else paper_motor()
+        limit = declare(self, (max_voltage_row(model.max_voltage),))["max_voltage"]
+        model = replace(model, max_voltage=float(limit))
+        fields = ("name", "sample_rate", "edges_per_revolution", "single_channel")
+        fields += ("edge_resolution", "slot_irregularity", "seed")
+        config = BoardConfig(**{field: values[field] for field in fields})  # type: ignore[arg-type]
+        self._board = SimulatedBoard(model, config)
+        self._board.sample(0.0)  # compiled now, not in the first sample
+        gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]))
+        self._plant = Plant(self, config.info(model), gate)
+        self._period = round(1e9 / config.sample_rate)  # [ns]
+        self._next, self._late = self._plant.now() + self._period, 0
+        self.create_timer(1.0 / config.sample_rate, self._on_timer)
+        self.create_timer(1.0, self._on_second)
+        effects = ", ".join(model.effects) or "no effects beyond kv and ka"
+        self.get_logger().info(f"simulating '{model.name}' ({effects}) at {config.sample_rate:g} Hz")
+
+    def _on_timer(self) -> None:
+        now = self._plant.now()
+        if abs(now - self._next) > MOST_BEHIND * 1e9:
+            self._next, self._late = now, self._late + 1
+        while self._next <= now:
+            sample = self._board.sample(self._plant.gate.voltage(now))
+            self._plant.publish(sample, time_message(self._next))
+            self._next += self._period
+
+    def _on_second(self) -> None:
+        self._plant.diagnose(
+            f"held up {self._late} times: the machine is too busy to simulate in real time" if self._late else "",
+            {"true speed [rad/s]": f"{self._board.speed:.4f}", "true angle [rad]": f"{self._board.angle:.4f}"},
+        )
+        self._late = 0
+
+
+def main(args: list[str] | None = None) -> int:
+    """`ros2 run motor_sim motor_sim`."""
+    return run(MotorSim, args)
