@@ -11,8 +11,8 @@ from motor_identification.recording import Floats, Integers, Recording
 class Edges:
     """Reported edges in order of time; arrays of shape (E,).
 
-    A sample reports its latest edge and, through `edge_period`, the one before it; the edges between two samples' reports
-    are only counted. `direction` is 0 where a single channel leaves it open.
+    A sample reports its latest edge and, through `edge_period`, the one before it; the edges in between are only
+    counted. `direction` is 0 where a single channel leaves it open.
     """
 
     time: Floats  # [s] since the first sample
@@ -40,13 +40,13 @@ def edges_of(recording: Recording) -> Edges:
 
 
 def _directions(speed: Floats) -> Integers:
-    """The reported signs at samples with a fresh edge; the first edge ever has no speed yet and takes the next one's."""
+    """The reported signs at samples with a fresh edge; the first edge ever has none and takes the next one's."""
     sign = np.sign(speed).astype(np.int64)
     return np.where(sign == 0, np.append(sign[1:], 0), sign)
 
 
 def _turned_at_the_slowest(edges: Edges, recording: Recording) -> Edges:
-    """Move each change of sign that comes without a standstill back to where the motor really turned: its slowest interval.
+    """Move each change of sign back to where the motor really turned: its slowest interval.
 
     A single channel's reported sign changes only after the speed has visibly risen again, a few edges late.
     """
@@ -66,7 +66,7 @@ def _turned_at_the_slowest(edges: Edges, recording: Recording) -> Edges:
 
 
 def _between_the_slowest(speed: Floats, slowest: int, first: int, change: int) -> int:
-    """The edge between the slowest interval and its slower neighbour: the motor may have turned on either side of it."""
+    """The edge between the slowest interval and its slower neighbour: it may have turned on either side of it."""
     before = speed[slowest - 1] if slowest > first else np.inf
     after = speed[slowest + 1] if slowest + 1 < len(speed) and slowest < change else np.inf
     return slowest if before < after else slowest + 1

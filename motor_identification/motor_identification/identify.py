@@ -1,6 +1,6 @@
 """Identification: particle swarm over the whole box, least squares from its best place, and how sure the result is."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
@@ -45,7 +45,7 @@ class Fit:
     residual_rms: float  # [rad/s] time-weighted, of simulated − measured mean speed
     noise_floor: float  # [rad/s] what timer tick or count quantisation alone leave
     r_squared: float
-    start_speed: float  # [rad/s]
+    start_speeds: tuple[float, ...]  # [rad/s] of every recording
     trace: Floats  # [rad/s] best RMS after each epoch of the swarm
     evaluations: int
     duration: float  # [s]
@@ -53,8 +53,8 @@ class Fit:
     notes: tuple[str, ...]
 
 
-def identify(recording: Recording, request: Request, progress: Progress | None = None) -> Fit:
-    """Fit kv, ka and the requested effects to a checked recording.
+def identify(recordings: Sequence[Recording], request: Request, progress: Progress | None = None) -> Fit:
+    """Fit kv, ka and the requested effects to checked recordings of one motor.
 
     Raises:
         ModelError: an effect is not in the table.
@@ -62,7 +62,7 @@ def identify(recording: Recording, request: Request, progress: Progress | None =
     """
     begun = perf_counter()
     tell = progress or (lambda stage, share: None)
-    problem = make_problem(recording, request.effects, request.workers)
+    problem = make_problem(recordings, request.effects, request.workers)
     config = SwarmConfig(request.particles, request.epochs, request.seed, stall=PATIENCE, tolerance=ENOUGH)
     swarm = minimise(
         problem.costs,
@@ -82,11 +82,11 @@ def _polish(problem: Problem, place: Floats) -> tuple[Floats, int]:
     """Least squares (trust region reflective) from the swarm's best place; keeps that place if it is not improved."""
     low, high = problem.unknowns.low, problem.unknowns.high
     margin = 1e-9 * (high - low)
-    root = np.sqrt(problem.intervals.weight)[:, None]
+    root = np.sqrt(problem.weight)
     solution = least_squares(
-        problem.weighted_residuals,
+        lambda x: root * problem.residuals(x),
         np.clip(place, low + margin, high - margin),
-        jac=lambda x: root * problem.jacobian(x),
+        jac=lambda x: root[:, None] * problem.jacobian(x),
         bounds=(low, high),
         x_scale=high - low,
         ftol=1e-12,
@@ -101,7 +101,7 @@ def _polish(problem: Problem, place: Floats) -> tuple[Floats, int]:
 
 def _judge(problem: Problem, place: Floats, trace: Floats, evaluations: int, begun: float) -> Fit:
     """Everything a user should know about a fitted place."""
-    unknowns, data, recording = problem.unknowns, problem.intervals, problem.recording
+    unknowns, weight, speed = problem.unknowns, problem.weight, problem.speed
     jacobian = problem.jacobian(place)
     sure = certainty(problem, place, jacobian)
     alike = not_told_apart(problem, place, jacobian, sure.not_identifiable)
@@ -110,24 +110,23 @@ def _judge(problem: Problem, place: Floats, trace: Floats, evaluations: int, beg
     at_wall = (place - unknowns.low < ON_BOUND * span) | (unknowns.high - place < ON_BOUND * span)
     bounds = {name: bool(at_wall[i]) and _is_a_wall(name, at_low=place[i] < 0.5 * (unknowns.low + unknowns.high)[i])
               for i, name in enumerate(unknowns.names)}  # fmt: skip
-    mean = float(np.sum(data.weight * data.speed))
-    variance = float(np.sum(data.weight * (data.speed - mean) ** 2))
+    variance = float(np.sum(weight * (speed - np.sum(weight * speed)) ** 2))
     return Fit(
-        parameters=unknowns.parameters(place, recording.info.name),
+        parameters=unknowns.parameters(place, problem.recordings[0].info.name),
         standard_errors=unknowns.value_errors(place, sure.errors),
         on_bound=bounds,
         not_identifiable=sure.not_identifiable,
         not_told_apart=alike,
         suggested_experiment=_suggestion(sure.not_identifiable, alike),
         residual_rms=float(np.sqrt(cost)),
-        noise_floor=data.noise_floor,
+        noise_floor=problem.noise_floor,
         r_squared=1.0 - cost / variance if variance > 0.0 else float("nan"),
-        start_speed=float(place[-1]) if unknowns.moving_at_start else 0.0,
+        start_speeds=tuple(float(v) for v in unknowns.decode(place[None])[1][0]),
         trace=trace,
         evaluations=evaluations,
         duration=perf_counter() - begun,
-        uris=(recording.uri,),
-        notes=recording.notes,
+        uris=tuple(recording.uri for recording in problem.recordings),
+        notes=tuple(note for recording in problem.recordings for note in recording.notes),
     )
 
 

@@ -1,11 +1,14 @@
-"""A fitting problem: one recording and a set of unknowns, as a cost for a swarm and residuals for least squares."""
+"""A fitting problem: recordings and a set of unknowns, as a cost for a swarm and residuals for least squares."""
 
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cached_property
+from math import sqrt
 
 import numpy as np
 
-from motor_identification.recording import Floats, Recording
+from motor_identification.recording import Floats, Integers, Recording
 from motor_identification.residual import Intervals, fill_residuals, intervals_of
 from motor_identification.unknowns import Unknowns, unknowns_of
 from motor_model.compiled import compiled
@@ -14,80 +17,108 @@ from motor_model.simulate import roll_out
 
 
 @compiled
-def fill_costs(vectors, starts, command_time, command, time, first, last, speed, slack, weight, residuals, costs):
-    """Residuals (S, I) and time-weighted mean squares (S,) of a swarm of motors; see `Intervals` for the data."""
+def fill_swarm(
+    vectors: Floats,
+    starts: Floats,
+    command_time: Floats,
+    command: Floats,
+    time: Floats,
+    first: Integers,
+    last: Integers,
+    speed: Floats,
+    slack: Floats,
+    residuals: Floats,
+) -> None:
+    """Residuals (S, I) of a swarm of motors over one recording; see `Intervals` for the data."""
     angle, shaft = np.empty(len(time)), np.empty(len(time))
     for s in range(len(vectors)):
         roll_out(vectors[s], starts[s], command_time, command, time, angle, shaft)
         fill_residuals(angle, time, first, last, speed, slack, residuals[s])
-        total = 0.0
-        for i in range(len(weight)):
-            total += weight[i] * residuals[s, i] * residuals[s, i]
-        costs[s] = total
 
 
 @dataclass(frozen=True)
 class Problem:
-    """What is minimised: the time-weighted mean square of (simulated − measured) mean speed over all intervals."""
+    """What is minimised: the time-weighted mean square of (simulated − measured) mean speed over all intervals.
 
-    recording: Recording
-    intervals: Intervals
+    Several recordings of one motor share its parameters; each has an initial speed of its own. Arrays over I intervals
+    have the recordings one after the other.
+    """
+
+    recordings: tuple[Recording, ...]
+    intervals: tuple[Intervals, ...]
     unknowns: Unknowns
     workers: int = 1
 
-    def evaluate(self, places: Floats) -> tuple[Floats, Floats]:
-        """Residuals (S, I) [rad/s] and costs (S,) [rad²/s²] at places (S, D)."""
+    @cached_property
+    def weight(self) -> Floats:
+        """Share of the observed time, shape (I,), sum 1."""
+        duration = np.concatenate([data.duration for data in self.intervals])
+        return np.asarray(duration / duration.sum())
+
+    @cached_property
+    def speed(self) -> Floats:
+        """[rad/s] measured mean speeds, shape (I,)."""
+        return np.concatenate([data.speed for data in self.intervals])
+
+    @cached_property
+    def noise_floor(self) -> float:
+        """[rad/s] time-weighted RMS of what timer tick or count quantisation leave."""
+        sigma = np.concatenate([data.sigma for data in self.intervals])
+        return sqrt(float(np.sum(self.weight * sigma**2)))
+
+    def evaluate(self, places: Floats) -> Floats:
+        """Residuals (S, I) [rad/s] at places (S, D)."""
         return self.evaluate_vectors(*self.unknowns.decode(places))
 
-    def evaluate_vectors(self, vectors: Floats, starts: Floats) -> tuple[Floats, Floats]:
-        """The same for parameter vectors (S, P) and initial speeds (S,) [rad/s]."""
-        data = self.intervals
-        residuals, costs = np.empty((len(vectors), len(data.first))), np.empty(len(vectors))
-        time, command, weight = self.recording.time, self.recording.voltage, data.weight
-
-        def work(part: slice) -> None:
-            fill_costs(
-                vectors[part], starts[part], time, command, data.time, data.first, data.last, data.speed, data.slack,
-                weight, residuals[part], costs[part],
-            )  # fmt: skip
-
+    def evaluate_vectors(self, vectors: Floats, starts: Floats) -> Floats:
+        """The same for parameter vectors (S, P) and initial speeds (S, R) [rad/s] in R recordings."""
+        residuals = np.empty((len(vectors), len(self.weight)))
         share = -(-len(vectors) // self.workers)
         parts = [slice(i, i + share) for i in range(0, len(vectors), share)]
+
+        def work(part: slice) -> None:
+            column = 0
+            for r, (recording, data) in enumerate(zip(self.recordings, self.intervals, strict=True)):
+                out = np.empty((len(vectors[part]), len(data.first)))
+                fill_swarm(
+                    vectors[part], np.ascontiguousarray(starts[part, r]), recording.time, recording.voltage,
+                    data.time, data.first, data.last, data.speed, data.slack, out,
+                )  # fmt: skip
+                residuals[part, column : column + len(data.first)] = out
+                column += len(data.first)
+
         if len(parts) == 1:
             work(parts[0])
         else:
             with ThreadPoolExecutor(len(parts)) as pool:
                 list(pool.map(work, parts))
-        return residuals, costs
+        return residuals
 
     def costs(self, places: Floats) -> Floats:
-        """The swarm's cost: places (S, D) → (S,)."""
-        return self.evaluate(places)[1]
+        """The swarm's cost: places (S, D) → time-weighted mean squares (S,) [rad²/s²]."""
+        return np.asarray(self.evaluate(places) ** 2 @ self.weight)
 
     def residuals(self, place: Floats) -> Floats:
         """[rad/s] of one place (D,), shape (I,)."""
-        return self.evaluate(place[None])[0][0]
-
-    def weighted_residuals(self, place: Floats) -> Floats:
-        """Least squares' residuals: their sum of squares is the cost. Shape (I,)."""
-        return np.asarray(np.sqrt(self.intervals.weight) * self.residuals(place))
+        return np.asarray(self.evaluate(place[None])[0])
 
     def jacobian(self, place: Floats) -> Floats:
-        """Derivative of the unweighted residuals over the unknowns, central differences, shape (I, D)."""
+        """Derivative of the residuals over the unknowns, central differences, shape (I, D)."""
         steps = 1e-5 * (self.unknowns.high - self.unknowns.low)
         shifted = np.concatenate([place + np.diag(steps), place - np.diag(steps)])
-        residuals = self.evaluate(shifted)[0]
+        residuals = self.evaluate(shifted)
         return np.asarray(((residuals[: len(place)] - residuals[len(place) :]) / (2.0 * steps)[:, None]).T)
 
 
-def make_problem(recording: Recording, effects: tuple[str, ...], workers: int = 1) -> Problem:
-    """The problem of fitting kv, ka and these effects to a recording.
+def make_problem(recordings: Sequence[Recording], effects: tuple[str, ...], workers: int = 1) -> Problem:
+    """The problem of fitting kv, ka and these effects to recordings of one motor.
 
     Raises:
         ModelError: an effect is not in the table.
-        RecordingError: the recording has no usable motion, or the motor moves without any voltage.
+        RecordingError: a recording has no usable motion, or the motor moves without any voltage.
     """
-    if not np.any(recording.voltage):
-        raise RecordingError(f"{recording.uri} has no voltage other than 0 in it: record with the motor driven.")
-    intervals = intervals_of(recording)
-    return Problem(recording, intervals, unknowns_of(recording, effects), workers)
+    for recording in recordings:
+        if not np.any(recording.voltage):
+            raise RecordingError(f"{recording.uri} has no voltage other than 0 in it: record with the motor driven.")
+    intervals = tuple(intervals_of(recording) for recording in recordings)
+    return Problem(tuple(recordings), intervals, unknowns_of(recordings, effects), workers)

@@ -1,8 +1,8 @@
 """Residuals: what a recording says about the motion, interval by interval, and how far a simulated motion is from it.
 
 Every kind of recording becomes intervals with a measured mean speed. An edge is an exact angle at a time known to the
-timer's tick, so that between two reported edges the mean speed is Δcount·(2π/N)/Δt; comparing angle *increments* keeps an
-early error from growing through the whole recording, as it does when the angle itself is compared.
+timer's tick, so that between two reported edges the mean speed is Δcount·(2π/N)/Δt. Comparing angle *increments* keeps
+an early error from growing through the whole recording, as it does when the angle itself is compared.
 """
 
 from dataclasses import dataclass
@@ -40,17 +40,6 @@ class Intervals:
         """[s] length of every interval, shape (I,)."""
         return np.asarray(self.time[self.last] - self.time[self.first])
 
-    @property
-    def weight(self) -> Floats:
-        """Share of the observed time, shape (I,), sum 1."""
-        duration = self.duration
-        return np.asarray(duration / duration.sum())
-
-    @property
-    def noise_floor(self) -> float:
-        """[rad/s] time-weighted RMS of `sigma`."""
-        return sqrt(float(np.sum(self.weight * self.sigma**2)))
-
 
 def intervals_of(recording: Recording) -> Intervals:
     """What the recording says about the motion.
@@ -61,7 +50,8 @@ def intervals_of(recording: Recording) -> Intervals:
     intervals = _READERS[recording.info.measurement](recording)
     if len(intervals.first) < 3:
         raise RecordingError(
-            f"{recording.uri} shows only {len(intervals.first)} stretches of motion: record longer, or with more voltage."
+            f"{recording.uri} shows only {len(intervals.first)} stretches of motion: record longer, or with more "
+            "voltage."
         )
     return intervals
 
@@ -78,7 +68,7 @@ def _from_edges(recording: Recording) -> Intervals:
 
 
 def _between_edges(edges: Edges, slot: float) -> tuple[tuple[Floats, Floats, Floats, Floats], int]:
-    """Start, end, mean speed and slack of the intervals between successive reported edges, and how many were left out."""
+    """Start, end, mean speed and slack between successive reported edges, and how many were left out."""
     start, end = edges.time[:-1], edges.time[1:]
     here, there = edges.direction[:-1], edges.direction[1:]
     travel = np.abs(np.diff(edges.count)) * slot
@@ -137,7 +127,9 @@ def _indexed(start: Floats, end: Floats, speed: Floats, slack: Floats, sigma: Fl
 
 
 @compiled
-def fill_residuals(angle, time, first, last, speed, slack, residual):
+def fill_residuals(
+    angle: Floats, time: Floats, first: Integers, last: Integers, speed: Floats, slack: Floats, residual: Floats
+) -> None:
     """Simulated minus measured mean speed [rad/s] of every interval, from the simulated angle [rad] at `time`."""
     for i in range(len(first)):
         duration = time[last[i]] - time[first[i]]
@@ -152,12 +144,5 @@ def fill_residuals(angle, time, first, last, speed, slack, residual):
 def residuals(intervals: Intervals, angle: Floats) -> Floats:
     """Simulated minus measured mean speed [rad/s], shape (I,), from the simulated angle [rad] at `intervals.time`."""
     residual = np.empty(len(intervals.first))
-    fill_residuals(
-        angle, intervals.time, intervals.first, intervals.last, intervals.speed, intervals.slack, residual
-    )
+    fill_residuals(angle, intervals.time, intervals.first, intervals.last, intervals.speed, intervals.slack, residual)
     return residual
-
-
-def weighted_rms(residual: Floats, weight: Floats) -> float:
-    """[rad/s] RMS weighted by time."""
-    return sqrt(float(np.sum(weight * residual**2)))

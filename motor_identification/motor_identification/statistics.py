@@ -31,15 +31,14 @@ def certainty(problem: Problem, place: Floats, jacobian: Floats) -> Certainty:
     The errors are a sandwich estimate, (JᵀWJ)⁻¹ (Σ_b s_b s_bᵀ) (JᵀWJ)⁻¹ with s_b the sum of wᵢJᵢrᵢ over a block of
     consecutive intervals, so that correlation shorter than a block needs no model (Liang & Zeger, Biometrika 73, 1986).
     """
-    weight = problem.intervals.weight
+    weight = problem.weight
     scale = _scales(problem, place)
     scaled = jacobian * scale
     root = np.sqrt(weight)[:, None] * scaled
     alone = _independence(root)
     inverse = np.linalg.pinv(root.T @ root, rcond=1e-14, hermitian=True)
     scores = weight[:, None] * scaled * problem.residuals(place)[:, None]
-    order = np.argsort(problem.intervals.first, kind="stable")
-    blocks = np.array_split(scores[order], min(BLOCKS, max(len(scores) // 8, 2)))
+    blocks = np.array_split(scores, min(BLOCKS, max(len(scores) // 8, 2)))
     sums = np.array([block.sum(axis=0) for block in blocks])
     correction = len(blocks) / max(len(blocks) - len(place), 1)
     errors = np.sqrt(np.diag(inverse @ (sums.T @ sums * correction) @ inverse))
@@ -79,7 +78,7 @@ def not_told_apart(
 
     Effects with a parameter that is `unsure` anyway are passed over.
     """
-    root = np.sqrt(problem.intervals.weight)[:, None]
+    root = np.sqrt(problem.weight)[:, None]
     columns = root * jacobian * _scales(problem, place)
     found: dict[str, list[str]] = {}
     for rival in RIVALS:
@@ -102,10 +101,9 @@ def not_told_apart(
 def _trace(problem: Problem, place: Floats, effect: str) -> Floats:
     """Derivative of the residuals (I,) over an absent effect's first parameter, one step into the effect."""
     name = EFFECT_BY_NAME[effect].parameters[0].name
-    spec, recording = SPEC_BY_NAME[name], problem.recording
-    voltage, speed = float(np.abs(recording.voltage).max()), float(np.abs(recording.speed).max())
-    step = 1e-4 * spec.high * spec.scale.of(voltage, speed, recording.duration)
+    spec = SPEC_BY_NAME[name]
+    step = 1e-4 * spec.high * problem.unknowns.extent.of(spec)
     vectors, starts = problem.unknowns.decode(np.tile(place, (2, 1)))
     vectors[1, INDEX[name]] += step
-    without, with_it = problem.evaluate_vectors(vectors, starts)[0]
+    without, with_it = problem.evaluate_vectors(vectors, starts)
     return np.asarray((with_it - without) / step)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
-from motor_model.motor import piece, time_in_piece
+from motor_model.motor import State, piece, time_in_piece
 
 ECCENTRICITY, ECCENTRICITY_PHASE = INDEX["eccentricity"], INDEX["eccentricity_phase"]
 HOLE_SHARE = 0.5  # of a slot
@@ -44,7 +44,7 @@ def make_disc(edges_per_revolution: int, irregularity: float = 0.0, seed: int = 
 
 
 @compiled
-def shown_angle(p, angle):
+def shown_angle(p: Floats, angle: float) -> float:
     """What an eccentric disc shows of a shaft angle [rad]."""
     if p[ECCENTRICITY] == 0.0:
         return angle
@@ -52,7 +52,7 @@ def shown_angle(p, angle):
 
 
 @compiled
-def _shaft_angle(p, shown):
+def _shaft_angle(p: Floats, shown: float) -> float:
     """The shaft angle [rad] at which an eccentric disc shows this angle; the inverse of `shown_angle`."""
     e = p[ECCENTRICITY]
     if e == 0.0:
@@ -68,7 +68,7 @@ def _shaft_angle(p, shown):
 
 
 @compiled
-def flank(flanks, index):
+def flank(flanks: Floats, index: int) -> float:
     """Angle [rad] of edge `index` counted without end over the turns."""
     n = len(flanks)
     turn = index // n
@@ -76,7 +76,18 @@ def flank(flanks, index):
 
 
 @compiled
-def turn(p, u, s, t, dt, forward, backward, offset, times, directions):
+def turn(
+    p: Floats,
+    u: float,
+    s: State,
+    t: float,
+    dt: float,
+    forward: Floats,
+    backward: Floats,
+    offset: float,
+    times: Floats,
+    directions: NDArray[np.int64],
+) -> tuple[State, int]:
     """Turn the motor for dt [s] at an effective voltage u [V] and write down the edges it passes.
 
     offset: [rad] where the disc stands when the shaft is at 0. times [s] and directions (±1) are filled as far as they

@@ -74,8 +74,15 @@ _BASIC = (
         _corners([0.0, 1.5, 3.0, 4.5, 6.0], [0.0, 0.35, 0.0, -0.35, 0.0]),
     ),
     Profile("reversals", 3.6, "backlash, delay, inductance (hard reversals at three levels)", _levels(_REVERSALS, 0.3)),
-    Profile("coast", 4.0, "friction against dead zone (coasting down at 0 V), the bridge's decay", _levels(_COAST, 0.4)),
-    Profile("prbs", 4.0, "delay and inductance (fast switching between levels)", _levels(_random_bits(100, 5, 0.3, 0.9), 0.04)),
+    Profile(
+        "coast", 4.0, "friction against dead zone (coasting down at 0 V), the bridge's decay", _levels(_COAST, 0.4)
+    ),
+    Profile(
+        "prbs",
+        4.0,
+        "delay and inductance (fast switching between levels)",
+        _levels(_random_bits(100, 5, 0.3, 0.9), 0.04),
+    ),
     Profile("chirp", 4.0, "the time constant over frequency", _chirp(4.0, 0.4, 12.0)),
 )
 

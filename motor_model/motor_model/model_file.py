@@ -1,15 +1,16 @@
 """Model files: a motor's parameters as YAML that a person can read and edit.
 
-    name: my_motor
-    max_voltage: 12.0
-    effects: [coulomb_friction]
-    parameters:
-      kv: {value: 0.0689, standard_error: 1.2e-06, unit: V·s/rad}
-      …
-    origin: {bags: [step], created: …}
+name: my_motor
+max_voltage: 12.0
+effects: [coulomb_friction]
+parameters:
+  kv: {value: 0.0689, standard_error: 1.2e-06, unit: V·s/rad}
+  …
+origin: {bags: [step], created: …}
 """
 
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -56,10 +57,8 @@ def _parameters(content: Any, default_name: str) -> Parameters:
 def _number(name: str, entry: Any) -> float:
     value = entry.get("value") if isinstance(entry, Mapping) else entry
     if isinstance(value, str):  # YAML 1.1 reads 1e-6 as text
-        try:
+        with suppress(ValueError):
             value = float(value)
-        except ValueError:
-            pass
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ModelError(f"'{name}' must have a number as its value, not {value!r}.")
     return float(value)

@@ -20,9 +20,14 @@ Numerica 19, 2010): exact for everything linear, second order for those three, f
 from math import copysign, cos, exp, expm1, inf, log1p, sin
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from motor_model.bridge import effective_voltage
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
+
+Floats = NDArray[np.float64]
 
 KV, KA = INDEX["kv"], INDEX["ka"]
 KS, BREAKAWAY, STRIBECK = INDEX["ks"], INDEX["breakaway_voltage"], INDEX["stribeck_speed"]
@@ -59,13 +64,13 @@ class Coefficients(NamedTuple):
 
 
 @compiled
-def at_rest(angle):
+def at_rest(angle: float) -> State:
     """A motor that stands at this angle [rad] and has not moved yet."""
     return State(angle, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @compiled
-def _phi(z):
+def _phi(z: float) -> tuple[float, float]:
     """φ1 = (1 − e^(−z))/z and φ2 = (z − 1 + e^(−z))/z² = (1 − φ1)/z; short pieces need no exponential."""
     if abs(z) < 0.03:
         second = 0.5 - z * (1 / 6 - z * (1 / 24 - z * (1 / 120 - z * (1 / 720 - z * (1 / 5040 - z / 40320)))))
@@ -75,7 +80,7 @@ def _phi(z):
 
 
 @compiled
-def warmth(p, t):
+def warmth(p: Floats, t: float) -> float:
     """w: how much warm copper raises ka, friction and loads at time t [s]."""
     if p[RISE] == 0.0:
         return 1.0
@@ -83,7 +88,7 @@ def warmth(p, t):
 
 
 @compiled
-def _loads(p, angle, t):
+def _loads(p: Floats, angle: float, t: float) -> float:
     load = p[BIAS]
     if p[STEP] != 0.0 and t >= p[STEP_TIME]:
         load += p[STEP]
@@ -93,7 +98,7 @@ def _loads(p, angle, t):
 
 
 @compiled
-def _friction(p, speed, direction):
+def _friction(p: Floats, speed: float, direction: float) -> tuple[float, float]:
     """Friction at a speed, in V, and its slope over speed."""
     friction = direction * p[KS]
     slope = 0.0
@@ -110,7 +115,7 @@ def _friction(p, speed, direction):
 
 
 @compiled
-def _drive(p, u):
+def _drive(p: Floats, u: float) -> tuple[float, float]:
     """The drive's constant part and the back-EMF per speed, for an effective voltage u."""
     share = u / p[U_MAX]
     sag = 1.0 + p[SAG] * share * share
@@ -118,7 +123,7 @@ def _drive(p, u):
 
 
 @compiled
-def _longest_piece(p, s, acceleration):
+def _longest_piece(p: Floats, s: State, acceleration: float) -> float:
     """[s] for which a piece's linearisation holds: unlimited for a linear motor."""
     longest = inf
     if p[BREAKAWAY] > p[KS]:
@@ -138,7 +143,7 @@ def _longest_piece(p, s, acceleration):
 
 
 @compiled
-def _hold(p, s, source, load, level, h):
+def _hold(p: Floats, s: State, source: float, load: float, level: float, h: float) -> tuple[float, float, float]:
     """A motor at rest: how long it holds (up to h), v at the end of that, and the direction it starts in (0: holds)."""
     tau = p[LAG]
     if tau == 0.0:
@@ -157,7 +162,7 @@ def _hold(p, s, source, load, level, h):
 
 
 @compiled
-def _first_order(c, speed, h):
+def _first_order(c: Coefficients, speed: float, h: float) -> tuple[float, float]:
     """Speed and travel after h of inertia·dω/dt = source − torque − back_emf·ω − slope·(ω − ω0)."""
     z = (c.back_emf + c.slope) * h / c.inertia
     start = (c.source - c.torque - c.back_emf * speed) / c.inertia
@@ -166,7 +171,7 @@ def _first_order(c, speed, h):
 
 
 @compiled
-def _phi_pair(z):
+def _phi_pair(z: complex) -> tuple[complex, complex]:
     """(e^z − 1)/z and (e^z − 1 − z)/z² of a complex number."""
     if abs(z) < 1e-2:
         second = 0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + z * (1.0 / 120.0 + z * (1.0 / 720.0 + z / 5040.0))))
@@ -176,7 +181,7 @@ def _phi_pair(z):
 
 
 @compiled
-def _second_order(c, tau, speed, drive, h):
+def _second_order(c: Coefficients, tau: float, speed: float, drive: float, h: float) -> tuple[float, float, float]:
     """Speed, v and travel after h of the motor with inductance: x1 = x0 + h φ1(hM) f0, exact by eigenvalues of M."""
     a, b = -c.slope / c.inertia, 1.0 / c.inertia
     d, e = -c.back_emf / tau, -1.0 / tau
@@ -197,7 +202,7 @@ def _second_order(c, tau, speed, drive, h):
 
 
 @compiled
-def _solve(p, c, s, h):
+def _solve(p: Floats, c: Coefficients, s: State, h: float) -> tuple[float, float, float]:
     """Speed, v and travel after h, whichever order the motor has."""
     if p[LAG] == 0.0:
         speed, travel = _first_order(c, s.speed, h)
@@ -206,7 +211,7 @@ def _solve(p, c, s, h):
 
 
 @compiled
-def _time_of_rest(p, c, s, h):
+def _time_of_rest(p: Floats, c: Coefficients, s: State, h: float) -> float:
     """[s] until the speed reaches zero, known to happen within h."""
     if p[LAG] == 0.0:
         total = c.source - c.torque + c.slope * s.speed
@@ -229,7 +234,7 @@ def _time_of_rest(p, c, s, h):
 
 
 @compiled
-def _time_of_travel(p, c, s, h, travel):
+def _time_of_travel(p: Floats, c: Coefficients, s: State, h: float, travel: float) -> float:
     """[s] until the shaft has travelled that far, known to happen within h (Newton, kept inside by bisection)."""
     low, high, guess = 0.0, h, 0.5 * h
     for _ in range(60):
@@ -249,7 +254,7 @@ def _time_of_travel(p, c, s, h, travel):
 
 
 @compiled
-def piece(p, u, s, t, h):
+def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, float]:
     """The motion until the next event, at most h [s] long, in which the shaft does not reverse.
 
     p: parameter vector, u: effective voltage [V], s: state, t: time [s]. Returns the state and the time it took.
@@ -288,7 +293,7 @@ def piece(p, u, s, t, h):
 
 
 @compiled
-def _until_event(p, c, s, h):
+def _until_event(p: Floats, c: Coefficients, s: State, h: float) -> tuple[State, float]:
     """Solve a piece of h, or up to where the shaft comes to rest or the play is taken up."""
     speed, drive, travel = _solve(p, c, s, h)
     event = 0
@@ -311,7 +316,7 @@ def _until_event(p, c, s, h):
 
 
 @compiled
-def advance(p, command, s, t, dt):
+def advance(p: Floats, command: float, s: State, t: float, dt: float) -> State:
     """THE step: the state after dt [s] of a command [V] that has passed the delay.
 
     p: parameter vector (see `Parameters.vector`), s: state, t: time [s] since the recording's start.
@@ -328,7 +333,7 @@ def advance(p, command, s, t, dt):
 
 
 @compiled
-def time_in_piece(p, u, s, t, h, angle):
+def time_in_piece(p: Floats, u: float, s: State, t: float, h: float, angle: float) -> float:
     """[s] after t at which the shaft passes an angle [rad] that it is known to reach within a piece of h.
 
     Newton's method on the same solution that `piece` returns, kept inside by bisection; exact to 1e-13 s.

@@ -47,7 +47,11 @@ class Parameters:
             if not isfinite(value) or not spec.minimum <= value <= spec.maximum:
                 raise ModelError(
                     f"{name} = {value:g} {spec.unit} is not physical: it must be "
-                    + (f"at least {spec.minimum:g}" if spec.maximum == np.inf else f"{spec.minimum:g} to {spec.maximum:g}")
+                    + (
+                        f"at least {spec.minimum:g}"
+                        if spec.maximum == np.inf
+                        else f"{spec.minimum:g} to {spec.maximum:g}"
+                    )
                     + "."
                 )
         if self.values["kv"] <= 0.0 or self.values["ka"] <= 0.0:
@@ -79,8 +83,7 @@ class Parameters:
 
 def neutral(max_voltage: float) -> NDArray[np.float64]:
     """A vector with every effect off; kv and ka are yet to be set. Shape (P,)."""
-    vector = np.array([SPEC_BY_NAME[name].off for name in VECTOR_NAMES if name != MAX_VOLTAGE] + [max_voltage])
-    return vector
+    return np.array([SPEC_BY_NAME[name].off for name in VECTOR_NAMES if name != MAX_VOLTAGE] + [max_voltage])
 
 
 def paper_motor() -> Parameters:

@@ -17,7 +17,9 @@ Floats = NDArray[np.float64]
 
 
 @compiled
-def roll_out(p, start_speed, command_time, command, out_time, angle, speed):
+def roll_out(
+    p: Floats, start_speed: float, command_time: Floats, command: Floats, out_time: Floats, angle: Floats, speed: Floats
+) -> None:
     """Fill angle [rad] and speed [rad/s] of one motor at out_time [s].
 
     p: parameter vector. command[i] [V] holds from command_time[i] + delay on; what held before the first command is the

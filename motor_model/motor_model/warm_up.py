@@ -18,7 +18,7 @@ def main() -> None:
     board = SimulatedBoard(paper_motor(), BoardConfig())
     for _ in range(20):
         board.sample(12.0)
-    simulate(paper_motor(), np.array([0.0]), np.array([10.0]), np.linspace(0.0, 0.1, 20))
+    simulate(paper_motor(), np.array([0.0]), np.array([10.0]), np.arange(20) * 0.005)
 
 
 if __name__ == "__main__":

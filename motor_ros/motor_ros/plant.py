@@ -27,7 +27,9 @@ SHARED_PARAMETERS = (
 
 def max_voltage_row(default: float = 12.0) -> Row:
     """The shared parameter whose default a model file may set."""
-    return Row("max_voltage", default, "voltage at full duty; commands are limited to it", "V", 0.1, 100.0, read_only=True)
+    return Row(
+        "max_voltage", default, "voltage at full duty; commands are limited to it", "V", 0.1, 100.0, read_only=True
+    )
 
 
 class Plant:
@@ -82,7 +84,8 @@ class Plant:
         self.gate = self.gate.take(message.voltage, self.now())
         if self.gate.refused > refused:
             self._node.get_logger().error(
-                f"a voltage of {message.voltage} on motor/voltage stops the motor: send numbers.", throttle_duration_sec=1.0
+                f"a voltage of {message.voltage} on motor/voltage stops the motor: send numbers.",
+                throttle_duration_sec=1.0,
             )
 
     def _on_enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:

@@ -1,4 +1,4 @@
-"""How every node of the workbench starts and ends: on this machine only, without a traceback, and never with power on."""
+"""How every node of the workbench starts and ends: on this machine only, without a traceback, never with power on."""
 
 import os
 import signal

@@ -16,7 +16,15 @@ from motor_ros.run import run
 PARAMETERS = (
     Row("model", "", "model file (YAML) to simulate; empty: the paper's motor", read_only=True),
     Row("edge_resolution", 4e-6, "tick of the timer that stamps edges; 0: exact", "s", 0.0, 1e-3, read_only=True),
-    Row("slot_irregularity", 0.0, "standard deviation of the disc's flanks as a share of a slot", "", 0.0, 0.2, read_only=True),
+    Row(
+        "slot_irregularity",
+        0.0,
+        "scatter of the disc's flanks, share of a slot",
+        "",
+        0.0,
+        0.2,
+        read_only=True,
+    ),
     Row("seed", 0, "of the disc, its starting angle and missed edges", "", 0, 2**31 - 1, read_only=True),
 )
 MOST_BEHIND = 0.5  # [s] a process that was held up longer than this does not catch up
