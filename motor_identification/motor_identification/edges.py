@@ -48,7 +48,8 @@ def _directions(speed: Floats) -> Integers:
 def _turned_at_the_slowest(edges: Edges, recording: Recording) -> Edges:
     """Move each change of sign back to where the motor really turned: its slowest interval.
 
-    A single channel's reported sign changes only after the speed has visibly risen again, a few edges late.
+    A single channel's reported sign changes only after the speed has visibly risen again, a few edges late. The motor may
+    also have turned in the interval beside the slowest, so that the direction of the two edges around it stays open.
     """
     direction = edges.direction.copy()
     changes = np.flatnonzero(direction[1:] * direction[:-1] < 0) + 1
@@ -57,19 +58,12 @@ def _turned_at_the_slowest(edges: Edges, recording: Recording) -> Edges:
     for change in changes:
         new = direction[change]
         opposed = _opposed_since(recording, edges.time[change], new)
-        first = int(np.searchsorted(edges.time, opposed, side="left"))
+        first = int(np.searchsorted(edges.time, opposed, side="left")) - 1
         first = max(min(first, change - 1), 0)
         slowest = first + int(np.argmin(speed[first:change]))
         direction[slowest + 1 : change] = new
-        direction[_between_the_slowest(speed, slowest, first, change)] = 0
+        direction[slowest : slowest + 2] = 0
     return Edges(edges.time, edges.count, direction)
-
-
-def _between_the_slowest(speed: Floats, slowest: int, first: int, change: int) -> int:
-    """The edge between the slowest interval and its slower neighbour: it may have turned on either side of it."""
-    before = speed[slowest - 1] if slowest > first else np.inf
-    after = speed[slowest + 1] if slowest + 1 < len(speed) and slowest < change else np.inf
-    return slowest if before < after else slowest + 1
 
 
 def _opposed_since(recording: Recording, time: float, new_direction: int) -> float:

@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 from math import copysign, tau
 
 STANDSTILL = 100_000_000  # [ns] without an edge is a standstill
-DIP = 0.5  # share of its peak to which the speed must have fallen to count as having passed zero
+DIP = 0.5  # of the speed at which the voltage turned against the motion: below that the motor may have passed zero
 RISE = 1.2  # over its minimum: more than irregular slots (1 % of a slot: ±4 % in the period) ever show
-PATIENCE = 30_000_000  # [ns] after which a rise alone tells: longer than a bridge still acts on its last command
+LEAP = 2.0  # over its minimum: a rise that tells even without a dip, when the motor was slow to begin with
+PATIENCE = 30_000_000  # [ns] after which any rise tells: longer than a bridge still acts on its last command
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,7 +22,7 @@ class SpeedState:
     direction: int = 0  # −1, 0 (standing), +1
     voltage: float = 0.0  # [V] latest one that was not 0
     opposed_since: int | None = None  # [ns] since when the voltage is against the motion
-    peak: float = 0.0  # [rad/s] largest speed since then
+    begun: float = 0.0  # [rad/s] speed at that time
     low: float = 0.0  # [rad/s] smallest speed since then
 
 
@@ -54,12 +55,12 @@ def single_channel_speed(state: SpeedState, magnitude: float, voltage: float, no
 def _against_the_voltage(state: SpeedState, magnitude: float, now: int) -> tuple[int, SpeedState]:
     """Follow the speed through its minimum while the voltage is against the motion."""
     if state.opposed_since is None:
-        return state.direction, replace(state, opposed_since=now, peak=magnitude, low=magnitude)
-    peak, low = max(state.peak, magnitude), min(state.low, magnitude)
+        return state.direction, replace(state, opposed_since=now, begun=magnitude, low=magnitude)
+    low = min(state.low, magnitude)
     waited = now - state.opposed_since > PATIENCE
-    if magnitude > RISE * low and (low < DIP * peak or waited):
+    if magnitude > LEAP * low or (magnitude > RISE * low and (low < DIP * state.begun or waited)):
         return -state.direction, replace(state, direction=-state.direction, opposed_since=None)
-    return state.direction, replace(state, peak=peak, low=low)
+    return state.direction, replace(state, low=low)
 
 
 def revolution_share(edges_per_revolution: int) -> float:

@@ -2,6 +2,7 @@
 
 from builtin_interfaces.msg import Time
 
+from motor_model.errors import MotorError
 from motor_model.sample import Info, Measurement, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 
@@ -58,7 +59,13 @@ def info_message(info: Info, stamp: Time) -> MotorInfo:
 
 
 def info_of(message: MotorInfo) -> Info:
-    """The plain value of a `motor/info` message."""
+    """The plain value of a `motor/info` message.
+
+    Raises:
+        MotorError: its `measurement` is none of edges, counts and speed.
+    """
+    if message.measurement not in {kind.value for kind in Measurement}:
+        raise MotorError(f"motor/info says measurement '{message.measurement}': it must be edges, counts or speed.")
     return Info(
         name=message.name,
         source=message.source,

@@ -1,0 +1,53 @@
+"""What the controller says, as messages."""
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from std_msgs.msg import Header
+
+from motor_control.controller import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Config, Output
+from motor_msgs.msg import ControlState
+
+LEVELS = {
+    RUNNING: DiagnosticStatus.OK,
+    DISABLED: DiagnosticStatus.OK,
+    NO_SAMPLES: DiagnosticStatus.ERROR,
+    STOPPED: DiagnosticStatus.ERROR,
+}
+RIVALS = "More than one node publishes motor/voltage and the motor obeys whichever spoke last: end the others."
+
+
+def control_state_message(output: Output, header: Header) -> ControlState:
+    """An output as it goes out on `motor/control_state`."""
+    terms = output.terms
+    return ControlState(
+        header=header,
+        state=output.state,
+        reason=output.reason,
+        reference=output.reference,
+        speed=output.speed,
+        speed_sigma=output.speed_sigma,
+        error=terms.error,
+        proportional=terms.proportional,
+        integral=terms.integral,
+        feedforward=terms.feedforward,
+        voltage=terms.voltage,
+        saturated=terms.saturated,
+    )
+
+
+def diagnostics_message(output: Output, config: Config, answered: int, publishers: int, name: str) -> DiagnosticArray:
+    """One status: the controller's state, the samples `answered` in the last second, who publishes `motor/voltage`."""
+    problem = RIVALS if publishers > 1 else ""
+    values = {
+        "state": output.state,
+        "samples per second": str(answered),
+        "publishers of motor/voltage": str(publishers),
+        "voltage limit [V]": f"{config.voltage_limit:g}",
+        "single channel": str(config.single_channel).lower(),
+    }
+    status = DiagnosticStatus(
+        level=max(LEVELS[output.state], DiagnosticStatus.WARN if problem else DiagnosticStatus.OK),
+        name=name,
+        message=problem or output.reason or output.state,
+        values=[KeyValue(key=key, value=value) for key, value in values.items()],
+    )
+    return DiagnosticArray(status=[status])

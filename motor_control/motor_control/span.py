@@ -1,0 +1,45 @@
+"""Which voltages are allowed now, so that a motor whose encoder has one channel does not lose its direction.
+
+A single channel counts edges and does not see which way they pass. The plant's sign is a guess that it can only revise
+at a standstill, or where the period has a maximum while the voltage opposes the motion; so under an opposing voltage
+everything that makes the motor faster (a load, a narrow slot) reads as a turn, and a careless plant takes the sign from
+the voltage outright. A wrong sign makes the loop push the wrong way. With the reference r and the reported speed w:
+
+    toward r only      the voltage has the sign of r or is 0 V; r = 0 is 0 V, friction and back-EMF do the braking
+    no brake at speed  while r w < 0 and |w| > reversal_speed it is 0 V
+    turn and carry on  a reversal that has begun below reversal_speed goes on until the sign of w has changed, up to
+                       GIVE_UP times that speed: the plant sees the turn an edge or two later, when the motor is
+                       faster again, and by this very voltage
+
+It mends itself. Should the sign be wrong after all, the voltage is still toward the reference, so the motor ends up
+turning that way, through a standstill or a period maximum that the plant can see.
+"""
+
+from math import copysign
+from typing import NamedTuple
+
+GIVE_UP = 2.0  # of 1, 2, 4, 8 in simulation the least that loses no time with a plant that is slow to see the turn
+
+
+class Span(NamedTuple):
+    """The allowed voltages, and whether the motor is being turned round."""
+
+    low: float  # [V]
+    high: float  # [V]
+    reversing: bool
+    braking: bool  # 0 V until the motor is slow enough to be turned round
+
+
+def both_ways(limit: float) -> Span:
+    """A motor whose direction is measured: anything within +-limit [V]."""
+    return Span(-limit, limit, False, False)
+
+
+def toward(reference: float, speed: float, limit: float, reversal_speed: float, reversing: bool) -> Span:
+    """A single-channel motor: reference and speed [rad/s], limit [V]; `reversing` as returned for the last sample."""
+    against = reference * speed < 0.0
+    slow_enough = abs(speed) <= reversal_speed * (GIVE_UP if reversing else 1.0)
+    if reference == 0.0 or (against and not slow_enough):
+        return Span(0.0, 0.0, False, against)
+    end = copysign(limit, reference)
+    return Span(min(end, 0.0), max(end, 0.0), against, False)

@@ -1,0 +1,109 @@
+"""A fit as others see it: a sentence, a table, JSON, a model file."""
+
+from math import isfinite, isnan
+from pathlib import Path
+from typing import Any
+
+from motor_identification.identify import Fit
+from motor_model.effects import SPEC_BY_NAME
+from motor_model.model_file import save
+
+IN_WORDS = {
+    "coulomb_friction": "the friction level (ks)",
+    "load_bias": "a constant load (load_bias)",
+    "dead_zone": "a dead zone of the bridge (dead_zone)",
+    "quadratic_drag": "drag (quadratic_drag)",
+}
+
+
+def sentence(fit: Fit) -> str:
+    """What was found, and what a user has to know before trusting it."""
+    found = ", ".join(_quantity(fit, name) for name in fit.parameters.values)
+    parts = [
+        f"{found}; residual {fit.residual_rms:.3g} rad/s RMS"
+        + (f" (noise floor {fit.noise_floor:.3g})" if fit.noise_floor > 0.0 else "")
+        + f", R² {fit.r_squared:.6f}."
+    ]
+    return " ".join(parts + list(cautions(fit)))
+
+
+def _quantity(fit: Fit, name: str) -> str:
+    unit, value = SPEC_BY_NAME[name].unit, fit.parameters.values[name]
+    error = fit.standard_errors[name]
+    return f"{name} = {value:.6g} {unit}" + (" (not identifiable)" if isnan(error) else f" ± {error:.2g}")
+
+
+def cautions(fit: Fit) -> tuple[str, ...]:
+    """One sentence for everything that limits the result, then the recording's own notes."""
+    said = []
+    if fit.not_identifiable:
+        names = _listed(fit.not_identifiable)
+        said.append(f"{names} cannot be told apart from this recording.")
+    for effect, rivals in fit.not_told_apart.items():
+        others = " or ".join(IN_WORDS.get(rival, rival) for rival in rivals)
+        said.append(f"{IN_WORDS.get(effect, effect).capitalize()} cannot be told from {others} in this recording.")
+    walls = [name for name, hit in fit.on_bound.items() if hit]
+    if walls:
+        said.append(f"{_listed(walls)} ended on the edge of the search box: do not trust the value.")
+    if fit.suggested_experiment:
+        said.append(f"The profile '{fit.suggested_experiment}' would show it.")
+    return (*said, *fit.notes)
+
+
+def _listed(names: tuple[str, ...] | list[str]) -> str:
+    return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
+
+
+def as_table(fit: Fit) -> str:
+    """The parameters in columns, for a terminal."""
+    rows = [("parameter", "value", "± (1 σ)", "unit", "")]
+    for name, value in fit.parameters.values.items():
+        error = fit.standard_errors[name]
+        mark = "on bound" if fit.on_bound[name] else "not identifiable" if isnan(error) else ""
+        rows.append((name, f"{value:.7g}", "–" if isnan(error) else f"{error:.2g}", SPEC_BY_NAME[name].unit, mark))
+    widths = [max(len(row[i]) for row in rows) for i in range(5)]
+    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows)
+
+
+def as_json(fit: Fit) -> dict[str, Any]:
+    """The form that interfaces promise; null where there is no number."""
+    parameters = {
+        name: {"value": _number(value), "standard_error": _number(fit.standard_errors[name])}
+        for name, value in fit.parameters.values.items()
+    }
+    return {
+        "bags": list(fit.uris),
+        "model": {"effects": list(fit.parameters.effects), "parameters": parameters},
+        "on_bound": [name for name, hit in fit.on_bound.items() if hit],
+        "residual_rms": _number(fit.residual_rms),
+        "noise_floor": _number(fit.noise_floor),
+        "r_squared": _number(fit.r_squared),
+        "not_identifiable": list(fit.not_identifiable),
+        "not_told_apart": {effect: list(rivals) for effect, rivals in fit.not_told_apart.items()},
+        "suggested_experiment": fit.suggested_experiment or None,
+        "duration": fit.duration,
+        "evaluations": fit.evaluations,
+        "message": sentence(fit),
+    }
+
+
+def _number(value: float) -> float | None:
+    return value if isfinite(value) else None
+
+
+def save_model(path: str | Path, fit: Fit, created: str) -> None:
+    """Write the model file that `motor_sim`, `motor_control` and every command read; `created` is a date and time.
+
+    Raises:
+        ModelError: the file cannot be written.
+    """
+    origin = {
+        "bags": list(fit.uris),
+        "created": created,
+        "residual_rms": fit.residual_rms,
+        "noise_floor": fit.noise_floor,
+        "not_identifiable": list(fit.not_identifiable),
+    }
+    errors = {name: error for name, error in fit.standard_errors.items() if isfinite(error)}
+    save(path, fit.parameters, errors, origin)
+

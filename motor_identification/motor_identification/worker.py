@@ -1,0 +1,36 @@
+"""A worker process for long computations: the node that asks stays alive, and can end the work at any moment."""
+
+import multiprocessing
+import signal
+from collections.abc import Callable
+from concurrent.futures import Future, ProcessPoolExecutor
+from typing import Any, TypeVar
+
+T = TypeVar("T")
+
+
+def _begin() -> None:
+    """Ctrl-C in the terminal is for the node, which ends its workers itself."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+class Worker:
+    """One process, started at once so that its imports are done when the first job comes."""
+
+    def __init__(self, prepare: Callable[[], object]) -> None:
+        context = multiprocessing.get_context("spawn")  # fork would copy DDS threads in an unknown state
+        self._pool = ProcessPoolExecutor(1, mp_context=context, initializer=_begin)
+        self._pool.submit(prepare)
+
+    def submit(self, function: Callable[..., T], *arguments: Any) -> "Future[T]":
+        """Queue a call; its result or exception arrives in the future, from another thread."""
+        return self._pool.submit(function, *arguments)
+
+    def close(self) -> None:
+        """End the process, whatever it is doing."""
+        processes = list((self._pool._processes or {}).values())
+        self._pool.shutdown(wait=False, cancel_futures=True)
+        for process in processes:
+            process.terminate()
+        for process in processes:
+            process.join(1.0)

@@ -1,0 +1,210 @@
+"""The plant's motion: classic Runge-Kutta steps of 10 µs that end exactly at every stop, start, impact and switch.
+
+At rest the motor holds while |drive − loads| <= max(ks, breakaway). A speed that reaches zero stops there; whether it
+stays or goes on, and which way, is then that same rule's decision. Commands switch between steps, never inside one.
+
+Backlash as read here: the motor pushes its load's share of inertia in one direction through one flank of the play.
+When it starts in the other direction, the load stays behind at rest until the motor has moved backlash_angle (or has
+come back); then both go on at one speed, momentum conserved: ω becomes (1 − load_fraction)·ω. All friction stays with
+the motor. A stop without a reversal frees nothing, and whichever way the motor first moves, the play is taken up.
+"""
+
+from dataclasses import dataclass
+from math import ceil, copysign
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from .forces import State, bridge, drive, push_at_rest, rates
+from .parameters import Values, record_of
+
+Floats = NDArray[np.float64]
+# way: -1, 0 (held), +1; contact: the flank the load hangs on: -1, +1, 0 in the play, 2 before the first motion; the
+# angles between which the motor is free
+Mode = tuple[float, float, float, float]
+_STEPS_PER_NODE = 5
+_INSTANT = 1e-14  # [s] to which events are located
+_EVENTS_PER_STEP = 50  # more than that within 10 µs is chatter: held for the rest of the step
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Where the motor is, as nodes between which it moves smoothly and one way only; every array has shape (M,)."""
+
+    time: Floats  # [s] since the start, not decreasing: an impact is two nodes at one time
+    angle: Floats  # [rad] since the start
+    speed: Floats  # [rad/s]
+    at: NDArray[np.int64]  # (K,) the node that belongs to each of the times asked for
+
+
+def move(
+    parameters: Values, times: Floats, voltages: Floats, *, start_speed: float = 0.0, step: float = 1e-5
+) -> Motion:
+    """Drive the motor: voltages[k] [V] is commanded from times[k] [s] until times[k + 1]; 0 V before times[0].
+
+    Motion starts at times[0], at angle 0, with a lagged drive that has settled at 0 V. It ends at times[-1].
+    """
+    p = record_of(parameters)
+    start, stop = times[0], times[-1]
+    switches = times + p["delay"]
+    extra = np.append(switches, start + p["step_time"])
+    bounds = np.unique(np.concatenate([times, extra[(extra > start) & (extra < stop)]])) - start
+    middles = start + 0.5 * (bounds[1:] + bounds[:-1])
+    which = np.searchsorted(switches, middles, side="right") - 1
+    commands = np.where(which >= 0, voltages[np.maximum(which, 0)], 0.0)
+    stepped = middles - start > p["step_time"]
+    nodes, at_bounds = _run(p, bounds, commands, stepped, step, start_speed)
+    at = at_bounds[np.searchsorted(bounds, times - start)]
+    return Motion(nodes[:, 0], nodes[:, 1], nodes[:, 2], at)
+
+
+@njit(cache=True)
+def _shifted(y: State, k: State, h: float) -> State:
+    return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3], y[4] + h * k[4], y[5] + h * k[5]
+
+
+@njit(cache=True)
+def _step(y: State, mode: Mode, t: float, h: float, v: float, slope: float, stepped: bool, p: Any) -> State:
+    """One classic Runge-Kutta step; the voltage is v + slope·(time into the step)."""
+    way = mode[0]
+    share = (1.0 - p.compliance_fraction) * (1.0 - p.load_fraction if mode[1] == 0.0 else 1.0)
+    half = 0.5 * h
+    a = rates(y, t, v, stepped, way, share, p)
+    b = rates(_shifted(y, a, half), t + half, v + slope * half, stepped, way, share, p)
+    c = rates(_shifted(y, b, half), t + half, v + slope * half, stepped, way, share, p)
+    d = rates(_shifted(y, c, h), t + h, v + slope * h, stepped, way, share, p)
+    return _shifted(_shifted(_shifted(_shifted(y, a, h / 6.0), b, h / 3.0), c, h / 3.0), d, h / 6.0)
+
+
+@njit(cache=True)
+def _above(y: State, t: float, v: float, stepped: bool, p: Any, which: int, level: float) -> float:
+    """State number `which` less a level; for -1, by how much [V] the push at rest exceeds what holds."""
+    if which >= 0:
+        return y[which] - level
+    push, hold = push_at_rest(y, t, v, stepped, p)
+    return abs(push) - hold
+
+
+@njit(cache=True)
+def _reach(
+    y: State, mode: Mode, t: float, h: float, v: float, slope: float, stepped: bool, p: Any, which: int, level: float
+) -> float:
+    """The part of a step [s] after which `_above` has just changed sign: false position, Illinois variant."""
+    low, high = 0.0, h
+    f_low = _above(y, t, v, stepped, p, which, level)
+    f_high = _above(_step(y, mode, t, h, v, slope, stepped, p), t + h, v + slope * h, stepped, p, which, level)
+    while high - low > 2.0 * _INSTANT:
+        x = (low * f_high - high * f_low) / (f_high - f_low) if f_high != f_low else 0.5 * (low + high)
+        x = min(max(x, low + _INSTANT), high - _INSTANT)
+        f = _above(_step(y, mode, t, x, v, slope, stepped, p), t + x, v + slope * x, stepped, p, which, level)
+        if (f > 0.0) == (f_high > 0.0):
+            high, f_high, f_low = x, f, 0.5 * f_low
+        else:
+            low, f_low, f_high = x, f, 0.5 * f_high
+    return high
+
+
+@njit(cache=True)
+def _started(y: State, mode: Mode, push: float, p: Any) -> Mode:
+    """The mode of a motor that leaves its rest in the direction of the push."""
+    way = copysign(1.0, push)
+    contact, low, high = mode[1], mode[2], mode[3]
+    if p.backlash_angle <= 0.0 or contact == 2.0:
+        contact = way
+    elif contact == -way:
+        contact = 0.0
+        low, high = (y[0], y[0] + p.backlash_angle) if way > 0.0 else (y[0] - p.backlash_angle, y[0])
+    return way, contact, low, high
+
+
+@njit(cache=True)
+def _rest(
+    y: State, mode: Mode, t: float, h: float, v: float, slope: float, stepped: bool, p: Any
+) -> tuple[State, Mode, float, bool]:
+    """(state, mode, time used, whether something happened) of a motor at rest for at most h seconds."""
+    push, hold = push_at_rest(y, t, v, stepped, p)
+    if abs(push) > hold:
+        return y, _started(y, mode, push, p), 0.0, True
+    new = _step(y, mode, t, h, v, slope, stepped, p)
+    push, hold = push_at_rest(new, t + h, v + slope * h, stepped, p)
+    if abs(push) <= hold:
+        return new, mode, h, False
+    used = _reach(y, mode, t, h, v, slope, stepped, p, -1, 0.0)
+    return _step(y, mode, t, used, v, slope, stepped, p), mode, used, True
+
+
+@njit(cache=True)
+def _advance(
+    y: State, mode: Mode, t: float, h: float, v: float, slope: float, stepped: bool, p: Any
+) -> tuple[State, Mode, float, bool]:
+    """(state, mode, time used, whether something happened) after at most h seconds, up to the first event."""
+    way, contact, low, high = mode
+    if way == 0.0:
+        return _rest(y, mode, t, h, v, slope, stepped, p)
+    flank = high if way > 0.0 else low
+    if contact == 0.0 and way * (y[0] - flank) >= 0.0:
+        joined = (y[0], y[1] * (1.0 - p.load_fraction), y[2], y[3], y[4], y[5])
+        return joined, (way, way, low, high), 0.0, True
+    new = _step(y, mode, t, h, v, slope, stepped, p)
+    used = h
+    stops = way * new[1] <= 0.0
+    if stops:
+        used = _reach(y, mode, t, h, v, slope, stepped, p, 1, 0.0)
+        new = _step(y, mode, t, used, v, slope, stepped, p)
+    if contact == 0.0 and way * (new[0] - flank) >= 0.0:
+        used = _reach(y, mode, t, used, v, slope, stepped, p, 0, flank)
+        new = _step(y, mode, t, used, v, slope, stepped, p)
+        return (flank, new[1], new[2], new[3], new[4], new[5]), mode, used, True
+    if stops:
+        return (new[0], 0.0, new[2], new[3], new[4], new[5]), (0.0, contact, low, high), used, True
+    return new, mode, h, False
+
+
+@njit(cache=True)
+def _put(nodes: Floats, count: int, t: float, y: State) -> tuple[Floats, int]:
+    if count == len(nodes):
+        nodes = np.concatenate((nodes, np.empty_like(nodes)))
+    nodes[count, 0], nodes[count, 1], nodes[count, 2] = t, y[0], y[1]
+    return nodes, count + 1
+
+
+@njit(cache=True)
+def _run(
+    p: Any, bounds: Floats, commands: Floats, stepped: NDArray[np.bool_], step: float, start_speed: float
+) -> tuple[Floats, NDArray[np.int64]]:
+    """Nodes (time, angle, speed), shape (M, 3), and the number of the node at each bound."""
+    y = (0.0, start_speed, drive(bridge(0.0, 0.0, p), start_speed, p), np.sign(start_speed), 0.0, start_speed)
+    mode = (np.sign(start_speed), 2.0 if start_speed == 0.0 else np.sign(start_speed), 0.0, 0.0)
+    nodes, count = _put(np.empty((1 << 14, 3)), 0, bounds[0], y)
+    at = np.zeros(len(bounds), dtype=np.int64)
+    v = 0.0
+    for k in range(len(bounds) - 1):
+        steps = max(1, int(ceil((bounds[k + 1] - bounds[k]) / step - 1e-6)))
+        h = (bounds[k + 1] - bounds[k]) / steps
+        for i in range(steps):
+            begin = bounds[k] + i * h
+            change = commands[k] - v
+            slope = 0.0
+            if p.slew_rate > 0.0:
+                slope = min(max(change / h, -p.slew_rate), p.slew_rate)
+            else:
+                v = commands[k]
+            done, events = 0.0, 0
+            while done < h:
+                left = h - done
+                if events == _EVENTS_PER_STEP:
+                    y, mode = (y[0], 0.0, y[2], y[3], y[4], y[5]), (0.0, mode[1], mode[2], mode[3])
+                    y = _step(y, mode, begin + done, left, v + slope * done, slope, stepped[k], p)
+                    break
+                y, mode, used, happened = _advance(y, mode, begin + done, left, v + slope * done, slope, stepped[k], p)
+                done = h if used == left else done + used
+                if happened:
+                    events += 1
+                    nodes, count = _put(nodes, count, begin + done, y)
+            v += slope * h
+            if (i + 1) % _STEPS_PER_NODE == 0 or i + 1 == steps:
+                nodes, count = _put(nodes, count, bounds[k + 1] if i + 1 == steps else begin + h, y)
+        at[k + 1] = count - 1
+    return nodes[:count], at

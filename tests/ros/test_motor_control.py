@@ -1,0 +1,201 @@
+"""The controller as a process over DDS, against a plant that the test owns: every sample gets its answer."""
+
+import subprocess
+import time
+from collections.abc import Iterator
+
+import pytest
+from controller_bench import PATIENCE, SAMPLE_NS, FakePlant, end, start_controller
+from diagnostic_msgs.msg import DiagnosticStatus
+from rcl_interfaces.srv import DescribeParameters
+from std_srvs.srv import Trigger
+
+from motor_model.sample import Info
+from motor_msgs.msg import MotorVoltage
+from motor_ros import qos
+
+KV, KA = 12.0 / 174.097, 0.0055
+
+
+@pytest.fixture
+def plant() -> Iterator[FakePlant]:
+    plant = FakePlant()
+    yield plant
+    plant.close()
+
+
+@pytest.fixture
+def process(plant: FakePlant) -> Iterator[subprocess.Popen[str]]:
+    """A controller that hears the plant and is heard."""
+    process = start_controller("-p", "sample_timeout:=5.0")  # so that a busy machine does not interrupt
+    try:
+        plant.meet()
+        yield process
+    finally:
+        if process.poll() is None:
+            text, _ = end(process)
+            assert "Traceback" not in text
+            assert process.returncode == 0
+
+
+@pytest.mark.usefixtures("process")
+def test_from_no_reference_to_a_held_speed(plant: FakePlant) -> None:
+    state = plant.answer(0.0)
+    assert (state.state, state.voltage, state.header.frame_id) == ("disabled", 0.0, "wheel")
+    assert "motor/reference" in state.reason
+    plant.refer(100.0)  # once is enough
+    speed, states = 0.0, []
+    for _ in range(120):  # 0.6 s of the plant's time
+        states.append(plant.answer(speed))
+        speed += (states[-1].voltage - KV * speed) / KA * 0.005
+    assert all(state.state == "running" and state.reason == "" for state in states)
+    assert states[0].voltage == 12.0 and states[0].saturated
+    assert speed == pytest.approx(100.0, abs=0.5)
+    last = states[-1]
+    assert last.voltage == pytest.approx(KV * 100.0, abs=0.1) and not last.saturated
+    assert last.voltage == pytest.approx(last.proportional + last.integral + last.feedforward)
+    assert last.error == last.reference - last.speed and last.speed_sigma != last.speed_sigma
+
+
+@pytest.mark.usefixtures("process")
+def test_silence_is_zero_volts_and_said(plant: FakePlant) -> None:
+    assert plant.set("sample_timeout", 0.1) == (True, "")
+    plant.refer(100.0)
+    assert plant.answer(97.0).voltage > 0.0
+    begin, voltages, states = time.monotonic(), len(plant.voltages), len(plant.states)
+    plant.wait(lambda: len(plant.states) >= states + 4, "no_samples, four times")
+    assert 0.4 < time.monotonic() - begin < 3.0
+    assert [message.voltage for message in plant.voltages[voltages:]] == [0.0]
+    for state in plant.states[states:]:
+        assert (state.state, state.voltage) == ("no_samples", 0.0)
+        assert "motor/speed" in state.reason
+    resumed = plant.answer(97.0)
+    assert (resumed.state, resumed.reference, resumed.integral) == ("running", 100.0, 0.0)
+
+
+@pytest.mark.usefixtures("process")
+def test_numbers_that_are_none(plant: FakePlant) -> None:
+    plant.refer(100.0)
+    plant.refer(float("nan"))
+    state = plant.answer(50.0)
+    assert (state.state, state.voltage) == ("stopped", 0.0)
+    assert "nan" in state.reason and "motor/reference" in state.reason
+    plant.refer(100.0)
+    assert plant.answer(50.0).voltage >= 10.0
+    state = plant.answer(float("inf"))
+    assert (state.state, state.voltage) == ("stopped", 0.0)
+    assert "speed = inf" in state.reason
+    assert plant.answer(50.0).state == "running"
+
+
+def test_ctrl_c_leaves_zero_volts(plant: FakePlant, process: subprocess.Popen[str]) -> None:
+    plant.refer(100.0)
+    assert plant.answer(50.0).voltage > 0.0
+    count = len(plant.voltages)
+    text, seconds = end(process)
+    plant.wait(lambda: len(plant.voltages) > count, "the last voltage")
+    assert [message.voltage for message in plant.voltages[count:]] == [0.0]
+    assert process.returncode == 0 and text == ""
+    assert seconds < 1.0
+
+
+@pytest.mark.usefixtures("process")
+def test_gains_are_live_and_bad_ones_refused(plant: FakePlant) -> None:
+    plant.refer(100.0)
+    assert plant.answer(90.0).proportional == pytest.approx(2.0)
+    assert plant.set("kp", 0.5) == (True, "")
+    assert plant.answer(90.0).proportional == pytest.approx(5.0)
+    for name, value in (("kp", -1.0), ("ki", float("nan")), ("voltage_limit", float("inf")), ("sample_timeout", 0.0)):
+        accepted, reason = plant.set(name, value)
+        assert not accepted and name in reason, reason
+    assert plant.answer(90.0).proportional == pytest.approx(5.0)
+    assert plant.set("voltage_limit", 3.0) == (True, "")
+    assert plant.answer(90.0).voltage == 3.0
+
+
+@pytest.mark.usefixtures("process")
+def test_parameters_are_described_with_unit_and_range(plant: FakePlant) -> None:
+    names = ["kp", "ki", "voltage_limit", "sample_timeout", "reference_rate_limit", "reversal_speed"]
+    request = DescribeParameters.Request(names=names)
+    described = plant.call(DescribeParameters, "motor_control/describe_parameters", request).descriptors  # type: ignore[attr-defined]
+    assert [row.name for row in described] == names
+    for row in described:
+        assert row.description.endswith("]") and len(row.floating_point_range) == 1
+
+
+@pytest.mark.usefixtures("process")
+def test_what_the_plant_says_of_itself_counts(plant: FakePlant) -> None:
+    plant.refer(40.0)
+    assert plant.answer(100.0).voltage == 0.0  # a single channel, until somebody says otherwise
+    plant.tell(Info(name="wheel", single_channel=False, max_voltage=6.0))
+    plant.wait(lambda: plant.answer(100.0).voltage != 0.0, "the brake")
+    assert plant.answer(100.0).voltage == -6.0
+    plant.tell(Info(name="wheel", max_voltage=1.0), measurement="tea leaves")
+    plant.tell(Info(name="wheel", single_channel=False, max_voltage=5.0))
+    plant.wait(lambda: plant.answer(100.0).voltage == -5.0, "the next info")
+
+
+@pytest.mark.usefixtures("process")
+def test_reset_answers(plant: FakePlant) -> None:
+    response = plant.call(Trigger, "motor/reset", Trigger.Request())
+    assert response.success and response.message  # type: ignore[attr-defined]
+
+
+@pytest.mark.usefixtures("process")
+def test_diagnostics_once_a_second(plant: FakePlant) -> None:
+    plant.refer(100.0)
+
+    def status() -> DiagnosticStatus:
+        count = len(plant.diagnostics)
+        plant.wait(lambda: plant.answer(50.0).state == "running" and len(plant.diagnostics) > count, "diagnostics")
+        return plant.diagnostics[-1].status[0]
+
+    status()
+    begin = time.monotonic()
+    running = status()
+    assert 0.5 < time.monotonic() - begin < 2.0
+    assert running.level == DiagnosticStatus.OK and "motor_control" in running.name and "wheel" in running.name
+    assert int({pair.key: pair.value for pair in running.values}["samples per second"]) > 10
+    rival = plant.node.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+    plant.wait(lambda: status().level == DiagnosticStatus.WARN, "a warning about the second publisher")
+    plant.node.destroy_publisher(rival)
+    assert plant.set("sample_timeout", 0.1) == (True, "")
+    count = len(plant.diagnostics)
+    plant.wait(lambda: len(plant.diagnostics) >= count + 2, "diagnostics in silence")
+    assert plant.diagnostics[-1].status[0].level == DiagnosticStatus.ERROR
+    assert "motor/speed" in plant.diagnostics[-1].status[0].message
+
+
+def test_a_namespace_makes_another_motor() -> None:
+    plant, process = FakePlant("left"), start_controller("-r", "__ns:=/left")
+    try:
+        plant.meet()
+        plant.refer(10.0)
+        assert plant.answer(5.0).state == "running"
+    finally:
+        end(process)
+        plant.close()
+
+
+def test_every_sample_at_1_khz_is_answered(plant: FakePlant, process: subprocess.Popen[str]) -> None:
+    plant.refer(100.0)
+    answers, count = len(plant.states), 1000
+    begin = time.monotonic()
+    for k in range(count):
+        plant.say(99.0)
+        while (left := begin + (k + 1) * 1e-3 - time.monotonic()) > 0.0:
+            plant.executor.spin_once(timeout_sec=left)
+    plant.wait(lambda: len(plant.states) >= answers + count, "all answers")
+    stamps = [state.header.stamp.sec * 10**9 + state.header.stamp.nanosec for state in plant.states[answers:]]
+    assert stamps == list(range(plant.time - (count - 1) * SAMPLE_NS, plant.time + 1, SAMPLE_NS))
+    assert process.poll() is None
+
+
+@pytest.mark.parametrize(
+    ("assignment", "words"), [("kp:=-1.0", "kp"), ("voltage_limit:=1", "float"), ("ki:=lots", "for example 2.5")]
+)
+def test_a_bad_start_is_one_sentence(assignment: str, words: str) -> None:
+    process = start_controller("-p", assignment)
+    out, err = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 1 and out == ""
+    assert words in err and len(err.strip().splitlines()) == 1
