@@ -9,7 +9,8 @@ In armature voltages throughout (symbols and parameters: `effects.py`; gain = 1/
     loads      = bias + step(t) + ripple·sin(cycles·θ + phase)
     w          = 1 + rise·(1 − e^(−t/t_w))            (warm copper)
 
-At rest the motor holds while |v − w·loads| ≤ w·max(ks, breakaway). u_eff is the command after delay, limit, dead zone
+At rest the motor holds while |v − w·loads| ≤ w·max(ks, breakaway). After a reversal the inertia is ka·(1 − load
+fraction) until the play is taken up; the speed has no jump there. u_eff is the command after delay, limit, dead zone
 and asymmetry (`bridge.py`).
 
 Between events (a zero of the speed, the end of the play, the load step) the equation is linear but for Stribeck

@@ -22,10 +22,12 @@ def roll_out(
 ) -> None:
     """Fill angle [rad] and speed [rad/s] of one motor at out_time [s].
 
-    p: parameter vector. command[i] [V] holds from command_time[i] + delay on; what held before the first command is the
-    first command. out_time is ascending. The motion starts at out_time[0] with start_speed [rad/s] at angle 0.
+    p: parameter vector. command[i] [V] holds from command_time[i] + delay on. Before the first one a standing motor had
+    0 V, a turning one that command. out_time is ascending. The motion starts at out_time[0] with start_speed [rad/s] at
+    angle 0.
     """
     delay = p[DELAY]
+    before = command[0] if start_speed != 0.0 else 0.0
     switches = len(command_time)
     t = out_time[0]
     direction = 0.0
@@ -37,7 +39,7 @@ def roll_out(
     for k in range(1, len(out_time)):
         until = out_time[k]
         while True:
-            u = command[max(j, 0)]
+            u = command[j] if j >= 0 else before
             stop = until
             if j + 1 < switches and command_time[j + 1] + delay <= until:
                 stop = command_time[j + 1] + delay

@@ -1,12 +1,12 @@
-"""The plant's motion: classic Runge-Kutta steps of 10 µs that end exactly at every stop, start, impact and switch.
+"""The plant's motion: classic Runge-Kutta steps of 10 µs that end exactly at every stop, start, take-up and switch.
 
 At rest the motor holds while |drive − loads| <= max(ks, breakaway). A speed that reaches zero stops there; whether it
 stays or goes on, and which way, is then that same rule's decision. Commands switch between steps, never inside one.
 
 Backlash as read here: the motor pushes its load's share of inertia in one direction through one flank of the play.
-When it starts in the other direction, the load stays behind at rest until the motor has moved backlash_angle (or has
-come back); then both go on at one speed, momentum conserved: ω becomes (1 − load_fraction)·ω. All friction stays with
-the motor. A stop without a reversal frees nothing, and whichever way the motor first moves, the play is taken up.
+When it starts in the other direction, the load's share is missing until the motor has moved backlash_angle (or has
+come back); then both go on at the motor's speed. The definition speaks of inertia alone, so that ω has no jump there (a
+load that really stood still would take momentum). All friction stays with the motor. A stop without a reversal frees nothing, and whichever way the motor first moves, the play is taken up.
 """
 
 from dataclasses import dataclass
@@ -33,7 +33,7 @@ _EVENTS_PER_STEP = 50  # more than that within 10 µs is chatter: held for the r
 class Motion:
     """Where the motor is, as nodes between which it moves smoothly and one way only; every array has shape (M,)."""
 
-    time: Floats  # [s] since the start, not decreasing: an impact is two nodes at one time
+    time: Floats  # [s] since the start, not decreasing: a take-up is two nodes at one time
     angle: Floats  # [rad] since the start
     speed: Floats  # [rad/s]
     at: NDArray[np.int64]  # (K,) the node that belongs to each of the times asked for
@@ -145,8 +145,7 @@ def _advance(
         return _rest(y, mode, t, h, v, slope, stepped, p)
     flank = high if way > 0.0 else low
     if contact == 0.0 and way * (y[0] - flank) >= 0.0:
-        joined = (y[0], y[1] * (1.0 - p.load_fraction), y[2], y[3], y[4], y[5])
-        return joined, (way, way, low, high), 0.0, True
+        return y, (way, way, low, high), 0.0, True
     new = _step(y, mode, t, h, v, slope, stepped, p)
     used = h
     stops = way * new[1] <= 0.0

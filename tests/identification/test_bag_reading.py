@@ -1,0 +1,209 @@
+"""Any bag of a motor is read exactly; any other is refused in a sentence."""
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from motor_bags import INFO, SAMPLES, assert_is, refusal, rewritten, write_bag
+from rclpy.serialization import serialize_message
+from rosbags.rosbag2 import CompressionMode, StoragePlugin, Writer
+
+from motor_identification.bag import BagWriter, contents, in_time_order, messages, read_recording, topics
+from motor_model.errors import RecordingError
+from motor_model.sample import Info, Measurement
+from motor_msgs.msg import MotorVoltage
+
+
+def test_what_was_written_is_read_bit_for_bit(tmp_path: Path) -> None:
+    recording = read_recording(write_bag(tmp_path / "bag", SAMPLES))
+    assert_is(recording, SAMPLES)
+    assert recording.info == INFO
+    assert recording.notes == ()
+
+
+def test_frame_ids_of_any_length_are_read_whatever_padding_they_cause(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", SAMPLES[:200], frame=lambda k: "wheel number seventeen"[: k % 20])
+    assert_is(read_recording(bag), SAMPLES[:200])
+
+
+def test_no_current_sensor_is_nan(tmp_path: Path) -> None:
+    bare = [replace(sample, current=float("nan"), supply_voltage=float("nan")) for sample in SAMPLES[:10]]
+    assert_is(read_recording(write_bag(tmp_path / "bag", bare)), bare)
+
+
+@pytest.mark.parametrize("namespace", ["left", "/left", "/left/"])
+def test_a_namespace_is_said_with_or_without_slashes(tmp_path: Path, namespace: str) -> None:
+    assert_is(read_recording(write_bag(tmp_path / "bag", SAMPLES[:50], namespace="/left"), namespace), SAMPLES[:50])
+
+
+@pytest.mark.parametrize(
+    ("plugin", "compression"),
+    [
+        (StoragePlugin.SQLITE3, CompressionMode.NONE),
+        (StoragePlugin.SQLITE3, CompressionMode.MESSAGE),
+        (StoragePlugin.SQLITE3, CompressionMode.FILE),
+        (StoragePlugin.MCAP, CompressionMode.NONE),
+        (StoragePlugin.MCAP, CompressionMode.MESSAGE),
+        (StoragePlugin.MCAP, CompressionMode.FILE),
+        (StoragePlugin.MCAP, CompressionMode.STORAGE),
+    ],
+)
+@pytest.mark.parametrize("with_metadata", [True, False])
+def test_bags_of_other_tools_are_read(
+    tmp_path: Path,
+    plugin: StoragePlugin,
+    compression: CompressionMode,
+    with_metadata: bool,
+) -> None:
+    bag = rewritten(write_bag(tmp_path / "bag", SAMPLES[:300]), tmp_path / "other", plugin, compression)
+    if not with_metadata:
+        (bag / "metadata.yaml").unlink()
+    recording = read_recording(bag)
+    assert_is(recording, SAMPLES[:300])
+    assert recording.info == INFO and recording.notes == ()
+    assert {topic.name: topic.message_count for topic in topics(bag)} == {"/motor/info": 1, "/motor/speed": 300}
+
+
+def test_a_single_file_is_a_bag_too(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", SAMPLES[:300])
+    assert_is(read_recording(next(bag.glob("*.mcap"))), SAMPLES[:300])
+    other = rewritten(bag, tmp_path / "other", StoragePlugin.SQLITE3)
+    assert_is(read_recording(str(next(other.glob("*.db3")))), SAMPLES[:300])
+
+
+def test_the_files_of_a_split_bag_follow_by_number(tmp_path: Path) -> None:
+    split = tmp_path / "split"
+    split.mkdir()
+    for k in range(11):
+        part = write_bag(tmp_path / f"part{k}", SAMPLES[k * 20 : k * 20 + 20])
+        shutil.copy(next(part.glob("*.mcap")), split / f"split_{k}.mcap")
+    assert_is(read_recording(split), SAMPLES[:220])
+    assert contents(split).message_count == 220 + 11
+
+
+def test_a_lost_file_of_a_split_bag_is_told(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", SAMPLES[:20])
+    metadata = bag / "metadata.yaml"
+    metadata.write_text(metadata.read_text().replace("- bag_0.mcap", "- bag_0.mcap\n  - bag_1.mcap"))
+    (note,) = read_recording(bag).notes
+    assert "bag_1.mcap" in note and "bag_0.mcap" not in note
+
+
+def test_without_info_the_assumptions_are_told(tmp_path: Path) -> None:
+    recording = read_recording(write_bag(tmp_path / "bag", SAMPLES[:50], info=None))
+    assert recording.info == Info(sample_period=0.005)
+    (note,) = recording.notes
+    assert "no /motor/info" in note and "96 stamped edges" in note and "12 V" in note
+
+
+def test_the_latest_info_counts(tmp_path: Path) -> None:
+    first = write_bag(tmp_path / "a", SAMPLES[:10], info=replace(INFO, measurement=Measurement.COUNTS))
+    second = write_bag(tmp_path / "b", SAMPLES[10:20], info=replace(INFO, edges_per_revolution=2800))
+    (tmp_path / "both").mkdir()
+    shutil.copy(next(first.glob("*.mcap")), tmp_path / "both/both_0.mcap")
+    shutil.copy(next(second.glob("*.mcap")), tmp_path / "both/both_1.mcap")
+    recording = read_recording(tmp_path / "both")
+    assert recording.info == replace(INFO, edges_per_revolution=2800)
+    assert len(recording.notes) == 1 and "changes" in recording.notes[0]
+
+
+def test_repeats_are_dropped_and_told(tmp_path: Path) -> None:
+    again = [*SAMPLES[:30], replace(SAMPLES[30], sample_time=SAMPLES[29].sample_time), *SAMPLES[30:60]]
+    recording = read_recording(write_bag(tmp_path / "bag", again))
+    assert_is(recording, SAMPLES[:60])
+    assert len(recording.notes) == 1 and "1 samples more than once" in recording.notes[0]
+
+
+def test_a_message_that_two_recorders_wrote_is_dropped_wherever_it_stands(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", SAMPLES[:60])
+    stored = list(messages(bag))
+    with BagWriter(tmp_path / "twice") as writer:
+        for name, type_name, log_time, data in [*stored, *stored[5:]]:
+            writer.write(writer.topic(name, type_name), log_time, data)
+    recording = read_recording(tmp_path / "twice")
+    assert_is(recording, SAMPLES[:60])
+    assert "56 samples more than once" in recording.notes[0]
+
+
+def test_a_plant_that_restarts_is_not_mended(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match=r"steps back after 0\.495 s"):
+        read_recording(write_bag(tmp_path / "bag", [*SAMPLES[:100], *SAMPLES[:100]]))
+
+
+def test_only_the_part_that_is_asked_for_is_checked(tmp_path: Path) -> None:
+    bag = write_bag(tmp_path / "bag", [*SAMPLES[:100], replace(SAMPLES[100], voltage=float("nan")), *SAMPLES[101:200]])
+    with pytest.raises(RecordingError, match="not numbers"):
+        read_recording(bag)
+    assert_is(read_recording(bag, stop=0.497), SAMPLES[:100])
+
+
+def test_messages_come_in_time_order_and_disorder_beyond_repair_is_told() -> None:
+    def message(time: int) -> tuple[str, str, int, bytes]:
+        return ("/a", "t", time, b"")
+
+    times = [3, 1, 2, 2, 5, 4]
+    assert [row[2] for row in in_time_order(map(message, times), "bag")] == [1, 2, 2, 3, 4, 5]
+    with pytest.raises(RecordingError, match="bag is not in the order"):
+        list(in_time_order(map(message, [*range(1, 30_000), 0]), "bag"))
+
+
+# What cannot be used, and the sentence for it.
+
+
+def test_no_such_bag(tmp_path: Path) -> None:
+    assert refusal(tmp_path / "nothing").startswith("There is no bag ")
+
+
+def test_not_a_bag(tmp_path: Path) -> None:
+    (tmp_path / "notes.txt").write_text("hello")
+    assert "is neither a directory nor" in refusal(tmp_path / "notes.txt")
+    assert "no .mcap or .db3 file" in refusal(tmp_path)
+    (tmp_path / "text.mcap").write_text("this is not MCAP")
+    assert "not an MCAP file" in refusal(tmp_path / "text.mcap")
+    (tmp_path / "text.db3").write_text("this is not sqlite3, although it is quite long for that")
+    assert "cannot be read" in refusal(tmp_path / "text.db3")
+
+
+def test_an_empty_bag(tmp_path: Path) -> None:
+    BagWriter(tmp_path / "empty").close()
+    assert "empty bag" in refusal(tmp_path / "empty")
+    with Writer(tmp_path / "empty3", version=9, storage_plugin=StoragePlugin.SQLITE3):
+        pass
+    assert "empty bag" in refusal(tmp_path / "empty3")
+
+
+def test_no_motor_in_the_bag(tmp_path: Path) -> None:
+    with BagWriter(tmp_path / "other") as writer:
+        for k in range(12):
+            channel = writer.topic(f"/topic{k:02}", "motor_msgs/msg/MotorVoltage")
+            writer.write(channel, 1, serialize_message(MotorVoltage()))
+    sentence = refusal(tmp_path / "other")
+    assert "has no /motor/speed" in sentence and "/topic00, " in sentence and "and 2 more" in sentence
+    assert "--topic-namespace" not in sentence
+
+
+def test_the_motor_is_in_another_namespace(tmp_path: Path) -> None:
+    assert "say --topic-namespace left/wheel." in refusal(write_bag(tmp_path / "far", SAMPLES[:20], "/left/wheel"))
+    assert "say --topic-namespace /." in refusal(write_bag(tmp_path / "here", SAMPLES[:20]), "right")
+
+
+def test_the_topic_of_another_type(tmp_path: Path) -> None:
+    with BagWriter(tmp_path / "other") as writer:
+        channel = writer.topic("/motor/speed", "motor_msgs/msg/MotorVoltage")
+        writer.write(channel, 1, serialize_message(MotorVoltage()))
+    assert "motor_msgs/msg/MotorVoltage, not motor_msgs/msg/MotorSpeed" in refusal(tmp_path / "other")
+
+
+def test_messages_that_are_not_what_they_say(tmp_path: Path) -> None:
+    for number, data in enumerate(
+        [b"", b"\x00\x01\x00\x00" + bytes(30), b"\x07\x07" + bytes(90), b"\x00\x01" + b"\xff" * 90]
+    ):
+        with BagWriter(tmp_path / f"bad{number}") as writer:
+            writer.write(writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed"), 1, data)
+        assert "cannot be read: a message" in refusal(tmp_path / f"bad{number}")
+
+
+def test_a_motor_that_never_moves(tmp_path: Path) -> None:
+    still = [replace(sample, speed=0.0, edge_count=5) for sample in SAMPLES[:50]]
+    assert "never moves" in refusal(write_bag(tmp_path / "bag", still))

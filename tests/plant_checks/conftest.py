@@ -1,6 +1,0 @@
-"""Lets these tests import the plant, the package beside this folder, as `plant`."""
-
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
