@@ -13,7 +13,7 @@ from motor_model.excitation import Profile
 from motor_model.parameters import Parameters
 from motor_model.sample import Sample
 
-LEAD, TAIL = 0.1, 0.3  # [s] at 0 V before and after the profile: a recording that starts and ends at rest is easiest
+LEAD = 0.1  # [s] at 0 V before the profile: a recording that starts at rest needs no initial speed
 
 
 @dataclass(frozen=True)
@@ -26,8 +26,8 @@ class Plan:
 
     @property
     def duration(self) -> float:
-        """[s] with the rest before and after."""
-        return LEAD + self.profile.duration + TAIL
+        """[s] with the rest before it."""
+        return LEAD + self.profile.duration
 
     @cached_property
     def commands(self) -> Floats:

@@ -39,11 +39,11 @@ def draw_fit(recording: Recording, fit: Fit, path: Path) -> None:
     speed.plot(middle[thin], data.speed[thin], ".", color=MEASURED, markersize=3, label="measured (between edges)")
     speed.plot(motion.time[thin], motion.speed[thin], color=SIMULATED, linewidth=1.1, label="simulated")
     speed.set_ylabel("speed [rad/s]")
-    speed.legend(loc="best", frameon=False)
+    speed.legend(loc="upper right", framealpha=0.9, ncols=2)
     speed.set_title(f"{recording.info.name}: residual {fit.residual_rms:.3g} rad/s RMS, R² {fit.r_squared:.5f}")
     speed.text(
         0.01, 0.02, as_table(fit), transform=speed.transAxes, family="monospace", fontsize=8, va="bottom",
-        bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none"},
+        bbox={"facecolor": "white", "alpha": 0.9, "edgecolor": "none"},
     )  # fmt: skip
     voltage.step(recording.time, recording.voltage, where="post", color=VOLTAGE, linewidth=1)
     voltage.set_ylabel("voltage [V]")
@@ -55,7 +55,7 @@ def draw_fit(recording: Recording, fit: Fit, path: Path) -> None:
     )  # fmt: skip
     rest.set_ylabel("simulated −\nmeasured [rad/s]")
     rest.set_xlabel("time [s]")
-    rest.legend(loc="best", frameon=False, fontsize=8)
+    rest.legend(loc="upper right", framealpha=0.9, fontsize=8)
     for axis in (speed, voltage, rest):
         axis.grid(alpha=0.25)
     try:

@@ -11,7 +11,7 @@ from motor_model.effects import EFFECT_BY_NAME, INDEX, SPEC_BY_NAME
 BLOCKS = 40  # of consecutive intervals; neighbours share an edge, so that their residuals are correlated
 COLLINEAR = 1e-4  # sine of the angle between a column of the Jacobian and the others, below which they are one
 TOO_UNSURE = 0.3  # standard error as a share of the value
-ALIKE = 0.05  # share of an effect's trace that the fitted parameters cannot imitate, below which it is not told apart
+DETECTABLE = 10.0  # standard errors of the mean by which a trace must differ to be told apart from its imitation
 
 # Effects whose absence is a value that a small step can leave: their trace is a derivative.
 RIVALS = ("coulomb_friction", "load_bias", "dead_zone", "quadratic_drag")
@@ -79,21 +79,24 @@ def not_told_apart(
     Effects with a parameter that is `unsure` anyway are passed over.
     """
     root = np.sqrt(problem.weight)[:, None]
-    columns = root * jacobian * _scales(problem, place)
+    scales = _scales(problem, place)
+    columns = root * jacobian * scales
+    noise = float(np.sqrt(problem.costs(place[None])[0] / len(problem.weight)))
     found: dict[str, list[str]] = {}
     for rival in RIVALS:
         if rival in problem.unknowns.effects:
             continue
         trace = root[:, 0] * _trace(problem, place, rival)
-        size = float(np.linalg.norm(trace))
-        if size < 1e-9 or _unexplained(trace / size, columns) > ALIKE:
-            continue
-        imitation = np.linalg.lstsq(columns, trace / size, rcond=1e-10)[0] * np.linalg.norm(columns, axis=0)
+        imitation = np.linalg.lstsq(columns, trace, rcond=1e-10)[0]
+        left = float(np.linalg.norm(trace - columns @ imitation))
         for effect in problem.unknowns.effects:
-            if any(spec.name in unsure for spec in EFFECT_BY_NAME[effect].parameters):
+            specs = EFFECT_BY_NAME[effect].parameters
+            if any(spec.name in unsure for spec in specs):
                 continue
-            shares = [abs(imitation[problem.unknowns.names.index(s.name)]) for s in EFFECT_BY_NAME[effect].parameters]
-            if max(shares) > 0.3 * np.abs(imitation).max():
+            which = [problem.unknowns.names.index(spec.name) for spec in specs]
+            # As much of the rival as would have made this effect's whole value, and what of it would still show.
+            amount = max(abs(place[i] / scales[i]) for i in which) / max(max(abs(imitation[i]) for i in which), 1e-300)
+            if amount * left < DETECTABLE * noise:
                 found.setdefault(effect, []).append(rival)
     return {effect: tuple(rivals) for effect, rivals in found.items()}
 

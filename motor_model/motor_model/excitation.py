@@ -60,7 +60,7 @@ _REVERSALS = [a * s for a in (1.0, 0.7, 0.4) for s in (1, -1, 1, -1)]
 _COAST = [1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.5, 0.0, -0.5, 0.0]
 
 _BASIC = (
-    Profile("step", 1.1, "gain and time constant at one level", _corners([0.0, 0.0999, 0.1, 1.1], [0, 0, 1, 1])),
+    Profile("step", 1.0, "gain and time constant at one level (the base paper's experiment)", np.ones_like),
     Profile(
         "staircase",
         5.75,

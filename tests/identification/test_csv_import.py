@@ -100,10 +100,10 @@ def test_positions_and_counts_are_sampled_counts(read: Read, form: CsvForm, valu
 
 
 def test_the_size_of_a_count_is_seen_in_positions_and_told(read: Read) -> None:
-    rows = [(0.01 * k, 1, 0.9 * (k * k // 2)) for k in range(20)]
+    rows = [(0.01 * k, 1, 0.9 * (k * (k + 1) // 2)) for k in range(20)]
     log = read(table(*rows), ANGLE)
     assert log.info.edges_per_revolution == 400
-    assert [sample.edge_count for sample in log.runs[0].samples] == [k * k // 2 for k in range(20)]
+    assert [sample.edge_count for sample in log.runs[0].samples] == [k * (k + 1) // 2 for k in range(20)]
     assert any("one is 0.9 deg, 400 per revolution (assumed" in finding for finding in log.findings)
 
 

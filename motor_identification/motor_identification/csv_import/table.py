@@ -88,7 +88,7 @@ def _text(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")  # with or without a byte order mark
     except FileNotFoundError as error:
-        raise RecordingError(f"there is no file {path}: check the path.") from error
+        raise RecordingError(f"There is no file {path}: check the path.") from error
     except UnicodeDecodeError as error:
         raise RecordingError(f"{path} is not text in UTF-8: export it again as CSV in UTF-8.") from error
     except OSError as error:

@@ -1,0 +1,21 @@
+"""The only place that knows bags: reads any, cut off or not, and writes rosbag2 directories with MCAP storage."""
+
+from motor_identification.bag.contents import Contents
+from motor_identification.bag.motor import read_recording
+from motor_identification.bag.reader import contents, in_time_order, messages, topics
+from motor_identification.bag.topic import Qos, Topic, absolute_name
+from motor_identification.bag.writer import FLUSH_EVERY, BagWriter
+
+__all__ = [
+    "FLUSH_EVERY",
+    "BagWriter",
+    "Contents",
+    "Qos",
+    "Topic",
+    "absolute_name",
+    "contents",
+    "in_time_order",
+    "messages",
+    "read_recording",
+    "topics",
+]

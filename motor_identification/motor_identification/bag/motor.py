@@ -1,0 +1,150 @@
+"""Reads one motor's recording out of any bag, and says in sentences what is wrong with a bag that has none."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+
+from motor_identification.bag.cdr import INFO_TYPE, ROW, SPEED_TYPE, Rows, SpeedDecoder, Undecodable, decode_info
+from motor_identification.bag.definition import installed
+from motor_identification.bag.storage import Bag
+from motor_identification.bag.topic import Topic, absolute_name
+from motor_identification.recording import Recording, check
+from motor_model.errors import RecordingError
+from motor_model.sample import Info
+
+_BATCH = 65_536  # messages decoded at a time: keeps memory at twice that of the arrays, however long the bag
+_SPEED = "motor/speed"
+_INFO = "motor/info"
+
+
+def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.0, stop: float = 0.0) -> Recording:
+    """The samples on `motor/speed` with the latest `motor/info`, in the order of the log.
+
+    Args:
+        uri: a rosbag2 directory (MCAP or sqlite3, compressed or not, with or without metadata.yaml) or a storage file.
+        topic_namespace: the namespace that the plant ran in; empty for none.
+        start: [s] after the first sample; what lies outside of start and stop is not checked either.
+        stop: [s] after the first sample; 0, 0 is all of it.
+
+    Raises:
+        RecordingError: no such bag, no bag, an empty one, one without this motor, one that identification cannot use.
+    """
+    bag = Bag(uri)
+    speed_topic, info_topic = absolute_name(topic_namespace, _SPEED), absolute_name(topic_namespace, _INFO)
+    try:
+        rows, infos = _read(bag, speed_topic, info_topic)
+    except Undecodable as error:
+        raise RecordingError(
+            f"{uri} cannot be read: {error}; record it again with this version of motor_msgs."
+        ) from error
+    if len(rows) == 0:
+        raise _nothing(bag, speed_topic)
+    kept, notes = _without_repeats(rows, bag.uri)
+    if bag.cut:
+        span = float(kept["sample_time"][-1] - kept["sample_time"][0]) * 1e-9
+        notes = [f"{uri} is cut off: read {len(kept)} samples, {span:.2f} s up to the cut.", *notes]
+    if bag.missing:
+        notes.append(
+            f"{uri} lacks {', '.join(bag.missing)}, which its metadata.yaml lists: samples in there are missing."
+        )
+    info = _info(infos, kept, info_topic, bag.uri, notes)
+    return check(_recording(bag.uri, info, kept, tuple(notes)).between(start, stop))
+
+
+def _read(bag: Bag, speed_topic: str, info_topic: str) -> tuple[Rows, list[Info]]:
+    """All samples, and all different infos in the order of their latest appearance."""
+    batches: list[Rows] = []
+    pending: list[bytes] = []
+    infos: dict[bytes, Topic] = {}
+    decoder: SpeedDecoder | None = None
+    for topic, _, data in bag.messages({speed_topic, info_topic}):
+        if topic.name == info_topic:
+            infos.pop(data, None)
+            infos[data] = _typed(topic, INFO_TYPE, bag.uri)
+            continue
+        if decoder is None:
+            decoder = SpeedDecoder(_definition(_typed(topic, SPEED_TYPE, bag.uri)))
+        pending.append(data)
+        if len(pending) == _BATCH:
+            batches.append(decoder.rows(pending))
+            pending = []
+    if decoder is not None:
+        batches.append(decoder.rows(pending))
+    decoded = [decode_info(data, _definition(topic)) for data, topic in infos.items()]
+    return (np.concatenate(batches) if batches else np.zeros(0, ROW)), decoded
+
+
+def _typed(topic: Topic, type_name: str, uri: str) -> Topic:
+    if topic.type_name != type_name:
+        raise RecordingError(
+            f"{uri}: {topic.name} carries {topic.type_name or 'messages without a type'}, not {type_name}: "
+            "record the topic of a plant (motor_sim or motor_driver)."
+        )
+    return topic
+
+
+def _definition(topic: Topic) -> str:
+    """The definition in the bag, which fits its messages whatever version of it is installed."""
+    return topic.definition or installed(topic.type_name).text
+
+
+def _nothing(bag: Bag, speed_topic: str) -> RecordingError:
+    """Why there is no sample, and what to do."""
+    if bag.cut and speed_topic not in bag.topics:
+        return RecordingError(f"{bag.uri} is cut off before the first sample on {speed_topic}: record it again.")
+    if not bag.topics:
+        return RecordingError(f"{bag.uri} is an empty bag: record while a plant (motor_sim or motor_driver) runs.")
+    if speed_topic in bag.topics:
+        return RecordingError(f"{bag.uri} has no message on {speed_topic}: record while a plant runs and publishes.")
+    return RecordingError(f"{bag.uri} has no {speed_topic}; {_elsewhere(bag.topics.values())}")
+
+
+def _elsewhere(topics: Iterable[Topic]) -> str:
+    """Where else in the bag a motor may be."""
+    suffix = f"/{_SPEED}"
+    others = sorted(topic.name[: -len(suffix)].strip("/") for topic in topics if topic.name.endswith(suffix))
+    if others:
+        choices = " or ".join(f"--topic-namespace {namespace or '/'}" for namespace in others)
+        return f"it has that of another namespace: say {choices}."
+    names = sorted(topic.name for topic in topics)
+    more = f" and {len(names) - 10} more" if len(names) > 10 else ""
+    return f"it has {', '.join(islice(names, 10))}{more}: record {_SPEED} too."
+
+
+def _without_repeats(rows: Rows, uri: str) -> tuple[Rows, list[str]]:
+    """Drop messages that are there twice; a clock that really steps back is left for `check` to tell."""
+    time, stamp = rows["sample_time"], rows["stamp"]
+    if np.all(np.diff(time) > 0):
+        return rows, []
+    order = np.lexsort((stamp, time))  # stable: of two alike, the first in the log stays
+    alike = (np.diff(time[order]) == 0) & (np.diff(stamp[order]) == 0)
+    keep = np.ones(len(rows), dtype=np.bool_)
+    keep[order[1:][alike]] = False
+    kept = rows[keep]
+    kept = kept[np.concatenate(([True], np.diff(kept["sample_time"]) != 0))]
+    dropped = len(rows) - len(kept)
+    return kept, [f"{uri} has {dropped} samples more than once; the repeats were dropped."] if dropped else []
+
+
+def _info(infos: list[Info], rows: Rows, info_topic: str, uri: str, notes: list[str]) -> Info:
+    """The latest info, or defaults; adds to the notes what the user has to know about that."""
+    if len(infos) > 1:
+        notes.append(f"{uri}: {info_topic} changes during the recording; the latest is used for all of it.")
+    if infos:
+        return infos[-1]
+    info = Info()
+    if len(rows) > 1:
+        info = replace(info, sample_period=float(np.median(np.diff(rows["sample_time"]))) * 1e-9)
+    notes.append(
+        f"{uri} has no {info_topic}: taken as {info.edges_per_revolution} stamped edges per revolution on one channel, "
+        f"{info.edge_resolution * 1e6:g} µs resolution, {info.max_voltage:g} V at full duty."
+    )
+    return info
+
+
+def _recording(uri: str, info: Info, rows: Rows, notes: tuple[str, ...]) -> Recording:
+    columns = {name: np.ascontiguousarray(rows[name]) for name in rows.dtype.names or () if name != "stamp"}
+    return Recording(uri=uri, info=info, notes=notes, **columns)

@@ -1,0 +1,63 @@
+"""One sqlite3 file of a bag, read by `rosbags`."""
+
+from collections.abc import Container, Iterator
+from pathlib import Path
+
+import apsw
+from rosbags.interfaces import Connection, ConnectionExtRosbag2, MessageDefinitionFormat
+from rosbags.rosbag2 import Reader, ReaderError
+
+from motor_identification.bag.contents import Contents
+from motor_identification.bag.metadata import Span
+from motor_identification.bag.topic import Topic, from_stored
+from motor_model.errors import RecordingError
+
+Stored = tuple[Topic, int, bytes]  # topic, log time [ns], serialised message
+
+
+class SqliteFile:
+    """A file of a bag. After `messages` has come to its end, `topics` is complete and `cut` says whether it was."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.cut = True  # until the last row has been read
+        self.topics: dict[int, Topic] = {}  # by connection
+
+    def messages(self, wanted: Container[str] | None = None) -> Iterator[Stored]:
+        """Messages of the wanted topics (None: of all) in the order of their log times.
+
+        Raises:
+            RecordingError: this is not a bag's database, or it is damaged from the start.
+        """
+        try:
+            with Reader(self.path) as reader:
+                self.topics = {connection.id: _topic(connection) for connection in reader.connections}
+                chosen = [row for row in reader.connections if wanted is None or row.topic in wanted]
+                # No connections would mean all of them to `rosbags`.
+                for connection, log_time, data in reader.messages(chosen) if chosen else ():
+                    yield self.topics[connection.id], log_time, bytes(data)
+                self.cut = False
+        except (ReaderError, apsw.Error) as error:
+            if not self.topics:
+                raise _unreadable(self.path, error) from error
+
+    def contents(self) -> Contents | None:
+        """What the database says is in it; None where it is damaged."""
+        try:
+            with Reader(self.path) as reader:
+                span = Span(reader.start_time, reader.end_time - 1) if reader.message_count else None
+                return Contents(tuple(_topic(connection) for connection in reader.connections), span)
+        except (ReaderError, apsw.Error):
+            return None
+
+
+def _topic(connection: Connection) -> Topic:
+    definition = connection.msgdef.data if connection.msgdef.format == MessageDefinitionFormat.MSG else ""
+    profiles = connection.ext.offered_qos_profiles if isinstance(connection.ext, ConnectionExtRosbag2) else []
+    return Topic(connection.topic, connection.msgtype, definition, from_stored(profiles), connection.msgcount)
+
+
+def _unreadable(path: Path, error: Exception) -> RecordingError:
+    return RecordingError(
+        f"{path} cannot be read as a recording ({error}): record it again, or restore it from a copy."
+    )

@@ -1,0 +1,140 @@
+"""A bag as its files: which there are, in which order, and how each is opened."""
+
+import re
+from collections import Counter
+from collections.abc import Callable, Container, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, Protocol
+
+import yaml
+import zstandard
+
+from motor_identification.bag.contents import Contents
+from motor_identification.bag.mcap_file import McapFile
+from motor_identification.bag.metadata import Span
+from motor_identification.bag.sqlite_file import SqliteFile
+from motor_identification.bag.topic import Topic
+from motor_model.errors import RecordingError
+
+Stored = tuple[Topic, int, bytes]  # topic, log time [ns], serialised message
+
+_COMPRESSED = ".zstd"  # what ros2 bag record --compression-mode file appends
+_ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"  # of a compressed message; CDR starts with a zero byte
+
+
+class _File(Protocol):
+    cut: bool
+
+    @property
+    def topics(self) -> dict[int, Topic]: ...
+
+    def messages(self, wanted: Container[str] | None = None) -> Iterator[Stored]: ...
+
+    def contents(self) -> Contents | None: ...
+
+
+_FORMATS: dict[str, Callable[[Path], _File]] = {".mcap": McapFile, ".db3": SqliteFile}
+
+
+class Bag:
+    """A rosbag2 directory (with or without its metadata.yaml) or a single storage file.
+
+    Raises:
+        RecordingError: there is nothing at the path, or it is not a bag.
+    """
+
+    def __init__(self, uri: str | Path) -> None:
+        self.uri = str(uri)
+        self.cut = False  # after `messages`: a file ended before its end
+        self.topics: dict[str, Topic] = {}  # after `messages`: all topics met, by name
+        self._files = _files(Path(uri))
+        self.missing = _missing(Path(uri), self._files)  # names of files that metadata.yaml knows and nobody has
+
+    def messages(self, wanted: Container[str] | None = None) -> Iterator[Stored]:
+        """Messages of the wanted topics (None: of all), file after file, each from its beginning to its end or cut."""
+        for path in self._files:
+            with _opened(path) as file:
+                for topic, log_time, data in file.messages(wanted):
+                    yield topic, log_time, _decompressed(data) if data[:4] == _ZSTD_MAGIC else data
+                self.cut |= file.cut
+                self.topics.update({topic.name: topic for topic in file.topics.values()})
+
+    def contents(self) -> Contents:
+        """Topics, counts and times: from the files' indices where there are any, else by reading through the files."""
+        contents = Contents()
+        for path in self._files:
+            with _opened(path) as file:
+                contents = contents.joined(file.contents() or _counted(file))
+        return contents
+
+
+def _files(path: Path) -> list[Path]:
+    if not path.exists():
+        raise RecordingError(f"There is no bag {path}: check the path.")
+    candidates = list(path.iterdir()) if path.is_dir() else [path]
+    # Where a crash left a file beside the beginning of its compressed copy, the file itself comes later, and stays.
+    compressed_first = sorted(filter(_is_storage, candidates), key=lambda file: file.suffix != _COMPRESSED)
+    found = {_plain_name(file): file for file in compressed_first}
+    if not found:
+        inside = (
+            "has no .mcap or .db3 file in it" if path.is_dir() else "is neither a directory nor a .mcap or .db3 file"
+        )
+        raise RecordingError(f"{path} is not a bag (it {inside}): give what record or ros2 bag has made.")
+    return [found[name] for name in sorted(found, key=_by_number)]
+
+
+def _is_storage(path: Path) -> bool:
+    return path.is_file() and Path(_plain_name(path)).suffix in _FORMATS
+
+
+def _plain_name(path: Path) -> str:
+    return path.name.removesuffix(_COMPRESSED)
+
+
+def _by_number(name: str) -> list[tuple[int, str]]:
+    """bag_2 comes before bag_10."""
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", name)]
+
+
+def _missing(path: Path, files: list[Path]) -> list[str]:
+    """Files that metadata.yaml lists and that are not there; the listing itself may be missing or damaged."""
+    try:
+        metadata: Any = yaml.safe_load((path / "metadata.yaml").read_text(encoding="utf-8"))
+        listed = [Path(name).name for name in metadata["rosbag2_bagfile_information"]["relative_file_paths"]]
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError):
+        return []
+    there = {_plain_name(file) for file in files}
+    return [name for name in listed if name.removesuffix(_COMPRESSED) not in there]
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[_File]:
+    if path.suffix != _COMPRESSED:
+        yield _FORMATS[path.suffix](path)
+        return
+    with TemporaryDirectory() as folder:
+        plain = Path(folder) / _plain_name(path)
+        try:
+            with path.open("rb") as source, plain.open("wb") as target:
+                zstandard.ZstdDecompressor().copy_stream(source, target)
+        except zstandard.ZstdError as error:
+            raise RecordingError(f"{path} cannot be decompressed ({error}): restore it from a copy.") from error
+        yield _FORMATS[plain.suffix](plain)
+
+
+def _decompressed(data: bytes) -> bytes:
+    return zstandard.ZstdDecompressor().decompressobj().decompress(data)
+
+
+def _counted(file: _File) -> Contents:
+    """The contents of a file without an index, by reading all of it."""
+    counts: Counter[str] = Counter()
+    span: Span | None = None
+    for topic, log_time, _ in file.messages():
+        counts[topic.name] += 1
+        span = (span or Span(log_time, log_time)).including(log_time)
+    topics = tuple(replace(topic, message_count=counts[topic.name]) for topic in file.topics.values())
+    return Contents(topics, span, file.cut)

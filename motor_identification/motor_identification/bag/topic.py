@@ -1,0 +1,64 @@
+"""A topic in a bag: its name, its type, and how its publishers offered it."""
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from rosbags.interfaces import Qos as StoredQos
+from rosbags.rosbag2.errors import ReaderError
+from rosbags.rosbag2.metadata import parse_qos
+
+# What rosbag2 writes for "no limit": the largest duration that fits 64 bits of nanoseconds.
+_INFINITE = {"sec": 9223372036, "nsec": 854775807}
+
+
+@dataclass(frozen=True, slots=True)
+class Qos:
+    """What a publisher offers, in the words of rosbag2; deadlines, lifespans and liveliness are not kept."""
+
+    reliability: str = "reliable"  # reliable | best_effort | unknown
+    durability: str = "volatile"  # volatile | transient_local | unknown
+    history: str = "keep_last"  # keep_last | keep_all | unknown
+    depth: int = 10
+
+    def entry(self) -> dict[str, Any]:
+        """The profile as version 9 of `metadata.yaml` lists it."""
+        limits = {"deadline": _INFINITE, "lifespan": _INFINITE, "liveliness_lease_duration": _INFINITE}
+        return {**asdict(self), **limits, "liveliness": "automatic", "avoid_ros_namespace_conventions": False}
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """One topic of a bag; `definition` is empty where the bag does not embed it."""
+
+    name: str  # absolute, such as /motor/speed
+    type_name: str  # such as motor_msgs/msg/MotorSpeed
+    definition: str = ""  # ros2msg text with all nested types
+    qos: tuple[Qos, ...] = ()
+    message_count: int = 0
+
+
+def absolute_name(namespace: str, name: str) -> str:
+    """`motor/speed` in the namespace `left` (or `/left/`) is `/left/motor/speed`; a leading slash stays global."""
+    parts = name.split("/") if name.startswith("/") else [*namespace.split("/"), *name.split("/")]
+    return "/" + "/".join(part for part in parts if part)
+
+
+def load_profiles(text: str) -> tuple[Qos, ...]:
+    """Profiles from that text, in any version of rosbag2; none where it cannot be understood."""
+    try:
+        return from_stored(parse_qos(text))
+    except (ReaderError, KeyError, TypeError):
+        return ()
+
+
+def from_stored(profiles: list[StoredQos]) -> tuple[Qos, ...]:
+    """Profiles as `rosbags` gives them."""
+    return tuple(
+        Qos(
+            reliability=profile.reliability.name.lower(),
+            durability=profile.durability.name.lower(),
+            history=profile.history.name.lower(),
+            depth=profile.depth,
+        )
+        for profile in profiles
+    )

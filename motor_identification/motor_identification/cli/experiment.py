@@ -1,0 +1,102 @@
+"""`experiment`: drive a motor through a profile and record it, on the live plant or offline with a model."""
+
+import argparse
+import sys
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from motor_identification.cli._shell import positive, shell
+from motor_model.excitation import PROFILES, profile
+from motor_model.parameters import paper_motor
+
+if TYPE_CHECKING:
+    from motor_identification.experiment import Plan
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    rows = "\n".join(f"  {p.name:11}{p.duration:6.2f} s  {p.shows}" for p in PROFILES.values())
+    parser = argparse.ArgumentParser(
+        prog="experiment",
+        description="Drive the motor through a voltage profile and record it into a bag. Without --model the live plant "
+        "(motor_sim or motor_driver) is driven; with --model a simulated motor runs offline, at full speed.",
+        epilog=f"profiles:\n{rows}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("profile", choices=list(PROFILES), metavar="PROFILE", help="one of the profiles below")
+    parser.add_argument("--output", required=True, metavar="BAG", help="the bag to write; must not exist")
+    parser.add_argument("--voltage", type=positive, metavar="V", help="peak of the profile (default: all there is)")
+    parser.add_argument("--model", metavar="FILE", help="model file to simulate offline; '' is the paper's motor")
+    live = parser.add_argument_group("live")
+    live.add_argument("--topic-namespace", default="", metavar="NS", help="of the motor to drive")
+    offline = parser.add_argument_group("offline, with --model")
+    offline.add_argument("--sample-rate", type=positive, default=200.0, metavar="HZ", help="default 200")
+    offline.add_argument("--edges-per-revolution", type=int, default=96, metavar="N", help="default 96")
+    offline.add_argument("--edge-resolution", type=float, default=4e-6, metavar="S", help="timer tick, default 4e-6 s")
+    offline.add_argument("--slot-irregularity", type=float, default=0.0, metavar="SHARE", help="of a slot, default 0")
+    offline.add_argument("--seed", type=int, default=0, metavar="N", help="of disc and starting angle, default 0")
+    return parser
+
+
+def main(args: list[str] | None = None) -> int:
+    """`ros2 run motor_identification experiment`."""
+    options = parser().parse_args(args)
+    return shell(lambda: _live(options) if options.model is None else _offline(options))
+
+
+def _live(options: argparse.Namespace) -> int:
+    from motor_identification.cli._drive import drive
+
+    return drive(profile(options.profile), options.voltage, options.output, options.topic_namespace)
+
+
+def _offline(options: argparse.Namespace) -> int:
+    from motor_identification.experiment import make_plan
+    from motor_model.board import BoardConfig
+    from motor_model.model_file import load
+
+    model = load(options.model) if options.model else paper_motor()
+    plan = make_plan(profile(options.profile), options.voltage, model.max_voltage, 1.0 / options.sample_rate)
+    config = BoardConfig(
+        name=model.name,
+        sample_rate=options.sample_rate,
+        edges_per_revolution=options.edges_per_revolution,
+        edge_resolution=options.edge_resolution,
+        slot_irregularity=options.slot_irregularity,
+        seed=options.seed,
+    )
+    count = _write(options.output, plan, replace(model), config)
+    print(f"{options.output}: {count} samples, {plan.duration:.2f} s of '{plan.profile.name}' with '{model.name}', offline")
+    return 0
+
+
+def _write(path: str, plan: "Plan", model: object, config: object) -> int:
+    """Simulate into a bag with the topics, types and QoS of a live plant; returns the number of samples."""
+    from rclpy.serialization import serialize_message
+    from tqdm import tqdm
+
+    from motor_identification.bag import BagWriter
+    from motor_identification.cli._offered import offered
+    from motor_identification.experiment import simulate_plan
+    from motor_ros import qos
+    from motor_ros.messages import info_message, speed_message, time_message, voltage_message
+
+    begin, count = time.time_ns(), 0
+    with BagWriter(path) as writer:
+        info = writer.topic("/motor/info", "motor_msgs/msg/MotorInfo", offered(qos.INFO))
+        speed = writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed", offered(qos.SPEED))
+        voltage = writer.topic("/motor/voltage", "motor_msgs/msg/MotorVoltage", offered(qos.VOLTAGE))
+        writer.write(info, begin, serialize_message(info_message(config.info(model), time_message(begin))))
+        samples = simulate_plan(plan, model, config)
+        for command, sample in tqdm(samples, total=len(plan.commands), delay=2.0, disable=None, unit=" samples"):
+            now = begin + round(count * plan.sample_period * 1e9)
+            stamp = time_message(now)
+            writer.write(voltage, now, serialize_message(voltage_message(command, stamp, config.name)))
+            writer.write(speed, now, serialize_message(speed_message(sample, stamp, config.name)))
+            count += 1
+    return count
+
+
+if __name__ == "__main__":
+    sys.exit(main())

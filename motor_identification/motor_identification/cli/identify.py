@@ -1,0 +1,115 @@
+"""`identify`: fit a motor model to bags."""
+
+import argparse
+import json
+import os
+import sys
+from datetime import datetime, timezone
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from motor_identification.cli._shell import shell
+from motor_model.effects import EFFECTS
+from motor_model.errors import MotorError
+
+if TYPE_CHECKING:
+    from motor_identification.identify import Fit
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    effects = "\n".join(f"  {effect.name:22}{effect.summary}" for effect in EFFECTS)
+    parser = argparse.ArgumentParser(
+        prog="identify",
+        description="Fit a motor model to recorded bags: particle swarm over the whole box, then least squares.",
+        epilog=f"effects:\n{effects}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("bags", nargs="+", metavar="BAG", help="recordings of one motor")
+    parser.add_argument("--effects", default="", metavar="A,B", help="beyond kv and ka, separated by commas")
+    parser.add_argument("--topic-namespace", default="", metavar="NS", help="of the recorded motor")
+    parser.add_argument("--start", type=float, default=0.0, metavar="S", help="from here [s] (default: the beginning)")
+    parser.add_argument("--stop", type=float, default=0.0, metavar="S", help="to here [s] (default: the end)")
+    parser.add_argument("--particles", type=int, default=50, metavar="N", help="of the swarm (default 50)")
+    parser.add_argument("--epochs", type=int, default=200, metavar="N", help="of the swarm at most (default 200)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the swarm (default 0)")
+    parser.add_argument("--output", metavar="FILE", help="write the model here (YAML)")
+    parser.add_argument("--json", metavar="FILE", help="write everything that was found here")
+    parser.add_argument("--report", metavar="DIR", help="write a picture and the numbers into this directory")
+    return parser
+
+
+def main(args: list[str] | None = None) -> int:
+    """`ros2 run motor_identification identify`."""
+    options = parser().parse_args(args)
+    if options.particles < 2 or options.epochs < 1:
+        parser().error("--particles must be at least 2 and --epochs at least 1")
+    return shell(lambda: _identify(options))
+
+
+def _identify(options: argparse.Namespace) -> int:
+    from tqdm import tqdm
+
+    from motor_identification.identify import Request
+    from motor_identification.job import Job, run_job
+
+    effects = tuple(name.strip() for name in options.effects.split(",") if name.strip())
+    request = Request(effects, options.particles, options.epochs, options.seed, os.cpu_count() or 1)
+    job = Job(tuple(options.bags), request, options.topic_namespace, options.start, options.stop)
+    with tqdm(total=100, desc="swarm", delay=2.0, disable=None, bar_format="{desc} {bar} {percentage:3.0f} %") as bar:
+
+        def show(stage: str, share: float) -> None:
+            bar.set_description(stage, refresh=False)
+            bar.update(round(100 * share) - bar.n)
+
+        fit = run_job(job, show)
+    return _present(options, fit)
+
+
+def _present(options: argparse.Namespace, fit: "Fit") -> int:
+    from motor_identification.findings import as_json, as_table, cautions, save_model
+
+    print(as_table(fit))
+    floor = f", noise floor {fit.noise_floor:.3g}" if fit.noise_floor > 0.0 else ""
+    print(f"\nresidual {fit.residual_rms:.4g} rad/s RMS{floor}, R² {fit.r_squared:.6f}", end="")
+    print(f"; {fit.evaluations} simulations in {fit.duration:.2f} s")
+    for caution in cautions(fit):
+        print(caution)
+    created = datetime.now(timezone.utc).isoformat(timespec="seconds")
+    if options.output:
+        save_model(options.output, fit, created)
+        print(f"model: {options.output}")
+    if options.json:
+        _write_json(Path(options.json), as_json(fit))
+    if options.report:
+        print(f"report: {_report(Path(options.report), fit, options, created)}")
+    return 0
+
+
+def _write_json(path: Path, content: dict[str, object]) -> None:
+    try:
+        path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise MotorError(f"cannot write {path}: {error.strerror}.") from error
+
+
+def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: str) -> Path:
+    """Picture, JSON and model file side by side; returns the picture."""
+    from motor_identification.bag import read_recording
+    from motor_identification.figure import draw_fit
+    from motor_identification.findings import as_json, save_model
+
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise MotorError(f"cannot make the directory {directory}: {error.strerror}.") from error
+    recording = read_recording(options.bags[0], options.topic_namespace).between(options.start, options.stop)
+    picture = directory / "fit.png"
+    draw_fit(recording, fit, picture)
+    _write_json(directory / "fit.json", as_json(fit))
+    save_model(directory / "model.yaml", fit, created)
+    return picture
+
+
+if __name__ == "__main__":
+    sys.exit(main())

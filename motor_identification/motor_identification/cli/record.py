@@ -1,0 +1,106 @@
+"""Records a motor's topics into a bag: `record BAG [TOPIC…]`."""
+
+import argparse
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from motor_identification.cli._shell import in_place, positive, shell
+
+if TYPE_CHECKING:
+    from motor_identification.bag import BagWriter
+    from motor_identification.cli._recorder import Recorder
+
+# The topics of one motor, relative to its namespace.
+TOPICS = (
+    "motor/speed",
+    "motor/info",
+    "motor/voltage",
+    "motor/reference",
+    "motor/control_state",
+    "motor/model",
+    "joint_states",
+)
+
+
+def main(args: list[str] | None = None) -> int:
+    """Entry point; returns the exit status."""
+    parser = argparse.ArgumentParser(
+        prog="record",
+        description=f"Record topics into a bag until Ctrl-C, by default {', '.join(TOPICS)}. They may appear later; "
+        "the bag is a rosbag2 directory with MCAP storage.",
+    )
+    parser.add_argument("bag", metavar="BAG", help="where the bag goes; must not exist")
+    parser.add_argument("topics", metavar="TOPIC", nargs="*", help="relative names are in --topic-namespace")
+    parser.add_argument("--all", action="store_true", help="every topic that there is or will be")
+    parser.add_argument(
+        "--topic-namespace", default="", metavar="NS", help="the namespace of the motor (default: none)"
+    )
+    parser.add_argument("--duration", type=positive, metavar="S", help="end after so many seconds")
+    options = parser.parse_args(args)
+    if options.all and options.topics:
+        parser.error("--all and TOPIC do not go together")
+    return shell(lambda: _record(options))
+
+
+def _record(options: argparse.Namespace) -> int:
+    from motor_identification.bag import BagWriter, absolute_name
+    from motor_ros.run import Interrupt
+
+    names = options.topics or TOPICS
+    topics = None if options.all else [absolute_name(options.topic_namespace, name) for name in names]
+    interrupt = Interrupt()
+    with BagWriter(options.bag) as writer:
+        print(f"Recording {', '.join(topics or ['every topic'])} to {options.bag}; Ctrl-C ends it.", flush=True)
+        notes = _listen(writer, topics, interrupt, options.duration)
+        if writer.message_count == 0:
+            writer.discard()
+    in_place("")
+    for note in notes:
+        print(note, file=sys.stderr)
+    if writer.message_count == 0:
+        print(_nothing(topics), file=sys.stderr)
+        return 1
+    print(f"{options.bag}: {writer.message_count} messages, {writer.duration:.1f} s{_silent(writer, topics, options)}")
+    return 0
+
+
+def _listen(writer: "BagWriter", topics: list[str] | None, interrupt: object, duration: float | None) -> list[str]:
+    """Record until the interrupt or for the duration [s]; returns notes about what could not be recorded."""
+    import rclpy
+
+    from motor_identification.cli._recorder import Recorder
+    from motor_ros.run import spin, start_ros
+
+    start_ros([])
+    try:
+        node = rclpy.create_node("record", enable_rosout=False, start_parameter_services=False)
+        recorder = Recorder(node, writer, topics)
+        node.create_timer(1.0, lambda: in_place(_progress(writer, recorder)))
+        deadline = time.monotonic() + (duration or float("inf"))
+        spin(node, lambda: bool(interrupt) or time.monotonic() >= deadline)
+        recorder.close()
+        node.destroy_node()
+        return recorder.notes
+    finally:
+        rclpy.try_shutdown()
+
+
+def _progress(writer: "BagWriter", recorder: "Recorder") -> str:
+    counts = ", ".join(f"{topic} {count}" for topic, count in sorted(writer.counts.items()))
+    return f"{writer.duration:.0f} s: {counts}" if counts else f"waiting, {len(recorder.heard)} topics heard"
+
+
+def _nothing(topics: list[str] | None) -> str:
+    where = f"on {', '.join(topics)}" if topics else "on any topic"
+    return (
+        f"Nothing was recorded, and no bag made: no message came {where}; "
+        "start a plant (ros2 run motor_sim motor_sim), and look at ROS_DOMAIN_ID and --topic-namespace."
+    )
+
+
+def _silent(writer: "BagWriter", topics: list[str] | None, options: argparse.Namespace) -> str:
+    """What was asked for and did not come; of the default topics only the one that identification cannot do without."""
+    expected = (topics or []) if options.topics else (topics or [])[:1]
+    missing = [topic for topic in expected if not writer.counts[topic]]
+    return f"; nothing came on {', '.join(missing)}" if missing else ""
