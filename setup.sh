@@ -11,7 +11,7 @@ root=$PWD
 log=$root/log/setup.log
 mkdir -p log
 
-say() { printf '\033[1m[setup]\033[0m %s\n' "$*"; }
+say() { printf '[setup] %s\n' "$*"; }
 stop() { printf '[setup] %s\n' "$*" >&2; exit 1; }
 quietly() { # run with the output in the log; show its end if it fails
   "$@" >>"$log" 2>&1 || { tail -n 25 "$log" >&2; stop "failed: $1 … (the whole output is in log/setup.log)"; }

@@ -62,7 +62,9 @@ def as_table(fit: Fit) -> str:
         mark = "on bound" if fit.on_bound[name] else "not identifiable" if isnan(error) else ""
         rows.append((name, f"{value:.7g}", "–" if isnan(error) else f"{error:.2g}", SPEC_BY_NAME[name].unit, mark))
     widths = [max(len(row[i]) for row in rows) for i in range(5)]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows)
+    return "\n".join(
+        "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows
+    )
 
 
 def as_json(fit: Fit) -> dict[str, Any]:
@@ -106,4 +108,3 @@ def save_model(path: str | Path, fit: Fit, created: str) -> None:
     }
     errors = {name: error for name, error in fit.standard_errors.items() if isfinite(error)}
     save(path, fit.parameters, errors, origin)
-

@@ -1,13 +1,16 @@
 """The identification node: fits models to bags on request, in a process of its own, and latches the last one."""
 
 import os
-from concurrent.futures import Future as Job_Result
+from concurrent.futures import Future as WorkerResult
 from dataclasses import replace
+from datetime import datetime, timezone
 from pathlib import Path
 
 from rclpy.node import Node
 from rclpy.task import Future
 
+from motor_identification.findings import save_model
+from motor_identification.identify import Fit
 from motor_identification.job import Job, run_job
 from motor_identification.messages import fill_response, job_of
 from motor_identification.worker import Worker
@@ -20,6 +23,7 @@ from motor_ros.run import run
 
 PARAMETERS = (
     Row("bag_directory", "", "where relative bag_uris are looked for; empty: the working directory"),
+    Row("model_file", "", "every identified model is also written here (YAML); empty: nowhere"),
     Row("particles", 50, "of the swarm", "", 2, 100_000),
     Row("epochs", 200, "of the swarm at most", "", 1, 1_000_000),
     Row("seed", 0, "of the swarm", "", 0, 2**31 - 1),
@@ -50,6 +54,7 @@ class MotorIdentification(Node):
             job = self._job(request)
             self.get_logger().info(f"identifying {', '.join(job.uris) or 'nothing'}")
             fit = await self._in_worker(job)
+            self._keep(fit)
         except MotorError as error:
             self.get_logger().error(str(error))
             response.success, response.message = False, str(error)
@@ -59,11 +64,18 @@ class MotorIdentification(Node):
         self.get_logger().info(response.message)
         return response
 
+    def _keep(self, fit: Fit) -> None:
+        path = self.get_parameter("model_file").value
+        if path:
+            save_model(path, fit, datetime.now(timezone.utc).isoformat(timespec="seconds"))
+
     def _job(self, request: Identify.Request) -> Job:
         if not request.bag_uris:
             raise MotorError("bag_uris is empty: name at least one bag.")
         value = {row.name: self.get_parameter(row.name).value for row in PARAMETERS}
-        job = job_of(request, value["particles"], value["epochs"], value["seed"], value["workers"] or os.cpu_count() or 1)
+        job = job_of(
+            request, value["particles"], value["epochs"], value["seed"], value["workers"] or os.cpu_count() or 1
+        )
         directory = Path(value["bag_directory"] or ".")
         return replace(job, uris=tuple(str(directory / uri) for uri in job.uris))
 
@@ -71,7 +83,7 @@ class MotorIdentification(Node):
         """A future that the executor waits for while it serves other callbacks."""
         answer = Future()
 
-        def hand_over(result: "Job_Result[object]") -> None:
+        def hand_over(result: "WorkerResult[Fit]") -> None:
             error = result.exception()
             if error is None:
                 answer.set_result(result.result())

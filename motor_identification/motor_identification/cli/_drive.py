@@ -17,7 +17,7 @@ from motor_ros import qos
 from motor_ros.messages import info_of, voltage_message
 from motor_ros.run import Interrupt, spin, start_ros
 
-PATIENCE = 5.0  # [s] for a plant to appear
+PATIENCE = 10.0  # [s] for a plant to appear
 SILENCE = 1.0  # [s] without samples after which the plant is gone
 OURS = "experiment"  # frame_id of the voltages this command sends
 RECORDED = ("motor/speed", "motor/info", "motor/voltage", "motor/model")
@@ -34,7 +34,7 @@ class Driver(Node):
         self.ready, self.done, self.problem = False, False, ""
         self._start: int | None = None  # [ns] plant's clock
         self.elapsed = 0.0  # [s]
-        self.heard = time.monotonic()
+        self.heard: float | None = None  # [s] monotonic time of the latest sample
         self._voltage = self.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
         self.create_subscription(MotorSpeed, "motor/speed", self._on_sample, qos.SPEED)
@@ -70,7 +70,7 @@ class Driver(Node):
 
     def silent(self) -> bool:
         """Whether the plant has stopped sending samples."""
-        if time.monotonic() - self.heard > SILENCE:
+        if self.heard is not None and time.monotonic() - self.heard > SILENCE:
             self.problem = f"the samples stopped after {self.elapsed:.2f} s: is the plant still running?"
         return bool(self.problem)
 
@@ -106,11 +106,14 @@ def drive(profile: Profile, voltage: float | None, output: str, namespace: str) 
 
 def _wait_for_plant(node: Driver, interrupt: Interrupt) -> None:
     deadline = time.monotonic() + PATIENCE
-    spin(node, lambda: bool(node.plan or node.problem or interrupt) or time.monotonic() > deadline)
+    spin(
+        node,
+        lambda: bool((node.plan and node.heard) or node.problem or interrupt) or time.monotonic() > deadline,
+    )
     if node.problem:
         raise MotorError(node.problem)
-    if node.plan is None and not interrupt:
-        topic = node.resolve_topic_name("motor/info")
+    if (node.plan is None or node.heard is None) and not interrupt:
+        topic = node.resolve_topic_name("motor/info" if node.plan is None else "motor/speed")
         raise MotorError(f"nothing on {topic}: start motor_sim or motor_driver, or simulate offline with --model.")
 
 

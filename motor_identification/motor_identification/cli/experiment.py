@@ -3,7 +3,6 @@
 import argparse
 import sys
 import time
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from motor_identification.cli._shell import positive, shell
@@ -12,6 +11,8 @@ from motor_model.parameters import paper_motor
 
 if TYPE_CHECKING:
     from motor_identification.experiment import Plan
+    from motor_model.board import BoardConfig
+    from motor_model.parameters import Parameters
 
 
 def parser() -> argparse.ArgumentParser:
@@ -19,8 +20,8 @@ def parser() -> argparse.ArgumentParser:
     rows = "\n".join(f"  {p.name:11}{p.duration:6.2f} s  {p.shows}" for p in PROFILES.values())
     parser = argparse.ArgumentParser(
         prog="experiment",
-        description="Drive the motor through a voltage profile and record it into a bag. Without --model the live plant "
-        "(motor_sim or motor_driver) is driven; with --model a simulated motor runs offline, at full speed.",
+        description="Drive the motor through a voltage profile and record it into a bag. Without --model the live "
+        "plant (motor_sim or motor_driver) is driven; with --model a simulated motor runs offline, at full speed.",
         epilog=f"profiles:\n{rows}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -66,12 +67,12 @@ def _offline(options: argparse.Namespace) -> int:
         slot_irregularity=options.slot_irregularity,
         seed=options.seed,
     )
-    count = _write(options.output, plan, replace(model), config)
-    print(f"{options.output}: {count} samples, {plan.duration:.2f} s of '{plan.profile.name}' with '{model.name}', offline")
+    count = _write(options.output, plan, model, config)
+    print(f"{options.output}: {count} samples, {plan.duration:.2f} s of '{plan.profile.name}' with '{model.name}'")
     return 0
 
 
-def _write(path: str, plan: "Plan", model: object, config: object) -> int:
+def _write(path: str, plan: "Plan", model: "Parameters", config: "BoardConfig") -> int:
     """Simulate into a bag with the topics, types and QoS of a live plant; returns the number of samples."""
     from rclpy.serialization import serialize_message
     from tqdm import tqdm

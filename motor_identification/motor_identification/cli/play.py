@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from motor_identification.bag import Contents
 
 _SLICE = 0.1  # [s] how long a pause takes at most to notice Ctrl-C
-_DISCOVERY_AT_LEAST, _DISCOVERY_AT_MOST = 0.5, 2.0  # [s] for subscribers that are there to connect before the start
+_SETTLED, _PATIENCE = 0.5, 3.0  # [s] without a new subscriber, or without any, until playing starts
+_LONE_ROUND = 1.0  # [s] a round of --loop with a single message
 
 
 @dataclass
@@ -25,24 +26,28 @@ class _Schedule:
     """When each message is due: on one time line from the start, so that no error adds up."""
 
     rate: float
-    started: float = 0.0  # [s] on the monotonic clock
+    started: float | None = None  # [s] on the monotonic clock, of this round
     first: int = 0  # [ns] log time
     played: int = 0
     late: deque[float] = field(default_factory=lambda: deque(maxlen=100_000))  # [s] of the latest messages
 
-    def start(self, first: int) -> None:
-        self.started, self.first = time.monotonic(), first
+    def begin(self, first: int, round_length: float) -> None:
+        """The first message of a round is here; the next round follows after `round_length` [s of log time]."""
+        self.started = time.monotonic() if self.started is None else self.started + round_length / self.rate
+        self.first = first
 
     def wait(self, log_time: int, interrupted: Callable[[], bool]) -> bool:
-        """Sleep until the message is due; False where Ctrl-C came first."""
-        due = self.started + (log_time - self.first) * 1e-9 / self.rate
+        """Sleep until the message is due, and count it; False where Ctrl-C came first."""
+        due = (self.started or 0.0) + (log_time - self.first) * 1e-9 / self.rate
         while (left := due - time.monotonic()) > 0.0:
             if interrupted():
                 return False
             time.sleep(min(left, _SLICE))
+        if interrupted():
+            return False
         self.late.append(time.monotonic() - due)
         self.played += 1
-        return not interrupted()
+        return True
 
 
 def main(args: list[str] | None = None) -> int:
@@ -76,6 +81,7 @@ def _play(options: argparse.Namespace) -> int:
         node = rclpy.create_node("play", enable_rosout=False, start_parameter_services=False)
         publishers = _publishers(node, options.bag, bag, options.topics)
         _wait_for_subscribers(node, publishers, lambda: bool(interrupt))
+        print(f"Playing {', '.join(publishers)} from {options.bag}; Ctrl-C ends it.", flush=True)
         schedule = _Schedule(options.rate)
         _publish(options, bag, publishers, schedule, lambda: bool(interrupt))
         if not interrupt:
@@ -118,13 +124,15 @@ def _publishers(node: "Node", uri: str, bag: "Contents", chosen: list[str] | Non
 
 
 def _wait_for_subscribers(node: "Node", publishers: "dict[str, Publisher]", interrupted: Callable[[], bool]) -> None:
-    """Let those connect who listen already, so that they get the first message too."""
-    started = time.monotonic()
-    while (waited := time.monotonic() - started) < _DISCOVERY_AT_MOST and not interrupted():
-        connected = all(
-            publisher.get_subscription_count() >= node.count_subscribers(name) for name, publisher in publishers.items()
-        )
-        if connected and waited >= _DISCOVERY_AT_LEAST:
+    """Let those connect who listen already, so that they get the first message too; finding them takes a while."""
+    started = changed = time.monotonic()
+    before: list[int] = []
+    while (now := time.monotonic()) - started < _PATIENCE and not interrupted():
+        connected = [publisher.get_subscription_count() for publisher in publishers.values()]
+        known = [node.count_subscribers(name) for name in publishers]
+        if connected != before:
+            before, changed = connected, now
+        if any(connected) and connected == known and now - changed >= _SETTLED:
             return
         time.sleep(0.02)
 
@@ -139,12 +147,15 @@ def _publish(
     from motor_identification.bag import in_time_order, messages
 
     shown = time.monotonic()
+    # A round ends one mean spacing behind its last message, so that the next one continues it.
+    count = sum(topic.message_count for topic in bag.topics if topic.name in publishers)
+    round_length = bag.duration * count / (count - 1) if count > 1 and bag.duration else _LONE_ROUND
     going = True
     while going:
         begun = False
         for topic, _, log_time, data in in_time_order(messages(options.bag, publishers), options.bag):
             if not begun:
-                schedule.start(log_time)
+                schedule.begin(log_time, round_length)
                 begun = True
             if not schedule.wait(log_time, interrupted):
                 return

@@ -1,0 +1,173 @@
+"""The main job, live: record a simulated motor, identify it, hold a speed with it; then a real motor's log.
+
+Every command is shown before it runs; typed into a shell after `source env.sh` it does the same.
+"""
+
+import os
+import shlex
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from contextlib import ExitStack
+from pathlib import Path
+
+from picture import draw_demo
+from rclpy.serialization import deserialize_message
+
+from motor_identification.bag import messages, read_recording
+from motor_model.model_file import load, save
+from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_msgs.msg import ControlState
+
+ROOT = Path(__file__).resolve().parents[1]
+OUT = ROOT / "out" / "demo"
+REAL_MOTOR = ROOT.parent / "shared" / "data" / "undc" / "prbs_2026-08-14.csv"
+REFERENCE = 100.0  # [rad/s]
+HELD_WITHIN = 2.0  # [rad/s] mean of the last second
+FITTED_WITHIN = 0.01  # relative
+
+# What the identification is not told: the paper's motor with Coulomb friction, on a disc with slots 1 % off.
+HIDDEN = Parameters({"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.6}, ("coulomb_friction",), name="hidden")
+
+
+def step(text: str) -> None:
+    """Begin a step of the demo."""
+    _styled(f"\n{text}", "1")
+
+
+def shown(command: str) -> list[str]:
+    """A command's words, after the user has seen it."""
+    _styled(f"$ {command}", "2")
+    return shlex.split(command)
+
+
+def _styled(text: str, style: str) -> None:
+    print(f"\033[{style}m{text}\033[0m" if sys.stdout.isatty() else text, flush=True)
+
+
+def run(command: str) -> None:
+    """Run a command to its end; its failure is the demo's."""
+    status = subprocess.run(shown(command), cwd=OUT).returncode
+    if status != 0:
+        sys.exit(f"demo: that command failed with exit status {status}.")
+
+
+def node(stack: ExitStack, command: str) -> None:
+    """Start a node and end it with Ctrl-C when the stack unwinds."""
+    process = subprocess.Popen(shown(command), cwd=OUT)
+
+    def end() -> None:
+        process.send_signal(signal.SIGINT)
+        try:
+            process.wait(3.0)
+        except subprocess.TimeoutExpired:
+            process.kill()
+
+    stack.callback(end)
+
+
+def closed_loop() -> None:
+    """Record while the reference is given; the recorder runs until its time is over."""
+    command = shown("ros2 run motor_identification record closed_loop --duration 5")
+    recorder = subprocess.Popen(command, cwd=OUT, stdout=subprocess.PIPE, text=True)
+    assert recorder.stdout is not None
+    print(recorder.stdout.readline(), end="", flush=True)  # it is listening now
+    run(f'ros2 topic pub --once /motor/reference std_msgs/msg/Float64 "{{data: {REFERENCE}}}"')
+    print(recorder.communicate(timeout=30.0)[0].strip())
+    if recorder.returncode != 0:
+        sys.exit("demo: the recorder failed.")
+
+
+def live() -> None:
+    """Experiment → bag → identify → model file → PI, as processes over DDS."""
+    with ExitStack() as stack:
+        step("1. A motor, simulated in real time; its friction is a secret of this script")
+        node(stack, "ros2 run motor_sim motor_sim --ros-args -p model:=hidden.yaml -p slot_irregularity:=0.01")
+        node(
+            stack,
+            "ros2 run motor_identification motor_identification --ros-args -p model_file:=model.yaml "
+            f"-p bag_directory:={shlex.quote(str(OUT))}",
+        )
+        step("2. Drive it through a staircase of voltages and record a bag")
+        run("ros2 run motor_identification experiment staircase --output staircase")
+        step("3. Identify: particle swarm, then least squares")
+        request = "{bag_uris: [staircase], effects: [coulomb_friction]}"
+        run(f'ros2 service call /motor/identify motor_msgs/srv/Identify "{request}"')
+        step(f"4. Hold {REFERENCE:g} rad/s with the PI controller")
+        node(stack, "ros2 run motor_control motor_control")
+        closed_loop()
+
+
+def table() -> bool:
+    """True against fitted parameters; whether all are close."""
+    fitted = load(OUT / "model.yaml")
+    print(f"  {'parameter':10}{'true':>14}{'fitted':>14}{'error':>12}")
+    close = True
+    for name, true in HIDDEN.values.items():
+        value = fitted.value(name)
+        close &= abs(value / true - 1.0) < FITTED_WITHIN
+        print(f"  {name:10}{true:14.6g}{value:14.6g}{100 * (value / true - 1.0):+11.4f} %")
+    return close
+
+
+def held() -> bool:
+    """Whether the speed was held over the last second."""
+    recording = read_recording(str(OUT / "closed_loop"))
+    last = recording.speed[recording.time > recording.duration - 1.0]
+    print(
+        f"  reference {REFERENCE:g} rad/s; over the last second the encoder read "
+        f"{last.mean():.2f} on average, {last.min():.2f} to {last.max():.2f} (slots 1 % off show ±3 %)"
+    )
+    return bool(abs(last.mean() - REFERENCE) < HELD_WITHIN)
+
+
+def references() -> list[tuple[float, float]]:
+    """When [s since the closed loop's first sample] the controller worked with which reference [rad/s]."""
+    path = str(OUT / "closed_loop")
+    first = next(at for _, _, at, _ in messages(path, ["/motor/speed"]))
+    states = (
+        (at, deserialize_message(data, ControlState)) for _, _, at, data in messages(path, ["/motor/control_state"])
+    )
+    return [((at - first) * 1e-9, state.reference) for at, state in states]
+
+
+def real_motor() -> None:
+    """A log of a real gearmotor, recorded by others, if it lies beside the project."""
+    step("5. A real motor's log: a 5 V gearmotor under a random telegraph voltage, recorded by others")
+    if not REAL_MOTOR.exists():
+        print("  (the log is not beside this checkout; any CSV with time, voltage and speed does:")
+        print(
+            "   ros2 run motor_identification import_csv FILE --output BAG --time t --voltage u --speed y --unit deg/s)"
+        )
+        return
+    csv = os.path.relpath(REAL_MOTOR, OUT)
+    run(
+        f"ros2 run motor_identification import_csv {shlex.quote(csv)} --output real --time t --voltage u --speed y "
+        "--unit deg/s --speed-window 0.02 --edges-per-revolution 2800"
+    )
+    run("ros2 run motor_identification identify real --effects coulomb_friction,transport_delay --report real_report")
+
+
+def main() -> int:
+    """Run it all; 0 if the fit is right and the speed is held."""
+    begun = time.monotonic()
+    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    os.environ["ROS_DOMAIN_ID"] = str(1 + os.getpid() % 100)  # nobody else's motor
+    shutil.rmtree(OUT, ignore_errors=True)
+    OUT.mkdir(parents=True)
+    save(OUT / "hidden.yaml", HIDDEN)
+    live()
+    real_motor()
+    step("Result")
+    fitted, holds = table(), held()
+    picture = OUT / "demo.png"
+    draw_demo(OUT, load(OUT / "model.yaml"), references(), picture)
+    print(f"  picture: {picture.relative_to(ROOT)}")
+    print(f"  took {time.monotonic() - begun:.0f} s")
+    return 0 if fitted and holds else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
