@@ -13,13 +13,14 @@ import time
 from contextlib import ExitStack
 from pathlib import Path
 
+from builtin_interfaces.msg import Time
 from picture import draw_demo
 from rclpy.serialization import deserialize_message
 
 from motor_identification.bag import messages, read_recording
 from motor_model.model_file import load, save
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
-from motor_msgs.msg import ControlState
+from motor_msgs.msg import ControlState, MotorSpeed
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "out" / "demo"

@@ -25,5 +25,5 @@ def run_job(job: Job, progress: Callable[[str, float], None] | None = None) -> F
         RecordingError: a bag cannot be read or cannot answer.
         ModelError: an effect is not in the table.
     """
-    recordings = [read_recording(uri, job.topic_namespace).between(job.start, job.stop) for uri in job.uris]
+    recordings = [read_recording(uri, job.topic_namespace, job.start, job.stop) for uri in job.uris]
     return identify(recordings, job.request, progress)

@@ -18,7 +18,7 @@ friction, drag and ripple. A piece is solved by the exponential Rosenbrock-Euler
 Numerica 19, 2010): exact for everything linear, second order for those three, for which pieces are kept short.
 """
 
-from math import copysign, cos, exp, expm1, inf, log1p, sin
+from math import copysign, cos, exp, expm1, inf, log1p, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -124,15 +124,17 @@ def _drive(p: Floats, u: float) -> tuple[float, float]:
 
 
 @compiled
-def _longest_piece(p: Floats, s: State, acceleration: float) -> float:
-    """[s] for which a piece's linearisation holds: unlimited for a linear motor."""
+def _longest_piece(p: Floats, s: State, acceleration: float, inertia: float) -> float:
+    """[s] for which a piece's linearisation holds: unlimited for a linear motor (a quarter period if it oscillates)."""
     longest = inf
+    if 4.0 * p[KV] * p[LAG] > inertia:
+        longest = 1.5 * sqrt(inertia * p[LAG] / p[KV])
     if p[BREAKAWAY] > p[KS]:
         above = abs(s.speed) - 4.0 * p[STRIBECK]  # up there Stribeck friction is gone
         if above > 0.0:
-            longest = max(above / (abs(acceleration) + 1e-9), 1e-4)
+            longest = min(longest, max(above / (abs(acceleration) + 1e-9), 1e-4))
         else:
-            longest = max(min(0.05 * p[STRIBECK] / (abs(acceleration) + 1e-9), 1e-3), 1e-6)
+            longest = min(longest, max(min(0.05 * p[STRIBECK] / (abs(acceleration) + 1e-9), 1e-3), 1e-6))
     if p[DRAG] != 0.0:
         longest = min(longest, 1e-3)
     if p[RIPPLE] != 0.0:
@@ -235,6 +237,28 @@ def _time_of_rest(p: Floats, c: Coefficients, s: State, h: float) -> float:
 
 
 @compiled
+def _time_of_extreme(p: Floats, c: Coefficients, s: State, h: float, speed: float, drive: float) -> float:
+    """[s] until a motor with inductance is slowest or fastest, where the state after h hides that it stands in between.
+
+    It may brake through zero and be back within h, or leave its rest and be back. Elsewhere the answer is h.
+    """
+    before, after = s.drive - c.torque, drive - c.torque - c.slope * (speed - s.speed)
+    dips = before * s.direction < 0.0 < after * s.direction and abs(s.speed) * c.inertia <= abs(before) * h
+    leaves = s.speed == 0.0 and speed * s.direction <= 0.0 < before * s.direction
+    if not (dips and speed * s.direction > 0.0 or leaves):
+        return h
+    low, high = 0.0, h
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        then, v, _travel = _solve(p, c, s, middle)
+        if (v - c.torque - c.slope * (then - s.speed)) * before > 0.0:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+@compiled
 def _time_of_travel(p: Floats, c: Coefficients, s: State, h: float, travel: float) -> float:
     """[s] until the shaft has travelled that far, known to happen within h (Newton, kept inside by bisection)."""
     low, high, guess = 0.0, h, 0.5 * h
@@ -283,7 +307,8 @@ def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, flo
     engaged = p[KA] * w * (1.0 - (p[LOAD_FRACTION] if play > 0.0 else 0.0))
     torque = w * (friction + _loads(p, s.angle + s.turned, t))
     acceleration = (s.drive - torque) / engaged
-    h = min(h, _longest_piece(p, s, acceleration))
+    settled = (source - back_emf * s.speed - torque) / engaged  # the acceleration once the current has followed
+    h = min(h, _longest_piece(p, s, max(abs(acceleration), abs(settled)), engaged))
     if p[RISE] != 0.0 or p[RIPPLE] != 0.0:  # what changes with time and angle is taken in the middle
         middle = s.angle + s.turned + 0.5 * h * (s.speed + 0.25 * h * acceleration)
         w = warmth(p, t + 0.5 * h)
@@ -298,6 +323,11 @@ def _until_event(p: Floats, c: Coefficients, s: State, h: float) -> tuple[State,
     """Solve a piece of h, or up to where the shaft comes to rest or the play is taken up."""
     speed, drive, travel = _solve(p, c, s, h)
     event = 0
+    if p[LAG] > 0.0:
+        turned = _time_of_extreme(p, c, s, h, speed, drive)
+        if turned < h:
+            h = turned
+            speed, drive, travel = _solve(p, c, s, h)
     if s.speed == 0.0 and speed * s.direction <= 0.0:  # what let it start is gone before it has moved
         return State(s.angle, 0.0, drive, s.play, s.direction, s.turned), h
     if speed * s.direction <= 0.0:

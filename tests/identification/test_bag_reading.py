@@ -196,9 +196,8 @@ def test_the_topic_of_another_type(tmp_path: Path) -> None:
 
 
 def test_messages_that_are_not_what_they_say(tmp_path: Path) -> None:
-    for number, data in enumerate(
-        [b"", b"\x00\x01\x00\x00" + bytes(30), b"\x07\x07" + bytes(90), b"\x00\x01" + b"\xff" * 90]
-    ):
+    bad = [b"", b"\x00\x01\x00\x00" + bytes(30), b"\x07\x07" + bytes(90), b"\x00\x01" + b"\xff" * 90]
+    for number, data in enumerate(bad):
         with BagWriter(tmp_path / f"bad{number}") as writer:
             writer.write(writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed"), 1, data)
         assert "cannot be read: a message" in refusal(tmp_path / f"bad{number}")

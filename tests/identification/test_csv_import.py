@@ -236,5 +236,10 @@ def test_the_steps_of_an_ev3_motor() -> None:
     for run in log.runs:
         assert 170 < len(run.samples) < 200 and 0.95 < run.duration < 1.0
         assert column(run.samples, "voltage") == pytest.approx(0.074 * float(run.label))
-    final = [np.mean(column(run.samples, "speed")[-60:]) for run in log.runs]
-    assert 14.3 < final[-1] < 15.0 and -14.3 < final[0] < -13.6  # their own fit: 14.68 and -13.96 rad/s
+        travel = np.sum(np.diff(column(run.samples, "sample_time")) * 1e-9 * column(run.samples, "speed")[1:])
+        assert travel == pytest.approx(radians(np.ptp(column(run.samples, "edge_count"))) * np.sign(float(run.label)))
+    final = [
+        np.polyfit(*(column(run.samples[-90:], name) for name in ("sample_time", "edge_count")), 1) for run in log.runs
+    ]
+    first, last = (radians(final[k][0] * 1e9) for k in (0, -1))
+    assert -14.2 < first < -13.6 and 14.4 < last < 14.9  # their own fit: -13.96 and 14.68 rad/s

@@ -103,7 +103,7 @@ def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: s
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise MotorError(f"cannot make the directory {directory}: {error.strerror}.") from error
-    recording = read_recording(options.bags[0], options.topic_namespace).between(options.start, options.stop)
+    recording = read_recording(options.bags[0], options.topic_namespace, options.start, options.stop)
     picture = directory / "fit.png"
     draw_fit(recording, fit, picture)
     _write_json(directory / "fit.json", as_json(fit))

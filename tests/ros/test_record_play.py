@@ -1,0 +1,320 @@
+"""`record` and `play` as processes over DDS: what is published is what is in the bag, and what comes out again."""
+
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import rclpy
+from ament_index_python.packages import get_package_prefix
+from rclpy.duration import Duration
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.serialization import serialize_message
+from std_msgs.msg import Float64
+
+from motor_identification.bag import BagWriter, messages, read_recording, topics
+from motor_identification.cli._offered import offered
+from motor_identification.cli._recorder import Recorder
+from motor_model.sample import Info, Sample
+from motor_msgs.msg import MotorInfo, MotorSpeed
+from motor_ros import qos
+from motor_ros.messages import info_message, speed_message, time_message
+
+PATIENCE = 15.0  # [s] for what is expected; a test that passes never waits so long
+PERIOD = 5_000_000  # [ns]
+DOMAIN = os.environ.get("ROS_DOMAIN_ID") or str(10 + os.getpid() % 90)
+ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": DOMAIN, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+DEEP = QoSProfile(depth=1000)  # loses nothing, however busy the machine is
+INFO = Info(name="wheel", max_voltage=9.0)
+
+
+class Bench:
+    """A node of the test's own that publishes and hears."""
+
+    def __init__(self) -> None:
+        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+        self._context = rclpy.Context()
+        rclpy.init(context=self._context, domain_id=int(DOMAIN))
+        self.node = rclpy.create_node("bench", context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+
+    def close(self) -> None:
+        self._executor.shutdown()
+        self.node.destroy_node()
+        rclpy.shutdown(context=self._context)
+
+    def wait(self, condition: Callable[[], bool], what: str) -> None:
+        """Hear messages until the condition holds."""
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < end, f"still waiting for {what}"
+            self._executor.spin_once(timeout_sec=0.02)
+
+    def publisher(self, kind: type, topic: str, profile: QoSProfile = qos.SPEED) -> Any:
+        return self.node.create_publisher(kind, topic, profile)
+
+    def heard(self, *publishers: Any) -> None:
+        """Wait until each of the publishers has a subscriber."""
+        self.wait(lambda: all(publisher.get_subscription_count() for publisher in publishers), "subscribers")
+
+    def written(self, bag: Path, count: int) -> None:
+        """Wait until so many messages are in the file, which is still being written."""
+        self.wait(lambda: bag.is_dir() and sum(1 for _ in messages(bag)) >= count, f"{count} messages in the bag")
+
+
+@pytest.fixture
+def bench() -> Iterator[Bench]:
+    bench = Bench()
+    yield bench
+    bench.close()
+
+
+Start = Callable[..., "subprocess.Popen[str]"]
+
+
+@pytest.fixture
+def start() -> Iterator[Start]:
+    """Starts a command of the package; whatever still runs at the end of the test is killed."""
+    running: list[subprocess.Popen[str]] = []
+
+    def start(command: str, *arguments: object) -> "subprocess.Popen[str]":
+        program = Path(get_package_prefix("motor_identification")) / "lib/motor_identification" / command
+        running.append(
+            subprocess.Popen(
+                [program, *map(str, arguments)],
+                env=ENVIRONMENT,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                text=True,
+            )
+        )
+        return running[-1]
+
+    yield start
+    for process in running:
+        process.kill()
+        process.wait()
+
+
+def end(process: "subprocess.Popen[str]", number: signal.Signals = signal.SIGINT) -> tuple[str, str]:
+    """Stop it: what it wrote; it has to end within a second, without a traceback."""
+    begin = time.monotonic()
+    process.send_signal(number)
+    out, err = process.communicate(timeout=PATIENCE)
+    assert time.monotonic() - begin < 1.0
+    assert "Traceback" not in err
+    return out, err
+
+
+def sample(k: int) -> Sample:
+    return Sample(k * PERIOD, 100.0 + k, 6.0, edge_count=k)
+
+
+def say(publisher: Any, numbers: range) -> None:
+    for k in numbers:
+        publisher.publish(speed_message(sample(k), time_message(k * PERIOD), "wheel"))
+
+
+def recorded(bag: Path) -> set[str]:
+    """Topics of the messages in a bag, which may still be written."""
+    return {row[0] for row in messages(bag)} if bag.is_dir() else set()
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_everything_that_was_published_is_in_the_bag(
+    bench: Bench, start: Start, tmp_path: Path, number: signal.Signals
+) -> None:
+    info = bench.publisher(MotorInfo, "motor/info", qos.INFO)
+    info.publish(info_message(INFO, time_message(0)))  # before anybody listens: it is latched
+    speed = bench.publisher(MotorSpeed, "motor/speed", DEEP)
+    before = time.time_ns()
+    record = start("record", tmp_path / "bag")
+    bench.heard(speed, info)
+    say(speed, range(400))
+    reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)  # later than all others
+    bench.heard(reference)
+    reference.publish(Float64(data=7.0))
+    bench.written(tmp_path / "bag", 402)
+    out, err = end(record, number)
+    after = time.time_ns()
+    assert record.returncode == 0 and err == ""
+    assert out.splitlines()[-1].startswith(f"{tmp_path}/bag: 402 messages, ")
+    recording = read_recording(tmp_path / "bag")
+    assert recording.sample_time.tolist() == [k * PERIOD for k in range(400)]
+    assert recording.speed.tolist() == [100.0 + k for k in range(400)]
+    assert recording.info == INFO and recording.notes == ()
+    counts = {topic.name: topic.message_count for topic in topics(tmp_path / "bag")}
+    assert counts == {"/motor/info": 1, "/motor/speed": 400, "/motor/reference": 1}
+    durability = {topic.name: topic.qos[0].durability for topic in topics(tmp_path / "bag")}
+    assert durability == {
+        "/motor/info": "transient_local",
+        "/motor/speed": "volatile",
+        "/motor/reference": "volatile",
+    }
+    times = [row[2] for row in messages(tmp_path / "bag", {"/motor/speed"})]
+    assert before < min(times) and max(times) < after and times == sorted(times)
+
+
+def test_named_topics_in_a_namespace_and_best_effort(bench: Bench, start: Start, tmp_path: Path) -> None:
+    best_effort = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+    near = bench.publisher(Float64, "/left/near", best_effort)
+    far = bench.publisher(Float64, "/far")
+    bench.publisher(Float64, "/left/other")
+    record = start("record", tmp_path / "bag", "near", "/far", "never", "--topic-namespace", "left")
+    bench.heard(near, far)
+    far.publish(Float64(data=1.0))
+    near.publish(Float64(data=2.0))
+    bench.written(tmp_path / "bag", 2)
+    out, _ = end(record)
+    assert {topic.name: topic.qos[0].reliability for topic in topics(tmp_path / "bag")} == {
+        "/left/near": "best_effort",
+        "/far": "reliable",
+    }
+    assert out.rstrip().endswith("; nothing came on /left/never")
+
+
+def test_all_topics(bench: Bench, start: Start, tmp_path: Path) -> None:
+    one, two = bench.publisher(Float64, "/one"), bench.publisher(Float64, "/two/deep")
+    record = start("record", tmp_path / "bag", "--all")
+    bench.heard(one, two)
+    one.publish(Float64(data=1.0))
+    two.publish(Float64(data=2.0))
+    bench.wait(lambda: {"/one", "/two/deep"} <= recorded(tmp_path / "bag"), "both in the bag")
+    end(record)
+    assert record.returncode == 0
+
+
+def test_a_duration_ends_it(bench: Bench, start: Start, tmp_path: Path) -> None:
+    latched = bench.publisher(MotorInfo, "motor/info", qos.INFO)
+    latched.publish(info_message(INFO, time_message(0)))
+    record = start("record", tmp_path / "bag", "--duration", "5")
+    bench.wait(lambda: record.poll() is not None, "the end of the duration")
+    assert record.returncode == 0 and recorded(tmp_path / "bag") == {"/motor/info"}
+    assert record.stdout is not None and "; nothing came on /motor/speed" in record.stdout.read()
+
+
+def test_nothing_recorded_is_said_and_leaves_no_bag(start: Start, tmp_path: Path) -> None:
+    record = start("record", tmp_path / "bag", "/nobody/says/this")
+    assert record.stdout is not None and "Recording /nobody/says/this" in record.stdout.readline()
+    _, err = end(record)
+    assert record.returncode == 1
+    assert err.startswith("Nothing was recorded") and "/nobody/says/this" in err and err.count("\n") == 1
+    assert not (tmp_path / "bag").exists()
+
+
+def test_an_existing_bag_is_refused_at_once(start: Start, tmp_path: Path) -> None:
+    (tmp_path / "bag").mkdir()
+    record = start("record", tmp_path / "bag")
+    out, err = record.communicate(timeout=PATIENCE)
+    assert (record.returncode, out) == (1, "") and "exists already and is left as it is" in err
+    assert list((tmp_path / "bag").iterdir()) == []
+
+
+def test_what_has_arrived_when_recording_ends_is_written(bench: Bench, tmp_path: Path) -> None:
+    speed = bench.publisher(MotorSpeed, "motor/speed")
+    with BagWriter(tmp_path / "bag") as writer:
+        recorder = Recorder(bench.node, writer, ["/motor/speed"])
+        bench.heard(speed)
+        say(speed, range(50))
+        assert speed.wait_for_all_acked(Duration(seconds=PATIENCE))
+        assert recorder.counts["/motor/speed"] == 0  # nobody has spun
+        recorder.close()
+        assert recorder.counts["/motor/speed"] == 50
+    assert read_recording(tmp_path / "bag").sample_time.tolist() == [k * PERIOD for k in range(50)]
+
+
+def write(path: Path, count: int, period: int = PERIOD) -> Path:
+    with BagWriter(path) as writer:
+        latched = writer.topic("/motor/info", "motor_msgs/msg/MotorInfo", offered(qos.INFO))
+        channel = writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed", offered(qos.SPEED))
+        writer.write(latched, 10**18, serialize_message(info_message(INFO, time_message(0))))
+        for k in range(count):
+            data = serialize_message(speed_message(sample(k), time_message(k * PERIOD), "wheel"))
+            writer.write(channel, 10**18 + k * period, data)
+    return path
+
+
+def test_a_bag_comes_out_as_it_went_in_and_in_time(bench: Bench, start: Start, tmp_path: Path) -> None:
+    heard: list[tuple[float, MotorSpeed]] = []
+    bench.node.create_subscription(
+        MotorSpeed, "motor/speed", lambda message: heard.append((time.monotonic(), message)), DEEP
+    )
+    play = start("play", write(tmp_path / "bag", 200), "--rate", "1.5", "--loop")
+
+    def begin() -> int:
+        """Where the first whole round begins: on a busy machine the very first may be missed."""
+        return next((k for k, (_, message) in enumerate(heard) if message.edge_count == 0), len(heard))
+
+    bench.wait(lambda: len(heard) >= begin() + 400, "two rounds")
+    rounds = heard[begin() : begin() + 400]
+    expected = [(k % 200 * PERIOD, 100.0 + k % 200) for k in range(400)]
+    assert [(message.sample_time, message.speed) for _, message in rounds] == expected
+    assert rounds[-1][0] - rounds[0][0] == pytest.approx(399 * 0.005 / 1.5, abs=0.1)
+    out, err = end(play)
+    assert (play.returncode, err) == (0, "")
+    assert out.startswith("Playing /motor/info, /motor/speed from ") and "of them within " in out
+
+
+def test_without_loop_it_ends_by_itself(start: Start, tmp_path: Path) -> None:
+    play = start("play", write(tmp_path / "bag", 300), "--rate", "10")
+    out, err = play.communicate(timeout=PATIENCE)
+    assert (play.returncode, err) == (0, "") and "301 messages played, 99 % of them within " in out
+
+
+def test_what_was_latched_is_latched_again_and_a_loop_ends_by_ctrl_c(
+    bench: Bench, start: Start, tmp_path: Path
+) -> None:
+    speeds: list[MotorSpeed] = []
+    bench.node.create_subscription(MotorSpeed, "motor/speed", speeds.append, DEEP)
+    play = start("play", write(tmp_path / "bag", 20), "--loop")
+    bench.wait(lambda: len(speeds) >= 45, "the third round")
+    infos: list[MotorInfo] = []
+    bench.node.create_subscription(MotorInfo, "motor/info", infos.append, qos.INFO)
+    bench.wait(lambda: bool(infos), "the latched info")
+    assert infos[0].name == "wheel"
+    assert [message.edge_count for message in speeds[:45]] == [(speeds[0].edge_count + k) % 20 for k in range(45)]
+    out, err = end(play)
+    assert (play.returncode, err) == (0, "") and "messages played" in out
+
+
+def test_ctrl_c_in_a_long_pause_ends_at_once(start: Start, tmp_path: Path) -> None:
+    play = start("play", write(tmp_path / "bag", 2, period=600 * 10**9))
+    assert play.stdout is not None and play.stdout.readline().startswith("Playing ")
+    out, _ = end(play)
+    assert play.returncode == 0 and ("nothing played" in out or " 1 messages" in out or " 2 messages" in out)
+
+
+def test_only_the_topics_that_are_named(bench: Bench, start: Start, tmp_path: Path) -> None:
+    infos: list[MotorInfo] = []
+    speeds: list[MotorSpeed] = []
+    bench.node.create_subscription(MotorInfo, "motor/info", infos.append, qos.INFO)
+    bench.node.create_subscription(MotorSpeed, "motor/speed", speeds.append, DEEP)
+    play = start("play", write(tmp_path / "bag", 5), "--topics", "motor/info", "--loop")
+    bench.wait(lambda: len(infos) >= 2, "the info twice")
+    end(play)
+    assert speeds == [] and len(infos) < 10  # a lone message does not come in a flood
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["{0}/nothing"], "There is no bag"),
+        (["{0}/empty"], "has no messages"),
+        (["{0}/bag", "--topics", "/other"], "has no messages on /other; it has /motor/info, /motor/speed"),
+        (["{0}/odd"], "no topic whose type is installed here"),
+    ],
+)
+def test_what_cannot_be_played(start: Start, tmp_path: Path, arguments: list[str], complaint: str) -> None:
+    write(tmp_path / "bag", 2)
+    BagWriter(tmp_path / "empty").close()
+    with BagWriter(tmp_path / "odd") as writer:
+        writer.write(writer.topic("/odd", "nowhere_msgs/msg/Odd"), 5, b"\x00\x01\x00\x00")
+    play = start("play", *(argument.format(tmp_path) for argument in arguments))
+    out, err = play.communicate(timeout=PATIENCE)
+    assert (play.returncode, out) == (1, "") and complaint in err and "Traceback" not in err
