@@ -6,6 +6,7 @@ from dataclasses import replace
 from datetime import datetime, timezone
 from pathlib import Path
 
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
 from rclpy.task import Future
 
@@ -46,7 +47,8 @@ class MotorIdentification(Node):
         declare(self, PARAMETERS)
         self._worker = Worker(_import_everything)
         self._model = self.create_publisher(MotorModel, "motor/model", qos.MODEL)
-        self.create_service(Identify, "motor/identify", self._on_identify)
+        alone = MutuallyExclusiveCallbackGroup()  # a group is blocked while its fit is awaited; parameters must not be
+        self.create_service(Identify, "motor/identify", self._on_identify, callback_group=alone)
         self.get_logger().info("ready: call motor/identify with bag_uris")
 
     async def _on_identify(self, request: Identify.Request, response: Identify.Response) -> Identify.Response:

@@ -18,7 +18,7 @@ friction, drag and ripple. A piece is solved by the exponential Rosenbrock-Euler
 Numerica 19, 2010): exact for everything linear, second order for those three, for which pieces are kept short.
 """
 
-from math import copysign, cos, exp, expm1, inf, log1p, sin, sqrt
+from math import atan, atanh, copysign, cos, exp, expm1, inf, log1p, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -124,7 +124,7 @@ def _drive(p: Floats, u: float) -> tuple[float, float]:
 
 
 @compiled
-def _longest_piece(p: Floats, s: State, acceleration: float, inertia: float) -> float:
+def _longest_piece(p: Floats, s: State, acceleration: float, inertia: float, slope: float) -> float:
     """[s] for which a piece's linearisation holds: unlimited for a linear motor (a quarter period if it oscillates)."""
     longest = inf
     if 4.0 * p[KV] * p[LAG] > inertia:
@@ -135,6 +135,8 @@ def _longest_piece(p: Floats, s: State, acceleration: float, inertia: float) -> 
             longest = min(longest, max(above / (abs(acceleration) + 1e-9), 1e-4))
         else:
             longest = min(longest, max(min(0.05 * p[STRIBECK] / (abs(acceleration) + 1e-9), 1e-3), 1e-6))
+    if slope < 0.0:  # a speed that runs away from Stribeck friction must not do so in one piece
+        longest = min(longest, -0.5 * inertia / slope)
     if p[DRAG] != 0.0:
         longest = min(longest, 1e-3)
     if p[RIPPLE] != 0.0:
@@ -237,25 +239,24 @@ def _time_of_rest(p: Floats, c: Coefficients, s: State, h: float) -> float:
 
 
 @compiled
-def _time_of_extreme(p: Floats, c: Coefficients, s: State, h: float, speed: float, drive: float) -> float:
-    """[s] until a motor with inductance is slowest or fastest, where the state after h hides that it stands in between.
+def _time_of_extreme(p: Floats, c: Coefficients, s: State) -> float:
+    """[s] until the acceleration of a motor with inductance is zero for the first time; inf if it never is.
 
-    It may brake through zero and be back within h, or leave its rest and be back. Elsewhere the answer is h.
+    The acceleration is e^(mt)·(α·cosh(gt) + β/g·sinh(gt)) with the eigenvalues m ± g, α its value and α' its slope now,
+    β = α' − m·α; so that tanh(gt) = −g·α/β.
     """
-    before, after = s.drive - c.torque, drive - c.torque - c.slope * (speed - s.speed)
-    dips = before * s.direction < 0.0 < after * s.direction and abs(s.speed) * c.inertia <= abs(before) * h
-    leaves = s.speed == 0.0 and speed * s.direction <= 0.0 < before * s.direction
-    if not (dips and speed * s.direction > 0.0 or leaves):
-        return h
-    low, high = 0.0, h
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        then, v, _travel = _solve(p, c, s, middle)
-        if (v - c.torque - c.slope * (then - s.speed)) * before > 0.0:
-            low = middle
-        else:
-            high = middle
-    return high
+    a, e = -c.slope / c.inertia, -1.0 / p[LAG]
+    now = (s.drive - c.torque) / c.inertia
+    slope = a * now + (c.source - c.back_emf * s.speed - s.drive) / p[LAG] / c.inertia
+    rest = slope - 0.5 * (a + e) * now
+    if now * rest >= 0.0:
+        return inf
+    square = 0.25 * (a - e) * (a - e) - c.back_emf / p[LAG] / c.inertia
+    gap = sqrt(abs(square))
+    x = -gap * now / rest
+    if square <= 0.0 or x < 1e-6:
+        return atan(x) / gap if gap > 0.0 else -now / rest
+    return atanh(x) / gap if x < 1.0 else inf
 
 
 @compiled
@@ -308,7 +309,7 @@ def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, flo
     torque = w * (friction + _loads(p, s.angle + s.turned, t))
     acceleration = (s.drive - torque) / engaged
     settled = (source - back_emf * s.speed - torque) / engaged  # the acceleration once the current has followed
-    h = min(h, _longest_piece(p, s, max(abs(acceleration), abs(settled)), engaged))
+    h = min(h, _longest_piece(p, s, max(abs(acceleration), abs(settled)), engaged, w * slope))
     if p[RISE] != 0.0 or p[RIPPLE] != 0.0:  # what changes with time and angle is taken in the middle
         middle = s.angle + s.turned + 0.5 * h * (s.speed + 0.25 * h * acceleration)
         w = warmth(p, t + 0.5 * h)
@@ -324,10 +325,16 @@ def _until_event(p: Floats, c: Coefficients, s: State, h: float) -> tuple[State,
     speed, drive, travel = _solve(p, c, s, h)
     event = 0
     if p[LAG] > 0.0:
-        turned = _time_of_extreme(p, c, s, h, speed, drive)
-        if turned < h:
-            h = turned
-            speed, drive, travel = _solve(p, c, s, h)
+        turned = _time_of_extreme(p, c, s)
+        if turned < h:  # within h it may brake through zero and be back, or leave its rest and be back
+            then = _solve(p, c, s, turned)
+            stops, leaves = (
+                s.speed != 0.0 and then[0] * s.direction <= 0.0,
+                s.speed == 0.0 and then[0] * s.direction > 0.0,
+            )
+            if stops or (leaves and speed * s.direction <= 0.0):
+                h = turned
+                speed, drive, travel = then
     if s.speed == 0.0 and speed * s.direction <= 0.0:  # what let it start is gone before it has moved
         return State(s.angle, 0.0, drive, s.play, s.direction, s.turned), h
     if speed * s.direction <= 0.0:

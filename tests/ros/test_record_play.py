@@ -1,21 +1,18 @@
 """`record` and `play` as processes over DDS: what is published is what is in the bag, and what comes out again."""
 
-import os
 import signal
 import subprocess
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
-import rclpy
-from ament_index_python.packages import get_package_prefix
 from rclpy.duration import Duration
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Float64
+from workbench import PATIENCE, Bench, end
 
 from motor_identification.bag import BagWriter, messages, read_recording, topics
 from motor_identification.cli._offered import offered
@@ -25,91 +22,17 @@ from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.messages import info_message, speed_message, time_message
 
-PATIENCE = 15.0  # [s] for what is expected; a test that passes never waits so long
 PERIOD = 5_000_000  # [ns]
-DOMAIN = os.environ.get("ROS_DOMAIN_ID") or str(10 + os.getpid() % 90)
-ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": DOMAIN, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
 DEEP = QoSProfile(depth=1000)  # loses nothing, however busy the machine is
 INFO = Info(name="wheel", max_voltage=9.0)
-
-
-class Bench:
-    """A node of the test's own that publishes and hears."""
-
-    def __init__(self) -> None:
-        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-        self._context = rclpy.Context()
-        rclpy.init(context=self._context, domain_id=int(DOMAIN))
-        self.node = rclpy.create_node("bench", context=self._context)
-        self._executor = SingleThreadedExecutor(context=self._context)
-        self._executor.add_node(self.node)
-
-    def close(self) -> None:
-        self._executor.shutdown()
-        self.node.destroy_node()
-        rclpy.shutdown(context=self._context)
-
-    def wait(self, condition: Callable[[], bool], what: str) -> None:
-        """Hear messages until the condition holds."""
-        end = time.monotonic() + PATIENCE
-        while not condition():
-            assert time.monotonic() < end, f"still waiting for {what}"
-            self._executor.spin_once(timeout_sec=0.02)
-
-    def publisher(self, kind: type, topic: str, profile: QoSProfile = qos.SPEED) -> Any:
-        return self.node.create_publisher(kind, topic, profile)
-
-    def heard(self, *publishers: Any) -> None:
-        """Wait until each of the publishers has a subscriber."""
-        self.wait(lambda: all(publisher.get_subscription_count() for publisher in publishers), "subscribers")
-
-    def written(self, bag: Path, count: int) -> None:
-        """Wait until so many messages are in the file, which is still being written."""
-        self.wait(lambda: bag.is_dir() and sum(1 for _ in messages(bag)) >= count, f"{count} messages in the bag")
-
-
-@pytest.fixture
-def bench() -> Iterator[Bench]:
-    bench = Bench()
-    yield bench
-    bench.close()
 
 
 Start = Callable[..., "subprocess.Popen[str]"]
 
 
-@pytest.fixture
-def start() -> Iterator[Start]:
-    """Starts a command of the package; whatever still runs at the end of the test is killed."""
-    running: list[subprocess.Popen[str]] = []
-
-    def start(command: str, *arguments: object) -> "subprocess.Popen[str]":
-        program = Path(get_package_prefix("motor_identification")) / "lib/motor_identification" / command
-        running.append(
-            subprocess.Popen(
-                [program, *map(str, arguments)],
-                env=ENVIRONMENT,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                text=True,
-            )
-        )
-        return running[-1]
-
-    yield start
-    for process in running:
-        process.kill()
-        process.wait()
-
-
-def end(process: "subprocess.Popen[str]", number: signal.Signals = signal.SIGINT) -> tuple[str, str]:
-    """Stop it: what it wrote; it has to end within a second, without a traceback."""
-    begin = time.monotonic()
-    process.send_signal(number)
-    out, err = process.communicate(timeout=PATIENCE)
-    assert time.monotonic() - begin < 1.0
-    assert "Traceback" not in err
-    return out, err
+def written(bench: Bench, bag: Path, count: int) -> None:
+    """Wait until so many messages are in the file, which is still being written."""
+    bench.wait(lambda: bag.is_dir() and sum(1 for _ in messages(bag)) >= count, f"{count} messages in the bag")
 
 
 def sample(k: int) -> Sample:
@@ -134,13 +57,13 @@ def test_everything_that_was_published_is_in_the_bag(
     info.publish(info_message(INFO, time_message(0)))  # before anybody listens: it is latched
     speed = bench.publisher(MotorSpeed, "motor/speed", DEEP)
     before = time.time_ns()
-    record = start("record", tmp_path / "bag")
+    record = start("motor_identification", "record", tmp_path / "bag")
     bench.heard(speed, info)
     say(speed, range(400))
     reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)  # later than all others
     bench.heard(reference)
     reference.publish(Float64(data=7.0))
-    bench.written(tmp_path / "bag", 402)
+    written(bench, tmp_path / "bag", 402)
     out, err = end(record, number)
     after = time.time_ns()
     assert record.returncode == 0 and err == ""
@@ -166,11 +89,13 @@ def test_named_topics_in_a_namespace_and_best_effort(bench: Bench, start: Start,
     near = bench.publisher(Float64, "/left/near", best_effort)
     far = bench.publisher(Float64, "/far")
     bench.publisher(Float64, "/left/other")
-    record = start("record", tmp_path / "bag", "near", "/far", "never", "--topic-namespace", "left")
+    record = start(
+        "motor_identification", "record", tmp_path / "bag", "near", "/far", "never", "--topic-namespace", "left"
+    )
     bench.heard(near, far)
     far.publish(Float64(data=1.0))
     near.publish(Float64(data=2.0))
-    bench.written(tmp_path / "bag", 2)
+    written(bench, tmp_path / "bag", 2)
     out, _ = end(record)
     assert {topic.name: topic.qos[0].reliability for topic in topics(tmp_path / "bag")} == {
         "/left/near": "best_effort",
@@ -181,7 +106,7 @@ def test_named_topics_in_a_namespace_and_best_effort(bench: Bench, start: Start,
 
 def test_all_topics(bench: Bench, start: Start, tmp_path: Path) -> None:
     one, two = bench.publisher(Float64, "/one"), bench.publisher(Float64, "/two/deep")
-    record = start("record", tmp_path / "bag", "--all")
+    record = start("motor_identification", "record", tmp_path / "bag", "--all")
     bench.heard(one, two)
     one.publish(Float64(data=1.0))
     two.publish(Float64(data=2.0))
@@ -193,14 +118,14 @@ def test_all_topics(bench: Bench, start: Start, tmp_path: Path) -> None:
 def test_a_duration_ends_it(bench: Bench, start: Start, tmp_path: Path) -> None:
     latched = bench.publisher(MotorInfo, "motor/info", qos.INFO)
     latched.publish(info_message(INFO, time_message(0)))
-    record = start("record", tmp_path / "bag", "--duration", "5")
+    record = start("motor_identification", "record", tmp_path / "bag", "--duration", "5")
     bench.wait(lambda: record.poll() is not None, "the end of the duration")
     assert record.returncode == 0 and recorded(tmp_path / "bag") == {"/motor/info"}
     assert record.stdout is not None and "; nothing came on /motor/speed" in record.stdout.read()
 
 
 def test_nothing_recorded_is_said_and_leaves_no_bag(start: Start, tmp_path: Path) -> None:
-    record = start("record", tmp_path / "bag", "/nobody/says/this")
+    record = start("motor_identification", "record", tmp_path / "bag", "/nobody/says/this")
     assert record.stdout is not None and "Recording /nobody/says/this" in record.stdout.readline()
     _, err = end(record)
     assert record.returncode == 1
@@ -210,7 +135,7 @@ def test_nothing_recorded_is_said_and_leaves_no_bag(start: Start, tmp_path: Path
 
 def test_an_existing_bag_is_refused_at_once(start: Start, tmp_path: Path) -> None:
     (tmp_path / "bag").mkdir()
-    record = start("record", tmp_path / "bag")
+    record = start("motor_identification", "record", tmp_path / "bag")
     out, err = record.communicate(timeout=PATIENCE)
     assert (record.returncode, out) == (1, "") and "exists already and is left as it is" in err
     assert list((tmp_path / "bag").iterdir()) == []
@@ -245,7 +170,7 @@ def test_a_bag_comes_out_as_it_went_in_and_in_time(bench: Bench, start: Start, t
     bench.node.create_subscription(
         MotorSpeed, "motor/speed", lambda message: heard.append((time.monotonic(), message)), DEEP
     )
-    play = start("play", write(tmp_path / "bag", 200), "--rate", "1.5", "--loop")
+    play = start("motor_identification", "play", write(tmp_path / "bag", 200), "--rate", "1.5", "--loop")
 
     def begin() -> int:
         """Where the first whole round begins: on a busy machine the very first may be missed."""
@@ -262,7 +187,7 @@ def test_a_bag_comes_out_as_it_went_in_and_in_time(bench: Bench, start: Start, t
 
 
 def test_without_loop_it_ends_by_itself(start: Start, tmp_path: Path) -> None:
-    play = start("play", write(tmp_path / "bag", 300), "--rate", "10")
+    play = start("motor_identification", "play", write(tmp_path / "bag", 300), "--rate", "10")
     out, err = play.communicate(timeout=PATIENCE)
     assert (play.returncode, err) == (0, "") and "301 messages played, 99 % of them within " in out
 
@@ -272,7 +197,7 @@ def test_what_was_latched_is_latched_again_and_a_loop_ends_by_ctrl_c(
 ) -> None:
     speeds: list[MotorSpeed] = []
     bench.node.create_subscription(MotorSpeed, "motor/speed", speeds.append, DEEP)
-    play = start("play", write(tmp_path / "bag", 20), "--loop")
+    play = start("motor_identification", "play", write(tmp_path / "bag", 20), "--loop")
     bench.wait(lambda: len(speeds) >= 45, "the third round")
     infos: list[MotorInfo] = []
     bench.node.create_subscription(MotorInfo, "motor/info", infos.append, qos.INFO)
@@ -284,7 +209,7 @@ def test_what_was_latched_is_latched_again_and_a_loop_ends_by_ctrl_c(
 
 
 def test_ctrl_c_in_a_long_pause_ends_at_once(start: Start, tmp_path: Path) -> None:
-    play = start("play", write(tmp_path / "bag", 2, period=600 * 10**9))
+    play = start("motor_identification", "play", write(tmp_path / "bag", 2, period=600 * 10**9))
     assert play.stdout is not None and play.stdout.readline().startswith("Playing ")
     out, _ = end(play)
     assert play.returncode == 0 and ("nothing played" in out or " 1 messages" in out or " 2 messages" in out)
@@ -295,7 +220,7 @@ def test_only_the_topics_that_are_named(bench: Bench, start: Start, tmp_path: Pa
     speeds: list[MotorSpeed] = []
     bench.node.create_subscription(MotorInfo, "motor/info", infos.append, qos.INFO)
     bench.node.create_subscription(MotorSpeed, "motor/speed", speeds.append, DEEP)
-    play = start("play", write(tmp_path / "bag", 5), "--topics", "motor/info", "--loop")
+    play = start("motor_identification", "play", write(tmp_path / "bag", 5), "--topics", "motor/info", "--loop")
     bench.wait(lambda: len(infos) >= 2, "the info twice")
     end(play)
     assert speeds == [] and len(infos) < 10  # a lone message does not come in a flood
@@ -315,6 +240,6 @@ def test_what_cannot_be_played(start: Start, tmp_path: Path, arguments: list[str
     BagWriter(tmp_path / "empty").close()
     with BagWriter(tmp_path / "odd") as writer:
         writer.write(writer.topic("/odd", "nowhere_msgs/msg/Odd"), 5, b"\x00\x01\x00\x00")
-    play = start("play", *(argument.format(tmp_path) for argument in arguments))
+    play = start("motor_identification", "play", *(argument.format(tmp_path) for argument in arguments))
     out, err = play.communicate(timeout=PATIENCE)
     assert (play.returncode, out) == (1, "") and complaint in err and "Traceback" not in err

@@ -5,6 +5,7 @@ import time
 
 import rclpy
 from rclpy.node import Node
+from rclpy.time import Time
 from tqdm import tqdm
 
 from motor_identification.bag import BagWriter
@@ -31,7 +32,8 @@ class Driver(Node):
         self._profile, self._wanted = profile, voltage
         self.info: MotorInfo | None = None
         self.plan: Plan | None = None
-        self.ready, self.done, self.problem = False, False, ""
+        self.ready: Time | None = None  # when the recorder began to hear
+        self.done, self.problem = False, ""
         self._start: int | None = None  # [ns] plant's clock
         self.elapsed = 0.0  # [s]
         self.heard: float | None = None  # [s] monotonic time of the latest sample
@@ -51,7 +53,9 @@ class Driver(Node):
 
     def _on_sample(self, message: MotorSpeed) -> None:
         self.heard = time.monotonic()
-        if self.plan is None or not self.ready or self.done:
+        if self.plan is None or self.ready is None or self.done:
+            return
+        if Time.from_msg(message.header.stamp) < self.ready:  # waited in the queue: the recorder does not have it
             return
         if self._start is None:
             self._start = message.sample_time
@@ -121,7 +125,7 @@ def _follow(node: Driver, interrupt: Interrupt, recorder: Recorder) -> None:
     """Start once the recorder hears the samples, and show progress until the plan is done."""
     speed = node.resolve_topic_name("motor/speed")
     spin(node, lambda: recorder.counts[speed] > 0 or node.silent() or bool(interrupt))
-    node.ready = True
+    node.ready = node.get_clock().now()
     total = node.plan.duration if node.plan else 0.0
     columns = "{desc} {bar} {n:.1f}/{total:.1f} s"
     with tqdm(total=total, desc=node._profile.name, disable=None, file=sys.stderr, bar_format=columns) as bar:

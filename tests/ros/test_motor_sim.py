@@ -1,0 +1,143 @@
+"""The simulated motor as a process: what it reports is the motor it was told to be, and it stops when it should."""
+
+from collections.abc import Callable
+from math import tau
+from pathlib import Path
+from subprocess import Popen
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool
+from workbench import PATIENCE, Bench, end
+
+from motor_model.model_file import save
+from motor_model.parameters import PAPER_KV, Parameters
+from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
+from motor_ros import qos
+from motor_ros.messages import time_message, voltage_message
+
+Start = Callable[..., "Popen[str]"]
+
+
+class User:
+    """Sends a voltage after every sample, as a controller would."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench, self.voltage, self.sending = bench, 0.0, True
+        self.samples: list[MotorSpeed] = []
+        self._publisher = bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+        bench.node.create_subscription(MotorSpeed, "motor/speed", self._on_sample, qos.SPEED)
+
+    def _on_sample(self, message: MotorSpeed) -> None:
+        self.samples.append(message)
+        if self.sending:
+            self._publisher.publish(voltage_message(self.voltage, time_message(0), "user"))
+
+    def until(self, condition: Callable[[MotorSpeed], bool], what: str) -> MotorSpeed:
+        """The first new sample for which the condition holds."""
+        begin = len(self.samples)
+        self.bench.wait(lambda: any(condition(sample) for sample in self.samples[begin:]), what)
+        return next(sample for sample in self.samples[begin:] if condition(sample))
+
+
+@pytest.fixture
+def user(bench: Bench) -> User:
+    return User(bench)
+
+
+def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, start: Start, user: User) -> None:
+    process = start("motor_sim", "motor_sim", "--ros-args", "-p", "name:=wheel", "-p", "max_voltage:=6.0")
+    info = bench.hear(MotorInfo, "motor/info", qos.INFO)
+    joints = bench.hear(JointState, "joint_states", qos.JOINT_STATES)
+    user.voltage = 8.0  # more than there is
+    user.until(lambda sample: sample.speed > 0.99 * 6.0 / PAPER_KV, "full speed")
+    user.until(lambda sample: len(user.samples) > 300, "more samples")
+    assert (info[0].name, info[0].source, info[0].measurement) == ("wheel", "simulation", "edges")
+    assert (info[0].edges_per_revolution, info[0].max_voltage, info[0].sample_period) == (96, 6.0, 0.005)
+
+    steady = user.samples[-100:]
+    assert {sample.voltage for sample in steady} == {6.0}
+    assert {sample.header.frame_id for sample in steady} == {"wheel"}
+    assert {b.sample_time - a.sample_time for a, b in zip(steady, steady[1:], strict=False)} == {5_000_000}
+    assert all((sample.edge_time - 1_000_000_000) % 4000 == 0 for sample in steady)  # the tick, from power-up
+    first, last = steady[0], steady[-1]
+    turned = (last.edge_count - first.edge_count) * tau / 96
+    assert turned / ((last.edge_time - first.edge_time) * 1e-9) == pytest.approx(6.0 / PAPER_KV, rel=1e-4)
+    assert last.speed == pytest.approx(6.0 / PAPER_KV, rel=0.01)
+    bench.wait(lambda: len(joints) > 10, "joint states")
+    assert joints[-1].name == ["wheel"] and joints[-1].position[0] > joints[-5].position[0]
+    end(process)
+    assert process.returncode == 0
+
+
+def test_stops_without_commands_and_while_disabled(bench: Bench, start: Start, user: User) -> None:
+    start("motor_sim", "motor_sim")
+    user.voltage = 5.0
+    user.until(lambda sample: sample.speed > 30.0, "motion")
+    user.sending = False
+    silent = user.until(lambda sample: sample.voltage == 0.0, "0 V after the time-out")
+    last = max(sample.sample_time for sample in user.samples if sample.voltage == 5.0)
+    assert 0.0 < (silent.sample_time - last) * 1e-9 < 0.15
+    user.sending = True
+    user.until(lambda sample: sample.voltage == 5.0, "commands again")
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=False)).success
+    user.until(lambda sample: sample.voltage == 0.0, "the output off")
+    user.until(lambda sample: sample.speed == 0.0, "a true zero")
+    assert all(sample.voltage == 0.0 for sample in user.samples[-50:])
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.until(lambda sample: sample.voltage == 5.0, "the output on")
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf")])
+def test_a_voltage_that_is_no_number_stops_the_motor(start: Start, user: User, number: float) -> None:
+    start("motor_sim", "motor_sim")
+    user.voltage = 5.0
+    user.until(lambda sample: sample.voltage == 5.0, "motion")
+    user.voltage = number
+    user.until(lambda sample: sample.voltage == 0.0, "0 V")
+    assert all(sample.voltage in (0.0, 5.0) for sample in user.samples)
+
+
+def test_loads_a_model_and_says_what_it_simulates(bench: Bench, start: Start, user: User, tmp_path: Path) -> None:
+    model = Parameters({"kv": 0.1, "ka": 0.005, "ks": 1.0}, ("coulomb_friction",), max_voltage=9.0, name="stiff")
+    save(tmp_path / "stiff.yaml", model)
+    process = start("motor_sim", "motor_sim", "--ros-args", "-p", f"model:={tmp_path / 'stiff.yaml'}")
+    info = bench.hear(MotorInfo, "motor/info", qos.INFO)
+    status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    user.voltage = 0.9
+    user.until(lambda sample: len(user.samples) > 40, "samples")
+    assert user.samples[-1].edge_count == 0  # held by its friction
+    user.voltage = 5.0
+    fast = user.until(lambda sample: sample.speed > 39.0, "motion")
+    assert fast.speed < 41.5  # (5 V − 1 V)/0.1, the disc is regular
+    assert info[0].max_voltage == 9.0
+    bench.wait(lambda: bool(status), "diagnostics")
+    assert status[-1].status[0].level == b"\x00" and "motor_sim" in status[-1].status[0].name
+    _, err = end(process)
+    assert "simulating 'stiff' (coulomb_friction)" in err
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("effects: [magic]\nparameters: {kv: 0.07, ka: 0.005}\n", "'magic' is not an effect"),
+        ("effects: []\nparameters: {kv: 0.07, ka: -0.005}\n", "ka = -0.005"),
+        (None, "cannot read the model file"),
+    ],
+)
+def test_a_bad_model_is_one_sentence(start: Start, tmp_path: Path, text: str | None, words: str) -> None:
+    path = tmp_path / "model.yaml"
+    if text is not None:
+        path.write_text(text)
+    process = start("motor_sim", "motor_sim", "--ros-args", "-p", f"model:={path}")
+    out, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, out) == (1, "")
+    assert words in err and err.count("\n") == 1 and "Traceback" not in err
+
+
+def test_a_value_out_of_range_is_one_sentence(start: Start) -> None:
+    process = start("motor_sim", "motor_sim", "--ros-args", "-p", "sample_rate:=5000.0")
+    out, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, out) == (1, "")
+    assert "sample_rate" in err and "10 to 1000 Hz" in err and err.count("\n") == 1

@@ -1,0 +1,95 @@
+"""What tests of nodes share: a node of the test's own, and our programs as processes, in a domain of their own."""
+
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import rclpy
+from ament_index_python.packages import get_package_prefix
+from domains import free_domain
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSProfile
+
+from motor_ros import qos
+
+PATIENCE = 20.0  # [s] for what is expected; a test that passes never waits so long
+DOMAIN = str(free_domain())
+ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": DOMAIN, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+
+
+class Bench:
+    """A node that publishes, hears and calls, and waits for what it is told of."""
+
+    def __init__(self, namespace: str = "") -> None:
+        os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+        self._context = rclpy.Context()
+        rclpy.init(context=self._context, domain_id=int(DOMAIN))
+        self.node = rclpy.create_node("bench", context=self._context, namespace=namespace or None)
+        self.executor = SingleThreadedExecutor(context=self._context)
+        self.executor.add_node(self.node)
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.node.destroy_node()
+        rclpy.shutdown(context=self._context)
+
+    def wait(self, condition: Callable[[], bool], what: str, patience: float = PATIENCE) -> None:
+        """Hear messages until the condition holds."""
+        end = time.monotonic() + patience
+        while not condition():
+            assert time.monotonic() < end, f"still waiting for {what}"
+            self.executor.spin_once(timeout_sec=0.02)
+
+    def publisher(self, kind: type, topic: str, profile: QoSProfile = qos.SPEED) -> Any:
+        return self.node.create_publisher(kind, topic, profile)
+
+    def hear(self, kind: type, topic: str, profile: QoSProfile = qos.SPEED) -> list[Any]:
+        """A list that grows with every message."""
+        messages: list[Any] = []
+        self.node.create_subscription(kind, topic, messages.append, profile)
+        return messages
+
+    def heard(self, *publishers: Any) -> None:
+        """Wait until each of the publishers has a subscriber."""
+        self.wait(lambda: all(publisher.get_subscription_count() for publisher in publishers), "subscribers")
+
+    def call(self, kind: type, name: str, request: object) -> Any:
+        """The response of a service."""
+        client = self.node.create_client(kind, name)
+        self.wait(client.service_is_ready, name)
+        future = client.call_async(request)
+        self.wait(future.done, f"an answer of {name}")
+        self.node.destroy_client(client)
+        return future.result()
+
+    def set(self, node: str, name: str, value: float) -> tuple[bool, str]:
+        """Whether a number parameter could be set, and what was said about it."""
+        number = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+        request = SetParameters.Request(parameters=[Parameter(name=name, value=number)])
+        result = self.call(SetParameters, f"{node}/set_parameters", request).results[0]
+        return result.successful, result.reason
+
+
+def start(package: str, command: str, *arguments: object) -> "subprocess.Popen[str]":
+    """One of our programs as a process; `end` ends it."""
+    program = Path(get_package_prefix(package)) / "lib" / package / command
+    return subprocess.Popen(
+        [program, *map(str, arguments)], env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+
+
+def end(process: "subprocess.Popen[str]", number: signal.Signals = signal.SIGINT) -> tuple[str, str]:
+    """Stop it: what it wrote; it has to end by itself, without a traceback."""
+    process.send_signal(number)
+    try:
+        out, err = process.communicate(timeout=PATIENCE)
+    finally:
+        process.kill()
+    assert "Traceback" not in err, err
+    return out, err
