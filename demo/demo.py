@@ -127,11 +127,13 @@ def held() -> bool:
 def references() -> list[tuple[float, float]]:
     """When [s since the closed loop's first sample] the controller worked with which reference [rad/s]."""
     path = str(OUT / "closed_loop")
-    first = next(at for _, _, at, _ in messages(path, ["/motor/speed"]))
-    states = (
-        (at, deserialize_message(data, ControlState)) for _, _, at, data in messages(path, ["/motor/control_state"])
-    )
-    return [((at - first) * 1e-9, state.reference) for at, state in states]
+    first = next(deserialize_message(row[3], MotorSpeed) for row in messages(path, ["/motor/speed"]))
+    states = (deserialize_message(row[3], ControlState) for row in messages(path, ["/motor/control_state"]))
+    return [(_seconds(state.header.stamp) - _seconds(first.header.stamp), state.reference) for state in states]
+
+
+def _seconds(stamp: Time) -> float:
+    return float(stamp.sec % 86400) + stamp.nanosec * 1e-9
 
 
 def real_motor() -> None:

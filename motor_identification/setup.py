@@ -13,7 +13,18 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),
     ],
-    install_requires=["setuptools", "numpy>=1.26", "scipy>=1.11", "tqdm>=4.66", "rosbags>=0.10.9", "mcap>=1.5", "apsw", "zstandard", "lz4", "PyYAML>=6.0"],
+    install_requires=[
+        "setuptools",
+        "numpy>=1.26",
+        "scipy>=1.11",
+        "tqdm>=4.66",
+        "rosbags>=0.10.9",
+        "mcap>=1.5",
+        "apsw",
+        "zstandard",
+        "lz4",
+        "PyYAML>=6.0",
+    ],
     zip_safe=False,
     entry_points={
         "console_scripts": [

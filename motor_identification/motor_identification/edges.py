@@ -49,7 +49,7 @@ def _turned_at_the_slowest(edges: Edges, recording: Recording) -> Edges:
     """Move each change of sign back to where the motor really turned: its slowest interval.
 
     A single channel's reported sign changes only after the speed has visibly risen again, a few edges late. The motor
-    may also have turned in the interval beside the slowest, so that the direction of the two edges around it stays open.
+    may also have turned in the interval beside the slowest, so the direction of the two edges around it stays open.
     """
     direction = edges.direction.copy()
     changes = np.flatnonzero(direction[1:] * direction[:-1] < 0) + 1

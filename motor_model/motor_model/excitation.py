@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,7 @@ class Profile:
     shows: str
     shape: Shape
 
-    def voltage(self, time: Floats, largest: float) -> Floats:
+    def voltage(self, time: NDArray[np.floating[Any]], largest: float) -> Floats:
         """[V] at times [s] since the start, scaled so that its peak is `largest` [V]. Shape as `time`."""
         inside = (time >= 0.0) & (time < self.duration)
         return np.asarray(np.where(inside, largest * self.shape(np.clip(time, 0.0, self.duration)), 0.0))

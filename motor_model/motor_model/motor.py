@@ -326,13 +326,10 @@ def _until_event(p: Floats, c: Coefficients, s: State, h: float) -> tuple[State,
     event = 0
     if p[LAG] > 0.0:
         turned = _time_of_extreme(p, c, s)
-        if turned < h:  # within h it may brake through zero and be back, or leave its rest and be back
+        if turned < h:  # the state after h may hide that it braked through zero, or left its rest, and is back
             then = _solve(p, c, s, turned)
-            stops, leaves = (
-                s.speed != 0.0 and then[0] * s.direction <= 0.0,
-                s.speed == 0.0 and then[0] * s.direction > 0.0,
-            )
-            if stops or (leaves and speed * s.direction <= 0.0):
+            still, onward = s.speed == 0.0, then[0] * s.direction > 0.0
+            if (not still and not onward) or (still and onward and speed * s.direction <= 0.0):
                 h = turned
                 speed, drive, travel = then
     if s.speed == 0.0 and speed * s.direction <= 0.0:  # what let it start is gone before it has moved

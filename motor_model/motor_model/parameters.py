@@ -45,8 +45,10 @@ class Parameters:
         for name, value in self.values.items():
             spec = SPEC_BY_NAME[name]
             if not isfinite(value) or not spec.minimum <= value <= spec.maximum:
-                span = f"{spec.minimum:g} to {spec.maximum:g}" if isfinite(spec.maximum) else f"at least {spec.minimum:g}"
-                raise ModelError(f"{name} = {value:g} {spec.unit} is not physical: it must be {span}.")
+                most = f" and at most {spec.maximum:g}" if isfinite(spec.maximum) else ""
+                raise ModelError(
+                    f"{name} = {value:g} {spec.unit} is not physical: it must be at least {spec.minimum:g}{most}."
+                )
         if self.values["kv"] <= 0.0 or self.values["ka"] <= 0.0:
             raise ModelError("kv and ka must be positive: a motor with neither back-EMF nor inertia is none.")
         if not np.isfinite(self.max_voltage) or self.max_voltage <= 0.0:

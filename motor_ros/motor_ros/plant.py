@@ -1,4 +1,4 @@
-"""The shell that simulated and real motor share: same topics, types, QoS, services and parameters, so that they swap."""
+"""The shell that simulated and real motor share, so that they swap: topics, QoS, services, parameters."""
 
 from math import tau
 

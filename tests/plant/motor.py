@@ -6,7 +6,8 @@ stays or goes on, and which way, is then that same rule's decision. Commands swi
 Backlash as read here: the motor pushes its load's share of inertia in one direction through one flank of the play.
 When it starts in the other direction, the load's share is missing until the motor has moved backlash_angle (or has
 come back); then both go on at the motor's speed. The definition speaks of inertia alone, so that ω has no jump there (a
-load that really stood still would take momentum). All friction stays with the motor. A stop without a reversal frees nothing, and whichever way the motor first moves, the play is taken up.
+load that really stood still would take momentum). All friction stays with the motor. A stop without a reversal frees
+nothing, and whichever way the motor first moves, the play is taken up.
 """
 
 from dataclasses import dataclass

@@ -1,0 +1,100 @@
+"""The rules of the architecture: who may import what, and that the tree is formatted, linted and typed."""
+
+import ast
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGES = sorted(path.parent.name for path in ROOT.glob("motor_*/package.xml"))
+# Arrows only point down: each package with those it may import.
+BELOW = {
+    "motor_model": set(),
+    "motor_msgs": set(),
+    "motor_ros": {"motor_model", "motor_msgs"},
+    "motor_sim": {"motor_model", "motor_msgs", "motor_ros"},
+    "motor_control": {"motor_model", "motor_msgs", "motor_ros"},
+    "motor_identification": {"motor_model", "motor_msgs", "motor_ros"},
+}
+ROS = {"rclpy", "motor_msgs", "motor_ros", "std_msgs", "std_srvs", "sensor_msgs", "diagnostic_msgs", "rcl_interfaces"}
+ROS |= {"builtin_interfaces"}
+# Where ROS may be imported: node files, command files, and the modules that turn messages into plain values.
+SHELLS = re.compile(r"(/node\.py|/messages\.py|/cli/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_control/parameters\.py)$")
+BAGS = re.compile(r"motor_identification/bag/\w+\.py$")
+
+
+def sources() -> Iterator[tuple[str, Path, set[str]]]:
+    """Every module of our packages with the top-level packages it imports."""
+    for package in PACKAGES:
+        for path in sorted((ROOT / package / package).rglob("*.py")):
+            names: set[str] = set()
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Import):
+                    names |= {alias.name.split(".")[0] for alias in node.names}
+                elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+                    names.add(node.module.split(".")[0])
+            yield package, path, names
+
+
+MODULES = list(sources())
+
+
+def test_all_packages_are_known() -> None:
+    assert set(PACKAGES) == set(BELOW)
+    assert len(MODULES) > 50
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_imports_only_what_is_below(package: str) -> None:
+    for owner, path, names in MODULES:
+        if owner == package:
+            ours = names & set(PACKAGES) - {package}
+            assert ours <= BELOW[package], f"{path.relative_to(ROOT)} imports {ours - BELOW[package]}"
+
+
+def test_ros_stays_in_the_shells() -> None:
+    for _, path, names in MODULES:
+        if names & ROS:
+            assert SHELLS.search(path.as_posix()), f"{path.relative_to(ROOT)} imports {names & ROS}"
+
+
+def test_bags_are_known_in_one_place() -> None:
+    for _, path, names in MODULES:
+        if names & {"rosbags", "mcap", "apsw"}:
+            assert BAGS.search(path.as_posix()), f"{path.relative_to(ROOT)} knows bags"
+
+
+@pytest.mark.parametrize("package", [package for package in PACKAGES if package != "motor_msgs"])
+def test_package_xml_names_what_is_imported(package: str) -> None:
+    """Every imported package is a dependency by its rosdep key, or one of those that come from PyPI."""
+    text = (ROOT / package / "package.xml").read_text(encoding="utf-8")
+    declared = set(re.findall(r"<(?:exec_)?depend>([\w-]+)</", text))
+    keys = {"numpy": "python3-numpy", "scipy": "python3-scipy", "yaml": "python3-yaml", "tqdm": "python3-tqdm"}
+    keys |= {"matplotlib": "python3-matplotlib", "lz4": "python3-lz4"}
+    from_pypi = {name.strip() for row in re.findall(r"from PyPI[^:]*: ([^>]*?) -->", text) for name in row.split(",")}
+    for owner, path, names in MODULES:
+        if owner != package:
+            continue
+        for name in names - set(sys.stdlib_module_names) - {package}:
+            assert keys.get(name, name) in declared | from_pypi, f"{path.relative_to(ROOT)} imports {name}"
+
+
+def run(*command: str) -> None:
+    done = subprocess.run([sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_formatted() -> None:
+    run("ruff", "format", "--check", ".")
+
+
+def test_linted() -> None:
+    run("ruff", "check", ".")
+
+
+def test_pure_modules_are_typed() -> None:
+    run("mypy")
