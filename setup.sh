@@ -43,7 +43,7 @@ fi
 fingerprint() {
   { echo "$kind $root"
     cat setup.sh requirements/*.lock motor_*/package.xml motor_*/setup.* motor_msgs/*/*.* \
-      motor_msgs/CMakeLists.txt motor_model/motor_model/*.py ros2_stand_in/*.py 2>/dev/null
+      motor_msgs/CMakeLists.txt motor_model/motor_model/*.py motor_identification/motor_identification/*.py 2>/dev/null
   } | sha256sum | cut -d' ' -f1
 }
 stamp=$root/.venv/setup.stamp
@@ -136,7 +136,7 @@ say "compiling the motor (Numba caches)"
 set +u
 source env.sh
 set -u
-quietly "$venv/bin/python" -m motor_model.warm_up
+quietly "$venv/bin/python" -m motor_identification.warm_up
 
 fingerprint >"$stamp"
 say "done. Next: ./demo.sh, or 'source env.sh' and 'ros2 run motor_sim motor_sim'."

@@ -10,6 +10,7 @@ from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
 from rclpy.task import Future
 
+from motor_identification import warm_up
 from motor_identification.findings import save_model
 from motor_identification.identify import Fit
 from motor_identification.job import Job, run_job
@@ -32,20 +33,13 @@ PARAMETERS = (
 )
 
 
-def _import_everything() -> None:
-    """What the first job would otherwise wait for: imports and compiled code."""
-    from motor_model.warm_up import main
-
-    main()
-
-
 class MotorIdentification(Node):
     """Service motor/identify and the latched topic motor/model."""
 
     def __init__(self) -> None:
         super().__init__("motor_identification")
         declare(self, PARAMETERS)
-        self._worker = Worker(_import_everything)
+        self._worker = Worker(warm_up.main)
         self._model = self.create_publisher(MotorModel, "motor/model", qos.MODEL)
         alone = MutuallyExclusiveCallbackGroup()  # a group is blocked while its fit is awaited; parameters must not be
         self.create_service(Identify, "motor/identify", self._on_identify, callback_group=alone)

@@ -1,0 +1,22 @@
+"""`python -m motor_identification.warm_up`: compile everything a fit needs, so that nobody waits for the first one."""
+
+from motor_identification.experiment import make_plan, simulate_plan
+from motor_identification.identify import Request, identify
+from motor_identification.recording import recording_of
+from motor_model import warm_up
+from motor_model.board import BoardConfig
+from motor_model.excitation import profile
+from motor_model.parameters import paper_motor
+
+
+def main() -> None:
+    """Fit a simulated step once, as small as it gets."""
+    warm_up.main()
+    motor, config = paper_motor(), BoardConfig()
+    plan = make_plan(profile("step"), 10.0, motor.max_voltage, 1.0 / config.sample_rate)
+    samples = [sample for _, sample in simulate_plan(plan, motor, config)]
+    identify([recording_of(samples, config.info(motor), "warm-up")], Request(particles=4, epochs=1))
+
+
+if __name__ == "__main__":
+    main()
