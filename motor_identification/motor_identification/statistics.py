@@ -28,8 +28,8 @@ class Certainty:
 def certainty(problem: Problem, place: Floats, jacobian: Floats) -> Certainty:
     """Judge a fitted place by the Jacobian (I, D) of the unweighted residuals there.
 
-    The errors are a sandwich estimate, (JᵀWJ)⁻¹ (Σ_b s_b s_bᵀ) (JᵀWJ)⁻¹ with s_b the sum of wᵢJᵢrᵢ over a block of
-    consecutive intervals, so that correlation shorter than a block needs no model (Liang & Zeger, Biometrika 73, 1986).
+    The errors are a sandwich estimate, (JᵀWJ)⁻¹ M (JᵀWJ)⁻¹. Neighbouring intervals share an edge, whose error counts up
+    in one and down in the other; so M is made of what each edge, not each interval, adds to the gradient (`_by_edge`).
     """
     weight = problem.weight
     scale = _scales(problem, place)
@@ -37,14 +37,44 @@ def certainty(problem: Problem, place: Floats, jacobian: Floats) -> Certainty:
     root = np.sqrt(weight)[:, None] * scaled
     alone = _independence(root)
     inverse = np.linalg.pinv(root.T @ root, rcond=1e-14, hermitian=True)
-    scores = weight[:, None] * scaled * problem.residuals(place)[:, None]
-    blocks = np.array_split(scores, min(BLOCKS, max(len(scores) // 8, 2)))
-    sums = np.array([block.sum(axis=0) for block in blocks])
-    correction = len(blocks) / max(len(blocks) - len(place), 1)
-    errors = np.sqrt(np.diag(inverse @ (sums.T @ sums * correction) @ inverse))
+    errors = _errors(inverse, *_by_edge(problem, scaled, weight * problem.residuals(place)))
     unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE)
     names = tuple(name for name, bad in zip(problem.unknowns.names, unsure, strict=False) if bad)
     return Certainty(np.where(unsure, np.nan, errors * scale), names)
+
+
+def _by_edge(problem: Problem, jacobian: Floats, parts: Floats) -> tuple[Floats, Floats]:
+    """The gradient Σ Jᵢpᵢ as Σ qₑgₑ over the E ends of intervals: angle errors q (E,) and their leverage g (E, D).
+
+    A part pᵢ of the residuals is a share of angle, the difference of the errors q at both ends of an interval (J: (I, D)).
+    Where intervals follow each other without a gap, that is summation by parts; q is known but for its mean, which has
+    no leverage.
+    """
+    errors, leverage = [], []
+    column, nothing = 0, np.zeros((1, jacobian.shape[1]))
+    for data in problem.intervals:
+        breaks = np.flatnonzero(data.last[:-1] != data.first[1:]) + 1
+        for chain in np.split(np.arange(column, column + len(data.first)), breaks):
+            q = np.concatenate([[0.0], np.cumsum(parts[chain])])
+            errors.append(q - q.mean())
+            leverage.append(-np.diff(np.concatenate([nothing, jacobian[chain], nothing]), axis=0))
+        column += len(data.first)
+    return np.concatenate(errors), np.concatenate(leverage)
+
+
+def _errors(inverse: Floats, q: Floats, leverage: Floats) -> Floats:
+    """Standard errors (D,) of an estimate with this inverse (D, D), for angle errors q (E,) and their leverage (E, D).
+
+    The larger of two: q independent from edge to edge with a variance that is the same in a block of neighbours (precise
+    where single edges have all the leverage), and q correlated in any way within a block (Liang & Zeger, Biometrika 73,
+    1986).
+    """
+    blocks = np.array_split(np.arange(len(q)), min(BLOCKS, max(len(q) // 8, 2)))
+    effect = leverage @ inverse
+    alone = sum(np.mean(q[block] ** 2) * np.sum(effect[block] ** 2, axis=0) for block in blocks)
+    together = sum((q[block] @ effect[block]) ** 2 for block in blocks)
+    correction = len(blocks) / max(len(blocks) - len(inverse), 1)
+    return np.asarray(np.sqrt(correction * np.maximum(alone, together)))
 
 
 def _scales(problem: Problem, place: Floats) -> Floats:

@@ -1,5 +1,6 @@
 """A node with a bit of everything, for the stand-in to be tried on; prints what it receives."""
 
+import contextlib
 import sys
 import time
 
@@ -27,7 +28,9 @@ class Bench(Node):
     def __init__(self) -> None:
         super().__init__("bench", namespace="/lab")
         span = FloatingPointRange(from_value=0.0, to_value=10.0)
-        self.declare_parameter("kp", 0.3, ParameterDescriptor(description="gain [V·s/rad]", floating_point_range=[span]))
+        self.declare_parameter(
+            "kp", 0.3, ParameterDescriptor(description="gain [V·s/rad]", floating_point_range=[span])
+        )
         self.declare_parameter("name", "motor")
         self.declare_parameter("workers", 2)
         self.declare_parameter("limits.voltages", [1.5, 12.0])
@@ -35,10 +38,10 @@ class Bench(Node):
         self.create_subscription(Float64, "/reference", lambda message: say(f"reference {message.data!r}"), 10)
         self.create_subscription(MotorVoltage, "/voltage", self.on_voltage, 10)
         self.create_service(SetBool, "/enable", self.enable)
-        self.create_service(SetBool, "/crash", lambda request, response: sys.exit(1))
         self.create_publisher(Float64, "/_hidden", 1)
-        self.latched = self.create_publisher(String, "/latched", LATCHED)
-        self.latched.publish(String(data="for those who come later"))
+        if "--late" not in sys.argv or self.is_awaited("/latched"):
+            self.latched = self.create_publisher(String, "/latched", LATCHED)
+            self.latched.publish(String(data="for those who come later"))
         self.fast = self.create_publisher(Float64, "/fast", qos_profile_sensor_data)
         self.array = self.create_publisher(Float64MultiArray, "/array", 10)
         self.create_timer(0.02, self.tick)
@@ -51,6 +54,12 @@ class Bench(Node):
             cancel_callback=lambda handle: CancelResponse.ACCEPT,
             callback_group=ReentrantCallbackGroup(),
         )
+
+    def is_awaited(self, topic: str) -> bool:
+        end = time.monotonic() + 20.0
+        while time.monotonic() < end and not self.count_subscribers(topic):
+            time.sleep(0.01)
+        return self.count_subscribers(topic) > 0
 
     def on_voltage(self, message: MotorVoltage) -> None:
         age = self.get_clock().now().nanoseconds * 1e-9 - message.header.stamp.sec - message.header.stamp.nanosec * 1e-9
@@ -81,17 +90,16 @@ class Bench(Node):
 
 
 def main() -> None:
-    if len(sys.argv) > 1:
-        time.sleep(float(sys.argv[1]))
     rclpy.init(args=[])
     node = Bench()
     executor = MultiThreadedExecutor(3)
     executor.add_node(node)
     say("ready")
-    try:
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
         executor.spin()
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+    executor.shutdown(0.5)
+    node.destroy_node()
+    rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

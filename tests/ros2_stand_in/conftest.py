@@ -1,5 +1,6 @@
 """Runs the stand-in as users do, against a node of our own, each in a domain that nobody else uses."""
 
+import contextlib
 import itertools
 import os
 import queue
@@ -11,6 +12,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 import pytest
 
@@ -42,58 +44,76 @@ class Process:
 
     def __init__(self, command: list[str], env: dict[str, str]) -> None:
         self._popen = subprocess.Popen(command, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self._lines: queue.Queue[str] = queue.Queue()
-        self.seen: list[str] = []
-        self._reader = threading.Thread(target=self._read, daemon=True)
-        self._reader.start()
-
-    def _read(self) -> None:
-        assert self._popen.stdout is not None
-        for line in self._popen.stdout:
-            self._lines.put(line.rstrip("\n"))
+        self._out = _Lines(self._popen.stdout)
+        self._err = _Lines(self._popen.stderr)
 
     @property
     def pid(self) -> int:
         return self._popen.pid
 
-    def wait_for(self, start: str) -> str:
+    def wait_for(self, start: str, errors: bool = False) -> str:
         """The next line that begins so."""
+        lines = self._err if errors else self._out
         end = time.monotonic() + LONGEST
         while time.monotonic() < end:
             try:
-                line = self._lines.get(timeout=0.2)
+                line = lines.next(0.1)
             except queue.Empty:
-                assert self._popen.poll() is None, f"ended before {start!r}: {self.seen}, {self._popen.stderr.read()}"
+                assert self._popen.poll() is None, f"ended before {start!r}: {self._out.seen}, {self._err.all()}"
                 continue
-            self.seen.append(line)
             if line.startswith(start):
                 return line
-        raise AssertionError(f"no line {start!r} within {LONGEST} s, but {self.seen}")
+        raise AssertionError(f"no line {start!r} within {LONGEST} s, but {lines.seen}")
 
-    def end(self, number: int = signal.SIGINT) -> tuple[Output, float]:
-        """Send a signal; the rest of the output, and the seconds it took to end."""
+    def end(self, number: int | None = signal.SIGINT) -> tuple[Output, float]:
+        """Send a signal, or let it end by itself; all of its output, and the seconds it took to end."""
         started = time.monotonic()
-        self._popen.send_signal(number)
-        self._popen.wait(LONGEST)
-        took = time.monotonic() - started
-        self._reader.join()
-        while not self._lines.empty():
-            self.seen.append(self._lines.get())
-        assert self._popen.stderr is not None
-        return Output(self._popen.returncode, "\n".join(self.seen), self._popen.stderr.read()), took
+        if number is not None:
+            self._popen.send_signal(number)
+        status = self._popen.wait(LONGEST)
+        return Output(status, self._out.all(), self._err.all()), time.monotonic() - started
 
-    def kill(self) -> None:
-        if self._popen.poll() is None:
-            self._popen.kill()
-            self._popen.wait(LONGEST)
+    def stop(self) -> None:
+        """End it, gently if it lets us: a killed participant leaves shared memory behind."""
+        for stop in (self._popen.terminate, self._popen.kill):
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                stop()
+                self._popen.wait(5.0)
+
+
+class _Lines:
+    """The lines of a pipe as they come."""
+
+    def __init__(self, pipe: IO[str] | None) -> None:
+        assert pipe is not None
+        self.seen: list[str] = []
+        self._queue: queue.Queue[str] = queue.Queue()
+        self._reader = threading.Thread(target=lambda: [self._queue.put(line) for line in pipe], daemon=True)
+        self._reader.start()
+
+    def next(self, seconds: float) -> str:
+        self.seen.append(self._queue.get(timeout=seconds))
+        return self.seen[-1].rstrip("\n")
+
+    def all(self) -> str:
+        """Everything, when the program has ended."""
+        self._reader.join(LONGEST)
+        while not self._queue.empty():
+            self.seen.append(self._queue.get())
+        return "".join(self.seen)
 
 
 class Ros2:
-    """`ros2`, in one domain."""
+    """`ros2`, in one domain.
 
-    def __init__(self, domain: int) -> None:
+    Whoever is quick tells of himself twenty times a second instead of every 3 s, so that he is found sooner.
+    """
+
+    def __init__(self, domain: int, quick: bool = True) -> None:
         self.env = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-        self.env |= {"TZ": "UTC", "LC_ALL": "C.UTF-8", "PYTHONUNBUFFERED": "1"}
+        self.env |= {"TZ": "UTC", "LC_ALL": "C.UTF-8"}
+        if quick:
+            self.env["FASTRTPS_DEFAULT_PROFILES_FILE"] = str(HERE / "quick_announcements.xml")
         self._started: list[Process] = []
 
     def __call__(self, *words: str, status: int = 0, stdin: str = "", **more: str) -> Output:
@@ -107,21 +127,25 @@ class Ros2:
 
     def start(self, *words: str) -> Process:
         """Run on."""
-        return self._keep(Process([str(LAUNCHER), *words], self.env))
+        return self._start([str(LAUNCHER), *words])
+
+    def start_shell(self, line: str) -> Process:
+        """Run a line of bash that begins with a verb."""
+        return self._start(["bash", "-c", f"'{LAUNCHER}' {line}"])
 
     def start_node(self, *arguments: str) -> Process:
         """Start the node of bench_node.py and wait until it is up."""
-        node = self._keep(Process([sys.executable, str(HERE / "bench_node.py"), *arguments], self.env))
+        node = self._start([sys.executable, str(HERE / "bench_node.py"), *arguments])
         node.wait_for("ready")
         return node
 
-    def _keep(self, process: Process) -> Process:
-        self._started.append(process)
-        return process
+    def _start(self, command: list[str]) -> Process:
+        self._started.append(Process(command, self.env))
+        return self._started[-1]
 
-    def kill_all(self) -> None:
+    def stop_all(self) -> None:
         for process in self._started:
-            process.kill()
+            process.stop()
 
 
 @pytest.fixture
@@ -129,12 +153,20 @@ def ros2() -> Iterator[Ros2]:
     """`ros2` in a domain of this test's own."""
     runner = Ros2(free_domain())
     yield runner
-    runner.kill_all()
+    runner.stop_all()
+
+
+@pytest.fixture
+def ordinary_ros2() -> Iterator[Ros2]:
+    """`ros2`, and nodes, with the announcements that users have."""
+    runner = Ros2(free_domain(), quick=False)
+    yield runner
+    runner.stop_all()
 
 
 @pytest.fixture(scope="module")
-def bench() -> "Iterator[tuple[Ros2, Process]]":
+def bench() -> Iterator[tuple[Ros2, Process]]:
     """`ros2` and a running bench node, for all tests of a file."""
     runner = Ros2(free_domain())
     yield runner, runner.start_node()
-    runner.kill_all()
+    runner.stop_all()

@@ -1,0 +1,22 @@
+"""Where the `ros2` launcher enters: finds the package beside this file, whatever the current directory is."""
+
+import os
+import sys
+from pathlib import Path
+
+# The workbench's root is on the path for this one import only: it holds folders named like the packages in them.
+sys.path[0] = str(Path(__file__).resolve().parent.parent)
+import ros2_stand_in  # noqa: E402, F401
+
+del sys.path[0]
+
+try:
+    from ros2_stand_in.main import main
+
+    status = main(sys.argv[1:])
+except ModuleNotFoundError as error:
+    sys.exit(f"{error.name} is not on the path: 'source env.sh' in the workbench's root, then try again.")
+except KeyboardInterrupt:
+    sys.exit(130)
+
+os._exit(status)  # everything is closed and flushed; to unload the middleware takes 0.13 s more

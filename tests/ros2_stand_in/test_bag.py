@@ -1,0 +1,117 @@
+"""`ros2 bag`: what a bag holds, and how recording and playing are handed on."""
+
+import os
+import re
+
+import pytest
+
+METADATA = """\
+rosbag2_bagfile_information:
+  version: 9
+  storage_identifier: mcap
+  duration: {nanoseconds: 61000000005}
+  starting_time: {nanoseconds_since_epoch: 1762338062000000123}
+  message_count: 12201
+  topics_with_message_count:
+    - topic_metadata: {name: /motor/speed, type: motor_msgs/msg/MotorSpeed, serialization_format: cdr}
+      message_count: 12200
+    - topic_metadata: {name: /motor/info, type: motor_msgs/msg/MotorInfo, serialization_format: cdr}
+      message_count: 1
+  relative_file_paths: [run_0.mcap, run_1.mcap]
+  ros_distro: jazzy
+"""
+
+INFO = """
+Files:             run_0.mcap
+                   run_1.mcap
+Bag size:          3.0 KiB
+Storage id:        mcap
+ROS Distro:        jazzy
+Duration:          61.000000005s
+Start:             Nov  5 2025 10:21:02.000000123 (1762338062.000000123)
+End:               Nov  5 2025 10:22:03.000000128 (1762338123.000000128)
+Messages:          12201
+Topic information: Topic: /motor/speed | Type: motor_msgs/msg/MotorSpeed | Count: 12200 | Serialization Format: cdr
+                   Topic: /motor/info | Type: motor_msgs/msg/MotorInfo | Count: 1 | Serialization Format: cdr
+Service:           0
+Service information: 
+"""  # noqa: W291
+
+
+@pytest.fixture
+def bag(tmp_path):
+    folder = tmp_path / "run"
+    folder.mkdir()
+    (folder / "metadata.yaml").write_text(METADATA)
+    (folder / "run_0.mcap").write_bytes(bytes(3072 - len(METADATA)))
+    return folder
+
+
+def test_info_prints_what_the_real_command_prints(ros2, bag):
+    assert ros2("bag", "info", str(bag)).out == INFO
+    assert ros2("bag", "info", "-t", str(bag)).out == "/motor/speed\n/motor/info\n"
+
+
+def test_info_of_an_empty_bag_of_an_older_ros(ros2, bag):
+    text = re.sub(
+        r"topics_with_message_count:.*\n(?=  relative)", "topics_with_message_count: []\n", METADATA, flags=re.S
+    )
+    (bag / "metadata.yaml").write_text(text.replace("  ros_distro: jazzy\n", ""))
+    out = ros2("bag", "info", str(bag)).out
+    assert "\nROS Distro:        unknown\n" in out
+    assert "\nTopic information: \nService:           0\n" in out
+
+
+def test_info_without_metadata_is_a_sentence(ros2, bag, tmp_path):
+    (bag / "metadata.yaml").unlink()
+    assert ros2("bag", "info", str(bag), status=1).err == (
+        f"{bag} has no metadata.yaml: it is not a bag, or recording was cut off; what it holds can still be played.\n"
+    )
+    assert ros2("bag", "info", str(tmp_path / "no"), status=1).err == f"Bag path '{tmp_path / 'no'}' does not exist!\n"
+
+
+@pytest.mark.parametrize("text", ["", "a: [", "rosbag2_bagfile_information: 5", METADATA.replace("  duration", "  d")])
+def test_info_of_broken_metadata_is_a_sentence(ros2, bag, text):
+    (bag / "metadata.yaml").write_text(text)
+    assert str(bag / "metadata.yaml") in ros2("bag", "info", str(bag), status=1).err
+
+
+@pytest.fixture
+def handed_on(ros2, tmp_path):
+    """`ros2`, with a motor_identification whose record and play print their arguments."""
+    marker = tmp_path / "share/ament_index/resource_index/packages/motor_identification"
+    marker.parent.mkdir(parents=True)
+    marker.touch()
+    for name in ("record", "play"):
+        program = tmp_path / "lib/motor_identification" / name
+        program.parent.mkdir(parents=True, exist_ok=True)
+        program.write_text(f'#!/bin/sh\necho {name} "$@"\n')
+        program.chmod(0o755)
+    ros2.env["AMENT_PREFIX_PATH"] = f"{tmp_path}{os.pathsep}{ros2.env['AMENT_PREFIX_PATH']}"
+    return ros2
+
+
+@pytest.mark.parametrize(
+    ("words", "command"),
+    [
+        ("record -o run /motor/speed /motor/info", "record run /motor/speed /motor/info"),
+        ("record -s mcap --output run --topics /motor/speed", "record run /motor/speed"),
+        ("record -a -o run", "record run --all"),
+        ("play run", "play run --rate 1.0"),
+        ("play run -r 2.5 -l --topics /a /b", "play run --rate 2.5 --loop --topics /a /b"),
+    ],
+)
+def test_recording_and_playing_are_handed_on(handed_on, words, command):
+    assert handed_on("bag", *words.split()).out == f"{command}\n"
+
+
+def test_recording_without_a_name_takes_the_time_as_one(handed_on):
+    out = handed_on("bag", "record", "--all").out
+    assert re.fullmatch(r"record rosbag2_\d{4}_\d\d_\d\d-\d\d_\d\d_\d\d --all\n", out)
+
+
+def test_recording_nothing_is_a_sentence(handed_on):
+    assert handed_on("bag", "record", "-o", "x", status=1).err == (
+        "Say what to record: topics, such as /motor/speed, or --all.\n"
+    )
+    assert "invalid choice: 'sqlite3'" in handed_on("bag", "record", "-a", "-s", "sqlite3", status=2).err

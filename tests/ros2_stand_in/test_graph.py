@@ -1,0 +1,93 @@
+"""Lists and descriptions of what runs."""
+
+OUR_SERVICES = """\
+/enable [std_srvs/srv/SetBool]
+/lab/bench/describe_parameters [rcl_interfaces/srv/DescribeParameters]
+/lab/bench/get_parameter_types [rcl_interfaces/srv/GetParameterTypes]
+/lab/bench/get_parameters [rcl_interfaces/srv/GetParameters]
+/lab/bench/get_type_description [type_description_interfaces/srv/GetTypeDescription]
+/lab/bench/list_parameters [rcl_interfaces/srv/ListParameters]
+/lab/bench/set_parameters [rcl_interfaces/srv/SetParameters]
+/lab/bench/set_parameters_atomically [rcl_interfaces/srv/SetParametersAtomically]
+"""
+
+TOPICS = """\
+/array [std_msgs/msg/Float64MultiArray]
+/fast [std_msgs/msg/Float64]
+/latched [std_msgs/msg/String]
+/parameter_events [rcl_interfaces/msg/ParameterEvent]
+/reference [std_msgs/msg/Float64]
+/rosout [rcl_interfaces/msg/Log]
+/voltage [motor_msgs/msg/MotorVoltage]
+"""
+
+
+def test_an_empty_graph_is_known_at_once(ros2):
+    assert ros2("node", "list").out == ""
+    assert ros2("topic", "list").out == "/parameter_events\n/rosout\n"
+
+
+def test_a_list_is_complete_although_discovery_can_take_seconds(ordinary_ros2):
+    ordinary_ros2.start_node()
+    assert [ordinary_ros2("node", "list").out for _ in range(2)] == ["/lab/bench\n"] * 2
+
+
+def test_nodes(bench):
+    ros2, _ = bench
+    assert ros2("node", "list").out == "/lab/bench\n"
+    out = ros2("node", "list", "-a").out.splitlines()
+    assert out[0].startswith("/_ros2cli_") and out[1:] == ["/lab/bench"]
+
+
+def test_topics(bench):
+    ros2, _ = bench
+    assert ros2("topic", "list", "-t").out == TOPICS
+    assert "/_hidden\n" in ros2("topic", "list", "--include-hidden-topics").out
+    published, subscribed = ros2("topic", "list", "-v").out.split("Subscribed topics:\n")
+    assert " * /fast [std_msgs/msg/Float64] 1 publisher\n" in published
+    assert subscribed == (
+        " * /reference [std_msgs/msg/Float64] 1 subscriber\n * /voltage [motor_msgs/msg/MotorVoltage] 1 subscriber\n\n"
+    )
+
+
+def test_one_topic(bench):
+    ros2, _ = bench
+    assert ros2("topic", "type", "/fast").out == "std_msgs/msg/Float64\n"
+    assert ros2("topic", "info", "/reference").out == (
+        "Type: std_msgs/msg/Float64\nPublisher count: 0\nSubscription count: 1\n"
+    )
+    out = ros2("topic", "info", "-v", "latched").out
+    assert out.startswith("Type: std_msgs/msg/String\n\nPublisher count: 1\n\nNode name: bench\nNode namespace: /lab\n")
+    assert "  Durability: TRANSIENT_LOCAL\n" in out
+    assert out.endswith("Subscription count: 0\n\n")
+    assert ros2("topic", "info", "/nope", status=1).err == (
+        "Unknown topic '/nope': nobody publishes or subscribes to it.\n"
+    )
+
+
+def test_services(bench):
+    ros2, _ = bench
+    assert ros2("service", "list", "-t").out == OUR_SERVICES
+    assert ros2("service", "type", "/enable").out == "std_srvs/srv/SetBool\n"
+    assert ros2("service", "type", "/nope", status=1).err == "Unknown service '/nope': no running node offers it.\n"
+
+
+def test_actions(bench):
+    ros2, _ = bench
+    assert ros2("action", "list", "-t").out == "/diagnose [motor_msgs/action/Diagnose]\n"
+
+
+def test_one_node(bench):
+    ros2, _ = bench
+    services = "".join(f"    {line[:-1].replace(' [', ': ')}\n" for line in OUR_SERVICES.splitlines())
+    assert ros2("node", "info", "/lab/bench").out == (
+        "/lab/bench\n  Subscribers:\n    /reference: std_msgs/msg/Float64\n    /voltage: motor_msgs/msg/MotorVoltage\n"
+        "  Publishers:\n    /array: std_msgs/msg/Float64MultiArray\n    /fast: std_msgs/msg/Float64\n"
+        "    /latched: std_msgs/msg/String\n    /parameter_events: rcl_interfaces/msg/ParameterEvent\n"
+        f"    /rosout: rcl_interfaces/msg/Log\n  Service Servers:\n{services}  Service Clients:\n\n"
+        "  Action Servers:\n    /diagnose: motor_msgs/action/Diagnose\n  Action Clients:\n\n"
+    )
+    assert (
+        ros2("node", "info", "/nope", status=1).err
+        == "Unable to find node '/nope'; 'ros2 node list' shows what runs.\n"
+    )

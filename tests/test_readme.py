@@ -1,0 +1,72 @@
+"""Every command of the README is run as it stands there, in its order, in one directory."""
+
+import os
+import re
+import signal
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from domains import free_domain
+
+ROOT = Path(__file__).resolve().parents[1]
+BLOCKS = re.findall(r"```bash\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+COMMANDS = [line.split("  #")[0].strip() for block in BLOCKS for line in block.splitlines() if line.strip()]
+SCRIPTS = ("./demo.sh", "./test.sh", "source env.sh")  # the demo has a test of its own; this is the third's environment
+NODES = re.compile(
+    r"ros2 run (motor_sim motor_sim|motor_control motor_control|motor_identification motor_identification)$"
+)
+
+
+def write_log(path: Path) -> None:
+    """A motor's log as somebody else would have it: 20 ms samples of a first-order motor under a square wave."""
+    time = np.arange(0.0, 10.0, 0.02)
+    voltage = np.where((time % 1.0) < 0.5, 5.0, 2.0)
+    speed, rows = 0.0, ["t,u,y"]
+    for t, u in zip(time, voltage, strict=True):
+        rows.append(f"{t:.3f},{u},{np.degrees(speed):.3f}")
+        speed += (u / 0.07 - speed) * (1.0 - np.exp(-0.02 / 0.08))
+    path.write_text("\n".join(rows) + "\n")
+
+
+def test_the_readme_has_the_commands_that_are_run_here() -> None:
+    assert set(SCRIPTS) <= set(COMMANDS)
+    assert sum(bool(NODES.match(command)) for command in COMMANDS) == 3
+    assert len(COMMANDS) >= 15
+
+
+@pytest.mark.timeout(180)
+def test_every_command_works_as_written(tmp_path: Path) -> None:
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    write_log(tmp_path / "log.csv")
+    nodes = []
+    try:
+        for command in COMMANDS:
+            if command in SCRIPTS:
+                continue
+            if NODES.match(command):
+                nodes.append(subprocess.Popen(command.split(), cwd=tmp_path, env=environment))
+                continue
+            done = subprocess.run(
+                ["bash", "-c", command], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=60
+            )
+            assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
+            assert "Traceback" not in done.stderr
+            if "service call" in command:
+                assert "success=True" in done.stdout
+    finally:
+        for node in nodes:
+            node.send_signal(signal.SIGINT)
+        for node in nodes:
+            assert node.wait(20.0) == 0
+    assert (tmp_path / "model.yaml").exists() and (tmp_path / "report" / "fit.png").stat().st_size > 20_000
+
+
+def test_the_environment_says_what_to_do_where_nothing_is_built(tmp_path: Path) -> None:
+    (tmp_path / "env.sh").write_text((ROOT / "env.sh").read_text(encoding="utf-8"), encoding="utf-8")
+    done = subprocess.run(["bash", "-c", "source ./env.sh"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert re.fullmatch(
+        r"The workbench is not built here yet: run \S+/setup\.sh, then source env\.sh again\.\n", done.stderr
+    )
