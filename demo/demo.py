@@ -18,6 +18,7 @@ from picture import draw_demo
 from rclpy.serialization import deserialize_message
 
 from motor_identification.bag import messages, read_recording
+from motor_model.errors import MotorError
 from motor_model.model_file import load, save
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_msgs.msg import ControlState, MotorSpeed
@@ -70,12 +71,12 @@ def node(stack: ExitStack, command: str) -> None:
 
 
 def closed_loop() -> None:
-    """Record while the reference is given; the recorder runs until its time is over."""
+    """Record while the reference is given, once controller and recorder both hear it."""
     command = shown("ros2 run motor_identification record closed_loop --duration 5")
     recorder = subprocess.Popen(command, cwd=OUT, stdout=subprocess.PIPE, text=True)
     assert recorder.stdout is not None
     print(recorder.stdout.readline(), end="", flush=True)  # it is listening now
-    run(f'ros2 topic pub --once /motor/reference std_msgs/msg/Float64 "{{data: {REFERENCE}}}"')
+    run(f'ros2 topic pub --once -w 2 /motor/reference std_msgs/msg/Float64 "{{data: {REFERENCE}}}"')
     print(recorder.communicate(timeout=30.0)[0].strip())
     if recorder.returncode != 0:
         sys.exit("demo: the recorder failed.")
@@ -173,4 +174,7 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except MotorError as error:
+        sys.exit(f"demo: {error}")

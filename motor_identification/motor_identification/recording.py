@@ -55,7 +55,7 @@ class Recording:
         """
         if start == 0.0 and stop == 0.0:
             return self
-        end = stop if stop > 0.0 else np.inf
+        end = stop if stop != 0.0 else np.inf
         if not (0.0 <= start < end):
             raise RecordingError(f"--start {start:g} s must be before --stop {stop:g} s, and neither negative.")
         inside = (self.time >= start) & (self.time <= end)

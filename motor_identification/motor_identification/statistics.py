@@ -8,7 +8,8 @@ from motor_identification.problem import Problem
 from motor_identification.recording import Floats
 from motor_model.effects import EFFECT_BY_NAME, INDEX, SPEC_BY_NAME
 
-BLOCKS = 40  # of consecutive intervals; neighbours share an edge, so that their residuals are correlated
+BLOCKS = 40  # of consecutive intervals or edges, in which noise may be correlated
+TOUCHING = 1e-8  # [s] between intervals that follow each other
 COLLINEAR = 1e-4  # sine of the angle between a column of the Jacobian and the others, below which they are one
 TOO_UNSURE = 0.3  # standard error as a share of the value
 DETECTABLE = 10.0  # standard errors of the mean by which a trace must differ to be told apart from its imitation
@@ -28,16 +29,19 @@ class Certainty:
 def certainty(problem: Problem, place: Floats, jacobian: Floats) -> Certainty:
     """Judge a fitted place by the Jacobian (I, D) of the unweighted residuals there.
 
-    The errors are a sandwich estimate, (JᵀWJ)⁻¹ M (JᵀWJ)⁻¹. Neighbouring intervals share an edge, whose error counts up
-    in one and down in the other; so M is made of what each edge, not each interval, adds to the gradient (`_by_edge`).
+    The errors are a sandwich estimate, (JᵀWJ)⁻¹ M (JᵀWJ)⁻¹, made twice: from what every interval adds to the gradient,
+    and from what every edge does. Neighbouring intervals share an edge, whose error counts up in one and down in the
+    other: seen by interval that noise looks up to ten times too large. A model that is a little wrong leaves residuals
+    that last: seen by edge they add up to a drift that looks too large. So the smaller is taken.
     """
     weight = problem.weight
     scale = _scales(problem, place)
     scaled = jacobian * scale
     root = np.sqrt(weight)[:, None] * scaled
     alone = _independence(root)
-    inverse = np.linalg.pinv(root.T @ root, rcond=1e-14, hermitian=True)
-    errors = _errors(inverse, *_by_edge(problem, scaled, weight * problem.residuals(place)))
+    inverse = np.asarray(np.linalg.pinv(root.T @ root, rcond=1e-14, hermitian=True), dtype=np.float64)
+    parts = weight * problem.residuals(place)
+    errors = np.minimum(_errors(inverse, parts, scaled), _errors(inverse, *_by_edge(problem, scaled, parts)))
     unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE)
     names = tuple(name for name, bad in zip(problem.unknowns.names, unsure, strict=False) if bad)
     return Certainty(np.where(unsure, np.nan, errors * scale), names)
@@ -46,14 +50,13 @@ def certainty(problem: Problem, place: Floats, jacobian: Floats) -> Certainty:
 def _by_edge(problem: Problem, jacobian: Floats, parts: Floats) -> tuple[Floats, Floats]:
     """The gradient Σ Jᵢpᵢ as Σ qₑgₑ over the E ends of intervals: angle errors q (E,) and their leverage g (E, D).
 
-    A part pᵢ of the residuals is a share of angle, the difference of the errors q at both ends of an interval (J: (I, D)).
-    Where intervals follow each other without a gap, that is summation by parts; q is known but for its mean, which has
-    no leverage.
+    A part pᵢ of the residuals is the difference of the angle errors q at both ends of an interval. Where intervals
+    follow each other without a gap, this is summation by parts; q is known but for its mean, which has no leverage.
     """
     errors, leverage = [], []
     column, nothing = 0, np.zeros((1, jacobian.shape[1]))
     for data in problem.intervals:
-        breaks = np.flatnonzero(data.last[:-1] != data.first[1:]) + 1
+        breaks = np.flatnonzero(np.abs(data.time[data.first[1:]] - data.time[data.last[:-1]]) > TOUCHING) + 1
         for chain in np.split(np.arange(column, column + len(data.first)), breaks):
             q = np.concatenate([[0.0], np.cumsum(parts[chain])])
             errors.append(q - q.mean())
@@ -62,19 +65,18 @@ def _by_edge(problem: Problem, jacobian: Floats, parts: Floats) -> tuple[Floats,
     return np.concatenate(errors), np.concatenate(leverage)
 
 
-def _errors(inverse: Floats, q: Floats, leverage: Floats) -> Floats:
-    """Standard errors (D,) of an estimate with this inverse (D, D), for angle errors q (E,) and their leverage (E, D).
+def _errors(inverse: Floats, noise: Floats, leverage: Floats) -> Floats:
+    """Standard errors (D,) of an estimate, for noise (N,) with a leverage (N, D) on the gradient; inverse: (D, D).
 
-    The larger of two: q independent from edge to edge with a variance that is the same in a block of neighbours (precise
-    where single edges have all the leverage), and q correlated in any way within a block (Liang & Zeger, Biometrika 73,
-    1986).
+    The larger of two: noise that is independent, with one variance in a block of neighbours (precise where a few edges
+    have all the leverage), and noise correlated in any way in a block (Liang & Zeger, Biometrika 73, 1986).
     """
-    blocks = np.array_split(np.arange(len(q)), min(BLOCKS, max(len(q) // 8, 2)))
+    blocks = np.array_split(np.arange(len(noise)), min(BLOCKS, max(len(noise) // 8, 2)))
     effect = leverage @ inverse
-    alone = sum(np.mean(q[block] ** 2) * np.sum(effect[block] ** 2, axis=0) for block in blocks)
-    together = sum((q[block] @ effect[block]) ** 2 for block in blocks)
+    single = np.sum([np.mean(noise[block] ** 2) * np.sum(effect[block] ** 2, axis=0) for block in blocks], axis=0)
+    together = np.sum([(noise[block] @ effect[block]) ** 2 for block in blocks], axis=0)
     correction = len(blocks) / max(len(blocks) - len(inverse), 1)
-    return np.asarray(np.sqrt(correction * np.maximum(alone, together)))
+    return np.asarray(np.sqrt(correction * np.maximum(single, together)))
 
 
 def _scales(problem: Problem, place: Floats) -> Floats:

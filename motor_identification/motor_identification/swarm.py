@@ -65,10 +65,9 @@ def minimise(
     if config.particles < 2:
         raise ValueError("a swarm has at least two particles")
     random = np.random.default_rng(config.seed)
-    span = high - low
 
     def evaluate(x: Floats) -> Floats:
-        costs = np.asarray(cost(low + span * x), dtype=np.float64)
+        costs = np.asarray(cost(_places(low, high, x)), dtype=np.float64)
         return np.where(np.isfinite(costs), costs, np.inf)
 
     x = _latin_hypercube(random, config.particles, len(low))
@@ -85,7 +84,7 @@ def minimise(
         better = costs < best_cost
         best[better], best_cost[better] = x[better], costs[better]
         trace.append(float(best_cost.min()))
-        stalled = 0 if trace[-1] < trace[-2] * (1.0 - config.tolerance) else stalled + 1
+        stalled = 0 if _improved(trace[-2], trace[-1], config.tolerance) else stalled + 1
         if progress is not None:
             progress(epoch + 1, trace[-1])
         if config.stall and stalled >= config.stall:
@@ -93,14 +92,24 @@ def minimise(
     order = np.argsort(best_cost, kind="stable")
     top = best[order[0]]
     return SwarmResult(
-        place=low + span * top,
+        place=_places(low, high, top),
         cost=float(best_cost[order[0]]),
         on_bound=(top < ON_BOUND) | (top > 1.0 - ON_BOUND),
         trace=np.array(trace),
         evaluations=config.particles * len(trace),
-        places=low + span * best[order],
+        places=_places(low, high, best[order]),
         costs=best_cost[order],
     )
+
+
+def _places(low: Floats, high: Floats, x: Floats) -> Floats:
+    """Where x in the unit box is in the box; rounding does not carry it outside."""
+    return np.asarray(np.clip(low + (high - low) * x, low, high))
+
+
+def _improved(before: float, after: float, tolerance: float) -> bool:
+    """Whether a cost fell by more than a share of its size, whatever its sign; from none to any is progress too."""
+    return after < before - (tolerance * abs(before) if np.isfinite(before) else 0.0)
 
 
 def _latin_hypercube(random: np.random.Generator, particles: int, dimensions: int) -> Floats:

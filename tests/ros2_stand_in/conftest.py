@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
@@ -124,6 +125,11 @@ class Ros2:
         assert "Traceback" not in done.stderr, done.stderr
         assert done.returncode == status, f"{words}: {done.returncode}\n{done.stdout}\n{done.stderr}"
         return Output(done.returncode, done.stdout, done.stderr)
+
+    def together(self, *lines: str) -> list[str]:
+        """What each of these command lines prints, run two at a time."""
+        with ThreadPoolExecutor(2) as pool:
+            return [done.out for done in pool.map(lambda line: self(*line.split()), lines)]
 
     def start(self, *words: str) -> Process:
         """Run on."""

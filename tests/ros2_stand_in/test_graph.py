@@ -41,9 +41,12 @@ def test_nodes(bench):
 
 def test_topics(bench):
     ros2, _ = bench
-    assert ros2("topic", "list", "-t").out == TOPICS
-    assert "/_hidden\n" in ros2("topic", "list", "--include-hidden-topics").out
-    published, subscribed = ros2("topic", "list", "-v").out.split("Subscribed topics:\n")
+    plain, with_hidden, verbose = ros2.together(
+        "topic list -t", "topic list --include-hidden-topics", "topic list -v --no-daemon"
+    )
+    assert plain == TOPICS
+    assert "/_hidden\n" in with_hidden
+    published, subscribed = verbose.split("Subscribed topics:\n")
     assert " * /fast [std_msgs/msg/Float64] 1 publisher\n" in published
     assert subscribed == (
         " * /reference [std_msgs/msg/Float64] 1 subscriber\n * /voltage [motor_msgs/msg/MotorVoltage] 1 subscriber\n\n"
@@ -52,24 +55,29 @@ def test_topics(bench):
 
 def test_one_topic(bench):
     ros2, _ = bench
-    assert ros2("topic", "type", "/fast").out == "std_msgs/msg/Float64\n"
-    assert ros2("topic", "info", "/reference").out == (
-        "Type: std_msgs/msg/Float64\nPublisher count: 0\nSubscription count: 1\n"
+    kind, counts, verbose = ros2.together("topic type /fast", "topic info /reference", "topic info -v latched")
+    assert kind == "std_msgs/msg/Float64\n"
+    assert counts == "Type: std_msgs/msg/Float64\nPublisher count: 0\nSubscription count: 1\n"
+    assert verbose.startswith(
+        "Type: std_msgs/msg/String\n\nPublisher count: 1\n\nNode name: bench\nNode namespace: /lab\n"
     )
-    out = ros2("topic", "info", "-v", "latched").out
-    assert out.startswith("Type: std_msgs/msg/String\n\nPublisher count: 1\n\nNode name: bench\nNode namespace: /lab\n")
-    assert "  Durability: TRANSIENT_LOCAL\n" in out
-    assert out.endswith("Subscription count: 0\n\n")
-    assert ros2("topic", "info", "/nope", status=1).err == (
-        "Unknown topic '/nope': nobody publishes or subscribes to it.\n"
-    )
+    assert "  Durability: TRANSIENT_LOCAL\n" in verbose
+    assert verbose.endswith("Subscription count: 0\n\n")
 
 
 def test_services(bench):
     ros2, _ = bench
-    assert ros2("service", "list", "-t").out == OUR_SERVICES
-    assert ros2("service", "type", "/enable").out == "std_srvs/srv/SetBool\n"
+    assert ros2.together("service list -t", "service type enable") == [OUR_SERVICES, "std_srvs/srv/SetBool\n"]
+
+
+def test_what_is_not_there_is_a_sentence(ros2):
+    assert ros2("topic", "info", "/nope", status=1).err == (
+        "Unknown topic '/nope': nobody publishes or subscribes to it.\n"
+    )
     assert ros2("service", "type", "/nope", status=1).err == "Unknown service '/nope': no running node offers it.\n"
+    assert (
+        ros2("node", "info", "nope", status=1).err == "Unable to find node '/nope'; 'ros2 node list' shows what runs.\n"
+    )
 
 
 def test_actions(bench):
@@ -86,8 +94,4 @@ def test_one_node(bench):
         "    /latched: std_msgs/msg/String\n    /parameter_events: rcl_interfaces/msg/ParameterEvent\n"
         f"    /rosout: rcl_interfaces/msg/Log\n  Service Servers:\n{services}  Service Clients:\n\n"
         "  Action Servers:\n    /diagnose: motor_msgs/action/Diagnose\n  Action Clients:\n\n"
-    )
-    assert (
-        ros2("node", "info", "/nope", status=1).err
-        == "Unable to find node '/nope'; 'ros2 node list' shows what runs.\n"
     )

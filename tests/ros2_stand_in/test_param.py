@@ -8,18 +8,23 @@ NAMES = ["kp", "limits.on", "limits.voltages", "name", "start_type_description_s
 
 def test_list(bench):
     ros2, _ = bench
-    lines = [f"  {name}" for name in NAMES]
-    assert ros2("param", "list", NODE).out.splitlines() == lines
-    assert ros2("param", "list").out.splitlines() == [f"{NODE}:", *lines]
-    assert "  limits.voltages (type: double array)\n" in ros2("param", "list", NODE, "--param-type").out
+    lines = "".join(f"  {name}\n" for name in NAMES)
+    one, everyone, typed = ros2.together(f"param list {NODE}", "param list", f"param list {NODE} --param-type")
+    assert one == lines
+    assert everyone == f"{NODE}:\n{lines}"
+    assert "  limits.voltages (type: double array)\n" in typed
 
 
 def test_get(bench):
     ros2, _ = bench
-    assert ros2("param", "get", NODE, "limits.voltages").out == "Double values are: [1.5, 12.0]\n"
-    assert ros2("param", "get", "lab/bench", "limits.on", "--hide-type").out == "True\n"
+    array, hidden_type = ros2.together(f"param get {NODE} limits.voltages", "param get lab/bench limits.on --hide-type")
+    assert array == "Double values are: [1.5, 12.0]\n"
+    assert hidden_type == "True\n"
     assert ros2("param", "get", NODE, "nope", status=1).err == f"Parameter not set: '{NODE}' has no value for 'nope'.\n"
-    assert ros2("param", "get", "/nope", "kp", status=1).err == (
+
+
+def test_a_node_that_is_not_there_is_a_sentence(ros2):
+    assert ros2("param", "get", "/nope", "kp", "--timeout", "0.1", status=1).err == (
         "Node not found: '/nope' does not run; 'ros2 node list' shows what does.\n"
     )
 

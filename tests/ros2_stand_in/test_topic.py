@@ -9,17 +9,18 @@ from ros2_stand_in.topic_hz import Intervals
 
 def test_echo_once(bench):
     ros2, _ = bench
-    assert ros2("topic", "echo", "--once", "/latched").out == "data: for those who come later\n---\n"
-    assert ros2("topic", "echo", "--once", "/array").out == (
-        "layout:\n  dim: []\n  data_offset: 0\ndata:\n- 0.5\n- 1.0e-06\n---\n"
-    )
+    latched, array = ros2.together("topic echo --once /latched", "topic echo --once /array")
+    assert latched == "data: for those who come later\n---\n"
+    assert array == "layout:\n  dim: []\n  data_offset: 0\ndata:\n- 0.5\n- 1.0e-06\n---\n"
 
 
 def test_echo_of_a_field_and_as_csv(bench):
     ros2, _ = bench
-    assert ros2("topic", "echo", "--once", "/fast", "--field", "data").out == "0.5\n---\n"
-    assert ros2("topic", "echo", "--once", "/array", "--field", "layout").out == "dim: []\ndata_offset: 0\n---\n"
-    assert ros2("topic", "echo", "--once", "/array", "--csv").out == "0,0.5,1e-06\n"
+    assert ros2.together(
+        "topic echo --once /fast --field data",
+        "topic echo --once /array --field layout",
+        "topic echo --once /array --csv",
+    ) == ["0.5\n---\n", "dim: []\ndata_offset: 0\n---\n", "0,0.5,1e-06\n"]
     assert ros2("topic", "echo", "--once", "/array", "--field", "layout.size", status=1).err == (
         "Invalid field 'layout.size': there is no 'size'; there is: dim, data_offset.\n"
     )
