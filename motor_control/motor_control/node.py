@@ -111,8 +111,8 @@ class MotorControl(Node):
 
     def _on_second(self) -> None:
         name = f"{self.get_fully_qualified_name()}: {self._header.frame_id or 'no motor yet'}"
-        publishers = self.count_publishers("motor/voltage")
-        message = diagnostics_message(self._output, self._config, self._answered, publishers, name)
+        rivals = self.count_publishers("motor/voltage")
+        message = diagnostics_message(self._output, self._config, self._answered, rivals, name)
         message.header.stamp = self._now()
         self._diagnostics.publish(message)
         self._answered = 0

@@ -59,15 +59,13 @@ def minimise(
         ValueError: the box is empty or not finite, or there are fewer than two particles.
     """
     config = config or SwarmConfig()
-    low, high = np.asarray(low, dtype=np.float64), np.asarray(high, dtype=np.float64)
-    if not (np.all(np.isfinite(low)) and np.all(np.isfinite(high)) and np.all(low < high)):
-        raise ValueError("the box must have finite bounds, each low below its high")
+    low, span = _checked_box(low, high)
     if config.particles < 2:
         raise ValueError("a swarm has at least two particles")
     random = np.random.default_rng(config.seed)
 
     def evaluate(x: Floats) -> Floats:
-        costs = np.asarray(cost(_places(low, high, x)), dtype=np.float64)
+        costs = np.asarray(cost(low + span * x), dtype=np.float64)
         return np.where(np.isfinite(costs), costs, np.inf)
 
     x = _latin_hypercube(random, config.particles, len(low))
@@ -76,40 +74,50 @@ def minimise(
     trace, stalled = [float(best_cost.min())], 0
     for epoch in range(config.epochs):
         leader = best[_ring_leaders(best_cost, config.neighbours)]
-        own, others = random.random(x.shape), random.random(x.shape)
-        velocity = INERTIA * velocity + PULL * (own * (best - x) + others * (leader - x))
-        velocity = np.clip(velocity, -FASTEST, FASTEST)
-        x, velocity = _keep_in_box(x + velocity, velocity)
+        x, velocity = _flown(random, x, velocity, best, leader)
         costs = evaluate(x)
         better = costs < best_cost
         best[better], best_cost[better] = x[better], costs[better]
         trace.append(float(best_cost.min()))
-        stalled = 0 if _improved(trace[-2], trace[-1], config.tolerance) else stalled + 1
+        stalled = 0 if trace[-1] < trace[-2] * (1.0 - config.tolerance) else stalled + 1
         if progress is not None:
             progress(epoch + 1, trace[-1])
         if config.stall and stalled >= config.stall:
             break
-    order = np.argsort(best_cost, kind="stable")
+    return _result(low, span, best, best_cost, np.array(trace))
+
+
+def _checked_box(low: Floats, high: Floats) -> tuple[Floats, Floats]:
+    """The box as its low corner and its span, both (D,)."""
+    low, high = np.asarray(low, dtype=np.float64), np.asarray(high, dtype=np.float64)
+    if not (np.all(np.isfinite(low)) and np.all(np.isfinite(high)) and np.all(low < high)):
+        raise ValueError("the box must have finite bounds, each low below its high")
+    return low, high - low
+
+
+def _result(low: Floats, span: Floats, best: Floats, costs: Floats, trace: Floats) -> SwarmResult:
+    order = np.argsort(costs, kind="stable")
     top = best[order[0]]
     return SwarmResult(
-        place=_places(low, high, top),
-        cost=float(best_cost[order[0]]),
+        place=low + span * top,
+        cost=float(costs[order[0]]),
         on_bound=(top < ON_BOUND) | (top > 1.0 - ON_BOUND),
-        trace=np.array(trace),
-        evaluations=config.particles * len(trace),
-        places=_places(low, high, best[order]),
-        costs=best_cost[order],
+        trace=trace,
+        evaluations=len(best) * len(trace),
+        places=low + span * best[order],
+        costs=costs[order],
     )
 
 
-def _places(low: Floats, high: Floats, x: Floats) -> Floats:
-    """Where x in the unit box is in the box; rounding does not carry it outside."""
-    return np.asarray(np.clip(low + (high - low) * x, low, high))
-
-
-def _improved(before: float, after: float, tolerance: float) -> bool:
-    """Whether a cost fell by more than a share of its size, whatever its sign; from none to any is progress too."""
-    return after < before - (tolerance * abs(before) if np.isfinite(before) else 0.0)
+def _flown(
+    random: np.random.Generator, x: Floats, velocity: Floats, best: Floats, leader: Floats
+) -> tuple[Floats, Floats]:
+    """Places and velocities one epoch later; strays are put on the wall they crossed and stopped there."""
+    own, others = random.random(x.shape), random.random(x.shape)
+    velocity = INERTIA * velocity + PULL * (own * (best - x) + others * (leader - x))
+    velocity = np.clip(velocity, -FASTEST, FASTEST)
+    inside = np.clip(x + velocity, 0.0, 1.0)
+    return inside, np.where(inside == x + velocity, velocity, 0.0)
 
 
 def _latin_hypercube(random: np.random.Generator, particles: int, dimensions: int) -> Floats:
@@ -123,9 +131,3 @@ def _ring_leaders(costs: Floats, neighbours: int) -> NDArray[np.intp]:
     index = np.arange(len(costs))
     around = (index[:, None] + np.arange(-neighbours, neighbours + 1)) % len(costs)
     return np.asarray(around[index, np.argmin(costs[around], axis=1)])
-
-
-def _keep_in_box(x: Floats, velocity: Floats) -> tuple[Floats, Floats]:
-    """Put strays on the wall they crossed and stop them there."""
-    inside = np.clip(x, 0.0, 1.0)
-    return inside, np.where(inside == x, velocity, 0.0)

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.recording import Floats, Recording
-from motor_model.effects import INDEX, ParameterSpec, normalised, specs_of
+from motor_model.effect import ParameterSpec
+from motor_model.effects import INDEX, normalised, specs_of
 from motor_model.parameters import Parameters, neutral
 
 

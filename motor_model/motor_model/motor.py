@@ -18,7 +18,7 @@ friction, drag and ripple. A piece is solved by the exponential Rosenbrock-Euler
 Numerica 19, 2010): exact for everything linear, second order for those three, for which pieces are kept short.
 """
 
-from math import atan, atanh, copysign, cos, exp, expm1, inf, log1p, sin, sqrt
+from math import atan, atanh, copysign, exp, inf, log1p, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -27,18 +27,22 @@ from numpy.typing import NDArray
 from motor_model.bridge import effective_voltage
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
+from motor_model.forces import drive_of, friction_at, loads_at, warmth
+from motor_model.linear import Coefficients, first_order, second_order
 
 Floats = NDArray[np.float64]
 
 KV, KA = INDEX["kv"], INDEX["ka"]
 KS, BREAKAWAY, STRIBECK = INDEX["ks"], INDEX["breakaway_voltage"], INDEX["stribeck_speed"]
-DRAG, BIAS = INDEX["drag"], INDEX["bias_voltage"]
+DRAG, LAG = INDEX["drag"], INDEX["electrical_time_constant"]
 STEP, STEP_TIME = INDEX["step_voltage"], INDEX["step_time"]
-COAST, SAG, LAG = INDEX["coast_share"], INDEX["sag"], INDEX["electrical_time_constant"]
-RIPPLE, CYCLES, PHASE = INDEX["ripple_voltage"], INDEX["ripple_cycles"], INDEX["ripple_phase"]
+RIPPLE, CYCLES, RISE, WARM_UP = (
+    INDEX["ripple_voltage"],
+    INDEX["ripple_cycles"],
+    INDEX["resistance_rise"],
+    INDEX["warm_up_time"],
+)
 PLAY, LOAD_FRACTION = INDEX["backlash_angle"], INDEX["load_fraction"]
-RISE, WARM_UP = INDEX["resistance_rise"], INDEX["warm_up_time"]
-U_MAX = INDEX["max_voltage"]
 
 MAX_PIECES = 100_000  # between two outputs; a guard against endless chatter, never reached in a physical case
 
@@ -54,16 +58,6 @@ class State(NamedTuple):
     turned: float  # [rad] added to θ in the ripple's argument (an angle taken from measured edges)
 
 
-class Coefficients(NamedTuple):
-    """The equation of one piece: inertia·dω/dt = v − torque − slope·(ω − ω0), τ dv/dt = source − back_emf·ω − v."""
-
-    inertia: float
-    torque: float
-    slope: float
-    source: float
-    back_emf: float
-
-
 @compiled
 def at_rest(angle: float) -> State:
     """A motor that stands at this angle [rad] and has not moved yet."""
@@ -71,56 +65,10 @@ def at_rest(angle: float) -> State:
 
 
 @compiled
-def _phi(z: float) -> tuple[float, float]:
-    """φ1 = (1 − e^(−z))/z and φ2 = (z − 1 + e^(−z))/z² = (1 − φ1)/z; short pieces need no exponential."""
-    if abs(z) < 0.03:
-        second = 0.5 - z * (1 / 6 - z * (1 / 24 - z * (1 / 120 - z * (1 / 720 - z * (1 / 5040 - z / 40320)))))
-        return 1.0 - z * second, second
-    first = -expm1(-z) / z
-    return first, (1.0 - first) / z
-
-
-@compiled
-def warmth(p: Floats, t: float) -> float:
-    """w: how much warm copper raises ka, friction and loads at time t [s]."""
-    if p[RISE] == 0.0:
-        return 1.0
-    return 1.0 - p[RISE] * expm1(-t / p[WARM_UP])
-
-
-@compiled
-def _loads(p: Floats, angle: float, t: float) -> float:
-    load = p[BIAS]
-    if p[STEP] != 0.0 and t >= p[STEP_TIME]:
-        load += p[STEP]
-    if p[RIPPLE] != 0.0:
-        load += p[RIPPLE] * sin(p[CYCLES] * angle + p[PHASE])
-    return load
-
-
-@compiled
-def _friction(p: Floats, speed: float, direction: float) -> tuple[float, float]:
-    """Friction at a speed, in V, and its slope over speed."""
-    friction = direction * p[KS]
-    slope = 0.0
-    more = p[BREAKAWAY] - p[KS]
-    if more > 0.0:
-        x = speed / p[STRIBECK]
-        stribeck = more * exp(-x * x)
-        friction += direction * stribeck
-        slope -= direction * stribeck * 2.0 * x / p[STRIBECK]
-    if p[DRAG] != 0.0:
-        friction += p[DRAG] * speed * abs(speed)
-        slope += 2.0 * p[DRAG] * abs(speed)
-    return friction, slope
-
-
-@compiled
-def _drive(p: Floats, u: float) -> tuple[float, float]:
-    """The drive's constant part and the back-EMF per speed, for an effective voltage u."""
-    share = u / p[U_MAX]
-    sag = 1.0 + p[SAG] * share * share
-    return u / sag, p[KV] * (1.0 - p[COAST] * max(0.0, 1.0 - abs(share))) / sag
+def turning(p: Floats, speed: float, u: float) -> State:
+    """A motor that passes angle 0 at a speed [rad/s], not 0, its current settled under an effective voltage u [V]."""
+    source, back_emf = drive_of(p, u)
+    return State(0.0, speed, source - back_emf * speed, 0.0, copysign(1.0, speed), 0.0)
 
 
 @compiled
@@ -167,52 +115,12 @@ def _hold(p: Floats, s: State, source: float, load: float, level: float, h: floa
 
 
 @compiled
-def _first_order(c: Coefficients, speed: float, h: float) -> tuple[float, float]:
-    """Speed and travel after h of inertia·dω/dt = source − torque − back_emf·ω − slope·(ω − ω0)."""
-    z = (c.back_emf + c.slope) * h / c.inertia
-    start = (c.source - c.torque - c.back_emf * speed) / c.inertia
-    first, second = _phi(z)
-    return speed + start * h * first, h * (speed + start * h * second)
-
-
-@compiled
-def _phi_pair(z: complex) -> tuple[complex, complex]:
-    """(e^z − 1)/z and (e^z − 1 − z)/z² of a complex number."""
-    if abs(z) < 1e-2:
-        second = 0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + z * (1.0 / 120.0 + z * (1.0 / 720.0 + z / 5040.0))))
-        return 1.0 + z * second, second
-    growth = exp(z.real) * complex(cos(z.imag), sin(z.imag)) - 1.0
-    return growth / z, (growth - z) / (z * z)
-
-
-@compiled
-def _second_order(c: Coefficients, tau: float, speed: float, drive: float, h: float) -> tuple[float, float, float]:
-    """Speed, v and travel after h of the motor with inductance: x1 = x0 + h φ1(hM) f0, exact by eigenvalues of M."""
-    a, b = -c.slope / c.inertia, 1.0 / c.inertia
-    d, e = -c.back_emf / tau, -1.0 / tau
-    f0 = (drive - c.torque) * b
-    f1 = (c.source - c.back_emf * speed - drive) / tau
-    mean = 0.5 * (a + e)
-    gap = complex(0.25 * (a - e) * (a - e) + b * d, 0.0) ** 0.5
-    if abs(gap) * h < 1e-5:
-        gap = complex(1e-5 / h, 0.0)
-    upper1, upper2 = _phi_pair((mean + gap) * h)
-    lower1, lower2 = _phi_pair((mean - gap) * h)
-    even1, odd1 = 0.5 * (upper1 + lower1).real, (0.5 * (upper1 - lower1) / gap).real
-    even2, odd2 = 0.5 * (upper2 + lower2).real, (0.5 * (upper2 - lower2) / gap).real
-    g0 = (a - mean) * f0 + b * f1
-    g1 = d * f0 + (e - mean) * f1
-    travel = h * (speed + h * (even2 * f0 + odd2 * g0))
-    return speed + h * (even1 * f0 + odd1 * g0), drive + h * (even1 * f1 + odd1 * g1), travel
-
-
-@compiled
 def _solve(p: Floats, c: Coefficients, s: State, h: float) -> tuple[float, float, float]:
     """Speed, v and travel after h, whichever order the motor has."""
     if p[LAG] == 0.0:
-        speed, travel = _first_order(c, s.speed, h)
+        speed, travel = first_order(c, s.speed, h)
         return speed, s.drive, travel
-    return _second_order(c, p[LAG], s.speed, s.drive, h)
+    return second_order(c, p[LAG], s.speed, s.drive, h)
 
 
 @compiled
@@ -288,12 +196,12 @@ def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, flo
     if p[STEP] != 0.0 and t < p[STEP_TIME] < t + h:
         h = p[STEP_TIME] - t
     w = warmth(p, t)
-    source, back_emf = _drive(p, u)
+    source, back_emf = drive_of(p, u)
     direction, drive, play = s.direction, s.drive, s.play
     if p[LAG] == 0.0:
         drive = source - back_emf * s.speed
     if s.speed == 0.0:
-        load = w * _loads(p, s.angle + s.turned, t)
+        load = w * loads_at(p, s.angle + s.turned, t)
         held, drive, started = _hold(p, s, source, load, w * max(p[KS], p[BREAKAWAY]), h)
         if held > 0.0:
             return State(s.angle, 0.0, drive, play, direction, s.turned), held
@@ -304,9 +212,9 @@ def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, flo
         direction = copysign(1.0, s.speed)
     s = State(s.angle, s.speed, drive, play, direction, s.turned)
 
-    friction, slope = _friction(p, s.speed, direction)
+    friction, slope = friction_at(p, s.speed, direction)
     engaged = p[KA] * w * (1.0 - (p[LOAD_FRACTION] if play > 0.0 else 0.0))
-    torque = w * (friction + _loads(p, s.angle + s.turned, t))
+    torque = w * (friction + loads_at(p, s.angle + s.turned, t))
     acceleration = (s.drive - torque) / engaged
     settled = (source - back_emf * s.speed - torque) / engaged  # the acceleration once the current has followed
     h = min(h, _longest_piece(p, s, max(abs(acceleration), abs(settled)), engaged, w * slope))
@@ -314,7 +222,7 @@ def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, flo
         middle = s.angle + s.turned + 0.5 * h * (s.speed + 0.25 * h * acceleration)
         w = warmth(p, t + 0.5 * h)
         engaged = p[KA] * w * (1.0 - (p[LOAD_FRACTION] if play > 0.0 else 0.0))
-        torque = w * (friction + _loads(p, middle, t))
+        torque = w * (friction + loads_at(p, middle, t))
     c = Coefficients(engaged, torque, w * slope, source, back_emf)
     return _until_event(p, c, s, h)
 

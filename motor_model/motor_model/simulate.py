@@ -6,9 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_model.bridge import effective_voltage
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
-from motor_model.motor import State, advance
+from motor_model.errors import ModelError
+from motor_model.motor import advance, at_rest, turning
 from motor_model.parameters import Parameters
 
 DELAY = INDEX["delay"]
@@ -23,19 +25,18 @@ def roll_out(
     """Fill angle [rad] and speed [rad/s] of one motor at out_time [s].
 
     p: parameter vector. command[i] [V] holds from command_time[i] + delay on. Before the first one a standing motor had
-    0 V, a turning one that command. out_time is ascending. The motion starts at out_time[0] with start_speed [rad/s] at
-    angle 0.
+    0 V, a turning one that command (its current has settled). out_time is ascending. The motion starts at out_time[0]
+    with start_speed [rad/s] at angle 0.
     """
     delay = p[DELAY]
     before = command[0] if start_speed != 0.0 else 0.0
     switches = len(command_time)
     t = out_time[0]
-    direction = 0.0
-    if start_speed != 0.0:
-        direction = 1.0 if start_speed > 0.0 else -1.0
-    s = State(0.0, start_speed, 0.0, 0.0, direction, 0.0)
     angle[0], speed[0] = 0.0, start_speed
     j = np.searchsorted(command_time, t - delay, side="right") - 1
+    s = at_rest(0.0)
+    if start_speed != 0.0:
+        s = turning(p, start_speed, effective_voltage(p, command[j] if j >= 0 else before))
     for k in range(1, len(out_time)):
         until = out_time[k]
         while True:
@@ -68,7 +69,12 @@ def simulate(
     """The motion of one motor under a piecewise constant command.
 
     command[i] [V] holds from command_time[i] [s] (both of shape (M,)); out_time [s], shape (K,), ascending.
+
+    Raises:
+        ModelError: no command, not one time for each of them, or no time asked for.
     """
+    if not len(command_time) == len(command) > 0 or len(out_time) == 0:
+        raise ModelError("a simulation needs at least one command, a time for each, and at least one time to report.")
     angle, speed = np.empty(len(out_time)), np.empty(len(out_time))
     roll_out(parameters.vector(), start_speed, command_time, command, out_time, angle, speed)
     return Trajectory(out_time, angle, speed)

@@ -1,7 +1,6 @@
 """Runs the stand-in as users do, against a node of our own, each in a domain that nobody else uses."""
 
 import contextlib
-import itertools
 import os
 import queue
 import signal
@@ -16,21 +15,11 @@ from pathlib import Path
 from typing import IO
 
 import pytest
+from domains import free_domain
 
 HERE = Path(__file__).resolve().parent
 LAUNCHER = HERE.parent.parent / "ros2_stand_in" / "ros2"
 LONGEST = 20.0  # [s] for anything that a test waits for
-_offsets = itertools.count()
-
-
-def free_domain() -> int:
-    """A domain from 1 to 101 on which nobody on this machine listens; others for other test processes."""
-    used = {int(line.split()[1].rpartition(":")[2], 16) for line in Path("/proc/net/udp").read_text().splitlines()[1:]}
-    while True:
-        domain = 1 + (os.getpid() * 13 + next(_offsets)) % 101
-        first_port = 7400 + 250 * domain
-        if not used & set(range(first_port, first_port + 250)):
-            return domain
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,64 @@
+"""The terms of the motor's equation, in V: what drives it, what friction takes, what loads it. See `motor.py`."""
+
+from math import exp, expm1, sin
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_model.compiled import compiled
+from motor_model.effects import INDEX
+
+Floats = NDArray[np.float64]
+
+KV = INDEX["kv"]
+KS, BREAKAWAY, STRIBECK = INDEX["ks"], INDEX["breakaway_voltage"], INDEX["stribeck_speed"]
+DRAG, BIAS = INDEX["drag"], INDEX["bias_voltage"]
+STEP, STEP_TIME = INDEX["step_voltage"], INDEX["step_time"]
+COAST, SAG = INDEX["coast_share"], INDEX["sag"]
+RIPPLE, CYCLES, PHASE = INDEX["ripple_voltage"], INDEX["ripple_cycles"], INDEX["ripple_phase"]
+RISE, WARM_UP = INDEX["resistance_rise"], INDEX["warm_up_time"]
+U_MAX = INDEX["max_voltage"]
+
+
+@compiled
+def warmth(p: Floats, t: float) -> float:
+    """w: how much warm copper raises ka, friction and loads at time t [s]."""
+    if p[RISE] == 0.0:
+        return 1.0
+    return 1.0 - p[RISE] * expm1(-t / p[WARM_UP])
+
+
+@compiled
+def loads_at(p: Floats, angle: float, t: float) -> float:
+    """All loads at an angle [rad] and a time [s], in V, cold."""
+    load = p[BIAS]
+    if p[STEP] != 0.0 and t >= p[STEP_TIME]:
+        load += p[STEP]
+    if p[RIPPLE] != 0.0:
+        load += p[RIPPLE] * sin(p[CYCLES] * angle + p[PHASE])
+    return load
+
+
+@compiled
+def friction_at(p: Floats, speed: float, direction: float) -> tuple[float, float]:
+    """Friction at a speed, in V, and its slope over speed."""
+    friction = direction * p[KS]
+    slope = 0.0
+    more = p[BREAKAWAY] - p[KS]
+    if more > 0.0:
+        x = speed / p[STRIBECK]
+        stribeck = more * exp(-x * x)
+        friction += direction * stribeck
+        slope -= direction * stribeck * 2.0 * x / p[STRIBECK]
+    if p[DRAG] != 0.0:
+        friction += p[DRAG] * speed * abs(speed)
+        slope += 2.0 * p[DRAG] * abs(speed)
+    return friction, slope
+
+
+@compiled
+def drive_of(p: Floats, u: float) -> tuple[float, float]:
+    """The drive's constant part and the back-EMF per speed, for an effective voltage u."""
+    share = u / p[U_MAX]
+    sag = 1.0 + p[SAG] * share * share
+    return u / sag, p[KV] * (1.0 - p[COAST] * max(0.0, 1.0 - abs(share))) / sag
