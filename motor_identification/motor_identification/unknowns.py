@@ -96,6 +96,5 @@ def unknowns_of(recordings: Sequence[Recording], effects: tuple[str, ...]) -> Un
         margin = 0.5 * abs(start) + 0.02 * extent.speed
         low.append(float(start - margin))
         high.append(float(start + margin))
-    return Unknowns(
-        normalised(effects), specs, np.array(low), np.array(high), extent, recordings[0].info.max_voltage, starts != 0.0
-    )
+    most = max(extent.voltage, *(recording.info.max_voltage for recording in recordings))
+    return Unknowns(normalised(effects), specs, np.array(low), np.array(high), extent, most, starts != 0.0)
