@@ -47,8 +47,8 @@ def send_goal(args: argparse.Namespace) -> int:
     kind = interface_type.load(args.action_type, "action")
     goal = kind.Goal()
     values.fill(goal, values.parse(args.goal))
+    name = graph.full_name(args.action_name)
     with session() as ros:
-        name = graph.full_name(args.action_name)
         client = ActionClient(ros.node, kind, name)
         print("Waiting for an action server to become available...")
         if not ros.spin(client.server_is_ready, _LONGEST_WAIT, _LOOK_EVERY):

@@ -8,12 +8,14 @@ to 3 s later. So we count who listens on this machine, and wait for all of them.
 
 import argparse
 import os
+import re
 import time
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from rclpy.node import Node
 
+from motor_model.errors import MotorError
 from ros2_stand_in.session import Session
 
 ANNOUNCEMENT_PERIOD = 3.0  # [s] of Fast DDS
@@ -23,6 +25,7 @@ _QUIET = 0.1  # [s] without a change
 _LOOK_EVERY = 0.02  # [s]
 _PARTICIPANT = slice(0, 12)  # the part of an endpoint's GID that is its participant's
 _UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
+_NAME = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 
 
 def discovery_arguments(parser: argparse.ArgumentParser) -> None:
@@ -77,8 +80,17 @@ def _listening_participants(domain: int) -> int:
 
 
 def full_name(name: str) -> str:
-    """A topic, service or node name with its leading slash."""
-    return name if name.startswith("/") else f"/{name}"
+    """A topic, service or node name with its leading slash.
+
+    Raises:
+        MotorError: nothing in ROS can have this name.
+    """
+    full = name if name.startswith("/") else f"/{name}"
+    if not _NAME.fullmatch(full):
+        raise MotorError(
+            f"'{name}' cannot be a name in ROS: between slashes stand letters, digits and _, a digit not first."
+        )
+    return full
 
 
 def is_hidden(name: str) -> bool:

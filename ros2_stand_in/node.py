@@ -63,9 +63,9 @@ def info_arguments(parser: argparse.ArgumentParser) -> None:
 
 def info(args: argparse.Namespace) -> int:
     """Print the topics, services and actions of a node."""
+    full_name = graph.full_name(args.node_name)
     with session() as ros:
         graph.settle(ros, args.spin_time)
-        full_name = graph.full_name(args.node_name)
         count = names(ros.node, args.include_hidden).count(full_name)
         if count == 0:
             raise MotorError(f"Unable to find node '{full_name}'; 'ros2 node list' shows what runs.")

@@ -61,8 +61,8 @@ def call(args: argparse.Namespace) -> int:
     kind = interface_type.load(args.service_type, "srv")
     request = kind.Request()
     values.fill(request, values.parse(args.values))
+    name = graph.full_name(args.service_name)
     with session() as ros:
-        name = graph.full_name(args.service_name)
         client = ros.node.create_client(kind, name)
         if not client.service_is_ready():
             print("waiting for service to become available...")

@@ -6,10 +6,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import rclpy
+from rclpy.exceptions import NameValidationException
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 
+from motor_model.errors import MotorError
 from motor_ros.run import LOOK_FOR_SIGNALS_EVERY, Interrupt, start_ros
+
+RCLError = rclpy_implementation.RCLError
 
 
 class Session:
@@ -56,10 +61,17 @@ class Session:
 
 @contextmanager
 def session(node_name: str | None = None) -> Iterator[Session]:
-    """Start ROS and a node whose name hides it from lists; both end with the block."""
+    """Start ROS and a node whose name hides it from lists; both end with the block.
+
+    Raises:
+        MotorError: ROS cannot start, such as for a ROS_DOMAIN_ID that is not a number, or a node name with a slash.
+    """
     interrupt = Interrupt()
-    start_ros([])
-    node = rclpy.create_node(node_name or f"_ros2cli_{os.getpid()}", start_parameter_services=False)
+    try:
+        start_ros([])
+        node = rclpy.create_node(node_name or f"_ros2cli_{os.getpid()}", start_parameter_services=False)
+    except (RCLError, NameValidationException) as error:
+        raise MotorError(f"ROS does not start: {' '.join(str(error).split())}.") from error
     ros = Session(node, interrupt)
     try:
         yield ros

@@ -52,9 +52,9 @@ def info_arguments(parser: argparse.ArgumentParser) -> None:
 
 def info(args: argparse.Namespace) -> int:
     """Print the type of a topic and how many publish and subscribe."""
+    name = graph.full_name(args.topic_name)
     with session() as ros:
         graph.settle(ros, args.spin_time)
-        name = graph.full_name(args.topic_name)
         types = _types(ros.node, name)
         gap = "\n\n" if args.verbose else "\n"
         print(f"Type: {types[0] if len(types) == 1 else types}", end=gap)

@@ -34,8 +34,8 @@ def echo_arguments(parser: argparse.ArgumentParser) -> None:
 
 def echo(args: argparse.Namespace) -> int:
     """Print messages until Ctrl-C, or the first one only."""
+    name = graph.full_name(args.topic_name)
     with session() as ros:
-        name = graph.full_name(args.topic_name)
         graph.settle(ros, args.spin_time, lambda: ros.node.count_publishers(name))
         listener = _Listener(ros, name, message_type(ros, name, args.message_type), args)
         ros.spin(listener.done, args.timeout)

@@ -25,8 +25,8 @@ def rate_arguments(parser: argparse.ArgumentParser) -> None:
 
 def rate(args: argparse.Namespace) -> int:
     """Print the rate once a second until Ctrl-C."""
+    name = graph.full_name(args.topic_name)
     with session() as ros:
-        name = graph.full_name(args.topic_name)
         graph.settle(ros, args.spin_time, lambda: ros.node.count_publishers(name))
         kind = message_type(ros, name, None)
         intervals = Intervals(args.window)

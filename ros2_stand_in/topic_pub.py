@@ -41,8 +41,8 @@ def publish(args: argparse.Namespace) -> int:
     message = interface_type.load(args.message_type, "msg")()
     stamps = values.fill(message, values.parse(args.values))
     times = 1 if args.once else args.times
-    with session(args.node_name) as ros:
-        name = graph.full_name(args.topic_name)
+    name = graph.full_name(args.topic_name)
+    with session(graph.full_name(args.node_name)[1:] if args.node_name else None) as ros:
         publisher = ros.node.create_publisher(type(message), name, _profile(args, times))
         wanted = args.wait if args.wait is not None else min(times, 1)
         _wait_for_subscriptions(ros, publisher, wanted, args.max_wait_time_secs or float("inf"))

@@ -12,6 +12,7 @@ from motor_identification.recording import Floats, Recording
 from motor_identification.statistics import certainty, not_told_apart
 from motor_identification.swarm import SwarmConfig, minimise
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
+from motor_model.errors import MotorError, RecordingError
 from motor_model.parameters import Parameters
 
 Progress = Callable[[str, float], None]  # what is being done, share done 0 to 1
@@ -23,13 +24,21 @@ ON_BOUND = 1e-4  # of the box
 
 @dataclass(frozen=True)
 class Request:
-    """What to fit and how hard to search."""
+    """What to fit and how hard to search.
+
+    Raises:
+        MotorError: a number that no search can do with.
+    """
 
     effects: tuple[str, ...] = ()
     particles: int = 50
     epochs: int = 200
     seed: int = 0
     workers: int = 1
+
+    def __post_init__(self) -> None:
+        if self.particles < 2 or self.epochs < 1 or self.seed < 0:
+            raise MotorError("particles must be at least 2, epochs at least 1, and the seed not negative.")
 
 
 @dataclass(frozen=True)
@@ -61,6 +70,8 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
         RecordingError: the recording cannot answer.
     """
     begun = perf_counter()
+    if not recordings:
+        raise RecordingError("there is no recording to fit: name at least one bag.")
     tell = progress or (lambda stage, share: None)
     problem = make_problem(recordings, request.effects, request.workers)
     config = SwarmConfig(request.particles, request.epochs, request.seed, stall=PATIENCE, tolerance=ENOUGH)
@@ -120,7 +131,7 @@ def _judge(problem: Problem, place: Floats, trace: Floats, evaluations: int, beg
         suggested_experiment=_suggestion(sure.not_identifiable, alike),
         residual_rms=float(np.sqrt(cost)),
         noise_floor=problem.noise_floor,
-        r_squared=1.0 - cost / variance if variance > 0.0 else float("nan"),
+        r_squared=1.0 - cost / variance if variance > 1e-18 * float(np.max(speed**2)) else float("nan"),
         start_speeds=tuple(float(v) for v in unknowns.decode(place[None])[1][0]),
         trace=trace,
         evaluations=evaluations,

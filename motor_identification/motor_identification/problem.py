@@ -73,7 +73,7 @@ class Problem:
     def evaluate_vectors(self, vectors: Floats, starts: Floats) -> Floats:
         """The same for parameter vectors (S, P) and initial speeds (S, R) [rad/s] in R recordings."""
         residuals = np.empty((len(vectors), len(self.weight)))
-        share = -(-len(vectors) // self.workers)
+        share = -(-len(vectors) // max(self.workers, 1))
         parts = [slice(i, i + share) for i in range(0, len(vectors), share)]
 
         def work(part: slice) -> None:

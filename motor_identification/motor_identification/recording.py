@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_model.errors import RecordingError
-from motor_model.sample import Info, Sample
+from motor_model.sample import Info, Measurement, Sample
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -95,7 +95,8 @@ def check(recording: Recording) -> Recording:
     """Return the recording if identification can use it.
 
     Raises:
-        RecordingError: no samples, voltages or speeds that are not finite, a clock that steps back, or no motion.
+        RecordingError: no samples, voltages or speeds that are not finite, an encoder without edges, a count or a clock
+            that steps back, or no motion.
     """
     uri = recording.uri
     if len(recording) < 2:
@@ -107,6 +108,18 @@ def check(recording: Recording) -> Recording:
             raise RecordingError(
                 f"{uri} has {bad} {name} values that are not numbers (the first at {first:.3f} s): "
                 "cut them out with --start and --stop, or record again."
+            )
+    if recording.info.measurement is not Measurement.SPEED and recording.info.edges_per_revolution < 1:
+        raise RecordingError(
+            f"{uri}: motor/info says {recording.info.edges_per_revolution} edges per revolution; "
+            "set the plant's edges_per_revolution and record again."
+        )
+    if recording.info.measurement is Measurement.EDGES and recording.info.single_channel:
+        falls = np.flatnonzero(np.diff(recording.edge_count) < 0)
+        if len(falls):
+            raise RecordingError(
+                f"{uri}: edge_count falls after {float(recording.time[falls[0]]):.3f} s, which it cannot with one channel: "
+                "use the part before it (--stop), or correct single_channel in motor/info."
             )
     if np.any(np.diff(recording.sample_time) <= 0):
         at = float(recording.time[int(np.argmax(np.diff(recording.sample_time) <= 0))])

@@ -10,6 +10,7 @@ from motor_model.effects import EFFECT_BY_NAME, INDEX, SPEC_BY_NAME
 
 BLOCKS = 40  # of consecutive intervals or edges, in which noise may be correlated
 TOUCHING = 1e-8  # [s] between intervals that follow each other
+NOTHING = 1e-6  # of the speed: what moves the motion by less (for 100 % of itself) has not shown at all
 COLLINEAR = 1e-4  # sine of the angle between a column of the Jacobian and the others, below which they are one
 TOO_UNSURE = 0.3  # standard error as a share of the value
 DETECTABLE = 10.0  # standard errors of the mean by which a trace must differ to be told apart from its imitation
@@ -39,6 +40,7 @@ def certainty(problem: Problem, place: Floats, jacobian: Floats) -> Certainty:
     scaled = jacobian * scale
     root = np.sqrt(weight)[:, None] * scaled
     alone = _independence(root)
+    alone[np.linalg.norm(root, axis=0) < NOTHING * np.sqrt(np.sum(weight * problem.speed**2))] = 0.0
     inverse = np.asarray(np.linalg.pinv(root.T @ root, rcond=1e-14, hermitian=True), dtype=np.float64)
     parts = weight * problem.residuals(place)
     errors = np.minimum(_errors(inverse, parts, scaled), _errors(inverse, *_by_edge(problem, scaled, parts)))

@@ -72,6 +72,12 @@ class Unknowns:
         return {name: float(scaled[i]) for i, name in enumerate(self.names)}
 
 
+def _reach(speed: Floats) -> float:
+    """[rad/s] largest speed that two samples in a row report, so that one false edge does not move the search box."""
+    size = np.abs(speed)
+    return float(np.minimum(size[1:], size[:-1]).max()) or float(size.max())
+
+
 def unknowns_of(recordings: Sequence[Recording], effects: tuple[str, ...]) -> Unknowns:
     """The unknowns of these effects, in a box scaled by the largest voltage, the largest speed and the duration.
 
@@ -82,7 +88,7 @@ def unknowns_of(recordings: Sequence[Recording], effects: tuple[str, ...]) -> Un
     """
     extent = Extent(
         max(float(np.abs(recording.voltage).max()) for recording in recordings),
-        max(float(np.abs(recording.speed).max()) for recording in recordings),
+        max(_reach(recording.speed) for recording in recordings),
         max(recording.duration for recording in recordings),
     )
     specs = specs_of(effects)

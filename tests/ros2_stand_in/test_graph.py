@@ -1,5 +1,7 @@
 """Lists and descriptions of what runs."""
 
+import pytest
+
 OUR_SERVICES = """\
 /enable [std_srvs/srv/SetBool]
 /lab/bench/describe_parameters [rcl_interfaces/srv/DescribeParameters]
@@ -78,6 +80,32 @@ def test_what_is_not_there_is_a_sentence(ros2):
     assert (
         ros2("node", "info", "nope", status=1).err == "Unable to find node '/nope'; 'ros2 node list' shows what runs.\n"
     )
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("topic", "info", "/a b"),
+        ("topic", "echo", "/1a"),
+        ("topic", "hz", "a/"),
+        ("topic", "pub", "/a//b", "std_msgs/msg/Float64"),
+        ("topic", "pub", "/a", "std_msgs/msg/Float64", "-n", "a b"),
+        ("service", "call", "a-b", "std_srvs/srv/SetBool"),
+        ("action", "send_goal", "", "motor_msgs/action/Diagnose"),
+        ("node", "info", "a b"),
+        ("param", "list", "a b"),
+    ],
+)
+def test_impossible_names_are_a_sentence(ros2, words):
+    assert ros2(*words, status=1).err.endswith(
+        "' cannot be a name in ROS: between slashes stand letters, digits and _, a digit not first.\n"
+    )
+
+
+def test_an_impossible_domain_is_a_sentence(ros2):
+    err = ros2("node", "list", status=1, ROS_DOMAIN_ID="lab").err
+    assert err.startswith("ROS does not start: failed to initialize rcl: ROS_DOMAIN_ID is not an integral number")
+    assert err.count("\n") == 1
 
 
 def test_actions(bench):
