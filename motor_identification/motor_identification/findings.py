@@ -13,6 +13,9 @@ IN_WORDS = {
     "load_bias": "a constant load (load_bias)",
     "dead_zone": "a dead zone of the bridge (dead_zone)",
     "quadratic_drag": "drag (quadratic_drag)",
+    "static_friction": "the breakaway level (static_friction)",
+    "transport_delay": "the delay (transport_delay)",
+    "voltage_limit": "the voltage limit (voltage_limit)",
 }
 
 
@@ -41,7 +44,8 @@ def cautions(fit: Fit) -> tuple[str, ...]:
         said.append(f"{names} cannot be told apart from this recording.")
     for effect, rivals in fit.not_told_apart.items():
         others = " or ".join(IN_WORDS.get(rival, rival) for rival in rivals)
-        said.append(f"{IN_WORDS.get(effect, effect).capitalize()} cannot be told from {others} in this recording.")
+        subject = IN_WORDS.get(effect, effect)
+        said.append(f"{subject[0].upper()}{subject[1:]} cannot be told from {others} in this recording.")
     walls = [name for name, hit in fit.on_bound.items() if hit]
     if walls:
         said.append(f"{_listed(walls)} ended on the edge of the search box: do not trust the value.")
@@ -80,6 +84,7 @@ def as_json(fit: Fit) -> dict[str, Any]:
         "residual_rms": _number(fit.residual_rms),
         "noise_floor": _number(fit.noise_floor),
         "r_squared": _number(fit.r_squared),
+        "slot_irregularity": [_number(share) for share in fit.slot_irregularity],
         "not_identifiable": list(fit.not_identifiable),
         "not_told_apart": {effect: list(rivals) for effect, rivals in fit.not_told_apart.items()},
         "suggested_experiment": fit.suggested_experiment or None,

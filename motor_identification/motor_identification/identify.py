@@ -3,12 +3,14 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
+from typing import Protocol
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from motor_identification.problem import Problem, make_problem
 from motor_identification.recording import Floats, Recording
+from motor_identification.refine import Refined, learn
 from motor_identification.statistics import certainty, not_told_apart
 from motor_identification.swarm import SwarmConfig, minimise
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
@@ -17,6 +19,7 @@ from motor_model.parameters import Parameters
 
 Progress = Callable[[str, float], None]  # what is being done, share done 0 to 1
 
+COARSE = 0.02  # [s] length of the intervals that the swarm compares
 ENOUGH = 1e-3  # relative improvement per epoch below which the swarm hands over to least squares
 PATIENCE = 25  # epochs without such an improvement
 ON_BOUND = 1e-4  # of the box
@@ -52,8 +55,9 @@ class Fit:
     not_told_apart: dict[str, tuple[str, ...]]  # fitted effect → absent effects with the same trace
     suggested_experiment: str  # a profile, or empty
     residual_rms: float  # [rad/s] time-weighted, of simulated − measured mean speed
-    noise_floor: float  # [rad/s] what timer tick or count quantisation alone leave
+    noise_floor: float  # [rad/s] what timer tick (or count quantisation) and irregular slots alone leave
     r_squared: float
+    slot_irregularity: tuple[float, ...]  # of every recording's disc, as a share of a slot; NaN where it has none
     start_speeds: tuple[float, ...]  # [rad/s] of every recording
     trace: Floats  # [rad/s] best RMS after each epoch of the swarm
     evaluations: int
@@ -76,28 +80,57 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     problem = make_problem(recordings, request.effects, request.workers)
     config = SwarmConfig(request.particles, request.epochs, request.seed, stall=PATIENCE, tolerance=ENOUGH)
     swarm = minimise(
-        problem.costs,
+        problem.coarse(COARSE).costs,
         problem.unknowns.low,
         problem.unknowns.high,
         config,
         lambda epoch, cost: tell("swarm", 0.9 * epoch / request.epochs),
     )
     tell("least squares", 0.9)
-    place, evaluations = _polish(problem, swarm.place)
-    fit = _judge(problem, place, np.sqrt(swarm.trace), swarm.evaluations + evaluations, begun)
+    place, evaluations = _least_squares(problem, Speeds(problem), swarm.place)
+    for share in (0.93, 0.96):
+        refined = Refined(problem, learn(problem, place))
+        place, more = _least_squares(problem, refined, place)
+        evaluations += more
+        tell("least squares", share)
+    fit = _judge(refined, place, np.sqrt(swarm.trace), swarm.evaluations + evaluations, begun)
     tell("done", 1.0)
     return fit
 
 
-def _polish(problem: Problem, place: Floats) -> tuple[Floats, int]:
-    """Least squares (trust region reflective) from the swarm's best place; keeps that place if it is not improved."""
+class Residuals(Protocol):
+    """Something least squares can minimise."""
+
+    def residuals(self, place: Floats) -> Floats:
+        """(D,) → any number of residuals."""
+
+    def jacobian(self, place: Floats) -> Floats:
+        """Their derivative, one column for each unknown."""
+
+
+@dataclass(frozen=True)
+class Speeds:
+    """The swarm's cost as residuals: mean speeds weighted by the root of their share of the time."""
+
+    problem: Problem
+
+    def residuals(self, place: Floats) -> Floats:
+        """Weighted residuals at a place (D,), shape (I,)."""
+        return np.asarray(np.sqrt(self.problem.weight) * self.problem.residuals(place))
+
+    def jacobian(self, place: Floats) -> Floats:
+        """Their derivative, shape (I, D)."""
+        return np.asarray(np.sqrt(self.problem.weight)[:, None] * self.problem.jacobian(place))
+
+
+def _least_squares(problem: Problem, target: Residuals, place: Floats) -> tuple[Floats, int]:
+    """Least squares (trust region reflective) from a place, kept if it is not improved; and the simulations."""
     low, high = problem.unknowns.low, problem.unknowns.high
     margin = 1e-9 * (high - low)
-    root = np.sqrt(problem.weight)
     solution = least_squares(
-        lambda x: root * problem.residuals(x),
+        target.residuals,
         np.clip(place, low + margin, high - margin),
-        jac=lambda x: root[:, None] * problem.jacobian(x),
+        jac=target.jacobian,
         bounds=(low, high),
         x_scale=high - low,
         ftol=1e-12,
@@ -106,16 +139,17 @@ def _polish(problem: Problem, place: Floats) -> tuple[Floats, int]:
         max_nfev=60,
     )
     evaluations = int(solution.nfev + 2 * len(place) * (solution.njev or 0))
-    better = 2.0 * solution.cost <= problem.costs(place[None])[0]
+    better = 2.0 * solution.cost <= float(np.sum(target.residuals(place) ** 2))
     return np.asarray(solution.x if better else place), evaluations
 
 
-def _judge(problem: Problem, place: Floats, trace: Floats, evaluations: int, begun: float) -> Fit:
+def _judge(refined: Refined, place: Floats, trace: Floats, evaluations: int, begun: float) -> Fit:
     """Everything a user should know about a fitted place."""
+    problem = refined.problem
     unknowns, weight, speed = problem.unknowns, problem.weight, problem.speed
-    jacobian = problem.jacobian(place)
-    sure = certainty(problem, place, jacobian)
-    alike = not_told_apart(problem, place, jacobian, sure.not_identifiable)
+    jacobian = refined.jacobian(place)
+    sure = certainty(refined, place, jacobian)
+    alike = not_told_apart(refined, place, jacobian, sure)
     cost = float(problem.costs(place[None])[0])
     span = unknowns.high - unknowns.low
     at_wall = (place - unknowns.low < ON_BOUND * span) | (unknowns.high - place < ON_BOUND * span)
@@ -130,8 +164,9 @@ def _judge(problem: Problem, place: Floats, trace: Floats, evaluations: int, beg
         not_told_apart=alike,
         suggested_experiment=_suggestion(sure.not_identifiable, alike),
         residual_rms=float(np.sqrt(cost)),
-        noise_floor=problem.noise_floor,
+        noise_floor=refined.noise_floor,
         r_squared=1.0 - cost / variance if variance > 1e-18 * float(np.max(speed**2)) else float("nan"),
+        slot_irregularity=tuple(encoder.irregularity for encoder in refined.encoders),
         start_speeds=tuple(float(v) for v in unknowns.decode(place[None])[1][0]),
         trace=trace,
         evaluations=evaluations,

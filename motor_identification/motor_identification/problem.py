@@ -2,14 +2,13 @@
 
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from math import sqrt
 
 import numpy as np
 
 from motor_identification.recording import Floats, Integers, Recording
-from motor_identification.residual import Intervals, fill_residuals, intervals_of
+from motor_identification.residual import Intervals, fill_residuals, intervals_of, joined
 from motor_identification.unknowns import Unknowns, unknowns_of
 from motor_model.compiled import compiled
 from motor_model.errors import RecordingError
@@ -50,6 +49,19 @@ class Problem:
     workers: int = 1
 
     @cached_property
+    def commands(self) -> tuple[tuple[Floats, Floats], ...]:
+        """Times [s] and voltages [V] at which each recording's command changes: a held one needs no step."""
+        changes = []
+        for recording in self.recordings:
+            kept = np.diff(recording.voltage, prepend=np.nan) != 0.0
+            changes.append((recording.time[kept], recording.voltage[kept]))
+        return tuple(changes)
+
+    def coarse(self, duration: float) -> "Problem":
+        """The same problem with intervals joined to this length [s] where they follow each other: quicker to search."""
+        return replace(self, intervals=tuple(joined(data, duration) for data in self.intervals))
+
+    @cached_property
     def weight(self) -> Floats:
         """Share of the observed time, shape (I,), sum 1."""
         duration = np.concatenate([data.duration for data in self.intervals])
@@ -59,12 +71,6 @@ class Problem:
     def speed(self) -> Floats:
         """[rad/s] measured mean speeds, shape (I,)."""
         return np.concatenate([data.speed for data in self.intervals])
-
-    @cached_property
-    def noise_floor(self) -> float:
-        """[rad/s] time-weighted RMS of what timer tick or count quantisation leave."""
-        sigma = np.concatenate([data.sigma for data in self.intervals])
-        return sqrt(float(np.sum(self.weight * sigma**2)))
 
     def evaluate(self, places: Floats) -> Floats:
         """Residuals (S, I) [rad/s] at places (S, D)."""
@@ -78,10 +84,10 @@ class Problem:
 
         def work(part: slice) -> None:
             column = 0
-            for r, (recording, data) in enumerate(zip(self.recordings, self.intervals, strict=True)):
+            for r, ((time, voltage), data) in enumerate(zip(self.commands, self.intervals, strict=True)):
                 out = np.empty((len(vectors[part]), len(data.first)))
                 fill_swarm(
-                    vectors[part], np.ascontiguousarray(starts[part, r]), recording.time, recording.voltage,
+                    vectors[part], np.ascontiguousarray(starts[part, r]), time, voltage,
                     data.time, data.first, data.last, data.speed, data.slack, out,
                 )  # fmt: skip
                 residuals[part, column : column + len(data.first)] = out
@@ -101,6 +107,16 @@ class Problem:
     def residuals(self, place: Floats) -> Floats:
         """[rad/s] of one place (D,), shape (I,)."""
         return np.asarray(self.evaluate(place[None])[0])
+
+    def angles(self, place: Floats) -> tuple[Floats, ...]:
+        """[rad] simulated at the times of every recording's intervals, at one place (D,)."""
+        vectors, starts = self.unknowns.decode(place[None])
+        angles = []
+        for r, ((time, voltage), data) in enumerate(zip(self.commands, self.intervals, strict=True)):
+            angle, speed = np.empty(len(data.time)), np.empty(len(data.time))
+            roll_out(vectors[0], float(starts[0, r]), time, voltage, data.time, angle, speed)
+            angles.append(angle)
+        return tuple(angles)
 
     def jacobian(self, place: Floats) -> Floats:
         """Derivative of the residuals over the unknowns, central differences, shape (I, D)."""

@@ -12,6 +12,7 @@ from motor_model.sample import Info, Measurement, Sample
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -109,26 +110,30 @@ def check(recording: Recording) -> Recording:
                 f"{uri} has {bad} {name} values that are not numbers (the first at {first:.3f} s): "
                 "cut them out with --start and --stop, or record again."
             )
-    if recording.info.measurement is not Measurement.SPEED and recording.info.edges_per_revolution < 1:
-        raise RecordingError(
-            f"{uri}: motor/info says {recording.info.edges_per_revolution} edges per revolution; "
-            "set the plant's edges_per_revolution and record again."
-        )
-    if recording.info.measurement is Measurement.EDGES and recording.info.single_channel:
-        falls = np.flatnonzero(np.diff(recording.edge_count) < 0)
-        if len(falls):
-            raise RecordingError(
-                f"{uri}: edge_count falls after {float(recording.time[falls[0]]):.3f} s, which it cannot with one channel: "
-                "use the part before it (--stop), or correct single_channel in motor/info."
-            )
     if np.any(np.diff(recording.sample_time) <= 0):
         at = float(recording.time[int(np.argmax(np.diff(recording.sample_time) <= 0))])
         raise RecordingError(
             f"{uri}: the plant's clock stands still or steps back after {at:.3f} s; "
             "this happens when a plant restarts while recording: use the part before it (--stop)."
         )
+    _check_encoder(recording)
     if not np.any(recording.speed) and np.ptp(recording.edge_count) == 0:
         raise RecordingError(
             f"{uri}: the motor never moves; check supply, wiring and enable, and record with a voltage that turns it."
         )
     return recording
+
+
+def _check_encoder(recording: Recording) -> None:
+    uri, info = recording.uri, recording.info
+    if info.measurement is not Measurement.SPEED and info.edges_per_revolution < 1:
+        raise RecordingError(
+            f"{uri}: motor/info says {info.edges_per_revolution} edges per revolution; "
+            "set the plant's edges_per_revolution and record again."
+        )
+    falls = np.flatnonzero(np.diff(recording.edge_count) < 0)
+    if info.measurement is Measurement.EDGES and info.single_channel and len(falls):
+        raise RecordingError(
+            f"{uri}: edge_count falls after {float(recording.time[falls[0]]):.3f} s, which one channel cannot: "
+            "use the part before it (--stop), or correct single_channel in motor/info."
+        )

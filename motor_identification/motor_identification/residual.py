@@ -11,7 +11,7 @@ from math import sqrt, tau
 import numpy as np
 
 from motor_identification.edges import Edges, edges_of
-from motor_identification.recording import Floats, Integers, Recording
+from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_model.compiled import compiled
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
@@ -24,7 +24,8 @@ class Intervals:
     """Measured mean speeds; arrays of shape (I,), indices into `time` of shape (K,).
 
     `slack` [rad] is how far the motor may move without contradicting the measurement: one slot where no edge came.
-    `sigma` [rad/s] is what the timer's tick, or the sampling of counts, leaves in the mean speed.
+    `blur` [rad] is how well the angle is known at both ends, given perfect slots: the tick of the timer that stamps
+    edges, or the sampling of counts. `edge` numbers the edges at both ends, where the ends are edges.
     """
 
     time: Floats  # [s] ascending; time[0] is the recording's start
@@ -32,13 +33,27 @@ class Intervals:
     last: Integers
     speed: Floats  # [rad/s] signed mean between time[first] and time[last]
     slack: Floats  # [rad]
-    sigma: Floats  # [rad/s]
+    blur: Floats  # [rad] standard deviation of the angle at either end
+    edge: Integers  # (I, 2) numbers of the first and the last edge; −1 where there is none
+    slot: float  # [rad] 0 where nothing is known of the slots
     left_out: int  # intervals that contain a reversal, or whose direction is open
 
     @property
     def duration(self) -> Floats:
         """[s] length of every interval, shape (I,)."""
         return np.asarray(self.time[self.last] - self.time[self.first])
+
+    @property
+    def sigma(self) -> Floats:
+        """[rad/s] what the blur of both ends leaves in the mean speed, shape (I,)."""
+        return np.asarray(sqrt(2.0) * self.blur / self.duration)
+
+    @property
+    def fresh(self) -> Bools:
+        """Which intervals do not begin where the one before ended, shape (I,)."""
+        follows = np.zeros(len(self.first), dtype=bool)
+        follows[1:] = (self.first[1:] == self.last[:-1]) & (self.slack[1:] == 0.0) & (self.slack[:-1] == 0.0)
+        return np.asarray(~follows)
 
 
 def intervals_of(recording: Recording) -> Intervals:
@@ -59,34 +74,44 @@ def intervals_of(recording: Recording) -> Intervals:
 def _from_edges(recording: Recording) -> Intervals:
     edges = edges_of(recording)
     slot = tau / recording.info.edges_per_revolution
-    between, left_out = _between_edges(edges, slot)
-    still = _without_edges(recording, edges, slot)
-    start, end, speed, slack = (np.concatenate(pair) for pair in zip(between, still, strict=True))
-    # A stamp is uniform over a tick τ, the difference of two has the standard deviation τ/√6.
-    sigma = np.abs(speed) * recording.info.edge_resolution / sqrt(6.0) / (end - start)
-    return _indexed(start, end, speed, slack, sigma, left_out)
+    start, end, speed, number, left_out = _between_edges(edges, slot)
+    still_start, still_end = _without_edges(recording, edges)
+    blank = np.zeros(len(still_start))
+    # A stamp is uniform over a tick τ: its standard deviation is τ/√12, and that of the angle ω times as much.
+    blur = np.abs(speed) * recording.info.edge_resolution / sqrt(12.0)
+    return _indexed(
+        np.concatenate([start, still_start]),
+        np.concatenate([end, still_end]),
+        speed=np.concatenate([speed, blank]),
+        slack=np.concatenate([0.0 * speed, blank + slot]),
+        blur=np.concatenate([blur, blank]),
+        edge=np.concatenate([number, np.full((len(blank), 2), -1)]),
+        slot=slot,
+        left_out=left_out,
+    )
 
 
-def _between_edges(edges: Edges, slot: float) -> tuple[tuple[Floats, Floats, Floats, Floats], int]:
-    """Start, end, mean speed and slack between successive reported edges, and how many were left out."""
+def _between_edges(edges: Edges, slot: float) -> tuple[Floats, Floats, Floats, Integers, int]:
+    """Start, end, mean speed and numbers of successive reported edges, and how many intervals were left out."""
     start, end = edges.time[:-1], edges.time[1:]
     here, there = edges.direction[:-1], edges.direction[1:]
     travel = np.abs(np.diff(edges.count)) * slot
     good = (here == there) & (here != 0) & (end > start)
     start, end = start[good], end[good]
     speed = here[good] * travel[good] / (end - start)
-    return (start, end, speed, np.zeros(len(start))), int(np.count_nonzero(~good))
+    number = np.column_stack([edges.count[:-1], edges.count[1:]])[good]
+    return start, end, speed, number, int(np.count_nonzero(~good))
 
 
-def _without_edges(recording: Recording, edges: Edges, slot: float) -> tuple[Floats, Floats, Floats, Floats]:
-    """The stretches before the first and after the last edge, in which the motor cannot have moved a whole slot."""
+def _without_edges(recording: Recording, edges: Edges) -> tuple[Floats, Floats]:
+    """Start and end of the times before the first and after the last edge, in which there was less than a slot."""
     stop = recording.time[-1]
     first = edges.time[0] if len(edges.time) else stop
     rows = [(0.0, first)] if first > STANDSTILL_MATTERS else []
     if len(edges.time) and stop - edges.time[-1] > STANDSTILL_MATTERS:
         rows.append((edges.time[-1], stop))
     start, end = np.array(rows, dtype=np.float64).reshape(-1, 2).T
-    return start, end, np.zeros(len(rows)), np.full(len(rows), slot)
+    return start, end
 
 
 def _from_counts(recording: Recording) -> Intervals:
@@ -98,9 +123,8 @@ def _from_counts(recording: Recording) -> Intervals:
     if recording.info.single_channel:
         steps *= np.sign(recording.speed[changed[1:]])
     start, end = time[:-1], time[1:]
-    # The count truncates the angle by up to a slot at both ends.
-    sigma = slot / sqrt(6.0) / (end - start)
-    return _indexed(start, end, steps * slot / (end - start), np.zeros(len(start)), sigma, 0)
+    # The count truncates the angle by up to a slot.
+    return _indexed(start, end, speed=steps * slot / (end - start), blur=np.full(len(start), slot / sqrt(12.0)))
 
 
 def _from_speed(recording: Recording) -> Intervals:
@@ -110,20 +134,73 @@ def _from_speed(recording: Recording) -> Intervals:
     middle = recording.time - info.speed_lag
     start, end = middle - 0.5 * window, middle + 0.5 * window
     inside = start >= -1e-9
-    quantum = tau / info.edges_per_revolution / window if info.edges_per_revolution and info.speed_window else 0.0
-    sigma = np.full(len(middle), quantum / sqrt(6.0))
-    start = np.maximum(start[inside], 0.0)
-    return _indexed(start, end[inside], recording.speed[inside], np.zeros(len(start)), sigma[inside], 0)
+    # Where it is a mean of counts, the angle at either end of the window is truncated to one.
+    count = tau / info.edges_per_revolution if info.edges_per_revolution and info.speed_window else 0.0
+    start, end = np.round(np.maximum(start[inside], 0.0), 9), np.round(end[inside], 9)
+    return _indexed(start, end, speed=recording.speed[inside], blur=np.full(len(start), count / sqrt(12.0)))
 
 
 _READERS = {Measurement.EDGES: _from_edges, Measurement.COUNTS: _from_counts, Measurement.SPEED: _from_speed}
 
 
-def _indexed(start: Floats, end: Floats, speed: Floats, slack: Floats, sigma: Floats, left_out: int) -> Intervals:
+def _indexed(
+    start: Floats,
+    end: Floats,
+    speed: Floats,
+    blur: Floats,
+    slack: Floats | None = None,
+    edge: Integers | None = None,
+    slot: float = 0.0,
+    left_out: int = 0,
+) -> Intervals:
     """Intervals over one ascending list of times that starts with the recording."""
+    count = len(start)
     time, index = np.unique(np.concatenate([[0.0], start, end]), return_inverse=True)
-    first, last = index[1 : len(start) + 1], index[len(start) + 1 :]
-    return Intervals(time, first.astype(np.int64), last.astype(np.int64), speed, slack, sigma, left_out)
+    return Intervals(
+        time=time,
+        first=index[1 : count + 1].astype(np.int64),
+        last=index[count + 1 :].astype(np.int64),
+        speed=speed,
+        slack=np.zeros(count) if slack is None else slack,
+        blur=blur,
+        edge=np.full((count, 2), -1) if edge is None else edge,
+        slot=slot,
+        left_out=left_out,
+    )
+
+
+def joined(intervals: Intervals, duration: float) -> Intervals:
+    """The intervals with those that follow each other joined until each is at least `duration` [s] long.
+
+    A mean speed over many slots says as much about the motor as those over its parts, but for what happens within it.
+    """
+    group = np.empty(len(intervals.first), dtype=np.int64)
+    _group(intervals.fresh, intervals.duration, duration, group)
+    begin = np.flatnonzero(np.diff(group, prepend=-1))
+    end = np.append(begin[1:], len(group)) - 1
+    travel = np.add.reduceat(intervals.speed * intervals.duration, begin)
+    start_time, end_time = intervals.time[intervals.first[begin]], intervals.time[intervals.last[end]]
+    return _indexed(
+        start_time,
+        end_time,
+        speed=travel / (end_time - start_time),
+        blur=np.maximum.reduceat(intervals.blur, begin),
+        slack=intervals.slack[begin],
+        edge=np.column_stack([intervals.edge[begin, 0], intervals.edge[end, 1]]),
+        slot=intervals.slot,
+        left_out=intervals.left_out,
+    )
+
+
+@compiled
+def _group(fresh: Bools, duration: Floats, least: float, group: Integers) -> None:
+    """Number the intervals by the longer ones they are joined to."""
+    number, length = -1, 0.0
+    for k in range(len(fresh)):
+        if fresh[k] or length >= least:
+            number, length = number + 1, 0.0
+        group[k] = number
+        length += duration[k]
 
 
 @compiled

@@ -31,7 +31,11 @@ def load(path: str | Path) -> Parameters:
         content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
     except OSError as error:
         raise ModelError(f"cannot read the model file {path}: {error.strerror}.") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
+    except (
+        yaml.YAMLError,
+        ValueError,
+        RecursionError,
+    ) as error:  # ValueError: bytes that are no text, dates that are none
         raise ModelError(f"{path} is not YAML; write one with 'identify --output model.yaml'.") from error
     try:
         return _parameters(content, Path(path).stem)
@@ -50,7 +54,7 @@ def _parameters(content: Any, default_name: str) -> Parameters:
         values,
         tuple(effects),
         _number("max_voltage", content.get("max_voltage", 12.0)),
-        str(content.get("name", default_name)),
+        str(content.get("name") or default_name),
     )
 
 
@@ -61,7 +65,10 @@ def _number(name: str, entry: Any) -> float:
             value = float(value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise ModelError(f"'{name}' must have a number as its value, not {value!r}.")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError as error:
+        raise ModelError(f"'{name}' is a number beyond all bounds; correct it.") from error
 
 
 def save(

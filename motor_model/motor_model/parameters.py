@@ -44,11 +44,13 @@ class Parameters:
     def _check_physics(self) -> None:
         for name, value in self.values.items():
             spec = SPEC_BY_NAME[name]
-            if not isfinite(value) or not spec.minimum <= value <= spec.maximum:
-                most = f" and at most {spec.maximum:g}" if isfinite(spec.maximum) else ""
-                raise ModelError(
-                    f"{name} = {value:g} {spec.unit} is not physical: it must be at least {spec.minimum:g}{most}."
+            if not isfinite(value):
+                raise ModelError(f"{name} = {value:g} {spec.unit} must be a finite number.")
+            if not spec.minimum <= value <= spec.maximum:
+                most = (
+                    f"{spec.minimum:g} to {spec.maximum:g}" if isfinite(spec.maximum) else f"at least {spec.minimum:g}"
                 )
+                raise ModelError(f"{name} = {value:g} {spec.unit} is not physical: it must be {most}.")
         if self.values["kv"] <= 0.0 or self.values["ka"] <= 0.0:
             raise ModelError("kv and ka must be positive: a motor with neither back-EMF nor inertia is none.")
         if not np.isfinite(self.max_voltage) or self.max_voltage <= 0.0:

@@ -1,0 +1,118 @@
+"""What the encoder alone leaves in the angles, and the whitening that makes residuals independent with variance 1.
+
+Two successive intervals share an edge, so that their errors are correlated: what one gains the other loses. Seen from
+the angle there is no such thing. Along a run of intervals the simulated angle minus the measured one is
+
+    e_k = b_k + n_k,   n_k ~ R_k (timer tick, irregular slots),   b_{k+1} = b_k + w_k,   w_k ~ q·Δt_k
+
+with b the offset that a run starts with and that grows by what the model does not know (q, 0 for a perfect model). A
+scalar Kalman filter over the increments d_k = e_k − e_{k−1} gives innovations ν_k with variance S_k; ν/√S is white:
+
+    ν_k = (1 − K_{k−1}) ν_{k−1} + d_k,   S_k = P_{k−1} + q·Δt_k + R_k,   K_k = 1 − R_k/S_k,   P_k = K_k R_k
+
+For q = 0 this is least squares on the angle with a free offset for every run, for large q on the mean speeds; the two
+ways to fit an encoder are the ends of one. Being linear, the filter is applied to Jacobians as well.
+"""
+
+from dataclasses import dataclass
+from math import inf, log
+
+import numpy as np
+
+from motor_identification.recording import Bools, Floats
+from motor_model.compiled import compiled
+
+
+@dataclass(frozen=True)
+class AngleNoise:
+    """Variances of the measured angle in increments over I intervals; arrays of shape (I,).
+
+    `fresh` marks where a run begins: an interval that does not start where the one before it ended.
+    """
+
+    fresh: Bools
+    start: Floats  # [rad²] of the angle at an interval's start, used where a run begins
+    end: Floats  # [rad²] of the angle at its end
+    duration: Floats  # [s]
+
+
+@dataclass(frozen=True)
+class Whitening:
+    """The filter's gains and scales for one noise; apply it with `whiten`. Arrays of shape (I,)."""
+
+    fresh: Bools
+    gain: Floats
+    scale: Floats  # [1/rad] 1/√S
+
+
+@compiled
+def fill_gains(
+    fresh: Bools, start: Floats, end: Floats, duration: Floats, growth: float, gain: Floats, scale: Floats
+) -> None:
+    """Kalman gains K and 1/√S of every interval; `growth` is q [rad²/s]."""
+    variance = 0.0
+    for k in range(len(fresh)):
+        if fresh[k]:
+            variance = start[k]
+        predicted = variance + growth * duration[k]
+        total = predicted + end[k]
+        gain[k] = predicted / total
+        scale[k] = 1.0 / np.sqrt(total)
+        variance = gain[k] * end[k]
+
+
+@compiled
+def fill_white(fresh: Bools, gain: Floats, scale: Floats, increments: Floats, white: Floats) -> None:
+    """Whitened innovations of increments [rad]."""
+    carried = 0.0
+    for k in range(len(fresh)):
+        innovation = increments[k] + (0.0 if fresh[k] else carried)
+        white[k] = innovation * scale[k]
+        carried = (1.0 - gain[k]) * innovation
+
+
+@compiled
+def fill_adjoint(fresh: Bools, gain: Floats, scale: Floats, white: Floats, increments: Floats) -> None:
+    """The transpose of `fill_white`."""
+    carried = 0.0
+    for k in range(len(fresh) - 1, -1, -1):
+        increments[k] = scale[k] * white[k] + carried
+        carried = 0.0 if fresh[k] else (1.0 - gain[k - 1]) * increments[k]
+
+
+def make_whitening(noise: AngleNoise, growth: float) -> Whitening:
+    """The filter for a noise and a growth q [rad²/s] of what the model does not know."""
+    gain, scale = np.empty(len(noise.fresh)), np.empty(len(noise.fresh))
+    fill_gains(noise.fresh, noise.start, noise.end, noise.duration, growth, gain, scale)
+    return Whitening(noise.fresh, gain, scale)
+
+
+def whiten(whitening: Whitening, increments: Floats) -> Floats:
+    """White residuals of unit variance, shape (I,), from angle increments [rad] of shape (I,)."""
+    white = np.empty(len(increments))
+    fill_white(whitening.fresh, whitening.gain, whitening.scale, np.ascontiguousarray(increments), white)
+    return white
+
+
+def adjoint(whitening: Whitening, white: Floats) -> Floats:
+    """The transpose of `whiten`, shape (I,) → (I,)."""
+    increments = np.empty(len(white))
+    fill_adjoint(whitening.fresh, whitening.gain, whitening.scale, np.ascontiguousarray(white), increments)
+    return increments
+
+
+def likely_growth(noise: AngleNoise, increments: Floats) -> float:
+    """The growth q [rad²/s] under which these residual increments [rad] are most likely; 0 where none is needed.
+
+    The likelihood of a Gaussian process from its innovations (Schweppe 1965), over q on a grid of half decades.
+    """
+    scale = float(np.mean(increments**2) / np.mean(noise.duration)) if len(increments) else 0.0
+    candidates = [0.0, *(scale * 10.0 ** (-0.5 * i) for i in range(20))]
+    best, chosen = inf, 0.0
+    for growth in candidates:
+        whitening = make_whitening(noise, growth)
+        white = whiten(whitening, increments)
+        cost = float(np.sum(white**2) - 2.0 * np.sum(np.log(whitening.scale)))
+        if cost < best - log(len(white) + 1.0):
+            best, chosen = cost, growth
+    return chosen

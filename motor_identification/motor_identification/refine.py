@@ -1,0 +1,114 @@
+"""The last stage of a fit: residuals whitened by what is known of encoder, disc and model, for least squares.
+
+From a first fit's residuals it learns, recording by recording, how irregular the slots are, which slot every edge is,
+and how fast the simulated angle drifts away (q of `noise.py`); least squares on the result is efficient where the model
+is right, and falls back to comparing speeds where it is not.
+"""
+
+from dataclasses import dataclass
+from math import nan, sqrt
+
+import numpy as np
+
+from motor_identification.noise import AngleNoise, Whitening, likely_growth, make_whitening, whiten
+from motor_identification.problem import Problem
+from motor_identification.recording import Floats
+from motor_identification.residual import Intervals
+from motor_identification.slots import Projection, SlotTable, likely_variance, slot_index
+
+SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
+FIRST_GUESS = 0.003  # of a slot: irregularity to begin with
+ROUNDS = 40  # of expectation maximisation
+LEAST_BLUR = 1e-3  # of the typical increment, where the encoder says nothing of its own accuracy
+
+
+@dataclass(frozen=True)
+class Encoder:
+    """What one recording's encoder and disc leave: a whitening, and the table's projection where there are slots."""
+
+    whitening: Whitening
+    projection: Projection | None
+    slot: float  # [rad] 0 where nothing is known of the slots
+    slot_sigma: float  # [rad] standard deviation of the flanks
+    growth: float  # [rad²/s] drift of the simulated angle
+
+    @property
+    def irregularity(self) -> float:
+        """The flanks' standard deviation as a share of a slot; NaN where nothing is known of the slots."""
+        return self.slot_sigma / self.slot if self.slot > 0.0 else nan
+
+    def white(self, increments: Floats) -> Floats:
+        """White residuals from angle increments [rad]."""
+        white = whiten(self.whitening, increments)
+        return white if self.projection is None else self.projection(white)
+
+
+def learn(problem: Problem, place: Floats) -> tuple[Encoder, ...]:
+    """What the residuals at a fitted place (D,) say about every recording's encoder."""
+    residuals, angles = problem.residuals(place), problem.angles(place)
+    first_harmonic = "encoder_eccentricity" not in problem.unknowns.effects
+    encoders, column = [], 0
+    for data, angle in zip(problem.intervals, angles, strict=True):
+        increments = residuals[column : column + len(data.first)] * data.duration
+        encoders.append(_learn_one(data, increments, angle, first_harmonic))
+        column += len(data.first)
+    return tuple(encoders)
+
+
+def _learn_one(data: Intervals, increments: Floats, angle: Floats, first_harmonic: bool) -> Encoder:
+    noise = _noise(data, increments)
+    if data.slot == 0.0:
+        growth = likely_growth(noise, increments)
+        return Encoder(make_whitening(noise, growth), None, 0.0, 0.0, growth)
+    index = slot_index(data, angle)
+    variance, growth = (FIRST_GUESS * data.slot) ** 2, 0.0
+    for _ in range(2):
+        table = SlotTable(make_whitening(noise, growth), index, first_harmonic)
+        white = whiten(table.whitening, increments)
+        variance = likely_variance(table, white, variance, ROUNDS)
+        explained = index.increments(Projection(table, variance).best(white))
+        growth = likely_growth(noise, increments - explained)
+    table = SlotTable(make_whitening(noise, growth), index, first_harmonic)
+    return Encoder(table.whitening, Projection(table, variance), data.slot, float(np.sqrt(variance)), growth)
+
+
+def _noise(data: Intervals, increments: Floats) -> AngleNoise:
+    still = data.slack > 0.0
+    least = LEAST_BLUR * float(np.median(np.abs(increments))) + 1e-12
+    variance: Floats = np.maximum(data.blur, least) ** 2
+    end = np.where(still, (SLACK_BLUR * data.slack) ** 2, variance)
+    return AngleNoise(data.fresh, np.where(still, 0.0, variance), end, data.duration)
+
+
+@dataclass(frozen=True)
+class Refined:
+    """Whitened residuals of a problem, for least squares and for its statistics."""
+
+    problem: Problem
+    encoders: tuple[Encoder, ...]
+
+    @property
+    def noise_floor(self) -> float:
+        """[rad/s] time-weighted RMS of what timer tick (or count quantisation) and irregular slots alone leave."""
+        squares = [
+            data.sigma**2 + np.where(data.slack > 0.0, 0.0, 2.0 * (encoder.slot_sigma / data.duration) ** 2)
+            for data, encoder in zip(self.problem.intervals, self.encoders, strict=True)
+        ]
+        return sqrt(float(self.problem.weight @ np.concatenate(squares)))
+
+    def white(self, residuals: Floats) -> Floats:
+        """From mean speeds' residuals [rad/s] (I,) to white ones, all recordings one after the other."""
+        parts, column = [], 0
+        for data, encoder in zip(self.problem.intervals, self.encoders, strict=True):
+            part = residuals[column : column + len(data.first)] * data.duration
+            parts.append(encoder.white(part))
+            column += len(data.first)
+        return np.concatenate(parts)
+
+    def residuals(self, place: Floats) -> Floats:
+        """White residuals at a place (D,)."""
+        return self.white(self.problem.residuals(place))
+
+    def jacobian(self, place: Floats) -> Floats:
+        """Their derivative over the unknowns, one column each."""
+        return np.column_stack([self.white(column) for column in self.problem.jacobian(place).T])
