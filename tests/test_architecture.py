@@ -74,8 +74,9 @@ def test_package_xml_names_what_is_imported(package: str) -> None:
     text = (ROOT / package / "package.xml").read_text(encoding="utf-8")
     declared = set(re.findall(r"<(?:exec_)?depend>([\w-]+)</", text))
     keys = {"numpy": "python3-numpy", "scipy": "python3-scipy", "yaml": "python3-yaml", "tqdm": "python3-tqdm"}
-    keys |= {"matplotlib": "python3-matplotlib", "lz4": "python3-lz4"}
-    from_pypi = {name.strip() for row in re.findall(r"from PyPI[^:]*: ([^>]*?) -->", text) for name in row.split(",")}
+    keys |= {"matplotlib": "python3-matplotlib"}
+    rows = re.findall(r"from PyPI[^:]*: ([^>]*?) -->", text)
+    from_pypi = {name.strip().split(".")[0] for row in rows for name in row.split(",")}
     for owner, path, names in MODULES:
         if owner != package:
             continue

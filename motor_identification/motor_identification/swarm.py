@@ -59,13 +59,13 @@ def minimise(
         ValueError: the box is empty or not finite, or there are fewer than two particles.
     """
     config = config or SwarmConfig()
-    low, span = _checked_box(low, high)
+    low, high = _checked_box(low, high)
     if config.particles < 2:
         raise ValueError("a swarm has at least two particles")
     random = np.random.default_rng(config.seed)
 
     def evaluate(x: Floats) -> Floats:
-        costs = np.asarray(cost(low + span * x), dtype=np.float64)
+        costs = np.asarray(cost(_places(low, high, x)), dtype=np.float64)
         return np.where(np.isfinite(costs), costs, np.inf)
 
     x = _latin_hypercube(random, config.particles, len(low))
@@ -79,32 +79,43 @@ def minimise(
         better = costs < best_cost
         best[better], best_cost[better] = x[better], costs[better]
         trace.append(float(best_cost.min()))
-        stalled = 0 if trace[-1] < trace[-2] * (1.0 - config.tolerance) else stalled + 1
+        stalled = 0 if _improved(trace[-2], trace[-1], config.tolerance) else stalled + 1
         if progress is not None:
             progress(epoch + 1, trace[-1])
         if config.stall and stalled >= config.stall:
             break
-    return _result(low, span, best, best_cost, np.array(trace))
+    return _result(_places(low, high, best), best, best_cost, np.array(trace))
 
 
 def _checked_box(low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """The box as its low corner and its span, both (D,)."""
+    """The box as its low and its high corner, both (D,)."""
     low, high = np.asarray(low, dtype=np.float64), np.asarray(high, dtype=np.float64)
     if not (np.all(np.isfinite(low)) and np.all(np.isfinite(high)) and np.all(low < high)):
         raise ValueError("the box must have finite bounds, each low below its high")
-    return low, high - low
+    return low, high
 
 
-def _result(low: Floats, span: Floats, best: Floats, costs: Floats, trace: Floats) -> SwarmResult:
+def _places(low: Floats, high: Floats, x: Floats) -> Floats:
+    """Where x in the unit box is in the box; rounding does not carry it outside."""
+    return np.asarray(np.clip(low + (high - low) * x, low, high))
+
+
+def _improved(before: float, after: float, tolerance: float) -> bool:
+    """Whether a cost fell by more than a share of its size, whatever its sign; from none to any is progress too."""
+    return after < before - (tolerance * abs(before) if np.isfinite(before) else 0.0)
+
+
+def _result(places: Floats, best: Floats, costs: Floats, trace: Floats) -> SwarmResult:
+    """The outcome; `best` is `places` in the unit box."""
     order = np.argsort(costs, kind="stable")
     top = best[order[0]]
     return SwarmResult(
-        place=low + span * top,
+        place=places[order[0]],
         cost=float(costs[order[0]]),
         on_bound=(top < ON_BOUND) | (top > 1.0 - ON_BOUND),
         trace=trace,
         evaluations=len(best) * len(trace),
-        places=low + span * best[order],
+        places=places[order],
         costs=costs[order],
     )
 

@@ -1,0 +1,26 @@
+"""The demo itself: exits with 0, with the right motor in its table and its picture drawn."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@pytest.mark.timeout(180)
+def test_the_demo_finds_the_hidden_motor_and_holds_the_speed() -> None:
+    done = subprocess.run([sys.executable, ROOT / "demo" / "demo.py"], capture_output=True, text=True, timeout=150)
+    assert done.returncode == 0, done.stdout + done.stderr
+    errors = {
+        name: float(error) for name, error in re.findall(r"^  (k\w) .*?([+-][\d.]+) %$", done.stdout, re.MULTILINE)
+    }
+    assert set(errors) == {"kv", "ka", "ks"}
+    assert all(abs(error) < 0.01 for error in errors.values())  # per cent
+    picture = re.search(r"picture: (\S+)", done.stdout)
+    assert picture is not None and (ROOT / picture[1]).stat().st_size > 50_000
+    held = re.search(r"read ([\d.]+) on average", done.stdout)
+    assert held is not None and 99.0 < float(held[1]) < 101.0
+    assert "Traceback" not in done.stderr
