@@ -1,13 +1,14 @@
 """Identification: particle swarm over the whole box, least squares from its best place, and how sure the result is."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Protocol
 
 import numpy as np
 from scipy.optimize import least_squares
 
+from motor_identification.missed import find_miscounted
 from motor_identification.problem import Problem, make_problem
 from motor_identification.recording import Floats, Recording
 from motor_identification.refine import Refined, learn
@@ -22,6 +23,9 @@ Progress = Callable[[str, float], None]  # what is being done, share done 0 to 1
 COARSE = 0.02  # [s] length of the intervals that the swarm compares
 ENOUGH = 1e-3  # relative improvement per epoch below which the swarm hands over to least squares
 PATIENCE = 25  # epochs without such an improvement
+CLEANINGS = 8  # rounds at most of leaving out miscounted intervals: each makes the next easier to see
+MISCOUNTED = "{} of {} intervals are off by whole slots (edges missed or counted twice) and were left out."
+OUTLYING = "{} of {} intervals contradict their neighbours (a wrong stamp, an unseen reversal) and were left out."
 ON_BOUND = 1e-4  # of the box
 
 
@@ -77,25 +81,56 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     if not recordings:
         raise RecordingError("there is no recording to fit: name at least one bag.")
     tell = progress or (lambda stage, share: None)
-    problem = make_problem(recordings, request.effects, request.workers)
+    whole = make_problem(recordings, request.effects, request.workers)
     config = SwarmConfig(request.particles, request.epochs, request.seed, stall=PATIENCE, tolerance=ENOUGH)
     swarm = minimise(
-        problem.coarse(COARSE).costs,
-        problem.unknowns.low,
-        problem.unknowns.high,
+        whole.coarse(COARSE).costs,
+        whole.unknowns.low,
+        whole.unknowns.high,
         config,
         lambda epoch, cost: tell("swarm", 0.9 * epoch / request.epochs),
     )
     tell("least squares", 0.9)
-    place, evaluations = _least_squares(problem, Speeds(problem), swarm.place)
-    for share in (0.93, 0.96):
+    place, counted, evaluations = _without_miscounted(whole, swarm.place)
+    tell("least squares", 0.95)
+    refined, place, more = _refined(counted, place)
+    fit = _judge(refined, place, np.sqrt(swarm.trace), swarm.evaluations + evaluations + more, begun)
+    tell("done", 1.0)
+    return replace(fit, notes=(*fit.notes, *_left_out(whole, counted, refined.problem)))
+
+
+def _without_miscounted(problem: Problem, place: Floats) -> tuple[Floats, Problem, int]:
+    """Fit mean speeds, leave out what is off by whole slots, and again: the place, what was kept, simulations."""
+    place, evaluations = _least_squares(problem, Speeds(problem), place)
+    for _ in range(CLEANINGS):
+        bad = find_miscounted(problem, place)
+        if not any(marks.any() for marks in bad):
+            break
+        problem = problem.without(bad)
+        place, more = _least_squares(problem, Speeds(problem), place)
+        evaluations += more
+    return place, problem, evaluations
+
+
+def _refined(problem: Problem, place: Floats) -> tuple[Refined, Floats, int]:
+    """Learn the encoder from the residuals, fit white residuals, and again, without outliers."""
+    evaluations = 0
+    for last in (False, False, True):
         refined = Refined(problem, learn(problem, place))
         place, more = _least_squares(problem, refined, place)
         evaluations += more
-        tell("least squares", share)
-    fit = _judge(refined, place, np.sqrt(swarm.trace), swarm.evaluations + evaluations, begun)
-    tell("done", 1.0)
-    return fit
+        far = refined.outliers(place)
+        if not last and any(marks.any() for marks in far):
+            problem = problem.without(far)
+    return refined, place, evaluations
+
+
+def _left_out(whole: Problem, counted: Problem, kept: Problem) -> list[str]:
+    """What was not used, in sentences."""
+    total, miscounted = len(whole.weight), len(whole.weight) - len(counted.weight)
+    outliers = len(counted.weight) - len(kept.weight)
+    rows = ((MISCOUNTED, miscounted), (OUTLYING, outliers))
+    return [text.format(number, total) for text, number in rows if number]
 
 
 class Residuals(Protocol):

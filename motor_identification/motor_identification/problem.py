@@ -7,8 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from motor_identification.recording import Floats, Integers, Recording
-from motor_identification.residual import Intervals, fill_residuals, intervals_of, joined
+from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_identification.residual import Intervals, fill_residuals, intervals_of, joined, without
 from motor_identification.unknowns import Unknowns, unknowns_of
 from motor_model.compiled import compiled
 from motor_model.errors import RecordingError
@@ -60,6 +60,18 @@ class Problem:
     def coarse(self, duration: float) -> "Problem":
         """The same problem with intervals joined to this length [s] where they follow each other: quicker to search."""
         return replace(self, intervals=tuple(joined(data, duration) for data in self.intervals))
+
+    def without(self, bad: tuple[Bools, ...]) -> "Problem":
+        """The same problem without the marked intervals of every recording."""
+        kept = tuple(without(data, marks) for data, marks in zip(self.intervals, bad, strict=True))
+        return replace(self, intervals=kept)
+
+    def increments(self, place: Floats) -> tuple[Floats, ...]:
+        """Simulated minus measured travel [rad] in the intervals of every recording, at one place (D,)."""
+        residuals = self.residuals(place)
+        ends = np.cumsum([len(data.first) for data in self.intervals])
+        parts = np.split(residuals, ends[:-1])
+        return tuple(part * data.duration for part, data in zip(parts, self.intervals, strict=True))
 
     @cached_property
     def weight(self) -> Floats:

@@ -12,13 +12,15 @@ import numpy as np
 
 from motor_identification.noise import AngleNoise, Whitening, likely_growth, make_whitening, whiten
 from motor_identification.problem import Problem
-from motor_identification.recording import Floats
+from motor_identification.recording import Bools, Floats
 from motor_identification.residual import Intervals
 from motor_identification.slots import Projection, SlotTable, likely_variance, slot_index
 
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
 FIRST_GUESS = 0.003  # of a slot: irregularity to begin with
 ROUNDS = 40  # of expectation maximisation
+OUTLIER = 8.0  # standard deviations
+FEW = 0.005  # share of the intervals
 LEAST_BLUR = 1e-3  # of the typical increment, where the encoder says nothing of its own accuracy
 
 
@@ -45,14 +47,9 @@ class Encoder:
 
 def learn(problem: Problem, place: Floats) -> tuple[Encoder, ...]:
     """What the residuals at a fitted place (D,) say about every recording's encoder."""
-    residuals, angles = problem.residuals(place), problem.angles(place)
     first_harmonic = "encoder_eccentricity" not in problem.unknowns.effects
-    encoders, column = [], 0
-    for data, angle in zip(problem.intervals, angles, strict=True):
-        increments = residuals[column : column + len(data.first)] * data.duration
-        encoders.append(_learn_one(data, increments, angle, first_harmonic))
-        column += len(data.first)
-    return tuple(encoders)
+    rows = zip(problem.intervals, problem.increments(place), problem.angles(place), strict=True)
+    return tuple(_learn_one(data, increments, angle, first_harmonic) for data, increments, angle in rows)
 
 
 def _learn_one(data: Intervals, increments: Floats, angle: Floats, first_harmonic: bool) -> Encoder:
@@ -104,6 +101,20 @@ class Refined:
             parts.append(encoder.white(part))
             column += len(data.first)
         return np.concatenate(parts)
+
+    def outliers(self, place: Floats) -> tuple[Bools, ...]:
+        """Intervals of every recording that no noise explains, where they are few; else none is marked.
+
+        Such as one that hides an unnoticed reversal, or a wrong stamp. Many of them are no outliers but a wrong model.
+        """
+        marks = []
+        for data, encoder, increments in zip(
+            self.problem.intervals, self.encoders, self.problem.increments(place), strict=True
+        ):
+            white = encoder.white(increments)[: len(increments)]
+            far = (np.abs(white) > OUTLIER) & (data.slack == 0.0)
+            marks.append(far if far.sum() <= FEW * len(far) else np.zeros_like(far))
+        return tuple(marks)
 
     def residuals(self, place: Floats) -> Floats:
         """White residuals at a place (D,)."""

@@ -5,7 +5,7 @@ timer's tick, so that between two reported edges the mean speed is Δcount·(2π
 an early error from growing through the whole recording, as it does when the angle itself is compared.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt, tau
 
 import numpy as np
@@ -166,6 +166,21 @@ def _indexed(
         edge=np.full((count, 2), -1) if edge is None else edge,
         slot=slot,
         left_out=left_out,
+    )
+
+
+def without(intervals: Intervals, bad: Bools) -> Intervals:
+    """The intervals that are not marked; shape of `bad`: (I,)."""
+    good = ~bad
+    return replace(
+        intervals,
+        first=intervals.first[good],
+        last=intervals.last[good],
+        speed=intervals.speed[good],
+        slack=intervals.slack[good],
+        blur=intervals.blur[good],
+        edge=intervals.edge[good],
+        left_out=intervals.left_out + int(bad.sum()),
     )
 
 

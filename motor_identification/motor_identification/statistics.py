@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motor_identification.problem import Problem
 from motor_identification.recording import Floats
@@ -10,6 +11,7 @@ from motor_identification.refine import Refined
 from motor_model.effects import EFFECT_BY_NAME, INDEX, SPEC_BY_NAME
 
 BLOCKS = 120  # of consecutive intervals
+NOTHING = 1e-6  # of the speed
 COLLINEAR = 1e-4  # sine of the angle between a column of the Jacobian and the others, below which they are one
 TOO_UNSURE = 0.3  # standard error as a share of the value
 DETECTABLE = 10.0  # standard deviations by which a trace must differ from its imitation to be told apart
@@ -31,7 +33,7 @@ def certainty(refined: Refined, place: Floats, jacobian: Floats) -> Certainty:
 
     The errors are a sandwich estimate, (JᵀJ)⁻¹ (Σ_b s_b s_bᵀ) (JᵀJ)⁻¹ with s_b the sum of Jᵢrᵢ over a block of
     consecutive residuals, so that what correlation the whitening has left, up to a block's length, needs no model
-    (Liang & Zeger, Biometrika 73, 1986).
+    (Liang & Zeger, Biometrika 73, 1986); but no smaller than (JᵀJ)⁻¹ alone, which is all there is for few residuals.
     """
     scale = _scales(refined.problem, place)
     scaled = jacobian * scale
@@ -41,10 +43,16 @@ def certainty(refined: Refined, place: Floats, jacobian: Floats) -> Certainty:
     blocks = np.array_split(scores, min(BLOCKS, max(len(scores) // 4, 2)))
     sums = np.array([block.sum(axis=0) for block in blocks])
     correction = len(blocks) / max(len(blocks) - len(place), 1)
-    errors = np.sqrt(np.diag(inverse @ (sums.T @ sums * correction) @ inverse))
-    unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE)
+    errors = np.sqrt(np.diag(np.maximum(inverse @ (sums.T @ sums * correction) @ inverse, inverse)))
+    unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE) | ~_shown(refined.problem, place, scale)
     names = tuple(name for name, bad in zip(refined.problem.unknowns.names, unsure, strict=False) if bad)
     return Certainty(np.where(unsure, np.nan, errors * scale), names)
+
+
+def _shown(problem: Problem, place: Floats, scale: Floats) -> NDArray[np.bool_]:
+    """Which unknowns move the speeds at all, by more than rounding, when they change by 100 %, shape (D,)."""
+    moved = np.sqrt(problem.weight @ (problem.jacobian(place) * scale) ** 2)
+    return np.asarray(moved > NOTHING * np.sqrt(problem.weight @ problem.speed**2))
 
 
 def _scales(problem: Problem, place: Floats) -> Floats:

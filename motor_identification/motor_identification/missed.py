@@ -1,0 +1,30 @@
+"""Edges that were not counted, or counted twice: intervals off by whole slots say nothing of speed."""
+
+import numpy as np
+
+from motor_identification.problem import Problem
+from motor_identification.recording import Bools, Floats
+from motor_identification.residual import Intervals
+
+WITHIN = 4.0  # standard deviations from a whole number of slots
+
+
+def miscounted(data: Intervals, increments: Floats) -> Bools:
+    """Which intervals' travel [rad] is off by a whole number of slots, within 4 σ of all the others' scatter.
+
+    Shapes are (I,). Where the model is so far off that 4 σ reach half a slot, nothing is marked.
+    """
+    moving = (data.slack == 0.0) & (data.edge[:, 0] >= 0)
+    if data.slot == 0.0 or not np.any(moving):
+        return np.zeros(len(increments), dtype=bool)
+    middle = float(np.median(increments[moving]))
+    sigma = 1.4826 * float(np.median(np.abs(increments[moving] - middle)))
+    slots = np.round(increments / data.slot)
+    near = np.abs(increments - slots * data.slot) < max(WITHIN * sigma, 1e-3 * data.slot)
+    return np.asarray(moving & (slots != 0.0) & near & (WITHIN * sigma < 0.5 * data.slot))
+
+
+def find_miscounted(problem: Problem, place: Floats) -> tuple[Bools, ...]:
+    """The miscounted intervals of every recording, judged at a fitted place (D,)."""
+    rows = zip(problem.intervals, problem.increments(place), strict=True)
+    return tuple(miscounted(data, increments) for data, increments in rows)
