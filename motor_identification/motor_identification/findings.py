@@ -40,8 +40,9 @@ def cautions(fit: Fit) -> tuple[str, ...]:
     """One sentence for everything that limits the result, then the recording's own notes."""
     said = []
     if fit.not_identifiable:
-        names = _listed(fit.not_identifiable)
-        said.append(f"{names} cannot be told apart from this recording.")
+        several = len(fit.not_identifiable) > 1
+        verdict = "cannot be told apart in" if several else "cannot be determined from"
+        said.append(f"{_listed(fit.not_identifiable)} {verdict} this recording.")
     for effect, rivals in fit.not_told_apart.items():
         others = " or ".join(IN_WORDS.get(rival, rival) for rival in rivals)
         subject = IN_WORDS.get(effect, effect)

@@ -11,7 +11,8 @@ from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.residual import Intervals, fill_residuals, intervals_of, joined, without
 from motor_identification.unknowns import Unknowns, unknowns_of
 from motor_model.compiled import compiled
-from motor_model.errors import RecordingError
+from motor_model.encoder import show
+from motor_model.errors import ModelError, RecordingError
 from motor_model.simulate import roll_out
 
 
@@ -32,6 +33,7 @@ def fill_swarm(
     angle, shaft = np.empty(len(time)), np.empty(len(time))
     for s in range(len(vectors)):
         roll_out(vectors[s], starts[s], command_time, command, time, angle, shaft)
+        show(vectors[s], angle)
         fill_residuals(angle, time, first, last, speed, slack, residuals[s])
 
 
@@ -121,12 +123,13 @@ class Problem:
         return np.asarray(self.evaluate(place[None])[0])
 
     def angles(self, place: Floats) -> tuple[Floats, ...]:
-        """[rad] simulated at the times of every recording's intervals, at one place (D,)."""
+        """[rad] what the disc shows at the times of every recording's intervals, simulated at one place (D,)."""
         vectors, starts = self.unknowns.decode(place[None])
         angles = []
         for r, ((time, voltage), data) in enumerate(zip(self.commands, self.intervals, strict=True)):
             angle, speed = np.empty(len(data.time)), np.empty(len(data.time))
             roll_out(vectors[0], float(starts[0, r]), time, voltage, data.time, angle, speed)
+            show(vectors[0], angle)
             angles.append(angle)
         return tuple(angles)
 
@@ -142,9 +145,11 @@ def make_problem(recordings: Sequence[Recording], effects: tuple[str, ...], work
     """The problem of fitting kv, ka and these effects to recordings of one motor.
 
     Raises:
-        ModelError: an effect is not in the table.
+        ModelError: an effect is not in the table, or is none that can be fitted.
         RecordingError: a recording has no usable motion, or the motor moves without any voltage.
     """
+    if "missed_edges" in effects:
+        raise ModelError("missed_edges is recognised in every fit and left out, not fitted: drop it from the effects.")
     for recording in recordings:
         if not np.any(recording.voltage):
             raise RecordingError(f"{recording.uri} has no voltage other than 0 in it: record with the motor driven.")

@@ -18,6 +18,7 @@ from motor_identification.slots import Projection, SlotTable, likely_variance, s
 
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
 FIRST_GUESS = 0.003  # of a slot: irregularity to begin with
+MOST = 0.05  # of a slot: more irregular than this is no disc
 ROUNDS = 40  # of expectation maximisation
 OUTLIER = 8.0  # standard deviations
 FEW = 0.005  # share of the intervals
@@ -62,7 +63,7 @@ def _learn_one(data: Intervals, increments: Floats, angle: Floats, first_harmoni
     for _ in range(2):
         table = SlotTable(make_whitening(noise, growth), index, first_harmonic)
         white = whiten(table.whitening, increments)
-        variance = likely_variance(table, white, variance, ROUNDS)
+        variance = likely_variance(table, white, variance, (MOST * data.slot) ** 2, ROUNDS)
         explained = index.increments(Projection(table, variance).best(white))
         growth = likely_growth(noise, increments - explained)
     table = SlotTable(make_whitening(noise, growth), index, first_harmonic)

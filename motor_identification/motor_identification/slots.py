@@ -172,8 +172,11 @@ class Projection:
         return np.concatenate([left, coordinates / np.sqrt(self.variance)])
 
 
-def likely_variance(table: SlotTable, white: Floats, guess: float, rounds: int) -> float:
-    """The variance σ² [rad²] of the seen slots' offsets for whitened residuals (I,), by expectation maximisation."""
+def likely_variance(table: SlotTable, white: Floats, guess: float, most: float, rounds: int) -> float:
+    """The variance σ² [rad²] of the seen slots' offsets for whitened residuals (I,), by expectation maximisation.
+
+    It stays below `most` [rad²]: what is beyond any real disc is an error of the model, and shall not pass for noise.
+    """
     values, vectors = table.modes
     scores = vectors.T @ table.scores(white)
     seen = table.seen > 0
@@ -182,5 +185,5 @@ def likely_variance(table: SlotTable, white: Floats, guess: float, rounds: int) 
         precision = values + 1.0 / variance
         mean = vectors @ (scores / precision)
         posterior = np.sum(vectors**2 / precision, axis=1)
-        variance = float(np.mean(mean[seen] ** 2 + posterior[seen]))
+        variance = min(float(np.mean(mean[seen] ** 2 + posterior[seen])), most)
     return variance

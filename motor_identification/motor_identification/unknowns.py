@@ -12,6 +12,8 @@ from motor_model.effect import ParameterSpec
 from motor_model.effects import INDEX, normalised, specs_of
 from motor_model.parameters import Parameters, neutral
 
+BREAKAWAY, KS = INDEX["breakaway_voltage"], INDEX["ks"]
+
 
 @dataclass(frozen=True)
 class Extent:
@@ -55,6 +57,8 @@ class Unknowns:
         vectors = np.tile(neutral(self.max_voltage), (len(places), 1))
         for column, name in enumerate(self.names):
             vectors[:, INDEX[name]] = values[:, column]
+        if "static_friction" in self.effects:  # a motor does not hold less than it slides
+            vectors[:, BREAKAWAY] = np.maximum(vectors[:, BREAKAWAY], vectors[:, KS])
         starts = np.zeros((len(places), len(self.turning)))
         starts[:, self.turning] = values[:, len(self.specs) :]
         return vectors, starts

@@ -1,7 +1,9 @@
 """A worker process for long computations: the node that asks stays alive, and can end the work at any moment."""
 
 import multiprocessing
+import os
 import signal
+import threading
 from collections.abc import Callable
 from concurrent.futures import Future, ProcessPoolExecutor
 from typing import Any, TypeVar
@@ -10,8 +12,16 @@ T = TypeVar("T")
 
 
 def _begin() -> None:
-    """Ctrl-C in the terminal is for the node, which ends its workers itself."""
+    """Ctrl-C in the terminal is for the node, which ends its worker itself; if it is killed, so is the worker."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_follow_the_parent, daemon=True).start()
+
+
+def _follow_the_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 class Worker:

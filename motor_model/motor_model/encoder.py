@@ -52,6 +52,14 @@ def shown_angle(p: Floats, angle: float) -> float:
 
 
 @compiled
+def show(p: Floats, angles: Floats) -> None:
+    """Replace shaft angles [rad] by what an eccentric disc shows of them."""
+    if p[ECCENTRICITY] != 0.0:
+        for k in range(len(angles)):
+            angles[k] = shown_angle(p, angles[k])
+
+
+@compiled
 def _shaft_angle(p: Floats, shown: float) -> float:
     """The shaft angle [rad] at which an eccentric disc shows this angle; the inverse of `shown_angle`."""
     e = p[ECCENTRICITY]

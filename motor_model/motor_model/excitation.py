@@ -23,7 +23,7 @@ class Profile:
     shape: Shape
 
     def voltage(self, time: NDArray[np.floating[Any]], largest: float) -> Floats:
-        """[V] at times [s] since the start, scaled so that its peak is `largest` [V]. Shape as `time`."""
+        """[V] at times [s] since the start, scaled so that a share of 1 is `largest` [V]. Shape as `time`."""
         inside = (time >= 0.0) & (time < self.duration)
         return np.asarray(np.where(inside, largest * self.shape(np.clip(time, 0.0, self.duration)), 0.0))
 

@@ -61,4 +61,4 @@ def drive_of(p: Floats, u: float) -> tuple[float, float]:
     """The drive's constant part and the back-EMF per speed, for an effective voltage u."""
     share = u / p[U_MAX]
     sag = 1.0 + p[SAG] * share * share
-    return u / sag, p[KV] * (1.0 - p[COAST] * max(0.0, 1.0 - abs(share))) / sag
+    return u / sag, p[KV] * (1.0 - p[COAST] * (1.0 - abs(share))) / sag

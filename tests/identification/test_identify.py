@@ -1,4 +1,4 @@
-"""Known motors, run by the independent plant, are found again: how closely, how surely, and what is said of the rest."""
+"""Known motors, run by the independent plant, are found again: how closely, how surely, and what is said besides."""
 
 import json
 from dataclasses import replace
@@ -63,7 +63,7 @@ def test_the_papers_experiment(papers: list[Fit]) -> None:
     for fit in papers:
         assert fit.parameters.effects == () and not fit.not_identifiable and not any(fit.on_bound.values())
         assert fit.suggested_experiment == "" and cautions(fit) == ()
-        assert 0.9 < fit.residual_rms / fit.noise_floor < 1.1 and 0.1 < fit.noise_floor < 0.2
+        assert 0.85 < fit.residual_rms / fit.noise_floor < 1.15 and 0.1 < fit.noise_floor < 0.2
         assert 0.9999 < fit.r_squared < 1.0
         assert fit.start_speeds == (0.0,)
 
@@ -171,12 +171,19 @@ def test_standard_errors_are_true(case: str) -> None:
     """Over many small recordings the errors, in units of their standard errors, scatter by about 1."""
     values, drive, effects, how = SMALL[case]
     scores = []
-    for seed in range(40):
+    for seed in range(30):
         fit = identify([made(values, drive, seed=seed, disc_seed=seed, **how)], replace(quick(*effects), epochs=40))
         scores.append(how_sure(fit, values))
     spread = np.std(scores, axis=0)
-    assert np.all(spread > 0.6) and np.all(spread < 1.6), spread
+    assert np.all(spread > 0.6) and np.all(spread < 1.5), spread
     assert np.all(np.abs(np.mean(scores, axis=0)) < 0.6)
+
+
+def test_a_handful_of_edges_is_not_called_precise() -> None:
+    """Four intervals fit any motor; what the timer leaves is then all there is to say of the error."""
+    fit = identify([check(made({}, profiles.step(10.0, 1.0), seed=1).between(0.0, 0.02))], quick())
+    assert 1e-3 < abs(off(fit, {})["kv"]) < 0.1
+    assert max(map(abs, how_sure(fit, {}))) < 5.0
 
 
 def test_one_level_does_not_tell_friction_from_gain_and_says_so() -> None:
@@ -185,7 +192,7 @@ def test_one_level_does_not_tell_friction_from_gain_and_says_so() -> None:
     assert isnan(fit.standard_errors["kv"]) and isnan(fit.standard_errors["ks"])
     assert fit.suggested_experiment == "staircase"
     text = sentence(fit)
-    assert "(not identifiable)" in text and "cannot be told apart from this recording" in text
+    assert "(not identifiable)" in text and "cannot be told apart in this recording" in text
     assert "The profile 'staircase' would show it." in text
     assert "not identifiable" in as_table(fit)
     content = as_json(fit)
@@ -225,6 +232,7 @@ def test_constant_speed_says_nothing_of_inertia_and_has_no_r_squared() -> None:
     level = as_speed(steady)
     flat = identify([check(replace(level, speed=np.full(len(level), 5.0)))], quick())
     assert isnan(flat.r_squared) and as_json(flat)["r_squared"] is None
+    assert "ka" in flat.not_identifiable and "kv" not in flat.not_identifiable
     json.dumps(as_json(flat), allow_nan=False)
 
 
@@ -248,7 +256,7 @@ def test_notes_and_names_come_through(tmp_path: Path) -> None:
 REFUSED = {
     "no voltage": (lambda r: replace(r, voltage=0.0 * r.voltage), "has no voltage other than 0"),
     "one sample": (lambda r: r._select(np.arange(len(r)) < 1), "holds 1 samples; record at least a second"),
-    "no motion": (lambda r: r._select(np.arange(len(r)) < 3), "the motor never moves"),
+    "no motion": (lambda r: r._select(np.arange(len(r)) < 2), "the motor never moves"),
     "a voltage that is no number": (
         lambda r: replace(r, voltage=np.where(np.arange(len(r)) == 20, np.nan, r.voltage)),
         r"has 1 voltage values that are not numbers \(the first at 0.100 s\)",

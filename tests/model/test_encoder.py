@@ -173,6 +173,8 @@ def motors(draw: st.DrawFn) -> Parameters:
         never_zero = spec.name in ("kv", "ka", "stribeck_speed", "warm_up_time", "limit_voltage")
         values[spec.name] = size if never_zero or draw(st.integers(0, 6)) else 0.0
     values["ka"] = min(max(values["ka"], 1e-3 * values["kv"]), 10.0 * values["kv"])
+    if "breakaway_voltage" in values:
+        values["breakaway_voltage"] = max(values["breakaway_voltage"], values["ks"])
     assert all(SPEC_BY_NAME[name].minimum <= value <= SPEC_BY_NAME[name].maximum for name, value in values.items())
     return Parameters(values, effects)
 

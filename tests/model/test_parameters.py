@@ -189,3 +189,10 @@ def test_files_that_cannot_be_read_or_written(tmp_path: Path) -> None:
         load(tmp_path / "bytes.yaml")
     with pytest.raises(ModelError, match="cannot write the model file .*: No such file or directory"):
         save(tmp_path / "no" / "where.yaml", paper_motor())
+
+
+def test_a_motor_does_not_hold_less_than_it_slides() -> None:
+    values = {"kv": 0.07, "ka": 0.005, "ks": 0.5, "breakaway_voltage": 0.4, "stribeck_speed": 3.0}
+    with pytest.raises(ModelError, match="breakaway_voltage must be at least ks"):
+        Parameters(values, ("static_friction",))
+    assert Parameters(values | {"breakaway_voltage": 0.5}, ("static_friction",)).value("breakaway_voltage") == 0.5

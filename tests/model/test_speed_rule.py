@@ -95,7 +95,7 @@ def test_a_voltage_that_turns_back_clears_the_suspicion() -> None:
 
 def test_any_clear_rise_tells_once_a_bridge_cannot_be_late_any_more() -> None:
     """Early rises need a dip below half; after `PATIENCE` a rise by a fifth is enough."""
-    early = [(0, 5), (20, 5), (20, -5), (18, -5), (24, -5)]
+    early = [(0, 5), (20, 5), (20, -5), (20, -5), (17, -5), (21, -5)]
     assert signs(early)[-1] == 1
     late = [(0, 5), (20, 5), (20, -5), (18, -5), *[(18, -5)] * (PATIENCE // (5 * MS)), (24, -5)]
     assert signs(late)[-1] == -1
