@@ -8,6 +8,7 @@ from typing import Protocol
 import numpy as np
 from scipy.optimize import least_squares
 
+from motor_identification.direction import redirected
 from motor_identification.missed import find_miscounted
 from motor_identification.problem import Problem, make_problem
 from motor_identification.recording import Floats, Recording
@@ -91,24 +92,26 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
         lambda epoch, cost: tell("swarm", 0.9 * epoch / request.epochs),
     )
     tell("least squares", 0.9)
-    place, counted, evaluations = _without_miscounted(whole, swarm.place)
+    place, evaluations = _least_squares(whole, Speeds(whole), swarm.place)
+    directed = redirected(whole, place)
+    place, counted, more = _without_miscounted(directed, place)
     tell("least squares", 0.95)
-    refined, place, more = _refined(counted, place)
-    fit = _judge(refined, place, np.sqrt(swarm.trace), swarm.evaluations + evaluations + more, begun)
+    refined, place, most = _refined(counted, place)
+    fit = _judge(refined, place, np.sqrt(swarm.trace), swarm.evaluations + evaluations + more + most, begun)
     tell("done", 1.0)
-    return replace(fit, notes=(*fit.notes, *_left_out(whole, counted, refined.problem)))
+    return replace(fit, notes=(*fit.notes, *_left_out(directed, counted, refined.problem)))
 
 
 def _without_miscounted(problem: Problem, place: Floats) -> tuple[Floats, Problem, int]:
     """Fit mean speeds, leave out what is off by whole slots, and again: the place, what was kept, simulations."""
-    place, evaluations = _least_squares(problem, Speeds(problem), place)
+    evaluations = 0
     for _ in range(CLEANINGS):
+        place, more = _least_squares(problem, Speeds(problem), place)
+        evaluations += more
         bad = find_miscounted(problem, place)
         if not any(marks.any() for marks in bad):
             break
         problem = problem.without(bad)
-        place, more = _least_squares(problem, Speeds(problem), place)
-        evaluations += more
     return place, problem, evaluations
 
 

@@ -72,7 +72,11 @@ def intervals_of(recording: Recording) -> Intervals:
 
 
 def _from_edges(recording: Recording) -> Intervals:
-    edges = edges_of(recording)
+    return intervals_between(recording, edges_of(recording))
+
+
+def intervals_between(recording: Recording, edges: Edges) -> Intervals:
+    """What stamped edges with known directions say about the motion."""
     slot = tau / recording.info.edges_per_revolution
     start, end, speed, number, left_out = _between_edges(edges, slot)
     still_start, still_end = _without_edges(recording, edges)
