@@ -1,5 +1,6 @@
 """Pictures of a fit: what was measured, what the model says, and what is left."""
 
+from math import isnan, nan, sqrt
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -46,20 +47,22 @@ def draw_fit(recording: Recording, fit: Fit, path: Path) -> None:
 
     data = intervals_of(recording)
     start = fit.start_speeds[fit.uris.index(recording.uri)] if recording.uri in fit.uris else 0.0
-    figure, (speed, voltage, rest) = plt.subplots(
-        3, 1, figsize=(10, 7.5), sharex=True, height_ratios=(3, 1, 1.4), constrained_layout=True
+    rows = len(fit.parameters.values) + 1
+    figure, (head, speed, voltage, rest) = plt.subplots(
+        4, 1, figsize=(10, 8), height_ratios=(0.18 * rows, 3, 1, 1.4), constrained_layout=True
     )
+    for axes in (voltage, rest):
+        axes.sharex(speed)
+    head.axis("off")
+    head.text(0.0, 1.0, as_table(fit), transform=head.transAxes, family="monospace", fontsize=9, va="top")
     draw_overlay(speed, recording, data, fit.parameters, start)
-    speed.legend(loc="upper right", framealpha=0.9, ncols=2)
-    speed.set_title(f"{recording.info.name}: residual {fit.residual_rms:.3g} rad/s RMS, R² {fit.r_squared:.5f}")
-    speed.text(
-        0.01, 0.02, as_table(fit), transform=speed.transAxes, family="monospace", fontsize=8, va="bottom",
-        bbox={"facecolor": "white", "alpha": 0.9, "edgecolor": "none"},
-    )  # fmt: skip
+    head.legend(*speed.get_legend_handles_labels(), loc="upper right", frameon=False)
+    head.set_title(f"{recording.info.name}: residual {fit.residual_rms:.3g} rad/s RMS, R² {fit.r_squared:.5f}")
     voltage.step(recording.time, recording.voltage, where="post", color=VOLTAGE, linewidth=1)
     voltage.set_ylabel("voltage [V]")
     voltage.grid(alpha=0.25)
-    _draw_residual(rest, recording, data, fit.parameters, start)
+    irregularity = fit.slot_irregularity[fit.uris.index(recording.uri)] if recording.uri in fit.uris else nan
+    _draw_residual(rest, recording, data, fit.parameters, start, 0.0 if isnan(irregularity) else irregularity)
     try:
         figure.savefig(path, dpi=120)
     except OSError as error:
@@ -68,15 +71,19 @@ def draw_fit(recording: Recording, fit: Fit, path: Path) -> None:
         plt.close(figure)
 
 
-def _draw_residual(axes: "Axes", recording: Recording, data: Intervals, model: Parameters, start: float) -> None:
-    """Simulated minus measured over time, and what the encoder alone would leave."""
+def _draw_residual(
+    axes: "Axes", recording: Recording, data: Intervals, model: Parameters, start: float, irregularity: float
+) -> None:
+    """Simulated minus measured over time, and what tick and irregular slots (share of one) alone would leave."""
     motion = simulate(model, recording.time, recording.voltage, data.time, start)
     middle = 0.5 * (data.time[data.first] + data.time[data.last])
     order = np.argsort(middle)[:: -(-len(middle) // MOST_POINTS)]
-    time, left, band = middle[order], residuals(data, motion.angle)[order], 2.0 * data.sigma[order]
+    time, left = middle[order], residuals(data, motion.angle)[order]
+    band = 2.0 * np.hypot(data.sigma, sqrt(2.0) * irregularity * data.slot / data.duration)[order]
     axes.plot(time, left, ".", color=SIMULATED, markersize=2)
-    axes.fill_between(time, -band, band, color=MEASURED, alpha=0.5, linewidth=0, label="±2 σ of the encoder alone")
+    axes.plot(time, band, ".", color=VOLTAGE, markersize=0.8)
+    axes.plot(time, -band, ".", color=VOLTAGE, markersize=0.8, label="±2 σ of encoder and disc alone")
     axes.set_ylabel("simulated −\nmeasured [rad/s]")
     axes.set_xlabel("time [s]")
-    axes.legend(loc="upper right", framealpha=0.9, fontsize=8)
+    axes.legend(loc="upper right", framealpha=0.9, fontsize=8, markerscale=8)
     axes.grid(alpha=0.25)
