@@ -3,7 +3,7 @@ if [ -z "${BASH_VERSION:-}" ]; then
   echo "env.sh is for bash: start bash, then 'source env.sh'." >&2
   return 1 2>/dev/null || exit 1
 fi
-_motor_root="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
+_motor_root="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)"
 if [ ! -x "$_motor_root/.venv/bin/python" ] || [ ! -f "$_motor_root/install/local_setup.bash" ]; then
   echo "The workbench is not built here yet: run $_motor_root/setup.sh, then source env.sh again." >&2
   unset _motor_root
@@ -13,20 +13,31 @@ fi
 # Nothing leaves this machine, and no stranger's node moves a motor, unless you say so.
 export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"
 
+_motor_install=local_setup.bash
+if [ -f "$_motor_root/.venv/share/rclpy/package.xml" ]; then # ROS 2 from PyPI: the venv is the ament prefix
+  case ":${AMENT_PREFIX_PATH:-}:" in
+    *":$_motor_root/.venv:"*) ;;
+    *)
+      if [ -n "${AMENT_PREFIX_PATH:-}" ]; then
+        echo "The ROS 2 that was sourced here before is put aside for the workbench's own." >&2
+        unset AMENT_PREFIX_PATH CMAKE_PREFIX_PATH PYTHONPATH LD_LIBRARY_PATH
+      fi
+      export AMENT_PREFIX_PATH="$_motor_root/.venv"
+      export CMAKE_PREFIX_PATH="$_motor_root/.venv${CMAKE_PREFIX_PATH:+:$CMAKE_PREFIX_PATH}"
+      ;;
+  esac
+  export ROS_DISTRO=jazzy ROS_VERSION=2 ROS_PYTHON_VERSION=3
+  export RMW_IMPLEMENTATION=rmw_fastrtps_cpp # PyPI has no other
+elif [ -z "${ROS_DISTRO:-}" ]; then
+  _motor_install=setup.bash # the ROS 2 that the workbench was built with is not sourced here: it comes along
+elif [ "$ROS_DISTRO" != jazzy ]; then
+  echo "The workbench was built with ROS 2 Jazzy, here $ROS_DISTRO is sourced: source env.sh in a new shell." >&2
+  unset _motor_root _motor_install
+  return 1 2>/dev/null || exit 1
+fi
 case ":$PATH:" in
   *":$_motor_root/.venv/bin:"*) ;;
   *) export PATH="$_motor_root/.venv/bin:$PATH" ;;
 esac
-if [ -f "$_motor_root/.venv/share/rclpy/package.xml" ]; then # ROS 2 from PyPI: the venv is the ament prefix
-  export ROS_DISTRO=jazzy ROS_VERSION=2 ROS_PYTHON_VERSION=3
-  case ":${AMENT_PREFIX_PATH:-}:" in
-    *":$_motor_root/.venv:"*) ;;
-    *) export AMENT_PREFIX_PATH="$_motor_root/.venv${AMENT_PREFIX_PATH:+:$AMENT_PREFIX_PATH}" ;;
-  esac
-  case ":${CMAKE_PREFIX_PATH:-}:" in
-    *":$_motor_root/.venv:"*) ;;
-    *) export CMAKE_PREFIX_PATH="$_motor_root/.venv${CMAKE_PREFIX_PATH:+:$CMAKE_PREFIX_PATH}" ;;
-  esac
-fi
-source "$_motor_root/install/local_setup.bash"
-unset _motor_root
+source "$_motor_root/install/$_motor_install"
+unset _motor_root _motor_install

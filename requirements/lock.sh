@@ -7,4 +7,4 @@ for set in everything beside_ros; do
     grep -v "sys_platform == 'win32'" >"$set.lock"
 done
 # The distribution's own packages stay: only what it lacks is pinned there.
-sed -i -E '/^(numpy|scipy|matplotlib|PyYAML|pyyaml|tqdm|setuptools)==/Id' beside_ros.lock
+sed -i -E '/^(numpy|scipy|matplotlib|PyYAML|pyyaml|tqdm)==/Id' beside_ros.lock
