@@ -9,9 +9,9 @@ from dataclasses import replace
 import numpy as np
 
 from motor_identification.edges import edges_of
+from motor_identification.intervals import Intervals, intervals_between
 from motor_identification.problem import Problem
 from motor_identification.recording import Floats, Integers, Recording
-from motor_identification.residual import Intervals, intervals_between
 from motor_model.sample import Measurement
 from motor_model.simulate import roll_out
 

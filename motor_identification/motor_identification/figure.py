@@ -8,8 +8,9 @@ import numpy as np
 
 from motor_identification.findings import as_table
 from motor_identification.identify import Fit
+from motor_identification.intervals import Intervals, intervals_of
 from motor_identification.recording import Recording
-from motor_identification.residual import Intervals, intervals_of, residuals
+from motor_identification.residual import residuals
 from motor_model.errors import MotorError
 from motor_model.parameters import Parameters
 from motor_model.simulate import simulate

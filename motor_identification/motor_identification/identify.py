@@ -3,11 +3,10 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
-from typing import Protocol
 
 import numpy as np
-from scipy.optimize import least_squares
 
+from motor_identification.descent import Speeds, descend
 from motor_identification.direction import redirected
 from motor_identification.missed import find_miscounted
 from motor_identification.problem import Problem, make_problem
@@ -92,7 +91,7 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
         lambda epoch, cost: tell("swarm", 0.9 * epoch / request.epochs),
     )
     tell("least squares", 0.9)
-    place, evaluations = _least_squares(whole, Speeds(whole), swarm.place)
+    place, evaluations = descend(whole, Speeds(whole), swarm.place)
     directed = redirected(whole, place)
     place, counted, more = _without_miscounted(directed, place)
     tell("least squares", 0.95)
@@ -106,7 +105,7 @@ def _without_miscounted(problem: Problem, place: Floats) -> tuple[Floats, Proble
     """Fit mean speeds, leave out what is off by whole slots, and again: the place, what was kept, simulations."""
     evaluations = 0
     for _ in range(CLEANINGS):
-        place, more = _least_squares(problem, Speeds(problem), place)
+        place, more = descend(problem, Speeds(problem), place)
         evaluations += more
         bad = find_miscounted(problem, place)
         if not any(marks.any() for marks in bad):
@@ -120,7 +119,7 @@ def _refined(problem: Problem, place: Floats) -> tuple[Refined, Floats, int]:
     evaluations = 0
     for last in (False, False, True):
         refined = Refined(problem, learn(problem, place))
-        place, more = _least_squares(problem, refined, place)
+        place, more = descend(problem, refined, place)
         evaluations += more
         far = refined.outliers(place)
         if not last and any(marks.any() for marks in far):
@@ -134,51 +133,6 @@ def _left_out(whole: Problem, counted: Problem, kept: Problem) -> list[str]:
     outliers = len(counted.weight) - len(kept.weight)
     rows = ((MISCOUNTED, miscounted), (OUTLYING, outliers))
     return [text.format(number, total) for text, number in rows if number]
-
-
-class Residuals(Protocol):
-    """Something least squares can minimise."""
-
-    def residuals(self, place: Floats) -> Floats:
-        """(D,) → any number of residuals."""
-
-    def jacobian(self, place: Floats) -> Floats:
-        """Their derivative, one column for each unknown."""
-
-
-@dataclass(frozen=True)
-class Speeds:
-    """The swarm's cost as residuals: mean speeds weighted by the root of their share of the time."""
-
-    problem: Problem
-
-    def residuals(self, place: Floats) -> Floats:
-        """Weighted residuals at a place (D,), shape (I,)."""
-        return np.asarray(np.sqrt(self.problem.weight) * self.problem.residuals(place))
-
-    def jacobian(self, place: Floats) -> Floats:
-        """Their derivative, shape (I, D)."""
-        return np.asarray(np.sqrt(self.problem.weight)[:, None] * self.problem.jacobian(place))
-
-
-def _least_squares(problem: Problem, target: Residuals, place: Floats) -> tuple[Floats, int]:
-    """Least squares (trust region reflective) from a place, kept if it is not improved; and the simulations."""
-    low, high = problem.unknowns.low, problem.unknowns.high
-    margin = 1e-9 * (high - low)
-    solution = least_squares(
-        target.residuals,
-        np.clip(place, low + margin, high - margin),
-        jac=target.jacobian,
-        bounds=(low, high),
-        x_scale=high - low,
-        ftol=1e-12,
-        xtol=1e-12,
-        gtol=1e-14,
-        max_nfev=60,
-    )
-    evaluations = int(solution.nfev + 2 * len(place) * (solution.njev or 0))
-    better = 2.0 * solution.cost <= float(np.sum(target.residuals(place) ** 2))
-    return np.asarray(solution.x if better else place), evaluations
 
 
 def _judge(refined: Refined, place: Floats, trace: Floats, evaluations: int, begun: float) -> Fit:

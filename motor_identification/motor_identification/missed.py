@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from motor_identification.intervals import Intervals
 from motor_identification.problem import Problem
 from motor_identification.recording import Bools, Floats
-from motor_identification.residual import Intervals
 
 WITHIN = 4.0  # standard deviations from a whole number of slots
 

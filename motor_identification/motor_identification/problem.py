@@ -7,8 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
+from motor_identification.intervals import Intervals, intervals_of, joined, without
 from motor_identification.recording import Bools, Floats, Integers, Recording
-from motor_identification.residual import Intervals, fill_residuals, intervals_of, joined, without
+from motor_identification.residual import fill_residuals
 from motor_identification.unknowns import Unknowns, unknowns_of
 from motor_model.compiled import compiled
 from motor_model.encoder import show

@@ -10,10 +10,10 @@ from math import nan, sqrt
 
 import numpy as np
 
+from motor_identification.intervals import Intervals
 from motor_identification.noise import AngleNoise, Whitening, likely_growth, make_whitening, whiten
 from motor_identification.problem import Problem
 from motor_identification.recording import Bools, Floats
-from motor_identification.residual import Intervals
 from motor_identification.slots import Projection, SlotTable, likely_variance, slot_index
 
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves

@@ -15,9 +15,9 @@ from functools import cached_property
 import numpy as np
 from scipy.linalg import eigh
 
+from motor_identification.intervals import Intervals
 from motor_identification.noise import Whitening, adjoint, whiten
 from motor_identification.recording import Bools, Floats, Integers
-from motor_identification.residual import Intervals
 from motor_model.compiled import compiled
 
 STIFF = 1e6  # prior variances that mean and first harmonic are kept below

@@ -6,11 +6,11 @@ from plant import profiles, record
 from plant.encoder import Disc
 
 from motor_identification.identify import Request, identify
+from motor_identification.intervals import joined
 from motor_identification.noise import whiten
 from motor_identification.problem import Problem, make_problem
 from motor_identification.recording import check
 from motor_identification.refine import Encoder, learn
-from motor_identification.residual import joined
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 TRUE = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.4}

@@ -1,0 +1,55 @@
+"""Least squares from a place in the box: the end of a search that a swarm began."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from motor_identification.problem import Problem
+from motor_identification.recording import Floats
+
+
+class Residuals(Protocol):
+    """Something least squares can minimise."""
+
+    def residuals(self, place: Floats) -> Floats:
+        """(D,) → any number of residuals."""
+
+    def jacobian(self, place: Floats) -> Floats:
+        """Their derivative, one column for each unknown."""
+
+
+@dataclass(frozen=True)
+class Speeds:
+    """The swarm's cost as residuals: mean speeds weighted by the root of their share of the time."""
+
+    problem: Problem
+
+    def residuals(self, place: Floats) -> Floats:
+        """Weighted residuals at a place (D,), shape (I,)."""
+        return np.asarray(np.sqrt(self.problem.weight) * self.problem.residuals(place))
+
+    def jacobian(self, place: Floats) -> Floats:
+        """Their derivative, shape (I, D)."""
+        return np.asarray(np.sqrt(self.problem.weight)[:, None] * self.problem.jacobian(place))
+
+
+def descend(problem: Problem, target: Residuals, place: Floats) -> tuple[Floats, int]:
+    """Least squares (trust region reflective) from a place, kept if it is not improved; and the simulations."""
+    low, high = problem.unknowns.low, problem.unknowns.high
+    margin = 1e-9 * (high - low)
+    solution = least_squares(
+        target.residuals,
+        np.clip(place, low + margin, high - margin),
+        jac=target.jacobian,
+        bounds=(low, high),
+        x_scale=high - low,
+        ftol=1e-12,
+        xtol=1e-12,
+        gtol=1e-14,
+        max_nfev=60,
+    )
+    evaluations = int(solution.nfev + 2 * len(place) * (solution.njev or 0))
+    better = 2.0 * solution.cost <= float(np.sum(target.residuals(place) ** 2))
+    return np.asarray(solution.x if better else place), evaluations
