@@ -17,6 +17,7 @@ setup(
         "setuptools",
         "numpy>=1.26",
         "scipy>=1.11",
+        "matplotlib>=3.6",
         "tqdm>=4.66",
         "rosbags>=0.10.9",
         "mcap>=1.5",
