@@ -39,6 +39,7 @@ class MotorIdentification(Node):
     def __init__(self) -> None:
         super().__init__("motor_identification")
         declare(self, PARAMETERS)
+        self._closed = False
         self._worker = Worker(warm_up.main)
         self._model = self.create_publisher(MotorModel, "motor/model", qos.MODEL)
         alone = MutuallyExclusiveCallbackGroup()  # a group is blocked while its fit is awaited; parameters must not be
@@ -80,6 +81,8 @@ class MotorIdentification(Node):
         answer = Future()
 
         def hand_over(result: "WorkerResult[Fit]") -> None:
+            if self._closed:  # nobody waits any more
+                return
             error = result.exception()
             if error is None:
                 answer.set_result(result.result())
@@ -93,6 +96,7 @@ class MotorIdentification(Node):
 
     def close(self) -> None:
         """End a computation that is still going on."""
+        self._closed = True
         self._worker.close()
 
 
