@@ -38,9 +38,6 @@ class Worker:
 
     def close(self) -> None:
         """End the process, whatever it is doing."""
-        processes = list((self._pool._processes or {}).values())
-        self._pool.shutdown(wait=False, cancel_futures=True)
-        for process in processes:
+        for process in list((self._pool._processes or {}).values()):
             process.terminate()
-        for process in processes:
-            process.join(1.0)
+        self._pool.shutdown(wait=True, cancel_futures=True)  # the pool has to see it, or it stumbles at exit
