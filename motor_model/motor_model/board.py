@@ -9,10 +9,10 @@ import numpy as np
 from motor_model.bridge import effective_voltage
 from motor_model.effects import INDEX
 from motor_model.encoder import make_disc, turn
-from motor_model.motor import State, at_rest
 from motor_model.parameters import Parameters
 from motor_model.sample import Info, Measurement, Sample
 from motor_model.speed_rule import SpeedState, revolution_share, single_channel_speed, speed_magnitude
+from motor_model.state import State, at_rest
 
 DELAY, MISS_RATE = INDEX["delay"], INDEX["miss_rate"]
 MOST_EDGES = 4096  # in one sample; at 200 Hz that is 54,000 rad/s on 96 edges

@@ -26,6 +26,7 @@ class ParameterSpec:
     """One parameter: `off` makes its effect vanish, `low`..`high` (times `scale`) is where a search looks.
 
     `minimum` and `maximum` are what physics allows at all; `logarithmic` parameters are searched by their logarithm.
+    What is `of_recording` has a value for every recording of a motor, such as a phase: there is no index pulse.
     """
 
     name: str
@@ -37,13 +38,15 @@ class ParameterSpec:
     logarithmic: bool = False
     minimum: float = 0.0
     maximum: float = inf
+    of_recording: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Effect:
     """A named physical effect: what it does, its parameters, and the effect it cannot be without.
 
-    `shown_by` is the excitation profile (`excitation.py`) that makes it visible.
+    `shown_by` is the excitation profile (`excitation.py`) that makes it visible. A `periodic` effect repeats with the
+    shaft angle.
     """
 
     name: str
@@ -51,3 +54,4 @@ class Effect:
     shown_by: str
     parameters: tuple[ParameterSpec, ...]
     implies: str | None = None
+    periodic: bool = False

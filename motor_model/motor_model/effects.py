@@ -45,7 +45,7 @@ EFFECTS = (
         "rich",
         (
             P("step_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf),
-            P("step_time", "s", 0.0, 0.0, 1.0, Scale.DURATION),
+            P("step_time", "s", 0.0, 0.0, 1.0, Scale.DURATION, of_recording=True),
         ),
     ),
     Effect(
@@ -87,8 +87,9 @@ EFFECTS = (
         (
             P("ripple_voltage", "V", 0.0, 0.0, 0.3, Scale.VOLTAGE),
             P("ripple_cycles", "1/rev", 1.0, 1.0, 48.0),
-            P("ripple_phase", "rad", 0.0, -pi, pi, minimum=-inf),
+            P("ripple_phase", "rad", 0.0, -2 * pi, 2 * pi, minimum=-inf, of_recording=True),
         ),
+        periodic=True,
     ),
     Effect(
         "encoder_eccentricity",
@@ -96,8 +97,9 @@ EFFECTS = (
         "staircase",
         (
             P("eccentricity", "rad", 0.0, 0.0, 0.2, maximum=0.9),
-            P("eccentricity_phase", "rad", 0.0, -pi, pi, minimum=-inf),
+            P("eccentricity_phase", "rad", 0.0, -2 * pi, 2 * pi, minimum=-inf, of_recording=True),
         ),
+        periodic=True,
     ),
     Effect(
         "backlash",
@@ -129,9 +131,10 @@ EFFECT_BY_NAME = {effect.name: effect for effect in EFFECTS}
 SPECS = BASE + tuple(spec for effect in EFFECTS for spec in effect.parameters)
 SPEC_BY_NAME = {spec.name: spec for spec in SPECS}
 
-# The vector the compiled code works on: every parameter in the order of the table, then the supply.
-MAX_VOLTAGE = "max_voltage"
-VECTOR_NAMES = (*SPEC_BY_NAME, MAX_VOLTAGE)
+# The vector the compiled code works on: every parameter in the order of the table, then the supply, then how many times
+# longer than full accuracy allows a piece of the motion may be.
+MAX_VOLTAGE, COARSENESS = "max_voltage", "coarseness"
+VECTOR_NAMES = (*SPEC_BY_NAME, MAX_VOLTAGE, COARSENESS)
 INDEX = {name: i for i, name in enumerate(VECTOR_NAMES)}
 
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
-from motor_model.motor import State, piece, time_in_piece
+from motor_model.motor import piece, time_in_piece
+from motor_model.state import State
 
 ECCENTRICITY, ECCENTRICITY_PHASE = INDEX["eccentricity"], INDEX["eccentricity_phase"]
 HOLE_SHARE = 0.5  # of a slot
@@ -52,11 +53,22 @@ def shown_angle(p: Floats, angle: float) -> float:
 
 
 @compiled
-def show(p: Floats, angles: Floats) -> None:
-    """Replace shaft angles [rad] by what an eccentric disc shows of them."""
+def shaft_angle_at(p: Floats, shown: float) -> float:
+    """The shaft's travel [rad] when the disc has shown this travel since the shaft was at 0; within e³."""
+    e, phase = p[ECCENTRICITY], p[ECCENTRICITY_PHASE]
+    if e == 0.0:
+        return shown
+    angle = shown + e * sin(phase)
+    return angle - e * sin(angle - e * sin(angle + phase) + phase)
+
+
+@compiled
+def show(p: Floats, angles: Floats, anchor: Floats) -> None:
+    """Replace shaft angles [rad] by what an eccentric disc shows of them; at `anchor` [rad], if that is not empty."""
     if p[ECCENTRICITY] != 0.0:
         for k in range(len(angles)):
-            angles[k] = shown_angle(p, angles[k])
+            at = shaft_angle_at(p, anchor[k]) if len(anchor) > 0 else angles[k]
+            angles[k] += shown_angle(p, at) - at
 
 
 @compiled

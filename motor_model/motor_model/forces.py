@@ -40,20 +40,23 @@ def loads_at(p: Floats, angle: float, t: float) -> float:
 
 
 @compiled
-def friction_at(p: Floats, speed: float, direction: float) -> tuple[float, float]:
-    """Friction at a speed, in V, and its slope over speed."""
+def friction_at(p: Floats, speed: float, direction: float) -> float:
+    """Friction at a speed [rad/s], in V; the direction decides at rest."""
     friction = direction * p[KS]
-    slope = 0.0
-    more = p[BREAKAWAY] - p[KS]
-    if more > 0.0:
+    if p[BREAKAWAY] > p[KS]:
         x = speed / p[STRIBECK]
-        stribeck = more * exp(-x * x)
-        friction += direction * stribeck
-        slope -= direction * stribeck * 2.0 * x / p[STRIBECK]
-    if p[DRAG] != 0.0:
-        friction += p[DRAG] * speed * abs(speed)
-        slope += 2.0 * p[DRAG] * abs(speed)
-    return friction, slope
+        friction += direction * (p[BREAKAWAY] - p[KS]) * exp(-x * x)
+    return friction + p[DRAG] * speed * abs(speed)
+
+
+@compiled
+def friction_slope_at(p: Floats, speed: float) -> float:
+    """The slope of friction over the speed, in V·s/rad."""
+    slope = 2.0 * p[DRAG] * abs(speed)
+    if p[BREAKAWAY] > p[KS]:
+        x = abs(speed) / p[STRIBECK]
+        slope -= (p[BREAKAWAY] - p[KS]) * exp(-x * x) * 2.0 * x / p[STRIBECK]
+    return slope
 
 
 @compiled

@@ -1,11 +1,12 @@
 """Closed-form motion while nothing happens: the linear equation of one piece, of first or second order.
 
-    inertia·dω/dt = v − torque − slope·(ω − ω0),   dθ/dt = ω
+    inertia·dω/dt = v − torque − gradient·t − slope·(ω − ω0),   dθ/dt = ω
     first order   v = source − back_emf·ω
     second order  τ dv/dt = source − back_emf·ω − v   (armature inductance)
 
-Both are x(h) = x0 + h φ1(hM) f0 with f0 the derivative at the start, φ1(z) = (e^z − 1)/z and φ2(z) = (φ1(z) − 1)/z for
-its integral: no steady state is divided by, so that a motor without any damping is no special case.
+Both are x(h) = x0 + h φ1(hM) f0 + h² φ2(hM) f1 with f0 the derivative at the start, f1 what the load's gradient makes
+of it, φ1(z) = (e^z − 1)/z, φ(n+1)(z) = (φn(z) − 1/n!)/z, and the travel its integral, one index higher: no steady state
+is divided by, so that a motor without any damping is no special case.
 """
 
 from math import cos, exp, expm1, sin
@@ -22,40 +23,69 @@ class Coefficients(NamedTuple):
     slope: float
     source: float
     back_emf: float
+    gradient: float
 
 
 @compiled
-def _phi(z: float) -> tuple[float, float]:
-    """φ1 = (1 − e^(−z))/z and φ2 = (z − 1 + e^(−z))/z² = (1 − φ1)/z; short pieces need no exponential."""
-    if abs(z) < 0.03:
-        second = 0.5 - z * (1 / 6 - z * (1 / 24 - z * (1 / 120 - z * (1 / 720 - z * (1 / 5040 - z / 40320)))))
-        return 1.0 - z * second, second
-    first = -expm1(-z) / z
-    return first, (1.0 - first) / z
+def _phi2(z: float) -> float:
+    """φ2(−z) = (z − 1 + e^(−z))/z²; the series is summed in a tree, which is quicker than an exponential."""
+    if abs(z) < 0.3:
+        w = z * z
+        w2 = w * w
+        first = (0.5 - z / 6.0) + w * (1.0 / 24.0 - z / 120.0)
+        second = (1.0 / 720.0 - z / 5040.0) + w * (1.0 / 40320.0 - z / 362880.0)
+        third = (1.0 / 3628800.0 - z / 39916800.0) + w * (1.0 / 479001600.0 - z / 6227020800.0)
+        return first + w2 * (second + w2 * third)
+    return (z + expm1(-z)) / (z * z)
+
+
+@compiled
+def _phi3(z: float) -> float:
+    """φ3(−z) = (1/2 − φ2(−z))/z."""
+    if abs(z) < 0.05:
+        return 1 / 6 - z * (1 / 24 - z * (1 / 120 - z * (1 / 720 - z * (1 / 5040 - z * (1 / 40320 - z / 362880)))))
+    return (0.5 - _phi2(z)) / z
+
+
+@compiled
+def relaxed(rate: float, acceleration: float, speed: float, h: float) -> tuple[float, float]:
+    """Speed and travel after h of dω/dt = acceleration − rate·(ω − speed): an exponential approach."""
+    z = rate * h
+    second = _phi2(z)
+    gained = acceleration * h
+    return speed + gained * (1.0 - z * second), h * (speed + gained * second)
 
 
 @compiled
 def first_order(c: Coefficients, speed: float, h: float) -> tuple[float, float]:
-    """Speed and travel after h of inertia·dω/dt = source − torque − back_emf·ω − slope·(ω − ω0)."""
-    z = (c.back_emf + c.slope) * h / c.inertia
-    start = (c.source - c.torque - c.back_emf * speed) / c.inertia
-    first, second = _phi(z)
-    return speed + start * h * first, h * (speed + start * h * second)
+    """Speed and travel after h of inertia·dω/dt = source − torque − gradient·t − back_emf·ω − slope·(ω − ω0)."""
+    rate = (c.back_emf + c.slope) / c.inertia
+    later, travel = relaxed(rate, (c.source - c.torque - c.back_emf * speed) / c.inertia, speed, h)
+    if c.gradient != 0.0:
+        z = rate * h
+        bend = -c.gradient / c.inertia * h * h
+        later += bend * _phi2(z)
+        travel += bend * h * _phi3(z)
+    return later, travel
 
 
 @compiled
-def _phi_pair(z: complex) -> tuple[complex, complex]:
-    """(e^z − 1)/z and (e^z − 1 − z)/z² of a complex number."""
-    if abs(z) < 1e-2:
-        second = 0.5 + z * (1.0 / 6.0 + z * (1.0 / 24.0 + z * (1.0 / 120.0 + z * (1.0 / 720.0 + z / 5040.0))))
-        return 1.0 + z * second, second
+def _phi_triple(z: complex) -> tuple[complex, complex, complex]:
+    """φ1, φ2 and φ3 of a complex number."""
+    if abs(z) < 1e-1:
+        third = 1 / 6 + z * (1 / 24 + z * (1 / 120 + z * (1 / 720 + z * (1 / 5040 + z * (
+            1 / 40320 + z * (1 / 362880 + z * (1 / 3628800 + z / 39916800)))))))  # fmt: skip
+        second = 0.5 + z * third
+        return 1.0 + z * second, second, third
     growth = exp(z.real) * complex(cos(z.imag), sin(z.imag)) - 1.0
-    return growth / z, (growth - z) / (z * z)
+    first = growth / z
+    second = (first - 1.0) / z
+    return first, second, (second - 0.5) / z
 
 
 @compiled
 def second_order(c: Coefficients, tau: float, speed: float, drive: float, h: float) -> tuple[float, float, float]:
-    """Speed, v and travel after h of the motor with inductance: x1 = x0 + h φ1(hM) f0, exact by eigenvalues of M."""
+    """Speed, v and travel after h of the motor with inductance, exact by the eigenvalues of M."""
     a, b = -c.slope / c.inertia, 1.0 / c.inertia
     d, e = -c.back_emf / tau, -1.0 / tau
     f0 = (drive - c.torque) * b
@@ -64,11 +94,19 @@ def second_order(c: Coefficients, tau: float, speed: float, drive: float, h: flo
     gap = complex(0.25 * (a - e) * (a - e) + b * d, 0.0) ** 0.5
     if abs(gap) * h < 1e-5:
         gap = complex(1e-5 / h, 0.0)
-    upper1, upper2 = _phi_pair((mean + gap) * h)
-    lower1, lower2 = _phi_pair((mean - gap) * h)
+    upper1, upper2, upper3 = _phi_triple((mean + gap) * h)
+    lower1, lower2, lower3 = _phi_triple((mean - gap) * h)
     even1, odd1 = 0.5 * (upper1 + lower1).real, (0.5 * (upper1 - lower1) / gap).real
     even2, odd2 = 0.5 * (upper2 + lower2).real, (0.5 * (upper2 - lower2) / gap).real
     g0 = (a - mean) * f0 + b * f1
     g1 = d * f0 + (e - mean) * f1
     travel = h * (speed + h * (even2 * f0 + odd2 * g0))
-    return speed + h * (even1 * f0 + odd1 * g0), drive + h * (even1 * f1 + odd1 * g1), travel
+    later = speed + h * (even1 * f0 + odd1 * g0)
+    then = drive + h * (even1 * f1 + odd1 * g1)
+    if c.gradient != 0.0:
+        even3, odd3 = 0.5 * (upper3 + lower3).real, (0.5 * (upper3 - lower3) / gap).real
+        bend = -c.gradient * b
+        later += h * h * bend * (even2 + odd2 * (a - mean))
+        then += h * h * bend * odd2 * d
+        travel += h * h * h * bend * (even3 + odd3 * (a - mean))
+    return later, then, travel

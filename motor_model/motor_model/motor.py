@@ -14,12 +14,14 @@ fraction) until the play is taken up; the speed has no jump there. u_eff is the 
 and asymmetry (`bridge.py`).
 
 Between events (a zero of the speed, the end of the play, the load step) the equation is linear but for Stribeck
-friction, drag and ripple. A piece is solved by the exponential Rosenbrock-Euler method (Hochbruck & Ostermann, Acta
-Numerica 19, 2010): exact for everything linear, second order for those three, for which pieces are kept short.
+friction, drag, ripple and warm-up. A piece is solved in closed form (`linear.py`): exact for everything linear. Of the
+others, friction becomes its secant through the speeds at the two Gauss nodes of the piece, and loads the line through
+theirs, so that what the lines leave out integrates to zero up to the fourth order in the piece's length; the nodes are
+found by the exponential Rosenbrock-Euler method (Hochbruck & Ostermann, Acta Numerica 19, 2010). Pieces are as long as
+that allows, and `coarseness` times as long where a search wants to be quick.
 """
 
-from math import atan, atanh, copysign, exp, inf, log1p, sqrt
-from typing import NamedTuple
+from math import copysign, exp, inf, log1p, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +29,10 @@ from numpy.typing import NDArray
 from motor_model.bridge import effective_voltage
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
-from motor_model.forces import drive_of, friction_at, loads_at, warmth
-from motor_model.linear import Coefficients, first_order, second_order
+from motor_model.events import solve, until_event
+from motor_model.forces import drive_of, friction_at, friction_slope_at, loads_at, warmth
+from motor_model.linear import Coefficients
+from motor_model.state import State
 
 Floats = NDArray[np.float64]
 
@@ -43,56 +47,49 @@ RIPPLE, CYCLES, RISE, WARM_UP = (
     INDEX["warm_up_time"],
 )
 PLAY, LOAD_FRACTION = INDEX["backlash_angle"], INDEX["load_fraction"]
+COARSENESS = INDEX["coarseness"]
 
 MAX_PIECES = 100_000  # between two outputs; a guard against endless chatter, never reached in a physical case
-
-
-class State(NamedTuple):
-    """Where the motor is: all a step needs to know of the past."""
-
-    angle: float  # [rad] shaft angle θ
-    speed: float  # [rad/s] ω
-    drive: float  # [V] v, where the armature has inductance
-    play: float  # [rad] travel left until the load is taken along again
-    direction: float  # −1, 0, +1: of the latest motion
-    turned: float  # [rad] added to θ in the ripple's argument (an angle taken from measured edges)
+STRIBECK_PIECE, RUNAWAY, DRAG_PIECE, RIPPLE_PIECE = 0.25, 0.5, 1e-3, 0.4
+EARLY, LATE = 0.5 - sqrt(1 / 12), 0.5 + sqrt(1 / 12)  # Gauss nodes of a piece
 
 
 @compiled
-def at_rest(angle: float) -> State:
-    """A motor that stands at this angle [rad] and has not moved yet."""
-    return State(angle, 0.0, 0.0, 0.0, 0.0, 0.0)
+def is_straight(p: Floats) -> bool:
+    """Whether the equation is linear and the same at any time while the shaft turns one way at one voltage."""
+    smooth = p[BREAKAWAY] <= p[KS] and p[DRAG] == 0.0 and p[RIPPLE] == 0.0 and p[RISE] == 0.0
+    return smooth and p[LAG] == 0.0 and p[STEP] == 0.0 and (p[PLAY] == 0.0 or p[LOAD_FRACTION] == 0.0)
 
 
 @compiled
-def turning(p: Floats, speed: float, u: float) -> State:
-    """A motor that passes angle 0 at a speed [rad/s], not 0, its current settled under an effective voltage u [V]."""
+def straight(p: Floats, u: float, direction: float) -> Coefficients:
+    """The linear equation of a motor for which `is_straight` holds, at an effective voltage u [V]."""
     source, back_emf = drive_of(p, u)
-    return State(0.0, speed, source - back_emf * speed, 0.0, copysign(1.0, speed), 0.0)
+    return Coefficients(p[KA], friction_at(p, 0.0, direction) + loads_at(p, 0.0, 0.0), 0.0, source, back_emf, 0.0)
 
 
 @compiled
-def _longest_piece(p: Floats, s: State, acceleration: float, inertia: float, slope: float) -> float:
-    """[s] for which a piece's linearisation holds: unlimited for a linear motor (a quarter period if it oscillates)."""
+def _longest_piece(p: Floats, s: State, acceleration: float, inertia: float) -> float:
+    """[s] for which a piece's lines hold: unlimited for a linear motor (a quarter period if it oscillates)."""
     longest = inf
     if 4.0 * p[KV] * p[LAG] > inertia:
         longest = 1.5 * sqrt(inertia * p[LAG] / p[KV])
     if p[BREAKAWAY] > p[KS]:
         above = abs(s.speed) - 4.0 * p[STRIBECK]  # up there Stribeck friction is gone
-        if above > 0.0:
-            longest = min(longest, max(above / (abs(acceleration) + 1e-9), 1e-4))
-        else:
-            longest = min(longest, max(min(0.05 * p[STRIBECK] / (abs(acceleration) + 1e-9), 1e-3), 1e-6))
-    if slope < 0.0:  # a speed that runs away from Stribeck friction must not do so in one piece
-        longest = min(longest, -0.5 * inertia / slope)
+        # A speed that runs away from Stribeck friction must not do so in one piece; its steepest slope is √(2/e).
+        steepest = 0.858 * (p[BREAKAWAY] - p[KS]) / p[STRIBECK]
+        swift = abs(acceleration) + 1e-9
+        near = min(max(STRIBECK_PIECE * p[STRIBECK] / swift, 1e-6), RUNAWAY * inertia / steepest)
+        longest = min(longest, max(above / swift, near))
+    squared = acceleration * acceleration + 1e-9
     if p[DRAG] != 0.0:
-        longest = min(longest, 1e-3)
+        longest = min(longest, (DRAG_PIECE * inertia / (p[KV] * p[DRAG] * squared)) ** (1.0 / 3.0))
     if p[RIPPLE] != 0.0:
-        turning = abs(s.speed) + 1e-3 * abs(acceleration)
-        longest = min(longest, 0.2 / (p[CYCLES] * turning + 1e-9), 1e-3)
+        turn = RIPPLE_PIECE / p[CYCLES]  # [rad] of the shaft
+        longest = min(longest, turn / (abs(s.speed) + 1e-9), sqrt(turn / (sqrt(squared) + p[RIPPLE] / inertia)))
     if p[RISE] != 0.0:
         longest = min(longest, 0.01 * p[WARM_UP])
-    return longest
+    return longest * p[COARSENESS]
 
 
 @compiled
@@ -115,76 +112,26 @@ def _hold(p: Floats, s: State, source: float, load: float, level: float, h: floa
 
 
 @compiled
-def _solve(p: Floats, c: Coefficients, s: State, h: float) -> tuple[float, float, float]:
-    """Speed, v and travel after h, whichever order the motor has."""
-    if p[LAG] == 0.0:
-        speed, travel = first_order(c, s.speed, h)
-        return speed, s.drive, travel
-    return second_order(c, p[LAG], s.speed, s.drive, h)
+def _lines(p: Floats, c: Coefficients, s: State, t: float, h: float) -> Coefficients:
+    """A piece's coefficients with friction and loads as the lines through their values at the Gauss nodes.
 
-
-@compiled
-def _time_of_rest(p: Floats, c: Coefficients, s: State, h: float) -> float:
-    """[s] until the speed reaches zero, known to happen within h."""
-    if p[LAG] == 0.0:
-        total = c.source - c.torque + c.slope * s.speed
-        damping = c.back_emf + c.slope
-        x = -damping * s.speed / total if total != 0.0 else inf
-        if abs(x) < 1e-9:
-            return min(h, -c.inertia * s.speed / total)
-        if x > -1.0 and x < inf:
-            return min(h, c.inertia / damping * log1p(x))
-    low, high = 0.0, h
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        if _solve(p, c, s, middle)[0] * s.speed > 0.0:
-            low = middle
-        else:
-            high = middle
-        if high - low < 1e-15 * h:
-            break
-    return high
-
-
-@compiled
-def _time_of_extreme(p: Floats, c: Coefficients, s: State) -> float:
-    """[s] until the acceleration of a motor with inductance is zero for the first time; inf if it never is.
-
-    The acceleration is e^(mt)·(α·cosh(gt) + β/g·sinh(gt)) with the eigenvalues m ± g, α its value and α' its slope now,
-    β = α' − m·α; so that tanh(gt) = −g·α/β.
+    c: the linearisation at the start, by which the nodes are found; t: time [s] of the start.
     """
-    a, e = -c.slope / c.inertia, -1.0 / p[LAG]
-    now = (s.drive - c.torque) / c.inertia
-    slope = a * now + (c.source - c.back_emf * s.speed - s.drive) / p[LAG] / c.inertia
-    rest = slope - 0.5 * (a + e) * now
-    if now * rest >= 0.0:
-        return inf
-    square = 0.25 * (a - e) * (a - e) - c.back_emf / p[LAG] / c.inertia
-    gap = sqrt(abs(square))
-    x = -gap * now / rest
-    if square <= 0.0 or x < 1e-6:
-        return atan(x) / gap if gap > 0.0 else -now / rest
-    return atanh(x) / gap if x < 1.0 else inf
-
-
-@compiled
-def _time_of_travel(p: Floats, c: Coefficients, s: State, h: float, travel: float) -> float:
-    """[s] until the shaft has travelled that far, known to happen within h (Newton, kept inside by bisection)."""
-    low, high, guess = 0.0, h, 0.5 * h
-    for _ in range(60):
-        speed, _drive_then, done = _solve(p, c, s, guess)
-        error = done - travel
-        if error * travel > 0.0:
-            high = guess
-        else:
-            low = guess
-        step = error / speed if speed != 0.0 else inf
-        if abs(step) <= 1e-14 * h:
-            break
-        guess -= step
-        if not low < guess < high:
-            guess = 0.5 * (low + high)
-    return guess
+    early, _drive, travel = solve(p, c, s, EARLY * h)
+    late, _drive, further = solve(p, c, s, LATE * h)
+    early, late = s.direction * max(early * s.direction, 0.0), s.direction * max(late * s.direction, 0.0)
+    middle = warmth(p, t + 0.5 * h)
+    first, second = friction_at(p, early, s.direction), friction_at(p, late, s.direction)
+    if abs(late - early) > 1e-6 * abs(late + early):
+        slope = (second - first) / (late - early)
+    else:
+        slope = friction_slope_at(p, 0.5 * (early + late))
+    angle = s.angle + s.turned
+    load, after = loads_at(p, angle + travel, t), loads_at(p, angle + further, t)
+    gradient = (after - load) / ((LATE - EARLY) * h)
+    torque = 0.5 * (first + second) + slope * (s.speed - 0.5 * (early + late)) + 0.5 * (load + after - gradient * h)
+    inertia = c.inertia / warmth(p, t) * middle
+    return Coefficients(inertia, middle * torque, middle * slope, c.source, c.back_emf, middle * gradient)
 
 
 @compiled
@@ -212,50 +159,16 @@ def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, flo
         direction = copysign(1.0, s.speed)
     s = State(s.angle, s.speed, drive, play, direction, s.turned)
 
-    friction, slope = friction_at(p, s.speed, direction)
-    engaged = p[KA] * w * (1.0 - (p[LOAD_FRACTION] if play > 0.0 else 0.0))
-    torque = w * (friction + loads_at(p, s.angle + s.turned, t))
-    acceleration = (s.drive - torque) / engaged
-    settled = (source - back_emf * s.speed - torque) / engaged  # the acceleration once the current has followed
-    h = min(h, _longest_piece(p, s, max(abs(acceleration), abs(settled)), engaged, w * slope))
-    if p[RISE] != 0.0 or p[RIPPLE] != 0.0:  # what changes with time and angle is taken in the middle
-        middle = s.angle + s.turned + 0.5 * h * (s.speed + 0.25 * h * acceleration)
-        w = warmth(p, t + 0.5 * h)
-        engaged = p[KA] * w * (1.0 - (p[LOAD_FRACTION] if play > 0.0 else 0.0))
-        torque = w * (friction + loads_at(p, middle, t))
-    c = Coefficients(engaged, torque, w * slope, source, back_emf)
-    return _until_event(p, c, s, h)
-
-
-@compiled
-def _until_event(p: Floats, c: Coefficients, s: State, h: float) -> tuple[State, float]:
-    """Solve a piece of h, or up to where the shaft comes to rest or the play is taken up."""
-    speed, drive, travel = _solve(p, c, s, h)
-    event = 0
-    if p[LAG] > 0.0:
-        turned = _time_of_extreme(p, c, s)
-        if turned < h:  # the state after h may hide that it braked through zero, or left its rest, and is back
-            then = _solve(p, c, s, turned)
-            still, onward = s.speed == 0.0, then[0] * s.direction > 0.0
-            if (not still and not onward) or (still and onward and speed * s.direction <= 0.0):
-                h = turned
-                speed, drive, travel = then
-    if s.speed == 0.0 and speed * s.direction <= 0.0:  # what let it start is gone before it has moved
-        return State(s.angle, 0.0, drive, s.play, s.direction, s.turned), h
-    if speed * s.direction <= 0.0:
-        event, h = 1, _time_of_rest(p, c, s, h)
-        speed, drive, travel = _solve(p, c, s, h)
-    play = s.play
-    if play > 0.0:
-        if abs(travel) >= play:
-            event, h = 2, _time_of_travel(p, c, s, h, s.direction * play)
-            speed, drive, travel = _solve(p, c, s, h)
-            play = 0.0
-        else:
-            play -= abs(travel)
-    if event == 1:
-        speed = 0.0
-    return State(s.angle + travel, speed, drive, play, s.direction, s.turned), h
+    inertia = p[KA] * w * (1.0 - (p[LOAD_FRACTION] if play > 0.0 else 0.0))
+    torque = w * (friction_at(p, s.speed, direction) + loads_at(p, s.angle + s.turned, t))
+    slope = w * friction_slope_at(p, s.speed)
+    c = Coefficients(inertia, torque, slope, source, back_emf, 0.0)
+    acceleration = (s.drive - torque) / inertia
+    settled = (source - back_emf * s.speed - torque) / inertia  # the acceleration once the current has followed
+    h = min(h, _longest_piece(p, s, max(abs(acceleration), abs(settled)), inertia))
+    if p[BREAKAWAY] > p[KS] or p[DRAG] != 0.0 or p[RISE] != 0.0 or p[RIPPLE] != 0.0:
+        c = _lines(p, c, s, t, h)
+    return until_event(p, c, s, h)
 
 
 @compiled

@@ -7,7 +7,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_model.effects import INDEX, MAX_VOLTAGE, SPEC_BY_NAME, VECTOR_NAMES, normalised, specs_of
+from motor_model.effects import COARSENESS, INDEX, MAX_VOLTAGE, SPEC_BY_NAME, VECTOR_NAMES, normalised, specs_of
 from motor_model.errors import ModelError
 
 PAPER_KV = 12.0 / 174.097  # [V·s/rad] the base paper's coefficient0: 174.097 rad/s at 12 V
@@ -80,9 +80,13 @@ class Parameters:
         return self.values["ka"] / self.values["kv"]
 
 
-def neutral(max_voltage: float) -> NDArray[np.float64]:
+def neutral(max_voltage: float, coarseness: float = 1.0) -> NDArray[np.float64]:
     """A vector with every effect off; kv and ka are yet to be set. Shape (P,)."""
-    return np.array([SPEC_BY_NAME[name].off for name in VECTOR_NAMES if name != MAX_VOLTAGE] + [max_voltage])
+    vector = np.empty(len(VECTOR_NAMES))
+    for name, spec in SPEC_BY_NAME.items():
+        vector[INDEX[name]] = spec.off
+    vector[INDEX[MAX_VOLTAGE]], vector[INDEX[COARSENESS]] = max_voltage, coarseness
+    return vector
 
 
 def paper_motor() -> Parameters:

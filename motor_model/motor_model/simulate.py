@@ -2,6 +2,7 @@
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,49 +10,83 @@ from numpy.typing import NDArray
 from motor_model.bridge import effective_voltage
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
+from motor_model.encoder import shaft_angle_at
 from motor_model.errors import ModelError
-from motor_model.motor import advance, at_rest, turning
+from motor_model.linear import Coefficients, relaxed
+from motor_model.motor import advance, is_straight, straight
 from motor_model.parameters import Parameters
+from motor_model.state import State, at_rest, turning
 
 DELAY = INDEX["delay"]
 
 Floats = NDArray[np.float64]
 
+NOWHERE: Floats = np.empty(0)  # no measured angles
+
+
+@compiled
+def _approach(c: Coefficients) -> tuple[float, float]:
+    """dω/dt = push − rate·ω of a linear motor without inductance: push [rad/s²] and rate [1/s]."""
+    return (c.source - c.torque) / c.inertia, c.back_emf / c.inertia
+
 
 @compiled
 def roll_out(
-    p: Floats, start_speed: float, command_time: Floats, command: Floats, out_time: Floats, angle: Floats, speed: Floats
+    p: Floats,
+    start_speed: float,
+    command_time: Floats,
+    command: Floats,
+    out_time: Floats,
+    anchor: Floats,
+    angle: Floats,
+    speed: Floats,
 ) -> None:
     """Fill angle [rad] and speed [rad/s] of one motor at out_time [s].
 
     p: parameter vector. command[i] [V] holds from command_time[i] + delay on. Before the first one a standing motor had
     0 V, a turning one that command (its current has settled). out_time is ascending. The motion starts at out_time[0]
-    with start_speed [rad/s] at angle 0.
+    with start_speed [rad/s] at angle 0. What repeats with the angle takes it from `anchor` [rad], the angle that the
+    encoder showed at out_time, where that is not empty: a simulated angle drifts, and its phase would be lost.
     """
     delay = p[DELAY]
-    before = command[0] if start_speed != 0.0 else 0.0
     switches = len(command_time)
     t = out_time[0]
     angle[0], speed[0] = 0.0, start_speed
     j = np.searchsorted(command_time, t - delay, side="right") - 1
+    u = command[max(j, 0)] if j >= 0 or start_speed != 0.0 else 0.0
     s = at_rest(0.0)
     if start_speed != 0.0:
-        s = turning(p, start_speed, effective_voltage(p, command[j] if j >= 0 else before))
+        s = turning(p, start_speed, effective_voltage(p, u))
+    switch = command_time[j + 1] + delay if j + 1 < switches else inf
+    quick = is_straight(p)  # then the equation of a whole hold is prepared once, for either direction
+    ahead_push, ahead_rate = _approach(straight(p, effective_voltage(p, u), 1.0))
+    back_push, back_rate = _approach(straight(p, effective_voltage(p, u), -1.0))
+    if len(anchor) > 0:
+        s = State(s.angle, s.speed, s.drive, s.play, s.direction, shaft_angle_at(p, anchor[0]))
     for k in range(1, len(out_time)):
         until = out_time[k]
         while True:
-            u = command[j] if j >= 0 else before
-            stop = until
-            if j + 1 < switches and command_time[j + 1] + delay <= until:
-                stop = command_time[j + 1] + delay
+            stop = min(until, switch)
             if stop > t:
-                s = advance(p, u, s, t, stop - t)
+                ahead = s.speed > 0.0
+                push, rate = (ahead_push, ahead_rate) if ahead else (back_push, back_rate)
+                then, travel = relaxed(rate, push - rate * s.speed, s.speed, stop - t)
+                if quick and then * s.speed > 0.0:
+                    s = State(s.angle + travel, then, s.drive, s.play, 1.0 if ahead else -1.0, s.turned)
+                else:
+                    s = advance(p, u, s, t, stop - t)
                 t = stop
-            if j + 1 < switches and command_time[j + 1] + delay <= until:
-                j += 1
-            else:
+            if switch > until:
                 break
+            j += 1
+            u = command[j]
+            switch = command_time[j + 1] + delay if j + 1 < switches else inf
+            if quick:
+                ahead_push, ahead_rate = _approach(straight(p, effective_voltage(p, u), 1.0))
+                back_push, back_rate = _approach(straight(p, effective_voltage(p, u), -1.0))
         angle[k], speed[k] = s.angle, s.speed
+        if len(anchor) > 0:
+            s = State(s.angle, s.speed, s.drive, s.play, s.direction, shaft_angle_at(p, anchor[k]) - s.angle)
 
 
 @dataclass(frozen=True)
@@ -76,7 +111,7 @@ def simulate(
     if not len(command_time) == len(command) > 0 or len(out_time) == 0:
         raise ModelError("a simulation needs at least one command, a time for each, and at least one time to report.")
     angle, speed = np.empty(len(out_time)), np.empty(len(out_time))
-    roll_out(parameters.vector(), start_speed, command_time, command, out_time, angle, speed)
+    roll_out(parameters.vector(), start_speed, command_time, command, out_time, NOWHERE, angle, speed)
     return Trajectory(out_time, angle, speed)
 
 
@@ -88,7 +123,7 @@ def simulate_swarm(
     speeds = np.empty_like(angles)
 
     def one(i: int) -> None:
-        roll_out(vectors[i], start_speeds[i], command_time, command, out_time, angles[i], speeds[i])
+        roll_out(vectors[i], start_speeds[i], command_time, command, out_time, NOWHERE, angles[i], speeds[i])
 
     if threads <= 1:
         for i in range(len(vectors)):

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from motor_model.bridge import effective_voltage
 from motor_model.effects import EFFECT_BY_NAME, EFFECTS, SPEC_BY_NAME, normalised, specs_of
 from motor_model.encoder import Disc, flank, make_disc, turn
-from motor_model.motor import State, at_rest, turning
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_model.state import State, at_rest, turning
 
 Floats = NDArray[np.float64]
 

@@ -43,7 +43,7 @@ TABLE = {
 def test_the_table_is_that_of_the_interface() -> None:
     assert {effect.name: {spec.name: spec.unit for spec in effect.parameters} for effect in EFFECTS} == TABLE
     assert [(spec.name, spec.unit) for spec in specs_of(())] == [("kv", "V·s/rad"), ("ka", "V·s²/rad")]
-    assert len(VECTOR_NAMES) == len(set(VECTOR_NAMES)) == len(SPECS) + 1
+    assert len(VECTOR_NAMES) == len(set(VECTOR_NAMES)) == len(SPECS) + 2
 
 
 def test_every_row_of_the_table_can_be_searched() -> None:
@@ -81,7 +81,7 @@ def test_an_effect_that_is_absent_is_off() -> None:
     vector = motor.vector()
     assert vector.shape == (len(VECTOR_NAMES),) and vector.dtype == np.float64
     assert (vector[INDEX["kv"]], vector[INDEX["ks"]], vector[INDEX["max_voltage"]]) == (0.07, 0.5, 24.0)
-    off = np.array([spec.off for spec in SPECS] + [24.0])
+    off = np.array([spec.off for spec in SPECS] + [24.0, 1.0])
     assert list(np.flatnonzero(vector != off)) == [INDEX["kv"], INDEX["ka"], INDEX["ks"]]
 
 
