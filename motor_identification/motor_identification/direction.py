@@ -4,16 +4,17 @@ The reported sign comes late, and where the bridge is slow or a load drives, it 
 model knows better wherever it is surely moving.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from motor_identification.counts import changes_of, in_runs
 from motor_identification.edges import edges_of
-from motor_identification.intervals import Intervals, intervals_between
+from motor_identification.intervals import Intervals, intervals_between, intervals_of_changes
 from motor_identification.problem import Problem
 from motor_identification.recording import Floats, Integers, Recording
 from motor_model.sample import Measurement
-from motor_model.simulate import roll_out
+from motor_model.simulate import NOWHERE, roll_out
 
 SURELY = 4.0  # times the fit's residual that the simulated speed must have for its sign to count
 
@@ -24,22 +25,44 @@ def redirected(problem: Problem, place: Floats) -> Problem:
     vectors, starts = problem.unknowns.decode(place[None])
     intervals = []
     for r, (recording, data) in enumerate(zip(problem.recordings, problem.intervals, strict=True)):
-        info = recording.info
-        if info.measurement is not Measurement.EDGES or not info.single_channel:
+        reader = _READERS.get(recording.info.measurement)
+        if reader is None or not recording.info.single_channel:
             intervals.append(data)
             continue
-        intervals.append(_again(recording, problem.commands[r], vectors[0], float(starts[0, r]), SURELY * rms))
+        motion = _Motion(vectors[0, r], float(starts[0, r]), problem.commands[r])
+        intervals.append(reader(recording, motion, SURELY * rms))
     return replace(problem, intervals=tuple(intervals))
 
 
-def _again(
-    recording: Recording, command: tuple[Floats, Floats], vector: Floats, start: float, surely: float
-) -> Intervals:
+@dataclass(frozen=True)
+class _Motion:
+    """A fitted motor under a recording's commands."""
+
+    vector: Floats
+    start: float  # [rad/s]
+    command: tuple[Floats, Floats]
+
+    def speed_at(self, time: Floats) -> Floats:
+        """[rad/s] at ascending times [s]."""
+        every = np.concatenate([[0.0], time])
+        angle, speed = np.empty(len(every)), np.empty(len(every))
+        roll_out(self.vector, self.start, *self.command, every, NOWHERE, angle, speed)
+        return speed[1:]
+
+
+def _edges_again(recording: Recording, motion: _Motion, surely: float) -> Intervals:
     edges = edges_of(recording)
-    time = np.concatenate([[0.0], edges.time])
-    angle, speed = np.empty(len(time)), np.empty(len(time))
-    roll_out(vector, start, *command, time, angle, speed)
-    return intervals_between(recording, replace(edges, direction=judged(edges.direction, speed[1:], surely)))
+    direction = judged(edges.direction, motion.speed_at(edges.time), surely)
+    return intervals_between(recording, replace(edges, direction=direction))
+
+
+def _counts_again(recording: Recording, motion: _Motion, surely: float) -> Intervals:
+    changes = changes_of(recording)
+    way = judged(changes.way, motion.speed_at(recording.time[changes.sample]), surely)
+    return intervals_of_changes(recording, in_runs(changes.sample, way))
+
+
+_READERS = {Measurement.EDGES: _edges_again, Measurement.COUNTS: _counts_again}
 
 
 def judged(reported: Integers, simulated: Floats, surely: float) -> Integers:

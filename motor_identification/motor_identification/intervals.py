@@ -10,13 +10,14 @@ from math import sqrt, tau
 
 import numpy as np
 
-from motor_identification.edges import Edges, edges_of
+from motor_identification.counts import Changes, changes_of, fixes_of
+from motor_identification.edges import Edges, edges_of, turned_one_way
+from motor_identification.plausible import check_counts
 from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_identification.standing import standing_at_edges, standing_at_turns
 from motor_model.compiled import compiled
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
-
-STANDSTILL_MATTERS = 0.1  # [s] without an edge before the lack of edges is evidence
 
 
 @dataclass(frozen=True)
@@ -60,8 +61,10 @@ def intervals_of(recording: Recording) -> Intervals:
     """What the recording says about the motion.
 
     Raises:
-        RecordingError: there is less than three intervals of motion in it.
+        RecordingError: there is less than three intervals of motion in it, or its numbers are those of no motor.
     """
+    if recording.info.measurement is not Measurement.SPEED:
+        check_counts(recording)
     intervals = _READERS[recording.info.measurement](recording)
     if len(intervals.first) < 3:
         raise RecordingError(
@@ -78,57 +81,40 @@ def _from_edges(recording: Recording) -> Intervals:
 def intervals_between(recording: Recording, edges: Edges) -> Intervals:
     """What stamped edges with known directions say about the motion."""
     slot = tau / recording.info.edges_per_revolution
-    start, end, speed, number, left_out = _between_edges(edges, slot)
-    still_start, still_end = _without_edges(recording, edges)
-    blank = np.zeros(len(still_start))
+    good = turned_one_way(edges)
+    first, last = edges.only(np.flatnonzero(good)), edges.only(np.flatnonzero(good) + 1)
+    speed = last.direction * np.abs(last.count - first.count) * slot / (last.time - first.time)
     # A stamp is uniform over a tick τ: its standard deviation is τ/√12, and that of the angle ω times as much.
     blur = np.abs(speed) * recording.info.edge_resolution / sqrt(12.0)
-    return _indexed(
-        np.concatenate([start, still_start]),
-        np.concatenate([end, still_end]),
-        speed=np.concatenate([speed, blank]),
-        slack=np.concatenate([0.0 * speed, blank + slot]),
-        blur=np.concatenate([blur, blank]),
-        edge=np.concatenate([number, np.full((len(blank), 2), -1)]),
+    moving = _indexed(
+        first.time,
+        last.time,
+        speed,
+        blur,
+        edge=np.column_stack([first.count, last.count]),
         slot=slot,
-        left_out=left_out,
+        left_out=int(np.count_nonzero(~good)),
     )
-
-
-def _between_edges(edges: Edges, slot: float) -> tuple[Floats, Floats, Floats, Integers, int]:
-    """Start, end, mean speed and numbers of successive reported edges, and how many intervals were left out."""
-    start, end = edges.time[:-1], edges.time[1:]
-    here, there = edges.direction[:-1], edges.direction[1:]
-    travel = np.abs(np.diff(edges.count)) * slot
-    good = (here == there) & (here != 0) & (end > start)
-    start, end = start[good], end[good]
-    speed = here[good] * travel[good] / (end - start)
-    number = np.column_stack([edges.count[:-1], edges.count[1:]])[good]
-    return start, end, speed, number, int(np.count_nonzero(~good))
-
-
-def _without_edges(recording: Recording, edges: Edges) -> tuple[Floats, Floats]:
-    """Start and end of the times before the first and after the last edge, in which there was less than a slot."""
-    stop = recording.time[-1]
-    first = edges.time[0] if len(edges.time) else stop
-    rows = [(0.0, first)] if first > STANDSTILL_MATTERS else []
-    if len(edges.time) and stop - edges.time[-1] > STANDSTILL_MATTERS:
-        rows.append((edges.time[-1], stop))
-    start, end = np.array(rows, dtype=np.float64).reshape(-1, 2).T
-    return start, end
+    return _with_still(moving, standing_at_edges(recording, edges, ~good), slot)
 
 
 def _from_counts(recording: Recording) -> Intervals:
-    """Counts read at the samples: each says that the angle is within one slot, at that instant."""
+    return intervals_of_changes(recording, changes_of(recording))
+
+
+def intervals_of_changes(recording: Recording, changes: Changes) -> Intervals:
+    """What counts read at the samples say, as mean speeds between the instants at which they fix the angle."""
     slot = tau / recording.info.edges_per_revolution
-    changed = np.flatnonzero(np.diff(recording.edge_count, prepend=recording.edge_count[0]) != 0)
-    time = recording.time[changed]
-    steps = np.diff(recording.edge_count[changed]).astype(np.float64)
-    if recording.info.single_channel:
-        steps *= np.sign(recording.speed[changed[1:]])
-    start, end = time[:-1], time[1:]
-    # The count truncates the angle by up to a slot.
-    return _indexed(start, end, speed=steps * slot / (end - start), blur=np.full(len(start), slot / sqrt(12.0)))
+    fixes = fixes_of(recording, changes)
+    good = (np.diff(fixes.run) == 0) & (fixes.way[1:] != 0) & (np.diff(fixes.time) > 0.0)
+    begin, end = np.flatnonzero(good), np.flatnonzero(good) + 1
+    start, stop = fixes.time[begin], fixes.time[end]
+    speed = fixes.way[end] * (fixes.place[end] - fixes.place[begin]) * slot / (stop - start)
+    # An interval's end is the next one's start; where a run begins, both ends have the larger blur.
+    fresh = np.diff(begin, prepend=-2) != 1
+    blur = slot * np.where(fresh, np.maximum(fixes.blur[begin], fixes.blur[end]), fixes.blur[end])
+    moving = _indexed(start, stop, speed, blur, left_out=int(np.count_nonzero(~good)))
+    return _with_still(moving, standing_at_turns(recording, changes), slot)
 
 
 def _from_speed(recording: Recording) -> Intervals:
@@ -170,6 +156,22 @@ def _indexed(
         edge=np.full((count, 2), -1) if edge is None else edge,
         slot=slot,
         left_out=left_out,
+    )
+
+
+def _with_still(moving: Intervals, still: tuple[Floats, Floats], slack: float) -> Intervals:
+    """Together with times [s] in which the motor moved less than `slack` [rad], at the end of the list."""
+    start, end = still
+    blank = np.zeros(len(start))
+    return _indexed(
+        np.concatenate([moving.time[moving.first], start]),
+        np.concatenate([moving.time[moving.last], end]),
+        speed=np.concatenate([moving.speed, blank]),
+        slack=np.concatenate([moving.slack, blank + slack]),
+        blur=np.concatenate([moving.blur, blank]),
+        edge=np.concatenate([moving.edge, np.full((len(blank), 2), -1)]),
+        slot=moving.slot,
+        left_out=moving.left_out,
     )
 
 
