@@ -41,7 +41,7 @@ def test_a_bag_that_identification_reads(log: Path, tmp_path: Path, capsys: pyte
             assert message.header.stamp.sec * 10**9 + message.header.stamp.nanosec == log_time
             assert log_time == log.stat().st_mtime_ns + k * 20_000_000  # the log does not say when it was made
     out, err = capsys.readouterr()
-    assert err == "" and "20 rows, 0.38 s" in out and f"{bag}: 20 samples, 0.38 s" in out and out.count("\n") == 5
+    assert err == "" and "20 rows, 0.38 s" in out and f"{bag}: 20 samples, 0.38 s" in out and out.count("\n") == 6
 
 
 def test_times_since_1970_are_ros_times(tmp_path: Path) -> None:

@@ -13,6 +13,15 @@ if TYPE_CHECKING:
     from motor_identification.csv_import import Run
     from motor_model.sample import Info
 
+EXAMPLES = """\
+speeds, each the mean over the 20 ms before its row:
+  import_csv log.csv --output log --time t --voltage u --speed y --unit deg/s --speed-window 0.02
+positions of an encoder of 360 counts, steps of several duties (of 7.4 V) from rest, a bag for each:
+  import_csv steps.csv --output steps --time t_s --voltage duty_pct --voltage-scale 0.074 \\
+    --position pos_deg --unit deg --split duty_pct --rest-until 0
+a static curve, without time:
+  import_csv static.csv --output static --steady --voltage u --speed y --unit deg/s
+"""
 _SINCE_1970 = 10**18  # [ns] the year 2001: a log whose times are later counts from 1970
 
 
@@ -27,13 +36,18 @@ def main(args: list[str] | None = None) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="import_csv",
-        description="Make a bag from a CSV log of a motor, for identify and diagnose. Its first line names columns; "
-        "the voltage of a row applies from its time until the next row.",
+        description="Make a bag from a CSV log of a motor, for identify and diagnose. Its first line names columns.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     add = parser.add_argument
     add("file", type=Path, help="the CSV file: commas, semicolons or tabs between columns")
     add("--output", type=Path, required=True, metavar="BAG", help="where the bag goes; must not exist")
-    add("--time", required=True, metavar="COL", help="column of times [s]")
+    rows = parser.add_mutually_exclusive_group(required=True)
+    rows.add_argument("--time", metavar="COL", help="column of times [s]")
+    rows.add_argument(
+        "--steady", action="store_true", help="there is no time: every row is a steady state, such as a static curve"
+    )
     add("--voltage", required=True, metavar="COL", help="column of voltages, or of what --voltage-scale makes volts")
     kind = parser.add_mutually_exclusive_group(required=True)
     kind.add_argument("--speed", metavar="COL", help="column of speeds")
@@ -43,6 +57,12 @@ def _parser() -> argparse.ArgumentParser:
     add("--unit", choices=units, help="of that column (default: rad/s for --speed, rad for --position)")
     add(
         "--voltage-scale", type=float, default=1.0, metavar="V", help="volts per unit of the voltage column (default 1)"
+    )
+    add(
+        "--voltage-before",
+        action="store_true",
+        help="a row's voltage was applied until its time (default: from its time until the next row), as where a "
+        "controller logs what it did before it reads the encoder",
     )
     add("--max-voltage", type=positive, metavar="V", help="voltage at full duty (default: the largest in the log)")
     add("--edges-per-revolution", type=int, metavar="N", help="counts of a turn of the shaft that the log is about")
@@ -59,6 +79,13 @@ def _parser() -> argparse.ArgumentParser:
         metavar="COL",
         help="a bag BAG_VALUE for every run of one value of this column; time may start again there",
     )
+    add(
+        "--rest-until",
+        type=float,
+        metavar="S",
+        help="the motor stood until this time [s] of the column, when the first row's voltage came (such as 0, where "
+        "the rows begin a little later)",
+    )
     add("--name", default="motor", help="the motor's name in the bag (default: motor)")
     return parser
 
@@ -71,6 +98,10 @@ def _form(parser: argparse.ArgumentParser, options: argparse.Namespace) -> CsvFo
         parser.error(f"--unit {unit} does not go with --{kind.value}: take one of {', '.join(UNITS[kind])}")
     if kind is not Kind.SPEED and (options.speed_window or options.speed_lag is not None):
         parser.error("--speed-window and --speed-lag go with --speed only")
+    if options.steady and (kind is not Kind.SPEED or options.speed_lag is not None or options.voltage_before):
+        parser.error("--steady goes with --speed, and without --speed-lag and --voltage-before")
+    if options.rest_until is not None and (options.steady or not math.isfinite(options.rest_until)):
+        parser.error("--rest-until takes a time of the --time column")
     if options.edges_per_revolution is not None and options.edges_per_revolution < 1:
         parser.error("--edges-per-revolution takes a whole number above 0")
     if kind is not Kind.SPEED and unit == "count" and options.edges_per_revolution is None:
@@ -85,6 +116,8 @@ def _form(parser: argparse.ArgumentParser, options: argparse.Namespace) -> CsvFo
         "speed_lag",
         "split",
         "max_voltage",
+        "rest_until",
+        "voltage_before",
     )
     return CsvForm(
         time=options.time,

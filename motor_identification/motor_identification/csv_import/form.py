@@ -25,8 +25,8 @@ UNITS: dict[Kind, dict[str, float | None]] = {
 class CsvForm:
     """How to read a file; None is "not said"."""
 
-    time: str  # column of seconds
-    voltage: str  # column; times `voltage_scale` it is volts, applied from the row's time until the next row
+    time: str | None  # column of seconds; None where every row is a steady state
+    voltage: str  # column; times `voltage_scale` it is volts
     motion: str  # column of what `kind` says, in `unit`
     kind: Kind
     unit: str
@@ -36,10 +36,12 @@ class CsvForm:
     speed_window: float | None = None  # [s] what a speed is the mean over
     speed_lag: float | None = None  # [s] how old the middle of that window is at the row's time
     split: str | None = None  # column; each run of one value is a recording of its own
+    rest_until: float | None = None  # [s] by the time column: the motor stood until the first voltage came, then
+    voltage_before: bool = False  # a row's voltage was applied until its time; else from then until the next row
     name: str = "motor"
     max_voltage: float | None = None  # [V]
 
     @property
     def columns(self) -> list[str]:
         """The columns that are read."""
-        return [self.time, self.voltage, self.motion, *([self.split] if self.split else [])]
+        return [name for name in (self.time, self.voltage, self.motion, self.split) if name]

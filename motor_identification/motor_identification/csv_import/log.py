@@ -1,9 +1,6 @@
 """Turns other people's CSV logs into a motor's samples, and says which assumptions that took."""
 
-import re
-from collections.abc import Container
-from dataclasses import dataclass
-from itertools import count, groupby
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,12 +8,17 @@ from numpy.typing import NDArray
 
 from motor_identification.csv_import.form import CsvForm
 from motor_identification.csv_import.motion import read_motion
+from motor_identification.csv_import.runs import runs_of, steps_of
+from motor_identification.csv_import.steady import read_steady
 from motor_identification.csv_import.table import Table, read_table
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Sample
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
+
+FROM_THEN = "A row's voltage is taken to be applied from its time until the next row (else say --voltage-before)."
+BEFORE = "A row's voltage was applied from the row before until its own time."
 
 
 @dataclass(frozen=True)
@@ -48,68 +50,70 @@ def read_log(path: Path, form: CsvForm) -> Log:
         RecordingError: the file cannot be used as it is; the sentence names line and column.
     """
     table = read_table(path, form.columns)
-    runs = _runs(table, form.split)
-    time = table.nanoseconds(form.time)
-    steps = _steps(table, form, time, list(runs.values()))
+    runs = runs_of(table, form.split)
     voltage = table.numbers(form.voltage) * form.voltage_scale
     info = Info(
         name=form.name,
         source="import",
         single_channel=False,  # such logs have signs
         edge_resolution=0.0,  # and no stamps
-        sample_period=float(np.median(steps)) * 1e-9,
         max_voltage=_max_voltage(form, voltage, path),
     )
-    motion = read_motion(form, info, time, table.numbers(form.motion), list(runs.values()))
-    rows = zip(time.tolist(), motion.speed.tolist(), voltage.tolist(), motion.counts.tolist(), strict=True)
+    if form.time is None:
+        return _steady_log(table, form, info, voltage, runs)
+    return _timed_log(table, form, info, voltage, runs)
+
+
+def _timed_log(table: Table, form: CsvForm, info: Info, voltage: Floats, runs: dict[str, slice]) -> Log:
+    """Rows with a time of their own."""
+    time = table.nanoseconds(str(form.time))
+    steps = steps_of(table, form, time, runs.values())
+    info = replace(info, sample_period=float(np.median(steps)) * 1e-9)
+    motion = read_motion(form, info, table, time, voltage, list(runs.values()))
+    held = _held(form, voltage, runs)
+    rows = zip(time.tolist(), motion.speed.tolist(), held.tolist(), motion.counts.tolist(), strict=True)
     samples = tuple(Sample(*row) for row in rows)
-    about = f"{path}: {_about_time(len(table), len(runs), steps)}, at most {info.max_voltage:.4g} V."
+    about = f"{table.path}: {_about_time(len(table), len(runs), steps)}, at most {info.max_voltage:.4g} V."
+    applied = BEFORE if form.voltage_before else FROM_THEN
+    rest = () if form.rest_until is None else (_about_rest(form.rest_until, len(runs)),)
     return Log(
         info=motion.info,
-        runs=tuple(Run(label, samples[rows_of_run]) for label, rows_of_run in runs.items()),
-        findings=(about, *motion.findings),
+        runs=tuple(Run(label, _from_rest(samples[rows], form, voltage[rows.start])) for label, rows in runs.items()),
+        findings=(about, *motion.findings, applied, *rest),
     )
 
 
-def _runs(table: Table, split: str | None) -> dict[str, slice]:
-    """Rows that belong together, by label: a new run wherever the split column changes."""
-    runs: dict[str, slice] = {}
-    start = 0
-    for value, rows in groupby(table.cells[split] if split else [""] * len(table)):
-        stop = start + len(list(rows))
-        if stop - start < 2:
-            raise RecordingError(
-                f"{table.path}, line {table.lines[start]}: the run with {split} = {value} has a single row; "
-                "at least 2 samples are needed: correct or remove that line."
-            )
-        runs[_label(value, runs)] = slice(start, stop)
-        start = stop
-    return runs
+def _held(form: CsvForm, voltage: Floats, runs: dict[str, slice]) -> Floats:
+    """[V] what holds from every row's time until the next, shape (K,)."""
+    if not form.voltage_before:
+        return voltage
+    return np.concatenate([np.append(voltage[rows][1:], voltage[rows][-1]) for rows in runs.values()])
 
 
-def _label(value: str, taken: Container[str]) -> str:
-    """The value fit for a file name; a value that comes again gets a number."""
-    label = re.sub(r"[^\w.+-]", "_", value)
-    if label not in taken:
-        return label
-    return next(name for number in count(2) if (name := f"{label}_{number}") not in taken)
+def _from_rest(samples: tuple[Sample, ...], form: CsvForm, voltage: float) -> tuple[Sample, ...]:
+    """The samples of a run, beginning at the instant when its first voltage [V] came upon a standing motor."""
+    if form.rest_until is None:
+        return samples
+    begin, (first, *others) = round(form.rest_until * 1e9), samples
+    if first.sample_time == begin:
+        return (replace(first, speed=0.0), *others)
+    return (replace(first, sample_time=begin, speed=0.0, voltage=float(voltage)), *samples)
 
 
-def _steps(table: Table, form: CsvForm, time: Integers, runs: list[slice]) -> Integers:
-    """Time from row to row inside runs [ns], all positive."""
-    for run in runs:
-        steps = np.diff(time[run])
-        if np.all(steps > 0):
-            continue
-        row = run.start + 1 + int(np.argmax(steps <= 0))
-        before, here = (table.cells[form.time][k] for k in (row - 1, row))
-        what = "stands still" if steps[row - 1 - run.start] == 0 else "runs backwards"
-        hint = f"where {form.split} changes" if form.split else "where a column changes that --split names"
-        raise RecordingError(
-            f"{table.path}, line {table.lines[row]}: time {what} ({form.time} is {here} after {before}); "
-            f"it may start again only {hint}."
-        )
-    return np.concatenate([np.diff(time[run]) for run in runs])
+def _about_rest(rest_until: float, runs: int) -> str:
+    which = "every run begins" if runs > 1 else "the bag begins"
+    return (
+        f"The motor stood until {rest_until:g} s: {which} then, with the voltage and the count of its first row and "
+        "no speed."
+    )
+
+
+def _steady_log(table: Table, form: CsvForm, info: Info, voltage: Floats, runs: dict[str, slice]) -> Log:
+    """Rows that are steady states."""
+    steady = read_steady(form, info, voltage, table.numbers(form.motion), list(runs.values()))
+    about = f"{table.path}: {len(table)} steady states, at most {info.max_voltage:.4g} V."
+    made = tuple(Run(label, samples) for label, samples in zip(runs, steady.samples, strict=True))
+    return Log(steady.info, made, (about, *steady.findings))
 
 
 def _max_voltage(form: CsvForm, voltage: Floats, path: Path) -> float:

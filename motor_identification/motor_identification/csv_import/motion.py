@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.csv_import.form import UNITS, CsvForm, Kind
+from motor_identification.csv_import.table import Table
+from motor_identification.plausible import jump_of
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement
 
@@ -16,6 +18,7 @@ Integers = NDArray[np.int64]
 # How far, relatively, the counts of a turn may be from those said or from a whole number: they scale what is measured
 # where positions are counted, and only the noise floor where speeds are given.
 _AGREE_COUNTS, _AGREE_SPEED = 1e-4, 1e-3
+_FAR = 5.5  # times between the steps of speeds and one count, below the 2π, 9.5 and 57.3 of mistaken units
 _ON_GRID = 0.05  # counts: how far positions may lie beside whole counts before the user is told
 
 
@@ -29,15 +32,29 @@ class Motion:
     findings: tuple[str, ...]
 
 
-def read_motion(form: CsvForm, info: Info, time: Integers, values: Floats, runs: list[slice]) -> Motion:
-    """What the column says; `time` [ns] and `values` (in the form's unit) have the shape (K,).
+def read_motion(form: CsvForm, info: Info, table: Table, time: Integers, voltage: Floats, runs: list[slice]) -> Motion:
+    """What the column says; `time` [ns] and `voltage` [V] of all rows have the shape (K,).
 
     Raises:
-        RecordingError: the size of a count is not to be had, or contradicts the edges per revolution.
+        RecordingError: the size of a count is not to be had, or contradicts the edges per revolution; counts jump.
     """
+    values = table.numbers(form.motion)
     if form.kind is Kind.SPEED:
         return _mean_speeds(form, info, values)
-    return _counts(form, info, time, values, runs)
+    motion = _counts(form, info, time, values, runs)
+    for run in runs:
+        jump = jump_of((time[run] - time[run.start]) * 1e-9, motion.counts[run], voltage[run])
+        if jump is not None:
+            raise _jumped(form, table, run.start + jump)
+    return motion
+
+
+def _jumped(form: CsvForm, table: Table, row: int) -> RecordingError:
+    before, here = (table.cells[form.motion][k] for k in (row - 1, row))
+    return RecordingError(
+        f"{table.path}, line {table.lines[row]}: {form.motion} jumps from {before} to {here}, which no motor does: "
+        "it wraps or was reset; unwrap it, or mark the parts in a column that --split names."
+    )
 
 
 def _mean_speeds(form: CsvForm, info: Info, values: Floats) -> Motion:
@@ -47,6 +64,8 @@ def _mean_speeds(form: CsvForm, info: Info, values: Floats) -> Motion:
     edges = form.edges_per_revolution or 0
     if form.count_quantum:
         edges = _agreed(form, 2.0 * pi / (form.count_quantum * unit * window), _AGREE_SPEED)
+    if edges:
+        _check_steps(form, values, edges, 2.0 * pi / edges / window / unit)
     info = replace(info, measurement=Measurement.SPEED, speed_window=window, speed_lag=lag, edges_per_revolution=edges)
     assumed = "" if form.speed_window else " (assumed: one sample period; else say --speed-window)"
     placed = "" if form.speed_lag is not None else " (assumed: it ends there; else say --speed-lag)"
@@ -61,6 +80,16 @@ def _mean_speeds(form: CsvForm, info: Info, values: Floats) -> Motion:
         count,
     )
     return Motion(values * unit, np.zeros(len(values), np.int64), info, findings)
+
+
+def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> None:
+    """Speeds that lie on a grid show the size of one count; far from what was said, a unit or a window is wrong."""
+    step = _grid_step(values)
+    if step is not None and not 1.0 / _FAR < step / count < _FAR:
+        raise RecordingError(
+            f"Speeds in {form.motion} come in steps of {step:.4g} {form.unit}, but one count of {edges} per revolution "
+            f"is {count:.4g}: check --unit, --edges-per-revolution and --speed-window."
+        )
 
 
 def _counts(form: CsvForm, info: Info, time: Integers, values: Floats, runs: list[slice]) -> Motion:
