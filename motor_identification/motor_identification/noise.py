@@ -62,6 +62,26 @@ def fill_gains(
 
 
 @compiled
+def surprise(
+    fresh: Bools, start: Floats, end: Floats, duration: Floats, growth: float, increments: Floats
+) -> tuple[float, float]:
+    """Σ ν²/S and Σ ln S of increments [rad] under a growth q [rad²/s]: minus twice their logarithmic likelihood."""
+    squares, logarithms, product = 0.0, 0.0, 1.0
+    variance, carried = 0.0, 0.0
+    for k in range(len(fresh)):
+        predicted = (start[k] if fresh[k] else variance) + growth * duration[k]
+        total = predicted + end[k]
+        innovation = increments[k] + (0.0 if fresh[k] else carried)
+        squares += innovation * innovation / total
+        product *= total  # one logarithm for several intervals
+        if not 1e-200 < product < 1e200:
+            logarithms, product = logarithms + np.log(product), 1.0
+        share = end[k] / total
+        variance, carried = predicted * share, share * innovation
+    return squares, logarithms + np.log(product)
+
+
+@compiled
 def fill_white(fresh: Bools, gain: Floats, scale: Floats, increments: Floats, white: Floats) -> None:
     """Whitened innovations of increments [rad]."""
     carried = 0.0
@@ -110,9 +130,8 @@ def likely_growth(noise: AngleNoise, increments: Floats) -> float:
     candidates = [0.0, *(scale * 10.0 ** (-0.5 * i) for i in range(20))]
     best, chosen = inf, 0.0
     for growth in candidates:
-        whitening = make_whitening(noise, growth)
-        white = whiten(whitening, increments)
-        cost = float(np.sum(white**2) - 2.0 * np.sum(np.log(whitening.scale)))
-        if cost < best - log(len(white) + 1.0):
+        squares, logarithms = surprise(noise.fresh, noise.start, noise.end, noise.duration, growth, increments)
+        cost = squares + logarithms
+        if cost < best - log(len(increments) + 1.0):
             best, chosen = cost, growth
     return chosen

@@ -6,21 +6,20 @@ with it the residual that no table explains, is had in closed form (variable pro
 Anal. 10, 1973), under a Gaussian prior of variance σ² that makes unseen slots no special case.
 
 Per direction the table has no mean, which is the starting angle. Its first harmonic is eccentricity: where that is
-fitted as an effect of its own, the table may not take it too.
+fitted as an effect of its own, the table may not take it too. The linear algebra is in `slot_modes.py`.
 """
 
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import eigh
 
 from motor_identification.intervals import Intervals
-from motor_identification.noise import Whitening, adjoint, whiten
+from motor_identification.noise import Whitening
 from motor_identification.recording import Bools, Floats, Integers
+from motor_identification.slot_gram import fill_explained, fill_gram, fill_scores
+from motor_identification.slot_modes import Modes, modes_of
 from motor_model.compiled import compiled
-
-STIFF = 1e6  # prior variances that mean and first harmonic are kept below
 
 
 @dataclass(frozen=True)
@@ -35,13 +34,6 @@ class SlotIndex:
         """What a table (2N,) adds to the increments [rad], shape (I,)."""
         with_blank = np.append(table, 0.0)
         return np.asarray(with_blank[self.last] - with_blank[self.first])
-
-    def gathered(self, increments: Floats) -> Floats:
-        """The transpose of `increments`: (I,) → (2N,)."""
-        sums = np.bincount(self.last + 1, increments, self.size + 1) - np.bincount(
-            self.first + 1, increments, self.size + 1
-        )
-        return np.asarray(sums[1:])
 
 
 def slot_index(intervals: Intervals, angle: Floats) -> SlotIndex:
@@ -89,10 +81,10 @@ def _follow(
             continue
         if fresh[k] and begun:
             shift = 0.0
-            if direction[k] != way:
+            if direction[k] == -way:
                 shift = -offset if way > 0 else offset
             place += int(round(start[k] - at + shift))
-        begun, way = True, direction[k]
+        begun, way = True, direction[k] if direction[k] != 0 else way
         base = 0 if way > 0 else n
         first[k] = base + place % n
         place += way * (edge[k, 1] - edge[k, 0])
@@ -110,13 +102,14 @@ class SlotTable:
 
     @cached_property
     def gram(self) -> Floats:
-        """AᵀA of the whitened table, shape (2N, 2N); a column costs one pass over the intervals."""
-        columns = np.zeros((self.index.size, self.index.size))
-        for h in np.flatnonzero(self.seen):
-            unit = np.zeros(self.index.size)
-            unit[h] = 1.0
-            columns[h] = self.index.gathered(adjoint(self.whitening, self.whitened(unit)))
-        return columns
+        """AᵀA of the whitened table, shape (2N, 2N)."""
+        half = np.zeros((self.index.size + 1, self.index.size + 1))
+        fill_gram(*self._filter, half)
+        return np.asarray((half + half.T)[:-1, :-1])
+
+    @property
+    def _filter(self) -> tuple[Bools, Floats, Floats, Integers, Integers]:
+        return self.whitening.fresh, self.whitening.gain, self.whitening.scale, self.index.first, self.index.last
 
     @cached_property
     def seen(self) -> Integers:
@@ -124,30 +117,22 @@ class SlotTable:
         both = np.concatenate([self.index.first, self.index.last])
         return np.bincount(both[both >= 0], minlength=self.index.size)
 
-    def whitened(self, table: Floats) -> Floats:
-        """What a table adds to whitened residuals, shape (I,)."""
-        return whiten(self.whitening, self.index.increments(table))
-
     def scores(self, white: Floats) -> Floats:
         """Aᵀz, shape (2N,)."""
-        return self.index.gathered(adjoint(self.whitening, white))
+        sums = np.zeros(self.index.size + 1)
+        fill_scores(*self._filter, np.ascontiguousarray(white), sums)
+        return sums[:-1]
+
+    def left(self, white: Floats, table: Floats) -> Floats:
+        """What whitened residuals (I,) are without a table's part in them."""
+        left = np.array(white, dtype=np.float64)
+        fill_explained(*self._filter, np.append(table, 0.0), left)
+        return left
 
     @cached_property
-    def modes(self) -> tuple[Floats, Floats]:
-        """AᵀA in the prior's own coordinates: eigenvalues (2N,) and vectors (2N, 2N) with VᵀPV = 1, VᵀAᵀAV = diag."""
-        values, vectors = eigh(self.gram, _prior(self.index.size, self.first_harmonic))
-        return np.maximum(values, 0.0), vectors
-
-
-def _prior(size: int, first_harmonic: bool) -> Floats:
-    """The prior's precision for unit variance, (2N, 2N): stiff against what a direction's table may not have."""
-    n = size // 2
-    phase = 2.0 * np.pi * np.arange(n) / n
-    shapes = [np.full(n, 1.0 / np.sqrt(n))]
-    if not first_harmonic:
-        shapes += [np.sqrt(2.0 / n) * np.cos(phase), np.sqrt(2.0 / n) * np.sin(phase)]
-    columns = np.column_stack(shapes)
-    return np.kron(np.eye(2), np.eye(n) + STIFF * columns @ columns.T)
+    def modes(self) -> Modes:
+        """AᵀA in the prior's own coordinates."""
+        return modes_of(self.gram, self.seen > 0, self.first_harmonic)
 
 
 @dataclass(frozen=True)
@@ -158,17 +143,17 @@ class Projection:
     variance: float
 
     def _coordinates(self, white: Floats) -> Floats:
-        values, vectors = self.table.modes
-        return np.asarray(vectors.T @ self.table.scores(white) / (values + 1.0 / self.variance))
+        modes = self.table.modes
+        return np.asarray(modes.scores(self.table.scores(white)) / (modes.values + 1.0 / self.variance))
 
     def best(self, white: Floats) -> Floats:
         """The most likely table [rad] for whitened residuals (I,), shape (2N,)."""
-        return np.asarray(self.table.modes[1] @ self._coordinates(white))
+        return self.table.modes.table(self._coordinates(white))
 
     def __call__(self, white: Floats) -> Floats:
         """(I,) → (I + 2N,): what is left, then the table's own share of the cost."""
         coordinates = self._coordinates(white)
-        left = white - self.table.whitened(self.table.modes[1] @ coordinates)
+        left = self.table.left(white, self.table.modes.table(coordinates))
         return np.concatenate([left, coordinates / np.sqrt(self.variance)])
 
 
@@ -177,13 +162,13 @@ def likely_variance(table: SlotTable, white: Floats, guess: float, most: float, 
 
     It stays below `most` [rad²]: what is beyond any real disc is an error of the model, and shall not pass for noise.
     """
-    values, vectors = table.modes
-    scores = vectors.T @ table.scores(white)
-    seen = table.seen > 0
+    modes = table.modes
+    scores, spread = modes.scores(table.scores(white)), modes.spread
+    count = np.count_nonzero(table.seen)
     variance = guess
     for _ in range(rounds):
-        precision = values + 1.0 / variance
-        mean = vectors @ (scores / precision)
-        posterior = np.sum(vectors**2 / precision, axis=1)
-        variance = min(float(np.mean(mean[seen] ** 2 + posterior[seen])), most)
+        precision = modes.values + 1.0 / variance
+        mean = modes.table(scores / precision)
+        posterior = float(np.sum(spread / precision))
+        variance = min((float(mean @ mean) + posterior) / count, most)
     return variance

@@ -7,11 +7,14 @@ from plant.encoder import Disc
 
 from motor_identification.identify import Request, identify
 from motor_identification.intervals import joined
-from motor_identification.noise import whiten
+from motor_identification.noise import AngleNoise, make_whitening, whiten
 from motor_identification.problem import Problem, make_problem
-from motor_identification.recording import check
+from motor_identification.recording import check, recording_of
 from motor_identification.refine import Encoder, learn
-from motor_model.parameters import PAPER_KA, PAPER_KV
+from motor_identification.slot_modes import STIFF
+from motor_identification.slots import Projection, SlotIndex, SlotTable, likely_variance
+from motor_model.board import BoardConfig, SimulatedBoard
+from motor_model.parameters import PAPER_KA, PAPER_KV, paper_motor
 
 TRUE = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.4}
 PLACE = np.array([np.log(PAPER_KV), np.log(PAPER_KA), 0.4])
@@ -86,3 +89,94 @@ def test_joined_intervals_keep_travel_time_and_edges() -> None:
     steps = (coarse.edge[:, 1] - coarse.edge[:, 0])[moving]
     assert np.allclose(np.abs(coarse.speed * coarse.duration)[moving], steps * data.slot)
     assert np.median(coarse.duration) >= 0.02
+
+
+SLOTS = 7  # of the small disc below
+SIGMA = 0.02  # [rad] of its flanks
+
+
+def small_table(growth: float, first_harmonic: bool, renumbered: bool = False) -> tuple[SlotTable, np.ndarray]:
+    """A made-up recording in several runs, one flank of either direction never seen; and A, column by column."""
+    random = np.random.default_rng(3)
+    count = 90
+    fresh = np.isin(np.arange(count), [0, 1, 20, 47, 50, 88])
+    first, last = np.empty(count, dtype=np.int64), np.empty(count, dtype=np.int64)
+    for k in range(count):
+        base = SLOTS if 20 <= k < 50 else 0
+        begins = base + random.integers(SLOTS - 1) if fresh[k] or (renumbered and k == 30) else last[k - 1]
+        first[k], last[k] = begins, base + random.integers(SLOTS - 1)
+    first[1] = last[1] = -1  # a standstill between runs
+    first[88], last[88] = last[88], -1
+    fresh[89] = True
+    noise = AngleNoise(fresh, *random.uniform(1e-3, 1e-2, (2, count)) ** 2, random.uniform(1e-3, 1e-2, count))
+    table = SlotTable(make_whitening(noise, growth), SlotIndex(first, last, 2 * SLOTS), first_harmonic)
+    columns = [whiten(table.whitening, table.index.increments(unit)) for unit in np.eye(2 * SLOTS)]
+    return table, np.column_stack(columns)
+
+
+def small_prior(first_harmonic: bool) -> np.ndarray:
+    """The table's covariance for unit variance, over all flanks, seen or not."""
+    phase = 2.0 * np.pi * np.arange(SLOTS) / SLOTS
+    waves = [np.ones(SLOTS) / np.sqrt(SLOTS)]
+    if not first_harmonic:
+        waves += [np.sqrt(2.0 / SLOTS) * wave(phase) for wave in (np.cos, np.sin)]
+    one = np.eye(SLOTS) + STIFF * sum(np.outer(wave, wave) for wave in waves)
+    return np.linalg.inv(np.kron(np.eye(2), one))
+
+
+@pytest.mark.parametrize("renumbered", [False, True])
+@pytest.mark.parametrize("growth", [0.0, 1e-4, 1e-2, 1e6])
+def test_one_pass_gives_the_product_of_all_columns(growth: float, renumbered: bool) -> None:
+    table, columns = small_table(growth, True, renumbered)
+    product = columns.T @ columns
+    assert np.abs(table.gram - product).max() < 1e-12 * np.abs(product).max()
+    assert np.count_nonzero(product) > SLOTS**2  # many a pair of flanks shares a run
+    white = np.random.default_rng(4).normal(size=len(columns))
+    assert table.scores(white) == pytest.approx(columns.T @ white, rel=1e-12)
+    guess = np.arange(2.0 * SLOTS)
+    assert table.left(white, guess) == pytest.approx(white - columns @ guess, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("first_harmonic", [False, True])
+@pytest.mark.parametrize("growth", [0.0, 1e-2])
+def test_the_projection_leaves_what_a_table_of_that_prior_makes_improbable(growth: float, first_harmonic: bool) -> None:
+    """The sum of squares left is zᵀ(I + σ²·A·C·Aᵀ)⁻¹z, the table's marginal likelihood, C the prior of all flanks."""
+    table, columns = small_table(growth, first_harmonic)
+    covariance = SIGMA**2 * small_prior(first_harmonic)
+    random = np.random.default_rng(5)
+    white = random.normal(size=len(columns)) + columns @ random.normal(size=2 * SLOTS) * SIGMA
+    projection = Projection(table, SIGMA**2)
+    inverse = np.linalg.inv(np.eye(len(columns)) + columns @ covariance @ columns.T)
+    assert np.sum(projection(white) ** 2) == pytest.approx(white @ inverse @ white, rel=1e-9)
+    assert 0.005 * (white @ white) < white @ inverse @ white < 0.95 * (white @ white)
+    expected = covariance @ columns.T @ inverse @ white
+    seen = table.seen > 0
+    assert list(np.flatnonzero(~seen)) == [SLOTS - 1, 2 * SLOTS - 1]
+    assert projection.best(white)[seen] == pytest.approx(expected[seen], rel=1e-7, abs=1e-9 * SIGMA)
+    assert not projection.best(white)[~seen].any()
+
+
+def test_the_flanks_variance_is_that_of_expectation_maximisation() -> None:
+    table, columns = small_table(1e-2, False)
+    white = columns @ np.random.default_rng(6).normal(size=2 * SLOTS) * SIGMA
+    seen = table.seen > 0
+    variance = 0.1 * SIGMA**2
+    for _ in range(6):
+        covariance = np.linalg.inv(columns.T @ columns + np.linalg.inv(small_prior(False)) / variance)
+        mean = covariance @ columns.T @ white
+        variance = float(np.mean((mean**2 + np.diag(covariance))[seen]))
+    assert likely_variance(table, white, 0.1 * SIGMA**2, 1.0, 6) == pytest.approx(variance, rel=1e-9)
+    assert 0.1 * SIGMA**2 < variance < 4.0 * SIGMA**2
+    assert likely_variance(table, white, 0.1 * SIGMA**2, 0.5 * variance, 6) == 0.5 * variance
+
+
+def test_a_disc_of_a_thousand_slots_in_a_second_that_shows_a_third_of_them() -> None:
+    config = BoardConfig(edges_per_revolution=1000, slot_irregularity=0.01, seed=2)
+    board = SimulatedBoard(paper_motor(), config)
+    samples = [board.sample(0.0 if k < 20 else 2.0) for k in range(220)]
+    fit = identify([check(recording_of(samples, config.info(paper_motor()), "step"))], Request(particles=16))
+    assert 0.008 < fit.slot_irregularity[0] < 0.012
+    for name, true, least, most in (("kv", PAPER_KV, 3e-7, 1e-6), ("ka", PAPER_KA, 3e-6, 1e-5)):
+        relative = fit.standard_errors[name] / true
+        assert least < relative < most
+        assert abs(fit.parameters.value(name) / true - 1.0) < 4.0 * relative
