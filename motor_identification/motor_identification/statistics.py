@@ -1,119 +1,154 @@
-"""How sure a fit is: standard errors, what the recording cannot separate, and what it could not tell apart from it."""
+"""How sure a fit is: standard errors and correlations that stay right where the residuals do not."""
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.special import ndtri, stdtrit
 
-from motor_identification.problem import Problem
-from motor_identification.recording import Floats
+from motor_identification.identifiability import independence, scales_of, shown
+from motor_identification.recording import Bools, Floats, Integers
 from motor_identification.refine import Refined
-from motor_model.effects import EFFECT_BY_NAME, INDEX, SPEC_BY_NAME
+from motor_identification.whiteness import Series, Whiteness, analyse
 
-BLOCKS = 120  # of consecutive intervals
-NOTHING = 1e-6  # of the speed
+BLOCKS = (20, 10)  # of equal time; the fewer where the more are not independent
+DEPENDENT = 1.645  # standard deviations of the products of neighbours, from which on blocks are not independent
+LEAST_ROWS = 8  # residuals in a block
+DOUBTFUL = 0.01  # chance under which residuals do not pass for white
+DETERMINED = 0.95  # largest share of a direction that one block may be credited with
 COLLINEAR = 1e-4  # sine of the angle between a column of the Jacobian and the others, below which they are one
 TOO_UNSURE = 0.3  # standard error as a share of the value
-DETECTABLE = 10.0  # standard deviations by which a trace must differ from its imitation to be told apart
-
-# Effects whose absence is a value that a small step can leave: their trace is a derivative.
-RIVALS = ("coulomb_friction", "load_bias", "dead_zone", "quadratic_drag")
+LEVEL = 0.975  # quantile up to which an interval of ±1.96 standard errors shall reach
 
 
 @dataclass(frozen=True)
 class Certainty:
-    """Standard errors of a place (D,) (NaN where not identifiable), and which physical parameters are not."""
+    """Standard errors of a place (D,) (NaN where not identifiable), and which physical parameters are not.
+
+    `correlations` (D, D) has NaN rows and columns where the errors are NaN.
+    """
 
     errors: Floats
+    correlations: Floats
     not_identifiable: tuple[str, ...]
+    whiteness: Whiteness
+
+    def correlations_of(self, names: tuple[str, ...]) -> dict[str, dict[str, float]]:
+        """The correlations of the first unknowns, which these names belong to."""
+        rows = self.correlations[: len(names), : len(names)]
+        return {name: dict(zip(names, map(float, row), strict=True)) for name, row in zip(names, rows, strict=True)}
 
 
 def certainty(refined: Refined, place: Floats, jacobian: Floats) -> Certainty:
-    """Judge a fitted place by the Jacobian of the white residuals there.
+    """Judge a fitted place (D,) by the white residuals and their Jacobian (rows, D) there.
 
-    The errors are a sandwich estimate, (JᵀJ)⁻¹ (Σ_b s_b s_bᵀ) (JᵀJ)⁻¹ with s_b the sum of Jᵢrᵢ over a block of
-    consecutive residuals, so that what correlation the whitening has left, up to a block's length, needs no model
-    (Liang & Zeger, Biometrika 73, 1986); but no smaller than (JᵀJ)⁻¹ alone, which is all there is for few residuals.
+    Where the residuals pass for white (portmanteau test of `whiteness.py`), the covariance is (JᵀJ)⁻¹: it needs no
+    estimate. Elsewhere, and where that cannot be tested (windows that overlap), it is that of the delete-one-block
+    jackknife over 20 blocks of equal time, which takes any correlation that is shorter than a block, and any change of
+    the motor from block to block, as it is (Künsch, Ann. Statist. 17, 1989; to first order the sandwich of Liang &
+    Zeger with each block's score divided by one minus its leverage, CV3 of MacKinnon, Nielsen & Webb, J. Appl.
+    Econometrics 38, 2023). Where neighbouring blocks still pull a parameter the same way, 10 are taken (blocking of
+    Flyvbjerg & Petersen, J. Chem. Phys. 91, 1989): a motor that warms up. So few blocks know the spread only roughly,
+    and fewer where one of them holds most of what there is to know of a parameter: the error is widened from the normal
+    to Student's distribution with the degrees of freedom of Bell & McCaffrey (Survey Methodology 28, 2002), so that
+    ±1.96 standard errors cover 95 % either way.
+
+    More and shorter blocks, and a stationary (autoregressive) model of the residuals, were tried and cover less: a
+    disturbance of the motor lasts long beside the time between edges, and is not stationary in the white residuals.
     """
-    scale = _scales(refined.problem, place)
+    scale = scales_of(refined.problem, place)
     scaled = jacobian * scale
-    alone = _independence(scaled)
-    inverse = np.linalg.pinv(scaled.T @ scaled, rcond=1e-14, hermitian=True)
-    scores = scaled * refined.residuals(place)[:, None]
-    blocks = np.array_split(scores, min(BLOCKS, max(len(scores) // 4, 2)))
-    sums = np.array([block.sum(axis=0) for block in blocks])
-    correction = len(blocks) / max(len(blocks) - len(place), 1)
-    errors = np.sqrt(np.diag(np.maximum(inverse @ (sums.T @ sums * correction) @ inverse, inverse)))
-    unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE) | ~_shown(refined.problem, place, scale)
+    root = _root(scaled)
+    white = refined.residuals(place)
+    whiteness = analyse(_series(refined, white))
+    covariance = root @ root.T
+    errors = np.sqrt(np.diag(covariance))
+    if not whiteness.p_value >= DOUBTFUL and len(white) >= BLOCKS[0] * LEAST_ROWS:
+        covariance, errors = _blocked(refined, scaled, white, root)
+    alone = independence(scaled)
+    unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE) | ~shown(refined.problem, place, scale)
     names = tuple(name for name, bad in zip(refined.problem.unknowns.names, unsure, strict=False) if bad)
-    return Certainty(np.where(unsure, np.nan, errors * scale), names)
+    sigma = np.where(unsure, np.nan, np.sqrt(np.diag(covariance)))
+    correlations = np.clip(covariance / np.outer(sigma, sigma), -1.0, 1.0)
+    return Certainty(np.where(unsure, np.nan, errors * scale), correlations, names, whiteness)
 
 
-def _shown(problem: Problem, place: Floats, scale: Floats) -> NDArray[np.bool_]:
-    """Which unknowns move the speeds at all, by more than rounding, when they change by 100 %, shape (D,)."""
-    moved = np.sqrt(problem.weight @ (problem.jacobian(place) * scale) ** 2)
-    return np.asarray(moved > NOTHING * np.sqrt(problem.weight @ problem.speed**2))
+def _root(columns: Floats) -> Floats:
+    """R (D, D) with R Rᵀ = (JᵀJ)⁻¹, by eigenvalues; directions that do not show at all are left out."""
+    values, vectors = np.linalg.eigh(columns.T @ columns)
+    kept = values > 1e-14 * values[-1]
+    return np.asarray(vectors * np.where(kept, 1.0 / np.sqrt(np.where(kept, values, 1.0)), 0.0))
 
 
-def _scales(problem: Problem, place: Floats) -> Floats:
-    """What 100 % of each unknown is: itself, or a twentieth of the box where it is near zero; 1 for logarithms."""
-    box = problem.unknowns.high - problem.unknowns.low
-    return np.where(problem.unknowns.logarithmic, 1.0, np.maximum(np.abs(place), 0.05 * box))
+def _blocked(refined: Refined, columns: Floats, white: Floats, root: Floats) -> tuple[Floats, Floats]:
+    """Covariance (D, D) by the more blocks; errors (D,), by the fewer where the more depend on each other."""
+    (covariance, errors, dependent), fewer = (
+        _jackknife(columns, white, root, _block_of(refined, blocks)) for blocks in BLOCKS
+    )
+    return covariance, np.where(dependent, np.maximum(errors, fewer[1]), errors)
 
 
-def _independence(columns: Floats) -> Floats:
-    """Sine of the angle between each column (I, D) and the space of the others, shape (D,); 0 for a column of zeros."""
-    norms = np.linalg.norm(columns, axis=0)
-    unit = columns / np.where(norms > 0.0, norms, 1.0)
-    sines = np.zeros(columns.shape[1])
-    for j in np.flatnonzero(norms > 0.0):
-        sines[j] = _unexplained(unit[:, j], np.delete(unit, j, axis=1))
-    return sines
+def _jackknife(columns: Floats, white: Floats, root: Floats, block_of: Integers) -> tuple[Floats, Floats, Bools]:
+    """Covariance (D, D), errors (D,) widened for the blocks being few, and where neighbouring blocks are dependent.
 
-
-def _unexplained(column: Floats, others: Floats) -> float:
-    """Norm of what is left of a unit column (I,) after the best combination of the others (I, D)."""
-    if others.shape[1] == 0:
-        return 1.0
-    combination = np.linalg.lstsq(others, column, rcond=1e-10)[0]
-    return float(np.linalg.norm(column - others @ combination))
-
-
-def not_told_apart(refined: Refined, place: Floats, jacobian: Floats, sure: Certainty) -> dict[str, tuple[str, ...]]:
-    """For each effect that was found, the absent effects that would have left the same trace in this recording.
-
-    Effects that are not identifiable anyway, or that are not there (within 3 standard errors), are passed over.
+    In the coordinates A = J R, AᵀA is the identity and G_b = A_bᵀA_b is what block b knows of each direction. Leaving
+    block b out moves the place by R m_b, m_b = (I − G_b)⁻¹ A_bᵀ r_b. Rows of block −1, the slot table's prior, are
+    independent of each other.
     """
-    unknowns = refined.problem.unknowns
-    scales = _scales(refined.problem, place)
-    columns = jacobian * scales
-    found_size = np.abs(place) / np.nan_to_num(sure.errors, nan=np.inf)
-    found: dict[str, list[str]] = {}
-    for rival in RIVALS:
-        if rival in unknowns.effects:
-            continue
-        trace = _trace(refined, place, rival)
-        imitation = np.linalg.lstsq(columns, trace, rcond=1e-10)[0]
-        left = float(np.linalg.norm(trace - columns @ imitation))
-        for effect in unknowns.effects:
-            specs = EFFECT_BY_NAME[effect].parameters
-            which = [unknowns.names.index(spec.name) for spec in specs]
-            if any(spec.name in sure.not_identifiable for spec in specs) or not np.any(found_size[which] > 3.0):
-                continue
-            # As much of the rival as would have made this effect's whole value, and what of it would still show.
-            amount = max(abs(place[i] / scales[i]) for i in which) / max(max(abs(imitation[i]) for i in which), 1e-300)
-            if amount * left < DETECTABLE:
-                found.setdefault(effect, []).append(rival)
-    return {effect: tuple(rivals) for effect, rivals in found.items()}
+    unit = columns @ root
+    known, weights, moves = [], [], []
+    for block in range(block_of.max() + 1):
+        rows = block_of == block
+        values, vectors = np.linalg.eigh(unit[rows].T @ unit[rows])
+        values = np.clip(values, 0.0, DETERMINED)
+        known.append((vectors * values) @ vectors.T)
+        weights.append((vectors / (1.0 - values)) @ vectors.T)
+        moves.append(root @ weights[-1] @ (unit[rows].T @ white[rows]))
+    prior = block_of < 0
+    table = (unit[prior] * white[prior, None]) @ root.T
+    moved = np.array(moves)
+    covariance = moved.T @ moved + table.T @ table
+    freedom = np.array([_freedom(direction, np.array(known), np.array(weights)) for direction in root])
+    widening = stdtrit(np.maximum(freedom, 1.0), LEVEL) / ndtri(LEVEL)
+    products = moved[1:] * moved[:-1]
+    dependent = products.sum(axis=0) > DEPENDENT * np.sqrt(np.sum(products**2, axis=0))
+    return covariance, np.sqrt(np.diag(covariance)) * widening, dependent
 
 
-def _trace(refined: Refined, place: Floats, effect: str) -> Floats:
-    """Derivative of the white residuals over an absent effect's first parameter, one step into the effect."""
-    unknowns = refined.problem.unknowns
-    name = EFFECT_BY_NAME[effect].parameters[0].name
-    spec = SPEC_BY_NAME[name]
-    step = 1e-4 * spec.high * unknowns.extent.of(spec)
-    vectors, starts = unknowns.decode(np.tile(place, (2, 1)))
-    vectors[1, INDEX[name]] += step
-    without, with_it = refined.problem.evaluate_vectors(vectors, starts)
-    return refined.white((with_it - without) / step)
+def _freedom(direction: Floats, known: Floats, weight: Floats) -> float:
+    """Degrees of freedom of the variance of one parameter for white residuals: (tr Γ)²/tr Γ² (Satterthwaite).
+
+    Γ_bc = dᵀW_b (δ_bc G_b − G_b G_c) W_c d is the covariance of the blocks' moves along the parameter's direction d.
+    """
+    weighted = weight @ direction
+    parts = np.einsum("bij,bj->bi", known, weighted)
+    spread = np.diag(np.einsum("bi,bi->b", weighted, parts)) - parts @ parts.T
+    square = float(np.sum(spread**2))
+    return float(np.trace(spread)) ** 2 / square if square > 0.0 else 1.0
+
+
+def _lengths(refined: Refined) -> list[tuple[int, int]]:
+    """Of every recording: how many white residuals are of intervals, and how many of the slot table's prior."""
+    return [
+        (len(data.first), encoder.projection.table.index.size if encoder.projection is not None else 0)
+        for data, encoder in zip(refined.problem.intervals, refined.encoders, strict=True)
+    ]
+
+
+def _series(refined: Refined, white: Floats) -> tuple[Series, ...]:
+    """The white residuals recording by recording."""
+    series, row = [], 0
+    for r, (data, (intervals, table)) in enumerate(zip(refined.problem.intervals, _lengths(refined), strict=True)):
+        middle = 0.5 * (data.time[data.first] + data.time[data.last])
+        series.append(Series(white[row : row + intervals], middle, data.fresh, *refined.problem.commands[r]))
+        row += intervals + table
+    return tuple(series)
+
+
+def _block_of(refined: Refined, blocks: int) -> Integers:
+    """Number of the block of equal time that each residual belongs to; −1 for those of the slot table."""
+    parts, begun = [], 0.0
+    for data, (_, table) in zip(refined.problem.intervals, _lengths(refined), strict=True):
+        parts += [begun + 0.5 * (data.time[data.first] + data.time[data.last]), np.full(table, -1.0)]
+        begun += float(data.time[-1])
+    middle = np.concatenate(parts)
+    return np.where(middle < 0.0, -1, np.minimum(middle / begun * blocks, blocks - 1)).astype(np.int64)

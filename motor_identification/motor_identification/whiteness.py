@@ -1,0 +1,111 @@
+"""Residual analysis: does what a fit leaves repeat itself, and does it follow the voltage? Then something is missing.
+
+A right model leaves white residuals that no past voltage predicts (Ljung, System Identification, 2nd ed., ch. 16.6).
+The first is a portmanteau test, Ljung & Box (Biometrika 65, 1978), with pairs counted within runs only, so that gaps in
+a recording count for nothing. The second correlates the residuals with the voltage some time before them; beside the
+voltage itself with its size and its sign, because what a linear motor has adjusted to leaves no trace in the first.
+"""
+
+from dataclasses import dataclass
+from math import nan
+
+import numpy as np
+from scipy.signal import lfilter
+from scipy.stats import chi2, norm
+
+from motor_identification.recording import Bools, Floats
+
+LAGS = 20  # intervals over which residuals may repeat themselves
+PAST = (0.0, 0.005, 0.01, 0.02, 0.04, 0.08, 0.16, 0.32)  # [s] how long before a residual its voltage is looked at
+FEWEST = 10  # pairs that make a correlation
+FACES = (np.array, np.abs, np.sign)  # of a voltage: itself, its size, its direction
+
+
+@dataclass(frozen=True)
+class Series:
+    """White residuals of one recording, shape (I,), and the command, shape (M,), that they may depend on."""
+
+    white: Floats
+    time: Floats  # [s] middle of every interval
+    fresh: Bools  # which intervals do not begin where the one before ended
+    command_time: Floats  # [s] ascending; the command holds from each of them on
+    command: Floats  # [V]
+
+
+@dataclass(frozen=True)
+class Whiteness:
+    """What is left of regularity in white residuals; NaN where there are too few of them.
+
+    The p-values are the chances of this much or more in the residuals of a right model. With many residuals any trifle
+    is significant: judge by the correlations as well.
+    """
+
+    p_value: float  # of the portmanteau test
+    autocorrelation: float  # the one of largest size
+    lag: int  # in intervals, of that one
+    input_p_value: float
+    input_correlation: float  # of largest size between residual and voltage, its size or its sign
+    input_lag: float  # [s] by which the residual follows
+
+
+def analyse(series: tuple[Series, ...]) -> Whiteness:
+    """Both tests over all recordings together."""
+    rho, pairs = autocorrelation(series, LAGS)
+    known = pairs >= FEWEST
+    if not known.any():
+        return Whiteness(nan, nan, 0, nan, nan, nan)
+    chance = float(chi2.sf(np.sum((pairs * rho**2)[known]), known.sum()))
+    largest = int(np.argmax(np.where(known, np.abs(rho), -1.0)))
+    follows = _follows(series, np.where(known, rho, 0.0))
+    return Whiteness(chance, float(rho[largest]), largest + 1, *follows)
+
+
+def autocorrelation(series: tuple[Series, ...], lags: int) -> tuple[Floats, Floats]:
+    """Correlations of residuals 1 to `lags` intervals apart in one run, and the pairs behind each; shapes (lags,)."""
+    products, pairs = np.zeros(lags), np.zeros(lags)
+    square = np.mean(np.concatenate([one.white for one in series]) ** 2)
+    for one in series:
+        run = np.cumsum(one.fresh)
+        for lag in range(1, min(lags, len(run) - 1) + 1):
+            same = run[lag:] == run[:-lag]
+            products[lag - 1] += np.sum((one.white[lag:] * one.white[:-lag])[same])
+            pairs[lag - 1] += np.count_nonzero(same)
+    return products / np.maximum(pairs * square, 1e-300), pairs
+
+
+def _follows(series: tuple[Series, ...], rho: Floats) -> tuple[float, float, float]:
+    """p-value, largest correlation and its lag [s] between residuals and past voltages.
+
+    A correlation r of n residuals has the variance Σ ρ_z(k) ρ_u(k)/n (Ljung, eq. 16.66); ρ_z is taken as geometric from
+    its first lag on, or a slow drift of a few swings would pass for a relation. Bonferroni's rule for the largest.
+    """
+    white = np.concatenate([one.white for one in series])
+    best, at, chance = 0.0, 0.0, nan
+    tests = len(FACES) * len(PAST)
+    for past in PAST:
+        held = np.concatenate([_held(one, past) for one in series])
+        for face in FACES:
+            voltage = face(held)
+            voltage = voltage - voltage.mean()
+            norms = float(np.linalg.norm(voltage) * np.linalg.norm(white))
+            if norms <= 1e-9 * len(white):
+                continue
+            correlation = float(white @ voltage) / norms
+            if abs(correlation) >= abs(best):
+                spread = np.sqrt(_inflation(rho, voltage) / len(white))
+                best, at = correlation, past
+                chance = min(1.0, tests * 2.0 * float(norm.sf(abs(correlation) / spread)))
+    return (chance, best, at) if chance == chance else (nan, nan, nan)
+
+
+def _held(one: Series, past: float) -> Floats:
+    """[V] the command that held some time [s] before each residual; 0 before the first."""
+    index = np.searchsorted(one.command_time, one.time - past, side="right") - 1
+    return np.where(index >= 0, one.command[np.maximum(index, 0)], 0.0)
+
+
+def _inflation(rho: Floats, voltage: Floats) -> float:
+    """Σ ρ_z(k) ρ_u(k) over all lags, at least 1: how much less a correlated residual says than a white one."""
+    first = min(max(float(rho[0]), 0.0), 0.999)
+    smooth = lfilter([0.0, first], [1.0, -first], voltage)
+    return max(1.0, 1.0 + 2.0 * float(voltage @ smooth) / float(voltage @ voltage))
