@@ -9,12 +9,17 @@ import numpy as np
 
 from motor_identification.intervals import Intervals, intervals_of, joined, without
 from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_identification.refusals import refuse_nonsense
 from motor_identification.residual import fill_residuals
+from motor_identification.track import Track, make_track
 from motor_identification.unknowns import Unknowns, unknowns_of
 from motor_model.compiled import compiled
+from motor_model.effects import INDEX
 from motor_model.encoder import show
-from motor_model.errors import ModelError, RecordingError
-from motor_model.simulate import roll_out
+from motor_model.errors import RecordingError
+from motor_model.simulate import NOWHERE, roll_out
+
+COARSENESS = 4.0  # of the motion while a swarm searches
 
 
 @compiled
@@ -24,6 +29,7 @@ def fill_swarm(
     command_time: Floats,
     command: Floats,
     time: Floats,
+    anchor: Floats,
     first: Integers,
     last: Integers,
     speed: Floats,
@@ -33,8 +39,8 @@ def fill_swarm(
     """Residuals (S, I) of a swarm of motors over one recording; see `Intervals` for the data."""
     angle, shaft = np.empty(len(time)), np.empty(len(time))
     for s in range(len(vectors)):
-        roll_out(vectors[s], starts[s], command_time, command, time, angle, shaft)
-        show(vectors[s], angle)
+        roll_out(vectors[s], starts[s], command_time, command, time, anchor, angle, shaft)
+        show(vectors[s], angle, anchor)
         fill_residuals(angle, time, first, last, speed, slack, residuals[s])
 
 
@@ -50,6 +56,8 @@ class Problem:
     intervals: tuple[Intervals, ...]
     unknowns: Unknowns
     workers: int = 1
+    coarseness: float = 1.0  # of the simulation, see `motor.py`
+    tracks: tuple[Track, ...] = ()  # the measured angle of every recording, for what is periodic in it
 
     @cached_property
     def commands(self) -> tuple[tuple[Floats, Floats], ...]:
@@ -60,9 +68,26 @@ class Problem:
             changes.append((recording.time[kept], recording.voltage[kept]))
         return tuple(changes)
 
+    @cached_property
+    def anchors(self) -> tuple[Floats, ...]:
+        """[rad] the measured angle at the times of every recording's intervals; empty where it is not needed."""
+        if not self.tracks:
+            return (NOWHERE,) * len(self.recordings)
+        return tuple(track.at(data.time) for track, data in zip(self.tracks, self.intervals, strict=True))
+
+    def with_effects(self, effects: tuple[str, ...]) -> "Problem":
+        """The problem with other unknowns."""
+        return replace(self, unknowns=unknowns_of(self.recordings, effects))
+
+    def anchored(self, place: Floats, effects: tuple[str, ...]) -> "Problem":
+        """The problem with other effects, on the measured angle; a fitted place (D,) bridges its gaps."""
+        rows = zip(self.intervals, self.angles(place), strict=True)
+        tracks = tuple(make_track(data, angle) for data, angle in rows)
+        return replace(self.with_effects(effects), tracks=tracks)
+
     def coarse(self, duration: float) -> "Problem":
         """The same problem with intervals joined to this length [s] where they follow each other: quicker to search."""
-        return replace(self, intervals=tuple(joined(data, duration) for data in self.intervals))
+        return replace(self, intervals=tuple(joined(data, duration) for data in self.intervals), coarseness=COARSENESS)
 
     def without(self, bad: tuple[Bools, ...]) -> "Problem":
         """The same problem without the marked intervals of every recording."""
@@ -92,7 +117,8 @@ class Problem:
         return self.evaluate_vectors(*self.unknowns.decode(places))
 
     def evaluate_vectors(self, vectors: Floats, starts: Floats) -> Floats:
-        """The same for parameter vectors (S, P) and initial speeds (S, R) [rad/s] in R recordings."""
+        """The same for parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
+        vectors[:, :, INDEX["coarseness"]] = self.coarseness
         residuals = np.empty((len(vectors), len(self.weight)))
         share = -(-len(vectors) // max(self.workers, 1))
         parts = [slice(i, i + share) for i in range(0, len(vectors), share)]
@@ -100,12 +126,14 @@ class Problem:
         def work(part: slice) -> None:
             column = 0
             for r, ((time, voltage), data) in enumerate(zip(self.commands, self.intervals, strict=True)):
-                out = np.empty((len(vectors[part]), len(data.first)))
+                alone = len(self.intervals) == 1  # an hour's residuals are not there twice
+                out = residuals[part] if alone else np.empty((len(vectors[part]), len(data.first)))
                 fill_swarm(
-                    vectors[part], np.ascontiguousarray(starts[part, r]), time, voltage,
-                    data.time, data.first, data.last, data.speed, data.slack, out,
+                    np.ascontiguousarray(vectors[part, r]), np.ascontiguousarray(starts[part, r]), time, voltage,
+                    data.time, self.anchors[r], data.first, data.last, data.speed, data.slack, out,
                 )  # fmt: skip
-                residuals[part, column : column + len(data.first)] = out
+                if not alone:
+                    residuals[part, column : column + len(data.first)] = out
                 column += len(data.first)
 
         if len(parts) == 1:
@@ -129,17 +157,22 @@ class Problem:
         angles = []
         for r, ((time, voltage), data) in enumerate(zip(self.commands, self.intervals, strict=True)):
             angle, speed = np.empty(len(data.time)), np.empty(len(data.time))
-            roll_out(vectors[0], float(starts[0, r]), time, voltage, data.time, angle, speed)
-            show(vectors[0], angle)
+            roll_out(vectors[0, r], float(starts[0, r]), time, voltage, data.time, self.anchors[r], angle, speed)
+            show(vectors[0, r], angle, self.anchors[r])
             angles.append(angle)
         return tuple(angles)
 
     def jacobian(self, place: Floats) -> Floats:
         """Derivative of the residuals over the unknowns, central differences, shape (I, D)."""
         steps = 1e-5 * (self.unknowns.high - self.unknowns.low)
-        shifted = np.concatenate([place + np.diag(steps), place - np.diag(steps)])
-        residuals = self.evaluate(shifted)
-        return np.asarray(((residuals[: len(place)] - residuals[len(place) :]) / (2.0 * steps)[:, None]).T)
+        columns = np.empty((len(place), len(self.weight)))
+        share = max(self.workers, 1)  # a few unknowns at a time keep all cores busy and an hour's residuals in memory
+        for i in range(0, len(place), share):
+            some = np.diag(steps)[i : i + share]
+            residuals = self.evaluate(np.concatenate([place + some, place - some]))
+            np.subtract(residuals[: len(some)], residuals[len(some) :], out=columns[i : i + share])
+            columns[i : i + share] /= (2.0 * steps[i : i + share])[:, None]
+        return columns.T
 
 
 def make_problem(recordings: Sequence[Recording], effects: tuple[str, ...], workers: int = 1) -> Problem:
@@ -149,10 +182,16 @@ def make_problem(recordings: Sequence[Recording], effects: tuple[str, ...], work
         ModelError: an effect is not in the table, or is none that can be fitted.
         RecordingError: a recording has no usable motion, or the motor moves without any voltage.
     """
-    if "missed_edges" in effects:
-        raise ModelError("missed_edges is recognised in every fit and left out, not fitted: drop it from the effects.")
+    refuse_nonsense(recordings, effects)
     for recording in recordings:
         if not np.any(recording.voltage):
             raise RecordingError(f"{recording.uri} has no voltage other than 0 in it: record with the motor driven.")
     intervals = tuple(intervals_of(recording) for recording in recordings)
-    return Problem(tuple(recordings), intervals, unknowns_of(recordings, effects), workers)
+    unknowns = unknowns_of(recordings, effects)
+    count = sum(len(data.first) for data in intervals)
+    if count <= len(unknowns.low):
+        raise RecordingError(
+            f"{len(unknowns.low)} unknowns cannot be fitted to {count} stretches of motion: record longer, or ask for "
+            "fewer effects."
+        )
+    return Problem(tuple(recordings), intervals, unknowns, workers)

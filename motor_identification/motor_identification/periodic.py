@@ -1,0 +1,101 @@
+"""Effects periodic in the angle: added to a fit of all others, on measured angles, from where their spectrum points."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from motor_identification.descent import Speeds, descend
+from motor_identification.direction import redirected
+from motor_identification.problem import Problem
+from motor_identification.recording import Floats
+from motor_identification.ripple import ripple_of, ripples
+from motor_identification.track import Track
+from motor_identification.unknowns import carried
+from motor_model.effects import EFFECT_BY_NAME
+
+ROUNDS = 2  # the second time, the motor that bridges the gaps of the measured angle has the effect already
+RIPPLES = 2  # lines of the spectrum that are tried
+
+Tracks = tuple[Track, ...]
+Start = tuple[Tracks, Mapping[str, Floats]]  # measured angles, and the values of an effect in every recording
+
+
+def without_periodic(effects: tuple[str, ...]) -> tuple[str, ...]:
+    """The effects that do not repeat with the angle."""
+    return tuple(name for name in effects if not EFFECT_BY_NAME[name].periodic)
+
+
+def add_periodic(problem: Problem, place: Floats, effects: tuple[str, ...]) -> tuple[Problem, Floats, int]:
+    """Extend a fit without periodic effects, its problem and place (D,), by those among `effects`; and simulations."""
+    evaluations = 0
+    for effect in _STARTS:
+        if effect in effects:
+            problem, place, more = added(problem, place, effect)
+            evaluations += more
+    return problem, place, evaluations
+
+
+def added(bare: Problem, place: Floats, effect: str) -> tuple[Problem, Floats, int]:
+    """Extend a fit by one periodic effect."""
+    effects, evaluations = (*bare.unknowns.effects, effect), 0
+    full, end = bare.anchored(place, effects), place
+    for _ in range(ROUNDS):
+        ends = []
+        for tracks, values in _STARTS[effect](bare, place, full.tracks):
+            trial = replace(full, tracks=tracks)
+            end, more = descend(trial, Speeds(trial), carried(bare.unknowns, place, full.unknowns, values))
+            ends.append((float(trial.costs(end[None])[0]), trial, end))
+            evaluations += more
+        _cost, best, end = min(ends, key=lambda row: row[0])
+        best = redirected(best, end)
+        place = carried(best.unknowns, end, bare.unknowns, {})
+        bare = replace(bare, intervals=best.intervals, tracks=best.tracks if bare.tracks else ())
+        full = best.anchored(end, effects)
+    free = replace(best, tracks=())  # a complete model does not drift, and then its own angle is the better one
+    onward, more = descend(free, Speeds(free), end)
+    if float(free.costs(onward[None])[0]) < float(best.costs(end[None])[0]):
+        best, end = free, onward
+    return best, end, evaluations + more
+
+
+def phases(bare: Problem, place: Floats, effect: str, values: Mapping[str, float]) -> Start:
+    """Measured angles and phases under which a known periodic effect fits recordings best; see `added`."""
+    tracks = bare.anchored(place, bare.unknowns.effects).tracks
+    if effect == "torque_ripple":
+        ripple = ripple_of(bare, place, tracks, values["ripple_cycles"])
+        return ripple.tracks, {"ripple_phase": np.array(ripple.phases)}
+    ((tracks, wave),) = _eccentricities(bare, place, tracks)
+    return tracks, {"eccentricity_phase": wave["eccentricity_phase"]}
+
+
+def _eccentricities(problem: Problem, place: Floats, tracks: Tracks) -> list[Start]:
+    """The first harmonic of what a fit leaves over the angle, by least squares."""
+    waves = []
+    for data, track, increments in zip(problem.intervals, tracks, problem.increments(place), strict=True):
+        angle, root = track.at(data.time), 1.0 / np.sqrt(data.duration)
+        sine, cosine = (
+            np.diff(shape(angle)[np.stack([data.first, data.last])], axis=0)[0] for shape in (np.sin, np.cos)
+        )
+        moving = data.slack == 0.0
+        design = (np.column_stack([sine, cosine]) * root[:, None])[moving]
+        waves.append(complex(*np.linalg.lstsq(design, -(increments * root)[moving], rcond=None)[0]))
+    size = np.full(len(waves), np.mean(np.abs(waves)))
+    return [(tracks, {"eccentricity": size, "eccentricity_phase": np.asarray(np.angle(waves), dtype=np.float64)})]
+
+
+def _ripples(problem: Problem, place: Floats, tracks: Tracks) -> list[Start]:
+    return [
+        (
+            ripple.tracks,
+            {
+                "ripple_voltage": np.array(ripple.amplitude),
+                "ripple_cycles": np.array(ripple.cycles),
+                "ripple_phase": np.array(ripple.phases),
+            },
+        )
+        for ripple in ripples(problem, place, tracks)[:RIPPLES]
+    ]
+
+
+_STARTS = {"encoder_eccentricity": _eccentricities, "torque_ripple": _ripples}
