@@ -35,10 +35,14 @@ class Speeds:
         return np.asarray(np.sqrt(self.problem.weight)[:, None] * self.problem.jacobian(place))
 
 
-def descend(problem: Problem, target: Residuals, place: Floats) -> tuple[Floats, int]:
-    """Least squares (trust region reflective) from a place, kept if it is not improved; and the simulations."""
+def descend(problem: Problem, target: Residuals, place: Floats, most: float = np.inf) -> tuple[Floats, int]:
+    """Least squares (trust region reflective) from a place, kept if it is not improved; and the simulations.
+
+    Residuals far above `most` count by their size, not by its square (SciPy's soft_l1): a few false ones do not pull.
+    """
     low, high = problem.unknowns.low, problem.unknowns.high
     margin = 1e-9 * (high - low)
+    robust = bool(np.isfinite(most))
     solution = least_squares(
         target.residuals,
         np.clip(place, low + margin, high - margin),
@@ -49,7 +53,15 @@ def descend(problem: Problem, target: Residuals, place: Floats) -> tuple[Floats,
         xtol=1e-12,
         gtol=1e-14,
         max_nfev=60,
+        loss="soft_l1" if robust else "linear",
+        f_scale=most if robust else 1.0,
     )
-    evaluations = int(solution.nfev + 2 * len(place) * (solution.njev or 0))
-    better = 2.0 * solution.cost <= float(np.sum(target.residuals(place) ** 2))
+    evaluations = int(solution.nfev + 2 * len(place) * (solution.njev or 0)) + 1
+    better = robust or 2.0 * solution.cost <= float(np.sum(target.residuals(place) ** 2))
     return np.asarray(solution.x if better else place), evaluations
+
+
+def typical(problem: Problem, place: Floats) -> tuple[float, float]:
+    """The scatter of the weighted mean speeds at a place: their root mean square, and by the middle half alone."""
+    residuals = Speeds(problem).residuals(place)
+    return float(np.sqrt(np.mean(residuals**2))), 1.4826 * float(np.median(np.abs(residuals)))

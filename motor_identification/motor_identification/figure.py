@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from motor_identification.findings import as_table
-from motor_identification.identify import Fit
+from motor_identification.fit import Fit
 from motor_identification.intervals import Intervals, intervals_of
 from motor_identification.recording import Recording
 from motor_identification.residual import residuals

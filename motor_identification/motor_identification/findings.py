@@ -4,10 +4,16 @@ from math import isfinite, isnan
 from pathlib import Path
 from typing import Any
 
-from motor_identification.identify import Fit
+from motor_identification.fit import Fit
 from motor_model.effects import SPEC_BY_NAME
 from motor_model.model_file import save
 
+SIGNIFICANT = 1e-3  # chance below which the residual's relation to the voltage is none
+VISIBLE = 0.15  # correlation with the voltage: explains 2 % of the residual's power
+ABOVE = 1.3  # residual over noise floor, below which there is nothing to explain
+FOLLOWS = "The residual still follows the voltage: an effect is missing (diagnose names it)."
+REPEATS = 0.5  # correlation between residuals near each other, from which on they are not the encoder's
+NO_NOISE = "The residual is not noise: an effect is missing, or something unrecorded moves the motor."
 IN_WORDS = {
     "coulomb_friction": "the friction level (ks)",
     "load_bias": "a constant load (load_bias)",
@@ -50,9 +56,20 @@ def cautions(fit: Fit) -> tuple[str, ...]:
     walls = [name for name, hit in fit.on_bound.items() if hit]
     if walls:
         said.append(f"{_listed(walls)} ended on the edge of the search box: do not trust the value.")
+    if still_follows(fit):
+        said.append(FOLLOWS)
+    elif fit.whiteness.p_value < SIGNIFICANT and fit.whiteness.autocorrelation > REPEATS:
+        said.append(NO_NOISE)
     if fit.suggested_experiment:
         said.append(f"The profile '{fit.suggested_experiment}' would show it.")
     return (*said, *fit.notes)
+
+
+def still_follows(fit: Fit) -> bool:
+    """Whether what is left depends on the voltage: not by chance, visibly, and well above what the encoder leaves."""
+    left = fit.whiteness
+    related = left.input_p_value < SIGNIFICANT and abs(left.input_correlation) > VISIBLE
+    return related and fit.residual_rms > ABOVE * fit.noise_floor
 
 
 def _listed(names: tuple[str, ...] | list[str]) -> str:
@@ -85,12 +102,31 @@ def as_json(fit: Fit) -> dict[str, Any]:
         "residual_rms": _number(fit.residual_rms),
         "noise_floor": _number(fit.noise_floor),
         "r_squared": _number(fit.r_squared),
+        "correlations": {
+            name: {other: _number(value) for other, value in row.items()} for name, row in fit.correlations.items()
+        },
+        "whiteness": {
+            "p_value": _number(fit.whiteness.p_value),
+            "autocorrelation": _number(fit.whiteness.autocorrelation),
+            "lag": fit.whiteness.lag,
+        },
+        "input_correlation": {
+            "p_value": _number(fit.whiteness.input_p_value),
+            "correlation": _number(fit.whiteness.input_correlation),
+            "lag": _number(fit.whiteness.input_lag),
+        },
         "slot_irregularity": [_number(share) for share in fit.slot_irregularity],
         "not_identifiable": list(fit.not_identifiable),
         "not_told_apart": {effect: list(rivals) for effect, rivals in fit.not_told_apart.items()},
         "suggested_experiment": fit.suggested_experiment or None,
         "duration": fit.duration,
         "evaluations": fit.evaluations,
+        "search": {
+            "swarms": fit.search.swarms,
+            "descents": fit.search.descents,
+            "agreeing": fit.search.agreeing,
+            "agreed": fit.search.agreed,
+        },
         "message": sentence(fit),
     }
 

@@ -4,7 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from motor_identification.bag import read_recording
-from motor_identification.identify import Fit, Request, identify
+from motor_identification.fit import Fit
+from motor_identification.identify import Request, identify
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,8 @@
 from builtin_interfaces.msg import Time
 
 from motor_identification.findings import sentence
-from motor_identification.identify import Fit, Request
+from motor_identification.fit import Fit
+from motor_identification.identify import Request
 from motor_identification.job import Job
 from motor_msgs.msg import MotorModel
 from motor_msgs.srv import Identify

@@ -12,7 +12,7 @@ from rclpy.task import Future
 
 from motor_identification import warm_up
 from motor_identification.findings import save_model
-from motor_identification.identify import Fit
+from motor_identification.fit import Fit
 from motor_identification.job import Job, run_job
 from motor_identification.messages import fill_response, job_of
 from motor_identification.worker import Worker

@@ -10,6 +10,7 @@ from math import nan, sqrt
 
 import numpy as np
 
+from motor_identification.evidence import likely_noise
 from motor_identification.intervals import Intervals
 from motor_identification.noise import AngleNoise, Whitening, likely_growth, make_whitening, whiten
 from motor_identification.problem import Problem
@@ -17,7 +18,7 @@ from motor_identification.recording import Bools, Floats
 from motor_identification.slots import Projection, SlotTable, likely_variance, slot_index
 
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
-FIRST_GUESS = 0.003  # of a slot: irregularity to begin with
+LEAST_SHARE = 1e-4  # of a slot: irregularity to begin with at least
 MOST = 0.05  # of a slot: more irregular than this is no disc
 ROUNDS = 40  # of expectation maximisation
 OUTLIER = 8.0  # standard deviations
@@ -59,14 +60,17 @@ def _learn_one(data: Intervals, increments: Floats, angle: Floats, first_harmoni
         growth = likely_growth(noise, increments)
         return Encoder(make_whitening(noise, growth), None, 0.0, 0.0, growth)
     index = slot_index(data, angle)
-    variance, growth = (FIRST_GUESS * data.slot) ** 2, 0.0
+    # Slots and drift at once to begin with: a table learnt first would take an error of the model for its slots.
+    guess = likely_noise([(data, increments)])
+    variance, growth = (max(guess.share, LEAST_SHARE) * data.slot) ** 2, guess.growth
+    table = SlotTable(make_whitening(noise, growth), index, first_harmonic)
     for _ in range(2):
-        table = SlotTable(make_whitening(noise, growth), index, first_harmonic)
         white = whiten(table.whitening, increments)
         variance = likely_variance(table, white, variance, (MOST * data.slot) ** 2, ROUNDS)
         explained = index.increments(Projection(table, variance).best(white))
-        growth = likely_growth(noise, increments - explained)
-    table = SlotTable(make_whitening(noise, growth), index, first_harmonic)
+        before, growth = growth, likely_growth(noise, increments - explained)
+        if growth != before:  # else the table's modes are those that are known
+            table = SlotTable(make_whitening(noise, growth), index, first_harmonic)
     return Encoder(table.whitening, Projection(table, variance), data.slot, float(np.sqrt(variance)), growth)
 
 
@@ -123,4 +127,10 @@ class Refined:
 
     def jacobian(self, place: Floats) -> Floats:
         """Their derivative over the unknowns, one column each."""
-        return np.column_stack([self.white(column) for column in self.problem.jacobian(place).T])
+        columns = self.problem.jacobian(place).T
+        first = self.white(columns[0])
+        white = np.empty((len(columns), len(first)))  # filled in turn, so that an hour's columns are not there twice
+        white[0] = first
+        for row, column in zip(white[1:], columns[1:], strict=True):
+            row[:] = self.white(column)
+        return white.T

@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import replace
-from math import degrees, isnan
+from math import isnan
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +10,10 @@ import pytest
 from plant import profiles, record
 from recorded import as_counts, as_speed
 
-from motor_identification.csv_import import CsvForm, Kind, read_log
 from motor_identification.findings import as_json, as_table, cautions, save_model, sentence
-from motor_identification.identify import Fit, Request, identify
-from motor_identification.recording import Recording, check, recording_of
+from motor_identification.fit import Fit
+from motor_identification.identify import Request, identify
+from motor_identification.recording import Recording, check
 from motor_model.errors import ModelError, MotorError, RecordingError
 from motor_model.excitation import PROFILES
 from motor_model.model_file import load
@@ -68,11 +68,13 @@ def test_the_papers_experiment(papers: list[Fit]) -> None:
         assert fit.start_speeds == (0.0,)
 
 
-def test_the_swarm_alone_is_near_and_its_trace_tells(papers: list[Fit]) -> None:
+def test_the_search_tells_how_it_went(papers: list[Fit]) -> None:
     for fit in papers:
-        assert np.all(np.diff(fit.trace) <= 0.0) and len(fit.trace) <= 201
-        assert fit.trace[0] > 3.0 * fit.trace[-1] and fit.trace[-1] < 5.0
-        assert 50 * len(fit.trace) < fit.evaluations < 50 * len(fit.trace) + 1000
+        trace = fit.search.trace
+        assert np.all(np.diff(trace) <= 0.0) and 3 <= len(trace) < 60
+        assert trace[0] > 3.0 * trace[-1] and trace[-1] < 5.0
+        assert fit.search.agreed and 2 <= fit.search.agreeing <= fit.search.descents
+        assert 40 < fit.evaluations < 1000
 
 
 def test_a_seed_is_a_result() -> None:
@@ -80,9 +82,9 @@ def test_a_seed_is_a_result() -> None:
     one, same = (identify([recording], quick("coulomb_friction", seed=3)) for _ in range(2))
     parallel = identify([recording], replace(quick("coulomb_friction", seed=3), workers=2))
     assert one.parameters == same.parameters == parallel.parameters
-    assert one.standard_errors == same.standard_errors and np.array_equal(one.trace, parallel.trace)
+    assert one.standard_errors == same.standard_errors and np.array_equal(one.search.trace, parallel.search.trace)
     other = identify([recording], quick("coulomb_friction", seed=4))
-    assert not np.array_equal(one.trace, other.trace)
+    assert not np.array_equal(one.search.trace, other.search.trace)
     assert all(abs(value / one.parameters.values[name] - 1.0) < 1e-6 for name, value in other.parameters.values.items())
 
 
@@ -315,20 +317,3 @@ def test_requests_that_cannot_be_met_are_refused() -> None:
             MotorError, match="particles must be at least 2, epochs at least 1, and the seed not negative"
         ):
             Request(**wrong)
-
-
-UNDC = Path(__file__).resolve().parents[3] / "shared/data/undc/prbs_2026-08-14.csv"
-
-
-@pytest.mark.skipif(not UNDC.exists(), reason="the measured data are not part of the repository")
-def test_a_real_motors_log() -> None:
-    form = CsvForm(time="t", voltage="u", motion="y", kind=Kind.SPEED, unit="deg/s", edges_per_revolution=2800)
-    log = read_log(UNDC, form)
-    recording = check(recording_of(log.runs[0].samples, log.info, "prbs"))
-    fit = identify([recording], quick("coulomb_friction", "transport_delay"))
-    assert 155.0 < degrees(fit.parameters.gain) < 165.0  # deg/s/V
-    assert 0.033 < fit.parameters.time_constant < 0.042
-    assert 2.0 < degrees(fit.residual_rms) < 3.5 and 2.4 < degrees(fit.noise_floor) < 2.8
-    assert 0.2 < fit.parameters.values["ks"] < 0.35 and 0.005 < fit.parameters.values["delay"] < 0.015
-    assert "The friction level (ks) cannot be told from a constant load (load_bias)" in sentence(fit)
-    assert fit.not_identifiable == () and not any(fit.on_bound.values())

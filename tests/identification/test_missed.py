@@ -38,6 +38,15 @@ def test_the_motor_is_found_all_the_same_and_the_loss_is_said(miss_rate: float) 
     assert 0.9 < fit.residual_rms / fit.noise_floor < 1.1
 
 
+def test_so_many_that_they_pull_the_first_fit_with_them() -> None:
+    """3 % of the edges: every tenth interval is false, and a plain fit is off by 5 %."""
+    recording, _ = record(TRUE | {"miss_rate": 0.03}, *profiles.staircase(12.0, 4, 0.25), irregularity=0.005, seed=0)
+    fit = identify([check(recording)], Request(("coulomb_friction",), particles=20))
+    for name, true in TRUE.items():
+        assert fit.parameters.value(name) == pytest.approx(true, rel=3e-4)
+    assert 0.9 < fit.residual_rms / fit.noise_floor < 1.15
+
+
 def test_nothing_is_left_out_of_a_clean_recording() -> None:
     recording, _ = record(TRUE, *profiles.staircase(), irregularity=0.01, seed=5)
     fit = identify([check(recording)], Request(("coulomb_friction",), particles=20))

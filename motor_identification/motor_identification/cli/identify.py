@@ -13,7 +13,7 @@ from motor_model.effects import EFFECTS
 from motor_model.errors import MotorError
 
 if TYPE_CHECKING:
-    from motor_identification.identify import Fit
+    from motor_identification.fit import Fit
 
 
 def parser() -> argparse.ArgumentParser:
@@ -30,8 +30,8 @@ def parser() -> argparse.ArgumentParser:
     parser.add_argument("--topic-namespace", default="", metavar="NS", help="of the recorded motor")
     parser.add_argument("--start", type=float, default=0.0, metavar="S", help="from here [s] (default: the beginning)")
     parser.add_argument("--stop", type=float, default=0.0, metavar="S", help="to here [s] (default: the end)")
-    parser.add_argument("--particles", type=int, default=50, metavar="N", help="of the swarm (default 50)")
-    parser.add_argument("--epochs", type=int, default=200, metavar="N", help="of the swarm at most (default 200)")
+    parser.add_argument("--particles", type=int, default=50, metavar="N", help="of a swarm at most (default 50)")
+    parser.add_argument("--epochs", type=int, default=200, metavar="N", help="of a swarm at most (default 200)")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the swarm (default 0)")
     parser.add_argument("--output", metavar="FILE", help="write the model here (YAML)")
     parser.add_argument("--json", metavar="FILE", help="write everything that was found here")
@@ -56,7 +56,7 @@ def _identify(options: argparse.Namespace) -> int:
     effects = tuple(name.strip() for name in options.effects.split(",") if name.strip())
     request = Request(effects, options.particles, options.epochs, options.seed, os.cpu_count() or 1)
     job = Job(tuple(options.bags), request, options.topic_namespace, options.start, options.stop)
-    with tqdm(total=100, desc="swarm", delay=2.0, disable=None, bar_format="{desc} {bar} {percentage:3.0f} %") as bar:
+    with tqdm(total=100, desc="search", delay=2.0, disable=None, bar_format="{desc} {bar} {percentage:3.0f} %") as bar:
 
         def show(stage: str, share: float) -> None:
             bar.set_description(stage, refresh=False)

@@ -1,0 +1,170 @@
+"""Real motors, recorded by others: what the workbench finds in their logs, and that it says what they cannot show."""
+
+from math import degrees
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.agreement import dissents, sentence_of
+from motor_identification.csv_import import CsvForm, Kind, read_log
+from motor_identification.findings import sentence
+from motor_identification.fit import Fit
+from motor_identification.identify import Request, identify
+from motor_identification.problem import make_problem
+from motor_identification.recording import Recording, check, recording_of
+from motor_identification.refine import Refined, learn
+
+DATA = Path(__file__).resolve().parents[3] / "shared/data"
+pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="the measured data are not part of the repository")
+
+STEPS = CsvForm(
+    "t_s", "duty_pct", "pos_deg", Kind.POSITION, "deg", voltage_scale=0.074, split="duty_pct", rest_until=0.0
+)
+UNDC = {
+    "prbs": ("prbs_2026-08-14.csv", CsvForm("t", "u", "y", Kind.SPEED, "deg/s", edges_per_revolution=2800)),
+    "static": (
+        "static_2026-08-17.csv",
+        CsvForm(None, "u", "y", Kind.SPEED, "deg/s", edges_per_revolution=2800, speed_window=1.0),
+    ),
+    "step": (
+        "step_closed_2026-08-11.csv",
+        CsvForm("t", "u", "y", Kind.SPEED, "deg/s", edges_per_revolution=2800, voltage_before=True),
+    ),
+    "stairs": (
+        "stairs_closed_2026-08-11.csv",
+        CsvForm("t", "u", "y", Kind.SPEED, "deg/s", edges_per_revolution=2800, voltage_before=True, max_voltage=5.0),
+    ),
+}
+SLIDING = ("coulomb_friction", "transport_delay")
+
+
+def ev3(which: str = "") -> list[Recording]:
+    """The steps of one direction, "-" or "+", or all."""
+    log = read_log(DATA / "ev3/steps_1s.csv", STEPS)
+    wanted = {"": (-1.0, 1.0), "+": (1.0,), "-": (-1.0,)}[which]
+    runs = [run for run in log.runs if np.sign(run.samples[0].voltage) in wanted]
+    return [check(recording_of(run.samples, log.info, run.label)) for run in runs]
+
+
+def undc(*names: str) -> list[Recording]:
+    made = []
+    for name in names:
+        file, form = UNDC[name]
+        log = read_log(DATA / "undc" / file, form)
+        made.append(check(recording_of(log.runs[0].samples, log.info, name)))
+    return made
+
+
+def contradictions(recordings: list[Recording], fit: Fit) -> list[str]:
+    """Which recordings contradict the common motor."""
+    problem = make_problem(recordings, fit.parameters.effects)
+    unknowns = problem.unknowns
+    values = np.array([fit.parameters.values[name] for name in unknowns.names])
+    logarithmic = unknowns.logarithmic[: len(values)]
+    place = np.where(logarithmic, np.log(np.where(logarithmic, values, 1.0)), values)
+    place = np.concatenate([place, np.array(fit.start_speeds)[unknowns.turning]])
+    found = dissents(Refined(problem, learn(problem, place)), place)
+    assert [one.uri for one in found] == [recording.uri for recording in recordings]
+    for one in found:
+        assert sentence_of(one).startswith(f"{one.uri} contradicts the other recordings: ")
+    return [one.uri for one in found if one.disagrees]
+
+
+def within(fit: Fit, name: str, low: float, high: float, least: float, most: float) -> None:
+    """The value in one interval, its standard error in another."""
+    assert low < fit.parameters.values[name] < high, fit.parameters.values
+    assert least < fit.standard_errors[name] < most, fit.standard_errors
+
+
+def test_steps_of_an_ev3_motor_in_both_directions() -> None:
+    """Counts of whole degrees at jittering instants, 5 levels each way from rest: all five effects at once."""
+    fit = identify(ev3(), Request((*SLIDING, "direction_asymmetry")))
+    assert 0.060 < fit.parameters.time_constant < 0.075  # promised: 50 to 80 ms
+    within(fit, "kv", 0.490, 0.506, 0.0008, 0.008)
+    within(fit, "reverse_gain", 0.945, 0.970, 0.0013, 0.010)  # reverse is slower by 3 to 5.5 %
+    within(fit, "ks", 0.22, 0.29, 0.005, 0.04)  # 3 to 4 % of 7.4 V
+    within(fit, "delay", 0.012, 0.022, 0.001, 0.006)  # the authors' starts are 10 to 34 ms late
+    assert fit.not_identifiable == () and not any(fit.on_bound.values())
+    assert 0.9 < fit.residual_rms / fit.noise_floor < 1.2  # one degree of count and a millisecond of jitter explain it
+    assert "dead_zone" in fit.not_told_apart["coulomb_friction"]  # steps from rest, never braked: that is how it is
+    assert fit.start_speeds == (0.0,) * 10
+
+
+def test_an_ev3_motor_is_faster_forward_than_in_reverse() -> None:
+    forward, reverse = (identify(ev3(way), Request(SLIDING)) for way in "+-")
+    for fit in (forward, reverse):
+        assert 0.055 < fit.parameters.time_constant < 0.080
+        assert 0.008 < fit.parameters.values["delay"] < 0.026
+        assert 0.19 < fit.parameters.values["ks"] < 0.33
+    top = [(7.4 - fit.parameters.values["ks"]) / fit.parameters.values["kv"] for fit in (forward, reverse)]
+    assert 14.3 < top[0] < 14.9 and 13.4 < top[1] < 14.0  # the authors: 14.68 and 13.96 rad/s
+    assert 1.04 < top[0] / top[1] < 1.08
+    apart = reverse.parameters.values["kv"] - forward.parameters.values["kv"]
+    assert 4.0 < apart / np.hypot(*(fit.standard_errors["kv"] for fit in (forward, reverse))) < 25.0
+
+
+def test_without_the_instant_of_the_command_there_is_no_delay_to_see() -> None:
+    """The rows begin 10 to 24 ms after the command; --rest-until puts the beginning where it was."""
+    log = read_log(DATA / "ev3/steps_1s.csv", CsvForm(**{**STEPS.__dict__, "rest_until": None}))
+    late = [check(recording_of(run.samples, log.info, run.label)) for run in log.runs]
+    fit = identify(late, Request((*SLIDING, "direction_asymmetry")))
+    assert fit.parameters.values["delay"] < 0.011
+    for recording, whole in zip(late, ev3(), strict=True):
+        assert 0.009 < whole.duration - recording.duration < 0.025 and len(whole) == len(recording) + 1
+
+
+def test_a_random_telegraph_voltage_on_a_gearmotor() -> None:
+    fit = identify(undc("prbs"), Request(SLIDING))
+    assert 160.5 < degrees(fit.parameters.gain) < 162.5  # deg/s/V
+    assert 0.0365 < fit.parameters.time_constant < 0.0387
+    within(fit, "ks", 0.265, 0.285, 0.0003, 0.01)
+    within(fit, "delay", 0.0090, 0.0098, 1e-5, 3e-4)
+    assert 2.7 < degrees(fit.residual_rms) < 3.0 and 2.5 < degrees(fit.noise_floor) < 2.75
+    assert "The friction level (ks) cannot be told from a constant load (load_bias)" in sentence(fit)
+    assert fit.not_identifiable == () and not any(fit.on_bound.values())
+
+
+def test_a_static_curve_and_a_closed_loop_step_find_the_gearmotor_without_the_random_voltage() -> None:
+    """14 steady states tell friction from gain, 2 s of a step say the rest: other days, other friction, same delay."""
+    fit = identify(undc("static", "step"), Request(SLIDING))
+    assert 158.5 < degrees(fit.parameters.gain) < 161.0
+    assert 0.034 < fit.parameters.time_constant < 0.038
+    within(fit, "ks", 0.16, 0.215, 0.003, 0.03)
+    within(fit, "delay", 0.0075, 0.0105, 2e-4, 4e-3)
+    assert set(fit.not_told_apart["coulomb_friction"]) == {"load_bias", "dead_zone"}  # still one way only
+
+
+def test_a_controller_that_logs_its_last_voltage() -> None:
+    """With the voltage a sample late no motor fits the step; as it was applied one does, almost to the floor."""
+    file, form = UNDC["step"]
+    rms = []
+    for before in (False, True):
+        log = read_log(DATA / "undc" / file, CsvForm(**{**form.__dict__, "voltage_before": before}))
+        fit = identify([check(recording_of(log.runs[0].samples, log.info, "step"))], Request(SLIDING))
+        rms.append(degrees(fit.residual_rms))
+    assert 3.6 < rms[0] < 4.2 and 2.6 < rms[1] < 3.0
+
+
+def test_recordings_of_other_days_contradict_each_other_and_that_is_seen() -> None:
+    """Friction was 0.275 V on one day and 0.19 V on another; the common fit follows the longest recording."""
+    recordings = undc("prbs", "static", "step")
+    fit = identify(recordings, Request(SLIDING))
+    assert {"static", "step"} <= set(contradictions(recordings, fit)) <= {"prbs", "static", "step"}
+    (prbs,) = undc("prbs")
+    parts = [prbs.between(start, start + 20.0) for start in (0.0, 20.5, 41.0, 61.5)]
+    assert contradictions(parts, identify(parts, Request(SLIDING))) == []
+    steps = ev3()
+    assert contradictions(steps, identify(steps, Request((*SLIDING, "direction_asymmetry")))) == []
+
+
+def test_closed_loop_stairs_on_a_coasting_bridge() -> None:
+    """They run at 0.4 to 1.6 V as fast as the others at twice that: another bridge mode, which the log does not say."""
+    (stairs,) = undc("stairs")
+    braking = identify([stairs], Request(SLIDING))
+    coasting = identify([stairs], Request(("coulomb_friction", "coast_drive")))
+    assert degrees(braking.residual_rms) > 40.0 and 3.5 < degrees(coasting.residual_rms) < 4.8
+    assert 0.93 < coasting.parameters.values["coast_share"] < 0.97
+    assert 160.0 < degrees(coasting.parameters.gain) < 172.0
+    recordings = undc("prbs", "stairs")
+    assert "stairs" in contradictions(recordings, identify(recordings, Request(SLIDING)))
