@@ -1,8 +1,9 @@
 """Accuracy of kv and ka from the paper's experiment (10 V step, 1 s, 4 µs timer) over the resolution of the encoder.
 
-Three columns for each: the Gaussian-equivalent Cramér–Rao bound of all reported edges, our fit, and the paper's method
-(least squares on the sampled period speed). RMS relative errors over starting angles; bounds for irregular discs have
-the slot table marginalised.
+Four columns for each: the Gaussian-equivalent Cramér–Rao bound of all reported edges, our fit, the paper's method
+(least squares of a simulation on the sampled period speed) and the regression that WPILib's SysId does (acceleration,
+differentiated from that speed, on speed and voltage; see `regression.py`; one level of voltage leaves friction out).
+RMS relative errors over starting angles; bounds for irregular discs have the slot table marginalised.
 """
 
 import os
@@ -14,6 +15,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matric
 import numpy as np
 from machine import machine
 from numpy.typing import NDArray
+from regression import regress
 from scipy.optimize import least_squares
 
 from motor_identification.identify import Request, identify
@@ -24,11 +26,16 @@ from motor_model.board import BoardConfig, SimulatedBoard
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters, paper_motor
 from motor_model.simulate import simulate
 
-EDGES = (6, 24, 96, 200, 500)
+EDGES = (6, 24, 48, 96, 200, 500, 1000)
 ANGLES = {96: 60}  # starting angles; 15 for the others
 TRUE = np.array([PAPER_KV, PAPER_KA])
 RESULTS = Path(__file__).with_name("results")
-STYLES = (("bound", "black", "--"), ("ours", "#c2410c", "-"), ("the paper's method", "#1d4ed8", "-"))
+STYLES = (
+    ("bound", "black", "--"),
+    ("ours", "#c2410c", "-"),
+    ("the paper's method", "#1d4ed8", "-"),
+    ("SysId's regression", "#4d7c0f", "-"),
+)
 Floats = NDArray[np.float64]
 
 
@@ -57,6 +64,15 @@ def papers(recording: Recording) -> Floats:
     return np.asarray(np.exp(least_squares(residuals, np.log(TRUE), x_scale=0.1).x) / TRUE - 1.0)
 
 
+def sysids(recording: Recording) -> Floats:
+    """The same for the regression of acceleration on speed and voltage."""
+    gains = regress(recording, friction=False)
+    return np.array([gains["kv"], gains["ka"]]) / TRUE - 1.0
+
+
+METHODS = (ours, papers, sysids)
+
+
 def bound(recording: Recording, slots: bool) -> Floats:
     """Standard deviations that no unbiased fit of these edges beats (Gaussian noise of the tick's variance)."""
     problem = make_problem([recording], ())
@@ -82,10 +98,10 @@ def bound(recording: Recording, slots: bool) -> Floats:
 
 
 def row(edges: int, irregularity: float) -> list[float]:
-    """Bound, ours, the paper's: kv and ka of each."""
+    """Bound, ours, the paper's, the regression's: kv of each, then ka of each."""
     recordings = [experiment(edges, irregularity, seed) for seed in range(ANGLES.get(edges, 15))]
     bounds = np.sqrt(np.mean([bound(r, irregularity > 0.0) ** 2 for r in recordings[:10]], axis=0))
-    errors = [np.sqrt(np.mean(np.square([method(r) for r in recordings]), axis=0)) for method in (ours, papers)]
+    errors = [np.sqrt(np.mean(np.square([method(r) for r in recordings]), axis=0)) for method in METHODS]
     return [float(v) for pair in zip(bounds, *errors, strict=True) for v in pair]
 
 
@@ -98,8 +114,9 @@ def main() -> int:
         "The paper's experiment (10 V for 1 s from rest, 4 µs timer); RMS relative errors over 60 starting angles at",
         f"96 edges and 15 elsewhere. {machine()}.",
         "",
-        "| edges/rev | slots | kv: bound | ours | paper's method | ka: bound | ours | paper's method |",
-        "|---:|---|---:|---:|---:|---:|---:|---:|",
+        "| edges/rev | slots | kv: bound | ours | paper's method | regression "
+        "| ka: bound | ours | paper's method | regression |",
+        "|---:|---|---:|---:|---:|---:|---:|---:|---:|---:|",
     ]
     table: dict[float, list[list[float]]] = {}
     for irregularity in (0.0, 0.01):
@@ -122,7 +139,7 @@ def draw(table: dict[float, list[list[float]]]) -> None:
     from matplotlib import pyplot as plt
 
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.5), sharey=True, constrained_layout=True)
-    for axis, name, first in zip(axes, ("kv", "ka"), (0, 3), strict=True):
+    for axis, name, first in zip(axes, ("kv", "ka"), (0, len(STYLES)), strict=True):
         for irregularity, rows in table.items():
             alpha, marker = (1.0, "o") if irregularity == 0.0 else (0.45, "s")
             disc = "perfect disc" if irregularity == 0.0 else "1 % irregular"
