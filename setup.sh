@@ -96,6 +96,23 @@ if [ ${#missing[@]} -gt 0 ]; then
   [ ${#missing[@]} -eq 0 ] || stop "$python still does not find: ${missing[*]}; install them for it, or set MOTOR_PYTHON to another Python."
 fi
 
+# ---------------------------------------------------------------- the emulated board: wanted, not needed
+board=()
+command -v avr-gcc >/dev/null || board+=(gcc-avr)
+[ -f /usr/lib/avr/include/avr/io.h ] || board+=(avr-libc)
+[ -f /usr/include/simavr/sim_avr.h ] || board+=(libsimavr-dev)
+[ -f /usr/include/libelf.h ] || board+=(libelf-dev)
+install_board() {
+  type apt-get && "${as_root[@]}" apt-get update && "${as_root[@]}" apt-get install -y --no-install-recommends "${board[@]}"
+}
+if [ ${#board[@]} -gt 0 ]; then
+  as_root=(env DEBIAN_FRONTEND=noninteractive)
+  [ "$(id -u)" -eq 0 ] || as_root=(sudo -n "${as_root[@]}") # no password is asked for what is only wanted
+  say "installing for the emulated board: ${board[*]}"
+  install_board >>"$log" 2>&1 ||
+    say "that could not be done: there is no emulated board until you install ${board[*]}; all else works."
+fi
+
 # ---------------------------------------------------------------- .venv
 wanted="Python $("$python" -c 'import sys; print(*sys.version_info[:2], sep=".")') and $kind, in $root"
 if from_pypi; then lock=requirements/everything.lock; else lock=requirements/beside_ros.lock; fi

@@ -1,0 +1,226 @@
+/* The chip itself: its program, its pins, its resets. */
+#include <simavr/avr_adc.h>
+#include <simavr/avr_ioport.h>
+#include <simavr/avr_timer.h>
+#include <simavr/avr_uart.h>
+#include <simavr/sim_elf.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "inside.h"
+
+#define FREQUENCY 16000000
+#define SETTLE 80         /* cycles from the first change of a pin to the last one of the same write */
+#define RUN_LIMIT 1000000 /* cycles that simavr may run without looking up; falls back to 1 at every reset */
+
+/* Addresses in data space (ATmega328P data sheet, chapter 30). */
+enum { DDRD = 0x2A, PORTD = 0x2B, TCCR0A = 0x44, OCR0A = 0x47, OCR0B = 0x48, TIMSK1 = 0x6F, TCCR1B = 0x81, TCCR2A = 0xB0, OCR2B = 0xB4 };
+enum { COMXA1 = 0x80, COMXB1 = 0x20, OCIE1A = 2, PIN_ENABLE = 3, PIN_FORWARD = 5, PIN_REVERSE = 6 };
+
+static void touch(struct chip *chip)
+{
+    chip->written = chip->avr->cycle;
+    if (!chip->settle) {
+        chip->settle = chip->avr->cycle + SETTLE;
+        traffic_arm(chip);
+    }
+}
+
+static void on_pin(avr_irq_t *irq, uint32_t value, void *param)
+{
+    (void)irq;
+    (void)value;
+    touch(param);
+}
+
+static void on_register(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
+{
+    (void)avr;
+    (void)address;
+    (void)value;
+    touch(param);
+}
+
+static void on_clock_start(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
+{
+    (void)address;
+    if (value & 7) {
+        ((struct chip *)param)->clock_zero = avr->cycle;
+    }
+}
+
+/* A reset wipes all cycle timers, ours too. */
+static void on_reset(avr_io_t *io)
+{
+    struct chip *chip = (struct chip *)((char *)io - offsetof(struct chip, io));
+    chip->resets++;
+    chip->avr->run_cycle_limit = RUN_LIMIT;
+    chip->feed_stopped = 0;
+    chip->settle = 0;
+    chip->depth = 0;
+    touch(chip);
+}
+
+static void connect(struct chip *chip)
+{
+    avr_t *avr = chip->avr;
+    uint32_t no_flags = 0;
+    chip->supply = avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_ADC0);
+    avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &no_flags);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), IOPORT_IRQ_REG_PORT), on_pin, chip);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), IOPORT_IRQ_DIRECTION_ALL), on_pin, chip);
+    for (int pwm = 0; pwm < 2; pwm++) {
+        avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_TIMER_GETIRQ('0'), TIMER_IRQ_OUT_PWM0 + pwm), on_pin, chip);
+        avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_TIMER_GETIRQ('2'), TIMER_IRQ_OUT_PWM0 + pwm), on_pin, chip);
+    }
+    avr_register_io_write(avr, TCCR0A, on_register, chip);
+    avr_register_io_write(avr, TCCR2A, on_register, chip);
+    avr_register_io_write(avr, TCCR1B, on_clock_start, chip);
+    traffic_connect(chip);
+    load_connect(chip);
+}
+
+static void be_quiet(avr_t *avr, const int level, const char *format, va_list arguments)
+{
+    (void)avr;
+    (void)level;
+    (void)format;
+    (void)arguments;
+}
+
+struct chip *chip_open(const char *elf)
+{
+    static elf_firmware_t firmware; /* large, and zeroed */
+    struct chip *chip = calloc(1, sizeof *chip);
+    avr_global_logger_set(be_quiet);
+    memset(&firmware, 0, sizeof firmware);
+    avr_t *avr = chip ? avr_make_mcu_by_name("atmega328p") : NULL;
+    if (!avr || elf_read_firmware(elf, &firmware) != 0) {
+        free(chip);
+        return NULL;
+    }
+    chip->avr = avr;
+    chip->until = UINT64_MAX / 2;
+    avr_init(avr);
+    avr->custom.data = chip;
+    avr->frequency = FREQUENCY;
+    avr->vcc = avr->avcc = avr->aref = 5000;
+    avr_load_firmware(avr, &firmware);
+    free(firmware.flash);
+    avr->frequency = FREQUENCY;
+    chip->io.kind = "lockstep";
+    chip->io.reset = on_reset;
+    avr_register_io(avr, &chip->io);
+    connect(chip);
+    avr->run_cycle_limit = RUN_LIMIT;
+    return chip;
+}
+
+void chip_close(struct chip *chip)
+{
+    /* Our io is part of `chip`: simavr must not free it. */
+    avr_io_t **link = &chip->avr->io_port;
+    while (*link && *link != &chip->io) {
+        link = &(*link)->next;
+    }
+    if (*link) {
+        *link = chip->io.next;
+    }
+    avr_terminate(chip->avr);
+    free(chip->avr);
+    free(chip);
+}
+
+uint64_t chip_cycle(const struct chip *chip)
+{
+    return chip->avr->cycle;
+}
+
+static uint16_t level(const uint8_t *data, int pin, int control, int bit, int compare)
+{
+    if (!(data[DDRD] & 1 << pin)) {
+        return 0;
+    }
+    if (data[control] & bit) {
+        return (uint16_t)(data[compare] + 1);
+    }
+    return data[PORTD] & 1 << pin ? 256 : 0;
+}
+
+struct chip_pins chip_pins(const struct chip *chip)
+{
+    const uint8_t *data = chip->avr->data;
+    return (struct chip_pins){
+        .enable = level(data, PIN_ENABLE, TCCR2A, COMXB1, OCR2B),
+        .forward = level(data, PIN_FORWARD, TCCR0A, COMXB1, OCR0B),
+        .reverse = level(data, PIN_REVERSE, TCCR0A, COMXA1, OCR0A),
+    };
+}
+
+uint64_t chip_written(const struct chip *chip)
+{
+    return chip->written;
+}
+
+static int pins_changed(struct chip *chip)
+{
+    struct chip_pins pins = chip_pins(chip), old = chip->pins;
+    chip->settle = 0;
+    chip->pins = pins;
+    return pins.enable != old.enable || pins.forward != old.forward || pins.reverse != old.reverse;
+}
+
+int chip_run(struct chip *chip, uint64_t until)
+{
+    avr_t *avr = chip->avr;
+    chip->until = until;
+    traffic_arm(chip);
+    while (avr->cycle < until) {
+        int state = avr_run(avr);
+        if (state == cpu_Done || state == cpu_Crashed) {
+            return CHIP_CRASHED;
+        }
+        if (chip->settle && avr->cycle >= chip->settle && pins_changed(chip)) {
+            return CHIP_OUTPUT_CHANGED;
+        }
+    }
+    return CHIP_REACHED;
+}
+
+void chip_reset(struct chip *chip)
+{
+    avr_t *avr = chip->avr;
+    chip->feed_out = chip->feed_in;
+    avr_reset(avr);
+    avr->data[0x54] = 0x02; /* MCUSR: external reset */
+}
+
+uint32_t chip_resets(const struct chip *chip)
+{
+    return chip->resets;
+}
+
+uint64_t chip_clock_zero(const struct chip *chip)
+{
+    return chip->clock_zero;
+}
+
+void chip_hang(struct chip *chip, int how)
+{
+    avr_t *avr = chip->avr;
+    if (how == CHIP_TICKLESS) {
+        avr->data[TIMSK1] &= (uint8_t)~OCIE1A;
+        return;
+    }
+    avr_flashaddr_t end = avr->flashend - 1;
+    avr->flash[end] = 0xFF; /* rjmp to itself */
+    avr->flash[end + 1] = 0xCF;
+    avr->pc = end;
+    avr->state = cpu_Running;
+    avr->sreg[S_I] = how == CHIP_LOOPING;
+}
+
+void chip_supply(struct chip *chip, uint32_t millivolts)
+{
+    avr_raise_irq(chip->supply, millivolts);
+}

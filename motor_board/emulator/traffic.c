@@ -1,0 +1,154 @@
+/* Edges and bytes that go in at given cycles, and bytes that come out. */
+#include <simavr/avr_ioport.h>
+#include <simavr/avr_uart.h>
+#include <simavr/sim_cycle_timers.h>
+
+#include "inside.h"
+
+#define CYCLES_PER_BYTE 320 /* 500 kbaud, 8N1 */
+#define PULSE 64            /* cycles that the encoder's pin stays high */
+
+static avr_cycle_count_t on_timer(avr_t *avr, avr_cycle_count_t when, void *param);
+
+static uint64_t next_event(const struct chip *chip)
+{
+    uint64_t next = chip->until;
+    if (chip->edge_out != chip->edge_in && chip->edges[chip->edge_out % EDGES].cycle < next) {
+        next = chip->edges[chip->edge_out % EDGES].cycle;
+    }
+    if (chip->fall && chip->fall < next) {
+        next = chip->fall;
+    }
+    if (chip->settle && chip->settle < next) {
+        next = chip->settle;
+    }
+    if (chip->feed_out != chip->feed_in && chip->feed_next < next) {
+        next = chip->feed_next;
+    }
+    return next;
+}
+
+void traffic_arm(struct chip *chip)
+{
+    uint64_t next = next_event(chip), now = chip->avr->cycle;
+    avr_cycle_timer_register(chip->avr, next > now ? next - now : 1, on_timer, chip);
+}
+
+/* Timers come up to 3 cycles late: the pin changes as if it were `cycle`. */
+static void raise_at(struct chip *chip, avr_irq_t *irq, uint32_t value, uint64_t cycle)
+{
+    uint64_t now = chip->avr->cycle;
+    chip->avr->cycle = cycle;
+    avr_raise_irq(irq, value);
+    chip->avr->cycle = now;
+}
+
+static void pass_edges(struct chip *chip)
+{
+    uint64_t now = chip->avr->cycle;
+    while (chip->edge_out != chip->edge_in && chip->edges[chip->edge_out % EDGES].cycle <= now) {
+        uint64_t cycle = chip->edges[chip->edge_out % EDGES].cycle;
+        avr_raise_irq(chip->edge, 0);
+        avr_raise_irq(chip->direction, chip->edges[chip->edge_out % EDGES].reverse);
+        raise_at(chip, chip->edge, 1, cycle);
+        chip->fall = cycle + PULSE;
+        chip->edge_out++;
+    }
+    if (chip->fall && chip->fall <= now) {
+        avr_raise_irq(chip->edge, 0);
+        chip->fall = 0;
+    }
+}
+
+static void pass_bytes(struct chip *chip)
+{
+    uint64_t now = chip->avr->cycle;
+    while (chip->feed_out != chip->feed_in && chip->feed_next <= now) {
+        if (!chip->feed_stopped) {
+            avr_raise_irq(chip->input, chip->feed[chip->feed_out++ % BYTES]);
+        }
+        chip->feed_next += CYCLES_PER_BYTE;
+    }
+}
+
+static avr_cycle_count_t on_timer(avr_t *avr, avr_cycle_count_t when, void *param)
+{
+    struct chip *chip = param;
+    (void)when;
+    pass_edges(chip);
+    pass_bytes(chip);
+    uint64_t next = next_event(chip);
+    return next > avr->cycle ? next : avr->cycle + 1;
+}
+
+static void on_byte_out(avr_irq_t *irq, uint32_t value, void *param)
+{
+    struct chip *chip = param;
+    (void)irq;
+    if (chip->drain_in - chip->drain_out < BYTES) {
+        chip->drain[chip->drain_in % BYTES] = (uint8_t)value;
+        chip->drain_cycle[chip->drain_in++ % BYTES] = chip->avr->cycle;
+    }
+}
+
+static void on_flow(avr_irq_t *irq, uint32_t value, void *param)
+{
+    (void)irq;
+    if (value) {
+        ((struct chip *)param)->feed_stopped = 1;
+    }
+}
+
+static void on_flow_again(avr_irq_t *irq, uint32_t value, void *param)
+{
+    (void)irq;
+    if (value) {
+        ((struct chip *)param)->feed_stopped = 0;
+    }
+}
+
+void traffic_connect(struct chip *chip)
+{
+    avr_t *avr = chip->avr;
+    chip->edge = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 0);
+    chip->direction = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), 7);
+    chip->input = avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT), on_byte_out, chip);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUT_XOFF), on_flow, chip);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUT_XON), on_flow_again, chip);
+}
+
+size_t chip_edges(struct chip *chip, uint64_t after, const uint64_t *cycles, const uint8_t *reverse, size_t count)
+{
+    size_t added = 0;
+    while (chip->edge_in != chip->edge_out && chip->edges[(chip->edge_in - 1) % EDGES].cycle > after) {
+        chip->edge_in--;
+    }
+    for (; added < count && chip->edge_in - chip->edge_out < EDGES; added++) {
+        chip->edges[chip->edge_in % EDGES].cycle = cycles[added];
+        chip->edges[chip->edge_in++ % EDGES].reverse = reverse[added];
+    }
+    return added;
+}
+
+size_t chip_feed(struct chip *chip, const uint8_t *bytes, size_t count)
+{
+    size_t added = 0;
+    if (chip->feed_in == chip->feed_out && chip->feed_next < chip->avr->cycle) {
+        chip->feed_next = chip->avr->cycle;
+    }
+    for (; added < count && chip->feed_in - chip->feed_out < BYTES; added++) {
+        chip->feed[chip->feed_in++ % BYTES] = bytes[added];
+    }
+    return added;
+}
+
+size_t chip_drain(struct chip *chip, uint8_t *bytes, uint64_t *cycles, size_t room)
+{
+    size_t taken = 0;
+    for (; taken < room && chip->drain_out != chip->drain_in; taken++) {
+        bytes[taken] = chip->drain[chip->drain_out % BYTES];
+        cycles[taken] = chip->drain_cycle[chip->drain_out++ % BYTES];
+    }
+    return taken;
+}

@@ -1,0 +1,164 @@
+/* The motor's board: interrupts feed `device`, the main loop moves frames and holds off the watchdog. */
+#include "main.h"
+
+#include <avr/cpufunc.h>
+#include <avr/interrupt.h>
+#include <avr/io.h>
+#include <avr/sleep.h>
+#include <avr/wdt.h>
+#include <util/atomic.h>
+
+#include "bridge.h"
+#include "clock.h"
+#include "config.h"
+#include "device.h"
+#include "frame.h"
+#include "serial.h"
+#include "supply.h"
+
+/* Measured in the emulator [tick]. */
+#define SEAL_TICKS 254u /* from a pong's time being taken to its first byte going out */
+#define LEAD 32u        /* from the compare match to the pins following it (222 to 274 cycles) */
+
+static const struct device_config config = {
+    .board = WIRE_BOARD_ATMEGA328P,
+    .board_id = MOTOR_BOARD_ID,
+    .edges_per_revolution = MOTOR_EDGES_PER_REVOLUTION,
+    .channels = MOTOR_CHANNELS,
+    .tick_ns = CLOCK_TICK_NS,
+    .top = BRIDGE_TOP,
+    .ticks_per_ms = CLOCK_TICKS_PER_MS,
+    .shortest_period = CLOCK_TICKS_PER_MS,
+    .first_period = 5 * CLOCK_TICKS_PER_MS,
+    .lead = LEAD,
+    .first_timeout = 100,
+    .first_decay = WIRE_DECAY_BRAKE,
+};
+
+volatile bool main_woken;
+
+static struct device device;
+static struct frame_reader reader;
+static volatile bool ticking; /* the compare interrupt has run since the watchdog was fed */
+
+static uint8_t boot __attribute__((section(".noinit"))); /* outlives a reset, not a power-down */
+static uint8_t reset_cause __attribute__((section(".noinit")));
+
+/* Runs before main: after a watchdog reset the watchdog stays on, at its shortest time. */
+void stop_watchdog(void) __attribute__((naked, used, section(".init3")));
+void stop_watchdog(void)
+{
+    reset_cause = MCUSR;
+    MCUSR = 0;
+    wdt_disable();
+}
+
+uint32_t main_now(void)
+{
+    return clock_now(&device.edges);
+}
+
+ISR(TIMER1_CAPT_vect)
+{
+    uint16_t counter = ICR1;
+    bool reverse = MOTOR_CHANNELS == 2 && (PIND & _BV(PD7)); /* D7 */
+    device_capture(&device, counter, clock_overflow_pending(), reverse);
+}
+
+ISR(TIMER1_OVF_vect)
+{
+    device_overflow(&device);
+}
+
+/* Only its beginning keeps captures waiting: edges may come every 50 us. The next compare interrupt is at least 1 ms
+ * away, so that this one is over before it. */
+ISR(TIMER1_COMPA_vect)
+{
+    bool ticks = device_latch(&device);
+    bridge_write(device.output.duty, device.output.decay);
+    OCR1A = device_next(&device); /* before sei: 16-bit registers share their temporary byte */
+    ticking = true;
+    main_woken = true;
+    sei();
+    if (ticks) {
+        struct edge_timer edges;
+        while (!clock_is_past((uint16_t)device.latest)) {
+        }
+        ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { edges = device.edges; }
+        device_sample(&device, &edges);
+    }
+}
+
+static void receive(void)
+{
+    uint8_t byte;
+    uint32_t time = 0;
+    struct frame frame;
+    while (serial_read(&byte, &time)) {
+        if (frame_read(&reader, byte, &frame)) {
+            bool known;
+            ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { known = device_act(&device, &frame, time); }
+            reader.bad = (uint16_t)(reader.bad + !known);
+        }
+    }
+}
+
+static void send(void)
+{
+    static struct device_frame frame;
+    uint8_t *wire;
+    while ((wire = serial_buffer()) != 0) {
+        bool quiet = serial_quiet(), taken;
+        ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
+        {
+            taken = device_take(&device, &frame, quiet, main_now() + SEAL_TICKS, reader.bad);
+        }
+        if (!taken) {
+            return;
+        }
+        serial_send(frame_seal(frame.data, frame.type, frame.seq, frame.size, wire));
+    }
+}
+
+/* Sleep until an interrupt leaves something to do; at once awake if one has since `main_woken` was cleared. */
+static void rest(void)
+{
+    cli();
+    while (!main_woken) {
+        SMCR = _BV(SE); /* idle: clocks and timers go on */
+        sei();
+        sleep_cpu();
+        _NOP(); /* simavr takes an interrupt that comes with the sleep one instruction later */
+        cli();
+    }
+    SMCR = 0;
+    sei();
+}
+
+static void feed_watchdog(void)
+{
+    if (ticking) { /* main loop and sample tick both live */
+        ticking = false;
+        wdt_reset();
+    }
+}
+
+int main(void)
+{
+    bridge_start();
+    wdt_enable(WDTO_60MS);
+    device_start(&device, &config, ++boot, reset_cause);
+    bridge_write(0, device.output.decay);
+    supply_start();
+    serial_start();
+    clock_start((uint16_t)device.compare);
+    sei();
+    for (;;) {
+        main_woken = false;
+        receive();
+        send();
+        supply_read(&device.supply);
+        feed_watchdog();
+        rest();
+    }
+}

@@ -1,0 +1,231 @@
+#include "device.h"
+
+#define SHORTEST_TIMEOUT 10u /* [ms] */
+#define LONGEST_TIMEOUT 1000u
+#define UNMEASURED 0xFFFFu
+
+#define FIRMWARE_MAJOR 1
+#define FIRMWARE_MINOR 0
+#define FIRMWARE_PATCH 0
+
+static uint32_t limited(uint32_t value, uint32_t low, uint32_t high)
+{
+    return value < low ? low : value > high ? high : value;
+}
+
+static void set_timeout(struct device *device, uint16_t milliseconds)
+{
+    device->timeout = (uint16_t)limited(milliseconds, SHORTEST_TIMEOUT, LONGEST_TIMEOUT);
+    device->output.timeout = device->timeout * device->config->ticks_per_ms;
+}
+
+static uint16_t next_compare(struct device *device)
+{
+    uint32_t left = device->tick - device->compare;
+    device->compare += left < DEVICE_LONGEST_STEP ? left : DEVICE_LONGEST_STEP;
+    return (uint16_t)device->compare;
+}
+
+void device_start(struct device *device, const struct device_config *config, uint8_t boot, uint8_t reset_cause)
+{
+    *device = (struct device){0};
+    device->config = config;
+    device->reset_cause = reset_cause;
+    device->supply = UNMEASURED;
+    device->output.boot = boot;
+    device->output.top = (int16_t)config->top;
+    device->output.decay = config->first_decay;
+    device->period = config->first_period;
+    device->tick = config->first_period;
+    device->asked = true;
+    set_timeout(device, config->first_timeout);
+    next_compare(device);
+}
+
+void device_overflow(struct device *device)
+{
+    edge_timer_overflow(&device->edges);
+}
+
+void device_capture(struct device *device, uint16_t counter, bool overflow_pending, bool reverse)
+{
+    edge_timer_capture(&device->edges, counter, overflow_pending, reverse, device->config->channels == 2);
+}
+
+static uint16_t flags_of(const struct device *device, const struct edge *edge)
+{
+    uint16_t flags = 0;
+    flags |= device->output.on ? WIRE_FLAG_ENABLED : 0u;
+    flags |= device->output.timed_out ? WIRE_FLAG_TIMED_OUT : 0u;
+    flags |= edge->valid ? WIRE_FLAG_EDGE_VALID : 0u;
+    flags |= edge->reverse ? WIRE_FLAG_REVERSE : 0u;
+    flags |= device->config->channels == 2 ? WIRE_FLAG_TWO_CHANNELS : 0u;
+    return flags;
+}
+
+bool device_latch(struct device *device)
+{
+    bool ticks = device->compare == device->tick;
+    output_check(&device->output, device->compare);
+    edge_timer_forget(&device->edges, device->compare);
+    if (ticks || !device->output.on) { /* off does not wait for a tick that may be far away */
+        output_latch(&device->output);
+    }
+    return ticks;
+}
+
+uint16_t device_next(struct device *device)
+{
+    if (device->compare == device->tick) {
+        device->latest = device->tick + device->config->lead;
+        device->tick += device->period;
+    }
+    return next_compare(device);
+}
+
+void device_sample(struct device *device, const struct edge_timer *edges)
+{
+    struct wire_telemetry *sample = &device->sample;
+    struct edge edge = edge_timer_at(edges, device->latest, device->config->channels == 2);
+    device->dropped_samples = (uint16_t)(device->dropped_samples + device->sampled);
+    device->sampled = true;
+    sample->time = device->latest;
+    sample->duty = device->output.duty;
+    sample->edge_count = edge.count;
+    sample->edge_time = edge.time;
+    sample->edge_period = edge.period;
+    sample->supply = device->supply;
+    sample->command = device->output.command;
+    sample->flags = flags_of(device, &edge);
+    sample->boot = device->output.boot;
+    sample->latch = device->output.latch;
+}
+
+static void act_configure(struct device *device, const struct frame *frame, uint32_t now)
+{
+    (void)now;
+    struct wire_configure configure;
+    wire_get_configure(frame->body, &configure);
+    output_off(&device->output);
+    set_timeout(device, configure.command_timeout);
+    device->period = limited(configure.sample_period, device->config->shortest_period, DEVICE_LONGEST_PERIOD);
+    device->output.decay = configure.decay == WIRE_DECAY_COAST ? WIRE_DECAY_COAST : WIRE_DECAY_BRAKE;
+    device->tick = device->compare; /* a long period may be under way: the new one starts at the next interrupt */
+    device->asked = true;
+}
+
+static void act_identify(struct device *device, const struct frame *frame, uint32_t now)
+{
+    (void)frame;
+    (void)now;
+    device->asked = true;
+}
+
+static void act_enable(struct device *device, const struct frame *frame, uint32_t now)
+{
+    struct wire_enable enable;
+    wire_get_enable(frame->body, &enable);
+    output_enable(&device->output, &enable, now);
+}
+
+static void act_command(struct device *device, const struct frame *frame, uint32_t now)
+{
+    struct wire_command command;
+    wire_get_command(frame->body, &command);
+    output_command(&device->output, &command, frame->seq, now);
+}
+
+static void act_ping(struct device *device, const struct frame *frame, uint32_t now)
+{
+    wire_get_ping(frame->body, &device->ping);
+    device->ping_received = now;
+    device->pinged = true;
+}
+
+static const struct {
+    uint8_t type, size;
+    void (*act)(struct device *device, const struct frame *frame, uint32_t now);
+} actions[] = {
+    {WIRE_IDENTIFY, WIRE_IDENTIFY_SIZE, act_identify},
+    {WIRE_CONFIGURE, WIRE_CONFIGURE_SIZE, act_configure},
+    {WIRE_ENABLE, WIRE_ENABLE_SIZE, act_enable},
+    {WIRE_COMMAND, WIRE_COMMAND_SIZE, act_command},
+    {WIRE_PING, WIRE_PING_SIZE, act_ping},
+};
+
+bool device_act(struct device *device, const struct frame *frame, uint32_t now)
+{
+    if (frame->version != WIRE_VERSION) {
+        device->asked = true;
+        return false;
+    }
+    for (uint8_t i = 0; i < sizeof actions / sizeof actions[0]; i++) {
+        if (frame->type == actions[i].type && frame->size == actions[i].size) {
+            actions[i].act(device, frame, now);
+            return true;
+        }
+    }
+    return false;
+}
+
+static uint8_t *put_hello(const struct device *device, uint8_t *at)
+{
+    const struct device_config *config = device->config;
+    struct wire_hello hello = {
+        .firmware_major = FIRMWARE_MAJOR,
+        .firmware_minor = FIRMWARE_MINOR,
+        .firmware_patch = FIRMWARE_PATCH,
+        .board = config->board,
+        .board_id = config->board_id,
+        .edges_per_revolution = config->edges_per_revolution,
+        .channels = config->channels,
+        .tick_ns = config->tick_ns,
+        .pwm_top = config->top,
+        .decay = device->output.decay,
+        .sample_period = device->period,
+        .shortest_period = config->shortest_period,
+        .command_timeout = device->timeout,
+        .reset_cause = device->reset_cause,
+        .boot = device->output.boot,
+        .latch = device->output.latch,
+    };
+    return wire_put_hello(at, &hello);
+}
+
+static uint8_t *put_pong(const struct device *device, uint8_t *at, uint32_t now, uint16_t bad_frames)
+{
+    struct wire_pong pong = {
+        .token = device->ping.token,
+        .received = device->ping_received,
+        .sent = now,
+        .bad_frames = bad_frames,
+        .dropped_samples = device->dropped_samples,
+    };
+    return wire_put_pong(at, &pong);
+}
+
+bool device_take(struct device *device, struct device_frame *frame, bool quiet, uint32_t now, uint16_t bad_frames)
+{
+    uint8_t *body = frame->data + FRAME_HEADER, *end;
+    if (device->pinged && !quiet) {
+        return false; /* what is going out ends soon, and the pong is next: its time has to be that of its first byte */
+    }
+    if (device->pinged) {
+        device->pinged = false;
+        frame->type = WIRE_PONG;
+        end = put_pong(device, body, now, bad_frames);
+    } else if (device->sampled) {
+        device->sampled = false;
+        frame->type = WIRE_TELEMETRY;
+        end = wire_put_telemetry(body, &device->sample);
+    } else if (device->asked) {
+        device->asked = false;
+        frame->type = WIRE_HELLO;
+        end = put_hello(device, body);
+    } else {
+        return false;
+    }
+    frame->size = (uint8_t)(end - body);
+    frame->seq = device->seq++;
+    return true;
+}

@@ -1,0 +1,83 @@
+#include "edge_timer.h"
+
+#define OLD 0x80000000u /* [tick] differences beyond this could have wrapped */
+#define MOST_LATER 2u   /* edges after `now` */
+
+uint32_t edge_timer_extend(uint16_t overflows, uint16_t counter, bool pending)
+{
+    if (pending && counter < 0x8000u) {
+        overflows++;
+    }
+    return (uint32_t)overflows << 16 | counter;
+}
+
+void edge_timer_overflow(struct edge_timer *timer)
+{
+    timer->overflows++;
+}
+
+void edge_timer_capture(struct edge_timer *timer, uint16_t counter, bool pending, bool reverse, bool two_channels)
+{
+    uint8_t newest = (timer->newest + 1u) & (EDGE_TIMER_KEPT - 1u);
+    timer->newest = newest;
+    timer->time[newest] = edge_timer_extend(timer->overflows, counter, pending);
+    timer->reverse[newest] = reverse;
+    timer->known = (uint8_t)(timer->known + (timer->known < EDGE_TIMER_KEPT));
+    if (two_channels && reverse) {
+        timer->count--;
+    } else {
+        timer->count++;
+    }
+}
+
+static uint8_t index_of(const struct edge_timer *timer, uint8_t back)
+{
+    return (uint8_t)(timer->newest - back) & (EDGE_TIMER_KEPT - 1u);
+}
+
+static uint32_t time_of(const struct edge_timer *timer, uint8_t back)
+{
+    return timer->time[index_of(timer, back)];
+}
+
+static bool is_after(uint32_t time, uint32_t now)
+{
+    return time - now - 1u < OLD / 2;
+}
+
+/* `first`: how far back the latest edge is. */
+static uint32_t period_of(const struct edge_timer *timer, uint8_t first)
+{
+    for (uint8_t back = first; back + 1u < timer->known; back++) {
+        uint32_t period = time_of(timer, back) - time_of(timer, (uint8_t)(back + 1u));
+        if (period > 0) {
+            return period;
+        }
+    }
+    return 0;
+}
+
+struct edge edge_timer_at(const struct edge_timer *timer, uint32_t now, bool two_channels)
+{
+    struct edge edge = {.count = timer->count};
+    uint8_t later = 0;
+    while (later < MOST_LATER && later < timer->known && is_after(time_of(timer, later), now)) {
+        edge.count += two_channels && timer->reverse[index_of(timer, later)] ? 1u : (uint32_t)-1;
+        later++;
+    }
+    if (later < timer->known) {
+        edge.valid = true;
+        edge.time = time_of(timer, later);
+        edge.reverse = timer->reverse[index_of(timer, later)];
+        edge.period = period_of(timer, later);
+    }
+    return edge;
+}
+
+void edge_timer_forget(struct edge_timer *timer, uint32_t now)
+{
+    uint32_t newest = timer->time[timer->newest];
+    if (now - newest >= OLD && !is_after(newest, now)) {
+        timer->known = 0;
+    }
+}

@@ -1,0 +1,44 @@
+#include "output.h"
+
+void output_off(struct output *output)
+{
+    output->on = false;
+    output->timed_out = false;
+    output->newest = 0;
+    output->latch++;
+}
+
+void output_enable(struct output *output, const struct wire_enable *frame, uint32_t now)
+{
+    if (frame->on != 1) {
+        output_off(output);
+    } else if (!output->on && frame->boot == output->boot && frame->latch == output->latch) {
+        output->on = true;
+        output->timed_out = false;
+        output->heard = now;
+    }
+}
+
+void output_command(struct output *output, const struct wire_command *frame, uint16_t seq, uint32_t now)
+{
+    output->command = seq;
+    output->heard = now;
+    if (output->on) {
+        int16_t top = output->top;
+        output->newest = frame->duty > top ? top : frame->duty < -top ? (int16_t)-top : frame->duty;
+    }
+}
+
+void output_check(struct output *output, uint32_t now)
+{
+    uint32_t silence = now - output->heard;
+    if (output->on && silence > output->timeout && silence < 0x80000000u) { /* a command after `now` is no silence */
+        output_off(output);
+        output->timed_out = true;
+    }
+}
+
+void output_latch(struct output *output)
+{
+    output->duty = output->on ? output->newest : 0;
+}

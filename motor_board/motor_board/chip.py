@@ -1,0 +1,187 @@
+"""The emulated microcontroller: the real firmware on libsimavr, advanced cycle by cycle by its caller."""
+
+import ctypes
+from ctypes import POINTER, Structure, c_char_p, c_int, c_size_t, c_uint8, c_uint16, c_uint32, c_uint64, c_void_p
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_board.build import chip_library
+from motor_board.errors import BoardError
+
+FREQUENCY = 16_000_000  # [Hz]
+MOST_BYTES = 4096  # taken out at once
+VECTORS = {1: "INT0", 10: "capture", 11: "compare", 13: "overflow", 18: "receive", 19: "transmit"}
+
+
+class Hang(IntEnum):
+    """How a program fails."""
+
+    HALTED = 0  # an endless loop, interrupts off
+    LOOPING = 1  # an endless loop while interrupts run
+    TICKLESS = 2  # all runs but the sample tick
+
+
+class _Pins(Structure):
+    _fields_ = [("enable", c_uint16), ("forward", c_uint16), ("reverse", c_uint16)]
+
+
+class _Load(Structure):
+    _fields_ = [("calls", c_uint64), ("cycles", c_uint64), ("longest", c_uint64), ("waited", c_uint64)]
+
+
+@dataclass(frozen=True, slots=True)
+class Pins:
+    """Mean levels of the bridge's pins, in 1/256."""
+
+    enable: int  # D3
+    forward: int  # D5
+    reverse: int  # D6
+
+    @property
+    def share(self) -> float:
+        """Of the full voltage that the bridge gives, −1 to 1 (at most one of the pins is pulsed)."""
+        return self.enable * (self.forward - self.reverse) / 65536
+
+
+@dataclass(frozen=True, slots=True)
+class InterruptLoad:
+    """What one interrupt has cost."""
+
+    calls: int
+    cycles: int  # without nested interrupts
+    longest: int  # [cycle] likewise
+    waited: int  # [cycle] the longest that one had to wait for its turn
+
+
+def _library() -> Any:
+    """The shared library with its signatures."""
+    library = ctypes.CDLL(str(chip_library()))
+    bytes_, cycles = POINTER(c_uint8), POINTER(c_uint64)
+    signatures: dict[str, tuple[Any, list[Any]]] = {
+        "open": (c_void_p, [c_char_p]),
+        "close": (None, [c_void_p]),
+        "cycle": (c_uint64, [c_void_p]),
+        "run": (c_int, [c_void_p, c_uint64]),
+        "pins": (_Pins, [c_void_p]),
+        "written": (c_uint64, [c_void_p]),
+        "edges": (c_size_t, [c_void_p, c_uint64, c_void_p, c_void_p, c_size_t]),
+        "feed": (c_size_t, [c_void_p, c_char_p, c_size_t]),
+        "drain": (c_size_t, [c_void_p, bytes_, cycles, c_size_t]),
+        "reset": (None, [c_void_p]),
+        "resets": (c_uint32, [c_void_p]),
+        "clock_zero": (c_uint64, [c_void_p]),
+        "supply": (None, [c_void_p, c_uint32]),
+        "hang": (None, [c_void_p, c_int]),
+        "load": (c_uint64, [c_void_p, POINTER(_Load)]),
+    }
+    for name, (result, arguments) in signatures.items():
+        function = getattr(library, f"chip_{name}")
+        function.restype, function.argtypes = result, arguments
+    return library
+
+
+class Chip:
+    """An ATmega328P with a program. Time is in clock cycles since power-up and goes on through resets."""
+
+    def __init__(self, elf: Path) -> None:
+        """Raises: BoardError: the ELF is none for this chip, or libsimavr is missing."""
+        self._library = _library()
+        self._chip = self._library.chip_open(str(elf).encode())
+        if not self._chip:
+            raise BoardError(
+                f"{elf} is no program for an ATmega328P: build it again (ros2 run motor_board flash --build)."
+            )
+        self._bytes = (c_uint8 * MOST_BYTES)()
+        self._cycles = (c_uint64 * MOST_BYTES)()
+
+    def close(self) -> None:
+        """Give its memory back."""
+        if self._chip:
+            self._library.chip_close(self._chip)
+            self._chip = None
+
+    @property
+    def cycle(self) -> int:
+        """Now."""
+        return int(self._library.chip_cycle(self._chip))
+
+    def run(self, until: int) -> bool:
+        """Run until a cycle, or until the pins have changed (True).
+
+        Raises:
+            BoardError: the program has crashed.
+        """
+        came_back: int = self._library.chip_run(self._chip, until)
+        if came_back == 2:
+            raise BoardError("the firmware on the emulated chip has crashed: report this, with what was sent to it.")
+        return came_back == 1
+
+    @property
+    def pins(self) -> Pins:
+        """Of the bridge, now."""
+        pins = self._library.chip_pins(self._chip)
+        return Pins(pins.enable, pins.forward, pins.reverse)
+
+    @property
+    def written(self) -> int:
+        """The cycle at which the program last wrote to the pins, a little before `run` came back for it."""
+        return int(self._library.chip_written(self._chip))
+
+    def set_edges(self, after: int, cycles: NDArray[np.uint64], reverse: NDArray[np.uint8]) -> None:
+        """Replace the encoder edges to come after a cycle by these (ascending, of one length, contiguous)."""
+        if self._library.chip_edges(self._chip, after, cycles.ctypes.data, reverse.ctypes.data, len(cycles)) < len(
+            cycles
+        ):
+            raise BoardError("more encoder edges than the emulated board has room for: use shorter steps.")
+
+    def feed(self, data: bytes) -> int:
+        """Bytes into the serial port; how many of them there was room for."""
+        return int(self._library.chip_feed(self._chip, data, len(data)))
+
+    def drain(self) -> bytes:
+        """What has come out of the serial port."""
+        return bytes(self._bytes[: self._drain()])
+
+    def drain_with_cycles(self) -> list[tuple[int, int]]:
+        """The bytes that came out, each with the cycle at which it began."""
+        count = self._drain()
+        return list(zip(self._bytes[:count], self._cycles[:count], strict=True))
+
+    def _drain(self) -> int:
+        return int(self._library.chip_drain(self._chip, self._bytes, self._cycles, MOST_BYTES))
+
+    def reset(self) -> None:
+        """Press the reset button."""
+        self._library.chip_reset(self._chip)
+
+    @property
+    def resets(self) -> int:
+        """How often it was reset since power-up, for whatever reason."""
+        return int(self._library.chip_resets(self._chip))
+
+    @property
+    def clock_zero(self) -> int:
+        """The cycle at which the program last started its own clock, from 0."""
+        return int(self._library.chip_clock_zero(self._chip))
+
+    def supply(self, volts_at_a0: float) -> None:
+        """The voltage at A0 [V]."""
+        self._library.chip_supply(self._chip, round(volts_at_a0 * 1000))
+
+    def hang(self, how: Hang) -> None:
+        """Let the program fail in a way that only its watchdog ends."""
+        self._library.chip_hang(self._chip, how)
+
+    def load(self) -> tuple[dict[str, InterruptLoad], int]:
+        """What interrupts have cost since the last call, and for how many cycles the program slept."""
+        loads = (_Load * 32)()
+        slept = int(self._library.chip_load(self._chip, loads))
+        rows = {VECTORS.get(i, str(i)): row for i, row in enumerate(loads) if row.calls}
+        return {
+            name: InterruptLoad(row.calls, row.cycles, row.longest, row.waited) for name, row in rows.items()
+        }, slept

@@ -1,0 +1,122 @@
+"""The emulated board as a program: the real firmware behind a pseudo-terminal, faults as parameters."""
+
+import time
+from dataclasses import fields, replace
+from pathlib import Path
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from std_srvs.srv import Trigger
+
+from motor_board.build import FirmwareConfig, firmware
+from motor_board.emulator import Emulator
+from motor_board.faults import Faults
+from motor_board.live import LiveBoard
+from motor_board.port import Port
+from motor_board.shaft import EncoderConfig
+from motor_model.model_file import load
+from motor_model.parameters import paper_motor
+from motor_ros import qos
+from motor_ros.parameters import Row, declare
+from motor_ros.run import run
+
+SET_UP = (
+    Row("link", "/tmp/motor_board", "path under which the board's serial port appears", read_only=True),
+    Row("model", "", "model file (YAML) of the motor on the pins; empty: the paper's motor", read_only=True),
+    Row("edges_per_revolution", 96, "encoder edges of one polarity per turn", "", 1, 65535, read_only=True),
+    Row("single_channel", True, "the encoder has one channel and does not measure direction", read_only=True),
+    Row("slot_irregularity", 0.0, "scatter of the disc's flanks, share of a slot", "", 0.0, 0.2, read_only=True),
+    Row("seed", 0, "of the disc, its starting angle, missed edges and faults", "", 0, 2**31 - 1, read_only=True),
+    Row("bridge", "l298n", "bridge that the firmware is built for: l298n or tb6612", read_only=True),
+    Row("supply_voltage", 0.0, "that the board measures; 0: it does not", "V", 0.0, 20.0, read_only=True),
+)
+FAULTS = (
+    Row("bit_error_rate", 0.0, "share of bits that flip on the line, both ways", "", 0.0, 0.5),
+    Row("drop_rate", 0.0, "share of bytes lost on the line, both ways", "", 0.0, 1.0),
+    Row("delay", 0.0, "bytes come late by 0 to this, both ways, in order", "s", 0.0, 1.0),
+    Row("plugged", True, "false: the serial port is gone"),
+    Row("stuck_telemetry", False, "the board is heard no more, but hears"),
+    Row("encoder_connected", True, "false: no edges reach the board"),
+    Row("reset_on_open", False, "opening the port resets the board, as an Uno's does"),
+    Row("clock_error", 0.0, "by which the board's crystal is fast", "ppm", -10000.0, 10000.0),
+)
+SUPPLY_FULL_SCALE = 20_000  # [mV] on A0's divider
+
+
+class BoardEmulator(Node):
+    """Declares parameters, starts the board, passes faults on."""
+
+    def __init__(self) -> None:
+        super().__init__("board_emulator")
+        values, faults = declare(self, SET_UP), declare(self, FAULTS)
+        model = load(str(values["model"])) if values["model"] else paper_motor()
+        edges, supply = int(values["edges_per_revolution"]), float(values["supply_voltage"])
+        config = FirmwareConfig(
+            bridge=str(values["bridge"]),
+            edges_per_revolution=edges,
+            channels=1 if values["single_channel"] else 2,
+            supply_full_scale=SUPPLY_FULL_SCALE if supply > 0.0 else 0,
+        )
+        encoder = EncoderConfig(edges, float(values["slot_irregularity"]), int(values["seed"]))
+        emulator = Emulator(firmware(config), model, encoder)
+        emulator.chip.supply(5e3 * supply / SUPPLY_FULL_SCALE)
+        self._board = LiveBoard(emulator, Port(Path(str(values["link"]))), int(values["seed"]))
+        self._board.faults = Faults(**faults)  # type: ignore[arg-type]
+        self.add_on_set_parameters_callback(self._on_parameters)
+        self.create_service(Trigger, "~/reset", self._on_reset)
+        self.create_service(Trigger, "~/hang", self._on_hang)
+        self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+        self.create_timer(1.0, self._on_second)
+        self.get_logger().info(f"the board's serial port is {values['link']}, with '{model.name}' on its pins")
+
+    def _on_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
+        names = {field.name for field in fields(Faults)}
+        changes = {parameter.name: parameter.value for parameter in parameters if parameter.name in names}
+        self._board.faults = replace(self._board.faults, **changes)
+        return SetParametersResult(successful=True)
+
+    def _on_reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self._board.reset()
+        response.success, response.message = True, "the board's reset button was pressed"
+        return response
+
+    def _on_hang(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self._board.hang()
+        response.success, response.message = True, "the firmware is in an endless loop; its watchdog has to help"
+        return response
+
+    def _on_second(self) -> None:
+        if self._board.error is not None:
+            raise self._board.error
+        truth = self._board.truth()
+        to_ros = time.time_ns() - time.monotonic_ns()
+        values = {
+            "board clock zero [ns, ROS time]": truth.start + to_ros + round(truth.clock_zero / truth.rate),
+            "clock rate": truth.rate / 16e-3,
+            "true speed [rad/s]": truth.speed,
+            "true angle [rad]": truth.angle,
+            "voltage at the pins [V]": truth.voltage,
+            "resets": truth.resets,
+            "held up": truth.held_up,
+            "busy": round(truth.busy, 3),
+        }
+        status = DiagnosticStatus(
+            name=f"{self.get_fully_qualified_name()}: truth",
+            message=f"held up {truth.held_up} times: the machine is too busy" if truth.held_up else "",
+            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
+        )
+        array = DiagnosticArray(status=[status])
+        array.header.stamp = self.get_clock().now().to_msg()
+        self._diagnostics.publish(array)
+
+    def destroy_node(self) -> None:
+        """Take the port away, then the node."""
+        self._board.close()
+        super().destroy_node()
+
+
+def main(args: list[str] | None = None) -> int:
+    """`ros2 run motor_board board_emulator`."""
+    return run(BoardEmulator, args)

@@ -1,0 +1,115 @@
+"""The motor on the emulated board's pins: the one compiled model, advanced along the chip's clock."""
+
+from collections import deque
+from dataclasses import dataclass
+from math import inf, tau
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_board.chip import FREQUENCY
+from motor_model.bridge import effective_voltage
+from motor_model.effects import INDEX
+from motor_model.encoder import make_disc, turn
+from motor_model.parameters import Parameters
+from motor_model.state import State, at_rest
+
+DELAY, MISS_RATE = INDEX["delay"], INDEX["miss_rate"]
+MOST_EDGES = 2048  # in one step
+
+
+@dataclass(frozen=True)
+class Edges:
+    """EncoderConfig edges to come: chip cycles and the second channel's level, both of shape (K,)."""
+
+    cycle: NDArray[np.uint64]
+    reverse: NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class EncoderConfig:
+    """The disc and its sensor."""
+
+    edges_per_revolution: int = 96
+    slot_irregularity: float = 0.0  # share of a slot
+    seed: int = 0  # of the disc, its starting angle and missed edges
+    start_angle: float | None = None  # [rad] of the disc; None: drawn from the seed
+
+
+class Shaft:
+    """A motor with its encoder, planned ahead under the present voltage and cut back when that changes."""
+
+    def __init__(self, parameters: Parameters, encoder: EncoderConfig) -> None:
+        self._p = parameters.vector()
+        self._disc = make_disc(encoder.edges_per_revolution, encoder.slot_irregularity, encoder.seed)
+        self._random = np.random.default_rng([encoder.seed, 1])
+        drawn = float(self._random.uniform(0.0, tau))
+        self._offset = drawn if encoder.start_angle is None else encoder.start_angle
+        self._cycle, self._state = 0, at_rest(0.0)  # where the present plan starts
+        self._planned, self._then = 0, self._state  # where it ends
+        self._commands: deque[tuple[float, float]] = deque([(-inf, 0.0)])  # [s], [V] at the bridge's input
+        self._times, self._directions = np.empty(MOST_EDGES), np.empty(MOST_EDGES, dtype=np.int64)
+
+    @property
+    def speed(self) -> float:
+        """[rad/s] true shaft speed, at most one step ago."""
+        return float(self._state.speed)
+
+    @property
+    def angle(self) -> float:
+        """[rad] true shaft angle since power-up, at most one step ago."""
+        return float(self._state.angle)
+
+    @property
+    def voltage(self) -> float:
+        """[V] that the board commands."""
+        return self._commands[-1][1]
+
+    @property
+    def planned(self) -> int:
+        """The cycle up to which edges are known if the voltage stays."""
+        return self._planned
+
+    def plan(self, until: int) -> Edges:
+        """The edges from the end of the present plan to this cycle, if the voltage stays."""
+        self._start(self._planned, self._then)
+        self._then, times, directions = self._advance(until)
+        self._planned = until
+        if self._p[MISS_RATE] > 0.0:
+            seen = self._random.random(len(times)) >= self._p[MISS_RATE]
+            times, directions = times[seen], directions[seen]
+        cycles = np.rint(times * FREQUENCY).astype(np.uint64)
+        return Edges(cycles, (directions < 0).astype(np.uint8))
+
+    def drive(self, cycle: int, share: float) -> None:
+        """The pins ask for a share of the full voltage (−1 to 1) from a cycle on; what was planned beyond it is void.
+
+        A cycle before the present plan (the chip runs behind by some 60 cycles) counts as that plan's start.
+        """
+        if cycle > self._cycle:
+            self._start(cycle, self._advance(cycle)[0])
+        self._planned, self._then = self._cycle, self._state
+        self._commands.append((self._cycle / FREQUENCY, share * float(self._p[INDEX["max_voltage"]])))
+
+    def _start(self, cycle: int, state: State) -> None:
+        """Move to a cycle for good, and forget commands that are over by then."""
+        self._cycle, self._state = cycle, state
+        while len(self._commands) > 1 and self._commands[1][0] + float(self._p[DELAY]) <= cycle / FREQUENCY:
+            self._commands.popleft()
+
+    def _advance(self, until: int) -> tuple[State, NDArray[np.float64], NDArray[np.int64]]:
+        """State at a cycle, and the times [s] and directions of the edges up to there, under the delayed commands."""
+        t, end, delay = self._cycle / FREQUENCY, until / FREQUENCY, float(self._p[DELAY])
+        state, count = self._state, 0
+        switches = [at + delay for at, _ in self._commands][1:]
+        for (_, command), switch in zip(self._commands, [*switches, inf], strict=True):
+            stop = min(switch, end)
+            if stop > t:
+                u = effective_voltage(self._p, command)
+                times, directions = self._times[count:], self._directions[count:]
+                disc = self._disc
+                state, passed = turn(
+                    self._p, u, state, t, stop - t, disc.forward, disc.backward, self._offset, times, directions
+                )
+                t, count = stop, count + passed
+        return state, self._times[:count].copy(), self._directions[:count].copy()

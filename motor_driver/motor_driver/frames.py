@@ -1,0 +1,190 @@
+"""The frames that driver and board exchange, as values; `protocol.py` turns them into bytes and back.
+
+The normative table, with the rules of who may say what when, is motor_board/protocol/wire.yaml; tests hold this file
+against it. Units: times and periods in board ticks (`Hello.tick_ns`), duty in 1/`Hello.pwm_top` of full voltage.
+"""
+
+import struct
+from dataclasses import dataclass
+from enum import IntEnum, IntFlag
+from typing import ClassVar, TypeAlias
+
+from motor_model.errors import MotorError
+
+VERSION = 1
+BAUD = 500_000
+LONGEST_FRAME = 48  # [byte] on the wire, the closing zero included
+NOT_MEASURED = 65535  # supply
+
+
+class ProtocolError(MotorError):
+    """A board that speaks another version, or a value that does not fit on the wire."""
+
+
+class Decay(IntEnum):
+    """What the bridge does in the off part of a PWM period."""
+
+    BRAKE = 0
+    COAST = 1
+
+
+class Board(IntEnum):
+    """Kinds of boards."""
+
+    ATMEGA328P = 1
+
+
+class Flag(IntFlag):
+    """Bits of `Telemetry.flags`."""
+
+    ENABLED = 1
+    TIMED_OUT = 2
+    EDGE_VALID = 4
+    REVERSE = 8
+    TWO_CHANNELS = 16
+
+
+class ResetCause(IntFlag):
+    """Bits of `Hello.reset_cause`."""
+
+    POWER_ON = 1
+    EXTERNAL = 2
+    BROWN_OUT = 4
+    WATCHDOG = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Identify:
+    """Host: asks for a hello."""
+
+    TYPE: ClassVar[int] = 0x01
+    BODY: ClassVar[struct.Struct] = struct.Struct("<")
+
+
+@dataclass(frozen=True, slots=True)
+class Configure:
+    """Host: switches the output off and sets how the board samples; a hello says what holds now."""
+
+    TYPE: ClassVar[int] = 0x02
+    BODY: ClassVar[struct.Struct] = struct.Struct("<IHB")
+    sample_period: int  # [tick]
+    command_timeout: int  # [ms]
+    decay: int
+
+
+@dataclass(frozen=True, slots=True)
+class Enable:
+    """Host: output on, if boot and latch are the present ones; or off."""
+
+    TYPE: ClassVar[int] = 0x03
+    BODY: ClassVar[struct.Struct] = struct.Struct("<BBB")
+    on: int
+    boot: int = 0
+    latch: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """Host: the duty to latch at the next sample tick."""
+
+    TYPE: ClassVar[int] = 0x04
+    BODY: ClassVar[struct.Struct] = struct.Struct("<h")
+    duty: int  # [1/pwm_top]
+
+
+@dataclass(frozen=True, slots=True)
+class Ping:
+    """Host: asks for the time."""
+
+    TYPE: ClassVar[int] = 0x05
+    BODY: ClassVar[struct.Struct] = struct.Struct("<I")
+    token: int
+
+
+@dataclass(frozen=True, slots=True)
+class Hello:
+    """Board: who it is and how it samples."""
+
+    TYPE: ClassVar[int] = 0x81
+    BODY: ClassVar[struct.Struct] = struct.Struct("<BBBBHHBHHBIIHBBB")
+    firmware_major: int
+    firmware_minor: int
+    firmware_patch: int
+    board: int
+    board_id: int  # 0: not set
+    edges_per_revolution: int  # 0: unknown
+    channels: int
+    tick_ns: int
+    pwm_top: int
+    decay: int
+    sample_period: int  # [tick]
+    shortest_period: int  # [tick]
+    command_timeout: int  # [ms]
+    reset_cause: int
+    boot: int
+    latch: int
+
+
+@dataclass(frozen=True, slots=True)
+class Telemetry:
+    """Board: what was true at a sample tick."""
+
+    TYPE: ClassVar[int] = 0x82
+    BODY: ClassVar[struct.Struct] = struct.Struct("<IhIIIHHHBB")
+    time: int  # [tick] wraps
+    duty: int  # [1/pwm_top] latched at this sample, held until the next
+    edge_count: int  # wraps
+    edge_time: int  # [tick] wraps; means something only if `edge_valid`
+    edge_period: int  # [tick] 0: fewer than two edges, or too far apart
+    supply: int  # [mV] NOT_MEASURED
+    command: int  # seq of the newest command received
+    flags: int
+    boot: int
+    latch: int
+
+    @property
+    def enabled(self) -> bool:
+        """Whether the output follows commands."""
+        return bool(self.flags & 1)
+
+    @property
+    def edge_valid(self) -> bool:
+        """Whether `edge_time` is that of an edge less than 2^31 ticks ago."""
+        return bool(self.flags & 4)
+
+
+@dataclass(frozen=True, slots=True)
+class Pong:
+    """Board: the time."""
+
+    TYPE: ClassVar[int] = 0x83
+    BODY: ClassVar[struct.Struct] = struct.Struct("<IIIHH")
+    token: int
+    received: int  # [tick] the last byte of the ping was there
+    sent: int  # [tick] the first byte of this frame went out
+    bad_frames: int  # from the host, dropped since the reset, wraps
+    dropped_samples: int  # ticks since the reset whose telemetry was not sent, wraps
+
+
+@dataclass(frozen=True, slots=True)
+class OtherVersion:
+    """A good frame of another protocol version: nothing in it can be read but this."""
+
+    version: int
+
+    def error(self, where: str) -> ProtocolError:
+        """The refusal; `where` names the port."""
+        cure = "flash the board with this workbench's firmware (ros2 run motor_board flash)"
+        if self.version > VERSION:
+            cure = "update this workbench, or flash the board with its older firmware (ros2 run motor_board flash)"
+        return ProtocolError(
+            f"the board on {where} speaks protocol version {self.version}, this driver version {VERSION}: {cure}."
+        )
+
+
+FromHost: TypeAlias = Identify | Configure | Enable | Command | Ping
+FromBoard: TypeAlias = Hello | Telemetry | Pong
+Frame: TypeAlias = FromHost | FromBoard
+FRAMES: dict[int, type[Frame]] = {
+    kind.TYPE: kind for kind in (Identify, Configure, Enable, Command, Ping, Hello, Telemetry, Pong)
+}

@@ -1,0 +1,205 @@
+"""The firmware's output and its whole device, on this computer, over hours that no emulator could run."""
+
+from ctypes import byref, create_string_buffer
+from dataclasses import dataclass
+
+from board import core
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from motor_driver.frames import Command, Configure, Enable, Flag, Frame, Hello, Identify, Ping, Pong, Telemetry
+from motor_driver.protocol import Arrival, Decoder, pack, unstuff
+
+TIMEOUT = 200  # [tick] of the output under test
+WRAP = 1 << 32
+LEAD = 30  # [tick] that a sample is after its interrupt
+
+steps = st.lists(
+    st.tuples(
+        st.sampled_from(["off", "enable", "stale enable", "command", "check", "latch"]),
+        st.integers(-400, 400),  # duty
+        st.integers(0, 150),  # [tick] that pass before
+    ),
+    max_size=60,
+)
+
+
+@dataclass
+class Model:
+    """What the rules of wire.yaml say, in Python."""
+
+    on: bool = False
+    latch: int = 0
+    newest: int = 0
+    heard: int = 0
+
+    def off(self) -> None:
+        self.on, self.newest, self.latch = False, 0, (self.latch + 1) % 256
+
+
+@settings(deadline=None)
+@given(steps, st.integers(0, 2**33), st.integers(0, 255))
+def test_the_output_keeps_the_rules(script: list[tuple[str, int, int]], start: int, latch: int) -> None:
+    lib, output, model = core.load(), core.Output(top=256, timeout=TIMEOUT, boot=7, latch=latch), Model(latch=latch)
+    now = start
+    for what, duty, wait in script:
+        now += wait
+        if what == "off":
+            lib.output_off(byref(output))
+            model.off()
+        elif "enable" in what:
+            named = (model.latch + (what != "enable")) % 256
+            lib.output_enable(byref(output), byref(core.WireEnable(1, 7, named)), now % WRAP)
+            if what == "enable" and not model.on:
+                model.on, model.newest, model.heard = True, 0, now
+        elif what == "command":
+            lib.output_command(byref(output), byref(core.WireCommand(duty)), 3, now % WRAP)
+            model.heard = now
+            model.newest = max(-256, min(256, duty)) if model.on else 0
+        elif what == "check":
+            lib.output_check(byref(output), now % WRAP)
+            if model.on and now - model.heard > TIMEOUT:
+                model.off()
+                assert output.timed_out
+        else:
+            lib.output_latch(byref(output))
+            assert output.duty == (model.newest if model.on else 0)
+        assert (output.on, output.latch, output.newest) == (model.on, model.latch, model.newest)
+
+
+class Board:
+    """The firmware without its registers: the test is its timer."""
+
+    CONFIG = core.DeviceConfig(1, 0, 96, 1, 500, 256, 2_000, 2_000, 10_000, LEAD, 100, 0)
+
+    def __init__(self) -> None:
+        self.lib, self.device = core.load(), core.Device()
+        self.lib.device_start(byref(self.device), byref(self.CONFIG), 5, 1)
+        self.now, self.seq = 0, 0
+        self.decoder = Decoder()
+        self.compare = 10_000
+
+    def step(self) -> None:
+        """The next compare interrupt."""
+        self.now += (self.compare - self.now) % 65536 or 65536
+        for _ in range(self.now // 65536 - (self.now - 1) // 65536):
+            self.lib.device_overflow(byref(self.device))
+        ticks = self.lib.device_latch(byref(self.device))
+        self.compare = self.lib.device_next(byref(self.device))
+        if ticks:
+            self.lib.device_sample(byref(self.device), byref(self.device.edges))
+
+    def send(self, frame: Frame, version: int = 1) -> bool:
+        """A frame comes in; whether it was one for a board."""
+        plain = unstuff(pack(frame, self.seq)[:-1])
+        assert plain is not None
+        body = create_string_buffer(plain[4:-4])
+        raw = core.Frame(version, frame.TYPE, len(plain) - 8, self.seq, core.POINTER(core.c_uint8)())
+        raw.body = core.ctypes.cast(body, core.POINTER(core.c_uint8))
+        self.seq += 1
+        return bool(self.lib.device_act(byref(self.device), byref(raw), self.now % WRAP))
+
+    def hear(self, quiet: bool = True) -> list[Frame]:
+        """All that it has to say."""
+        frames: list[Frame] = []
+        out, wire = core.DeviceFrame(), create_string_buffer(48)
+        while self.lib.device_take(byref(self.device), byref(out), quiet, self.now % WRAP, 0):
+            length = self.lib.frame_seal(out.data, out.type, out.seq, out.size, wire)
+            frames += [event.frame for event in self.decoder.receive(wire.raw[:length]) if isinstance(event, Arrival)]
+        return frames
+
+
+def test_samples_stay_on_their_grid_for_an_hour_while_the_clock_wraps() -> None:
+    """Two wraps of the 32-bit clock: 72 min at the longest period, every tick exactly one period after the last."""
+    board = Board()
+    board.step()
+    board.send(Configure(2**24, 1_000, 0))
+    board.step()
+    first = board.now
+    board.hear()
+    times = []
+    while board.now < 2.2 * WRAP:
+        board.step()
+        times += [frame.time for frame in board.hear() if isinstance(frame, Telemetry)]
+    assert len(times) == (board.now - first) // 2**24 > 500
+    assert times == [(first + LEAD + (k + 1) * 2**24) % WRAP for k in range(len(times))]
+
+
+def test_a_tick_that_could_not_be_sent_is_left_out_and_counted() -> None:
+    board = Board()
+    for _ in range(4):
+        board.step()
+    board.send(Ping(9))
+    pong, telemetry, _ = board.hear()
+    assert isinstance(pong, Pong) and pong.dropped_samples == 3 and pong.token == 9
+    assert isinstance(telemetry, Telemetry) and telemetry.time == 40_000 + LEAD
+
+
+def test_a_pong_waits_for_quiet_and_then_goes_first() -> None:
+    board = Board()
+    board.step()
+    board.send(Ping(1))
+    assert board.hear(quiet=False) == []
+    assert [type(frame) for frame in board.hear()] == [Pong, Telemetry, Hello]
+
+
+def test_frames_that_are_not_for_a_board_have_no_effect() -> None:
+    board = Board()
+    board.hear()
+    assert not board.send(Pong(1, 2, 3, 4, 5)) and board.hear() == []
+    assert not board.send(Enable(1, 5, 0), version=2)
+    assert isinstance(board.hear()[0], Hello)  # so that the other side learns which version is spoken here
+    board.step()
+    (telemetry,) = board.hear()
+    assert isinstance(telemetry, Telemetry) and not telemetry.enabled
+
+
+def test_a_command_acts_at_the_next_tick_and_no_longer_than_the_time_out() -> None:
+    board = Board()
+    board.send(Enable(1, 5, 0))
+    board.send(Command(99))
+    assert board.device.output.duty == 0
+    duties = []
+    for _ in range(25):
+        board.step()
+        duties.append(board.device.output.duty)
+    assert duties == [99] * 20 + [0] * 5  # 100 ms are 20 samples
+    board.send(Command(99))
+    board.step()
+    assert board.device.output.duty == 0 and board.device.output.latch == 1
+    last = board.hear()[0]
+    assert isinstance(last, Telemetry) and last.flags & (Flag.ENABLED | Flag.TIMED_OUT) == Flag.TIMED_OUT
+
+
+def test_a_new_period_does_not_wait_for_the_end_of_a_long_one() -> None:
+    board = Board()
+    board.send(Configure(2**24, 1_000, 0))
+    for _ in range(3):
+        board.step()
+    board.hear()
+    board.send(Configure(2_000, 1_000, 0))
+    begun = board.now
+    times = []
+    for _ in range(3):
+        board.step()
+        times += [frame.time for frame in board.hear() if isinstance(frame, Telemetry)]
+    assert 0 < times[0] - LEAD - begun <= 0x8000 and times[1] - times[0] == times[2] - times[1] == 2_000
+
+
+def test_a_command_that_came_after_the_tick_is_not_late() -> None:
+    """The interrupt may wait for the main loop, which takes a command meanwhile."""
+    output, lib = core.Output(on=True, top=256, timeout=TIMEOUT), core.load()
+    lib.output_command(byref(output), byref(core.WireCommand(5)), 1, 1_010)
+    lib.output_check(byref(output), 1_000)
+    assert output.on
+    lib.output_check(byref(output), 1_010 + TIMEOUT)
+    assert output.on
+    lib.output_check(byref(output), 1_011 + TIMEOUT)
+    assert not output.on and output.timed_out
+
+
+def test_identify_gives_a_hello_and_changes_nothing() -> None:
+    board = Board()
+    (first,) = board.hear()
+    board.send(Identify())
+    assert board.hear() == [first]

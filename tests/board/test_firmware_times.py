@@ -1,0 +1,157 @@
+"""The real firmware on the emulated chip, on a clock of the test's own: when edges, samples and frames are."""
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from board.bench import MS, TICK, Bench
+
+from motor_board.build import FirmwareConfig
+from motor_board.shaft import EncoderConfig
+from motor_driver.frames import Command, Configure, Flag, Hello, Ping, Pong, Telemetry
+from motor_driver.protocol import Arrival
+from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_model.simulate import simulate
+
+MakeBench = Callable[..., Bench]
+SLOT = 2 * np.pi / 96
+
+
+@pytest.mark.parametrize("period", [2_000, 10_000, 66_667, 200_000], ids=["1 kHz", "200 Hz", "30 Hz", "10 Hz"])
+def test_samples_exactly_at_the_period_it_was_given(bench: Bench, period: int) -> None:
+    bench.run(8)
+    bench.send(Configure(period, 100, 0))
+    bench.run(max(40, 5 * period // 2000))
+    assert bench.last(Hello).sample_period == period
+    times = [telemetry.time for telemetry in bench.all(Telemetry) if telemetry.latch == 1]
+    assert len(times) >= 4 and {b - a for a, b in pairwise(times)} == {period}
+    assert bench.decode.counters.bad == bench.decode.counters.lost == 0
+
+
+def test_every_edge_has_its_exact_time(bench: Bench) -> None:
+    """A real motor's edges, through a counter that overflows many times: stamp = ⌊cycle/8⌋, latest up to the tick."""
+    edges: list[int] = []
+    plan = bench.emulator.shaft.plan
+
+    def spy(until: int):  # type: ignore[no-untyped-def]
+        planned = plan(until)
+        known = bench.emulator.shaft._cycle
+        edges[:] = [cycle for cycle in edges if cycle <= known] + planned.cycle.tolist()
+        return planned
+
+    bench.emulator.shaft.plan = spy  # type: ignore[method-assign]
+    bench.start(2_000)
+    for k in range(1_500):
+        bench.drive(round(256 * np.sin(2 * np.pi * k / 700)), 1, 1)
+    stamps = (np.array(edges) - bench.chip.clock_zero) // TICK
+    frames = [telemetry for telemetry in bench.all(Telemetry) if telemetry.edge_count >= 2]
+    assert len(frames) > 1_000 and frames[-1].edge_count > 1_900
+    for telemetry in frames:
+        count = int(np.searchsorted(stamps, telemetry.time, side="right"))
+        assert telemetry.edge_count == count
+        assert telemetry.edge_time == stamps[count - 1] and telemetry.edge_valid
+        assert telemetry.edge_period == stamps[count - 1] - stamps[count - 2]
+    assert bench.decode.counters.bad == bench.decode.counters.lost == 0
+
+
+@pytest.mark.parametrize("rate", [16_700, 20_000, 25_000])
+def test_no_edge_is_lost_up_to_20_000_a_second(bench: Bench, rate: int) -> None:
+    """Commands, pings and telemetry at 1 kHz meanwhile; with the spacing sweeping through all phases of the tick."""
+    bench.start(2_000)
+    first, spacing = bench.chip.cycle + 5 * MS, 16e6 / rate + 0.37
+    cycles = (first + spacing * np.arange(8_000)).astype(np.uint64)
+    bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
+    bench.chip.set_edges(first - 1, cycles, np.zeros(len(cycles), dtype=np.uint8))
+    while bench.chip.cycle < cycles[-1] + 3 * MS:
+        bench.send(Command(0), *[Ping(5)] * (len(bench.events) % 50 == 0))
+        bench.run(1)
+    frames = bench.all(Telemetry)
+    stamps = (cycles.astype(np.int64) - bench.chip.clock_zero) // TICK
+    counts = [int(np.searchsorted(stamps, telemetry.time, side="right")) for telemetry in frames]
+    assert [telemetry.edge_count for telemetry in frames] == counts and counts[-1] == len(cycles)
+    assert bench.decode.counters.bad == bench.decode.counters.lost == 0
+
+
+def test_two_channels_count_down_backward(make_bench: MakeBench) -> None:
+    bench = make_bench(config=FirmwareConfig(channels=2))
+    bench.start()
+    bench.drive(128, 400)
+    forward = bench.last(Telemetry)
+    assert forward.edge_count > 200 and not forward.flags & Flag.REVERSE and forward.flags & Flag.TWO_CHANNELS
+    bench.drive(-128, 1_000)
+    bench.drive(0, 1_500)
+    backward = bench.last(Telemetry)
+    assert backward.flags & Flag.REVERSE
+    turned = bench.emulator.shaft.angle / SLOT
+    signed = backward.edge_count - (backward.edge_count >> 31 << 32)
+    assert abs(signed - turned) < 1.6 and turned < -200
+
+
+def test_pong_holds_the_times_of_its_first_byte_and_of_the_ping_s_last(bench: Bench) -> None:
+    bench.start(2_000)
+    bench.chip.drain()
+    sent: list[float] = []
+    received: list[float] = []
+    for token in range(40):
+        bench.run(3.37)
+        ping = bench.encode.send(Ping(token))
+        arrival = bench.chip.cycle + 352 * len(ping)  # the emulated port delivers at 352 cycles a byte
+        bench.chip.feed(ping)
+        out: list[tuple[int, int]] = []
+        while not bench.all(Pong):
+            bench.emulator.run(bench.chip.cycle + MS // 4)
+            new = bench.chip.drain_with_cycles()
+            out += new
+            bench.events += bench.decode.receive(bytes(byte for byte, _ in new))
+        pong = bench.last(Pong)
+        assert pong.token == token
+        ends = [i for i, (byte, _) in enumerate(out) if byte == 0]
+        start = next(a + 1 for a, b in pairwise([-1, *ends]) if b - a == 26)
+        sent.append(out[start][1] - bench.chip.clock_zero - pong.sent * TICK)
+        received.append(arrival - bench.chip.clock_zero - pong.received * TICK)
+        bench.events.clear()
+    assert min(sent) >= -400 and max(sent) <= 400  # [cycle]: 25 us; building the frame takes as long every time
+    assert max(sent) - min(sent) < 200
+    assert min(received) >= -800 and max(received) <= 16
+
+
+def test_the_supply_voltage_is_measured_where_there_is_a_divider(make_bench: MakeBench) -> None:
+    bench = make_bench(config=FirmwareConfig(supply_full_scale=20_000))
+    bench.chip.supply(3.0)
+    bench.run(30)
+    assert 11_950 <= bench.last(Telemetry).supply <= 12_050
+
+
+def test_the_motor_on_the_pins_is_the_model(make_bench: MakeBench) -> None:
+    """Edge times that came over the wire, against the model under the duties that came over the wire."""
+    parameters = Parameters({"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.5}, ("coulomb_friction",))
+    bench = make_bench(parameters=parameters, encoder=EncoderConfig(seed=8))
+    bench.start()
+    for duty in (213, 120, 256, 60):
+        bench.drive(duty, 400)
+    frames = bench.all(Telemetry)
+    assert len(frames) > 300
+    second = np.array([telemetry.time for telemetry in frames]) * 5e-7
+    volts = np.array([telemetry.duty for telemetry in frames]) / 256 * parameters.max_voltage
+    moved = [b for a, b in pairwise(frames) if b.edge_count > a.edge_count]
+    edge = np.array([telemetry.edge_time for telemetry in moved]) * 5e-7
+    count = np.array([telemetry.edge_count for telemetry in moved])
+    motion = simulate(parameters, second, volts, np.concatenate([[second[0]], edge]))
+    slots = np.diff(motion.angle[1:]) / SLOT - np.diff(count)
+    assert 1e-5 < np.sqrt(np.mean(slots**2)) < 2e-3  # a tick is 1.3e-3 of a slot at full speed
+    assert abs(motion.angle[-1] - motion.angle[1] - (count[-1] - count[0]) * SLOT) < 0.05 * SLOT
+
+
+def test_every_sample_arrives_at_1_khz(bench: Bench) -> None:
+    bench.start(2_000)
+    bench.drive(180, 3_000, 1)
+    frames = bench.all(Telemetry)
+    assert {b.time - a.time for a, b in pairwise(frames)} == {2_000} and len(frames) >= 2_998
+    assert all(isinstance(event, Arrival) for event in bench.events)
+    load, slept = bench.chip.load()
+    assert slept > 0.15 * 3_000 * MS  # the processor has time left
+    assert (
+        50 < load["capture"].longest < 200 and 100 < load["capture"].waited < 400
+    )  # [cycle] an edge waits for its turn
+    assert 100 < load["receive"].waited < 900  # the real port has room for three bytes of 320 cycles, the emulated more
