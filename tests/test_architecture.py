@@ -17,13 +17,17 @@ BELOW = {
     "motor_msgs": set(),
     "motor_ros": {"motor_model", "motor_msgs"},
     "motor_sim": {"motor_model", "motor_msgs", "motor_ros"},
+    "motor_board": {"motor_model", "motor_ros"},
+    "motor_driver": {"motor_model", "motor_ros"},
     "motor_control": {"motor_model", "motor_msgs", "motor_ros"},
     "motor_identification": {"motor_model", "motor_msgs", "motor_ros"},
 }
 ROS = {"rclpy", "motor_msgs", "motor_ros", "std_msgs", "std_srvs", "sensor_msgs", "diagnostic_msgs", "rcl_interfaces"}
 ROS |= {"builtin_interfaces"}
 # Where ROS may be imported: node files, command files, and the modules that turn messages into plain values.
-SHELLS = re.compile(r"(/node\.py|/messages\.py|/cli/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_control/parameters\.py)$")
+SHELLS = re.compile(
+    r"(/node\.py|/messages\.py|/cli/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(control|driver)/parameters\.py)$"
+)
 BAGS = re.compile(r"motor_identification/bag/\w+\.py$")
 
 
@@ -68,13 +72,20 @@ def test_bags_are_known_in_one_place() -> None:
             assert BAGS.search(path.as_posix()), f"{path.relative_to(ROOT)} knows bags"
 
 
+def test_serial_ports_are_opened_in_one_place() -> None:
+    users = [path for _, path, names in MODULES if names & {"serial", "termios"}]
+    ports = [path for path in users if path.name == "link.py" and path.parent.name == "motor_driver"]
+    pseudo = [path for path in users if path.name == "port.py" and path.parent.name == "motor_board"]  # the other end
+    assert len(ports) == 1 and users == pseudo + ports
+
+
 @pytest.mark.parametrize("package", [package for package in PACKAGES if package != "motor_msgs"])
 def test_package_xml_names_what_is_imported(package: str) -> None:
     """Every imported package is a dependency by its rosdep key, or one of those that come from PyPI."""
     text = (ROOT / package / "package.xml").read_text(encoding="utf-8")
     declared = set(re.findall(r"<(?:exec_)?depend>([\w-]+)</", text))
     keys = {"numpy": "python3-numpy", "scipy": "python3-scipy", "yaml": "python3-yaml", "tqdm": "python3-tqdm"}
-    keys |= {"matplotlib": "python3-matplotlib"}
+    keys |= {"matplotlib": "python3-matplotlib", "serial": "python3-serial"}
     rows = re.findall(r"from PyPI[^:]*: ([^>]*?) -->", text)
     from_pypi = {name.strip().split(".")[0] for row in rows for name in row.split(",")}
     for owner, path, names in MODULES:

@@ -1,5 +1,7 @@
 """The shell that simulated and real motor share, so that they swap: topics, QoS, services, parameters."""
 
+import time
+from collections.abc import Callable
 from math import tau
 
 from builtin_interfaces.msg import Time
@@ -35,8 +37,17 @@ def max_voltage_row(default: float = 12.0) -> Row:
 class Plant:
     """Topics, services and the gate of one motor, on a node that says when to sample."""
 
-    def __init__(self, node: Node, info: Info, gate: Gate) -> None:
+    def __init__(
+        self,
+        node: Node,
+        info: Info,
+        gate: Gate,
+        refusal: Callable[[], str] = str,
+        changed: Callable[[], None] = lambda: None,
+    ) -> None:
+        """`refusal` says why the output cannot be switched on now, `changed` is called after a command or a switch."""
         self._node, self.info, self.gate = node, info, gate
+        self._refusal, self._changed = refusal, changed
         self._angle, self._count = 0.0, 0
         self._speed = node.create_publisher(MotorSpeed, "motor/speed", qos.SPEED)
         self._info = node.create_publisher(MotorInfo, "motor/info", qos.INFO)
@@ -49,6 +60,14 @@ class Plant:
     def now(self) -> int:
         """[ns] ROS time."""
         return int(self._node.get_clock().now().nanoseconds)
+
+    def voltage(self) -> float:
+        """[V] to apply now; the age of commands is judged by a clock that is never set."""
+        return self.gate.voltage(time.monotonic_ns())
+
+    def recount(self) -> None:
+        """The board has started anew and counts edges from 0 again."""
+        self._count = 0
 
     def publish_info(self) -> None:
         """Say how the samples are to be read; call again when that changes."""
@@ -72,7 +91,7 @@ class Plant:
             level=DiagnosticStatus.WARN if problem else DiagnosticStatus.OK,
             name=f"{self._node.get_fully_qualified_name()}: {self.info.name}",
             hardware_id=self.info.name,
-            message=problem or self.gate.state(self.now()),
+            message=problem or self.gate.state(time.monotonic_ns()),
             values=[KeyValue(key=key, value=value) for key, value in values.items()],
         )
         array = DiagnosticArray(status=[status])
@@ -81,15 +100,21 @@ class Plant:
 
     def _on_voltage(self, message: MotorVoltage) -> None:
         refused = self.gate.refused
-        self.gate = self.gate.take(message.voltage, self.now())
+        self.gate = self.gate.take(message.voltage, time.monotonic_ns())
         if self.gate.refused > refused:
             self._node.get_logger().error(
                 f"a voltage of {message.voltage} on motor/voltage stops the motor: send numbers.",
                 throttle_duration_sec=1.0,
             )
+        self._changed()
 
     def _on_enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        refusal = self._refusal() if request.data else ""
+        if refusal:
+            response.success, response.message = False, f"the output stays off: {refusal}"
+            return response
         self.gate = self.gate.enable(request.data)
+        self._changed()
         response.success = True
         response.message = "output on" if request.data else "output off until motor/enable is called with data: true"
         return response

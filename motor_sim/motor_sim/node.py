@@ -58,7 +58,7 @@ class MotorSim(Node):
         if abs(now - self._next) > MOST_BEHIND * 1e9:
             self._next, self._late = now, self._late + 1
         while self._next <= now:
-            sample = self._board.sample(self._plant.gate.voltage(now))
+            sample = self._board.sample(self._plant.voltage())
             self._plant.publish(sample, time_message(self._next))
             self._next += self._period
 

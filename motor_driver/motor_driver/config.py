@@ -1,0 +1,65 @@
+"""What the driver is told at its start."""
+
+from dataclasses import dataclass
+
+from motor_driver.frames import BAUD, Configure, Decay, Hello
+from motor_model.sample import Info, Measurement
+
+SILENCE = 0.12  # [s] without telemetry, or for the board without commands: then it is 0 V within 150 ms
+LEAST_TIMEOUT = 0.05  # [s] of the board: no computer is quicker for certain
+USUAL_TICK = 500  # [ns] of the boards there are, before one has said so
+
+
+@dataclass(frozen=True, slots=True)
+class Config:
+    """The plant's parameters that the driver's logic needs."""
+
+    name: str = "motor"
+    sample_rate: float = 200.0  # [Hz]
+    edges_per_revolution: int = 96
+    single_channel: bool = True
+    max_voltage: float = 12.0  # [V] at full duty
+    command_timeout: float = 0.1  # [s]
+    decay: Decay = Decay.BRAKE
+    baud: int = BAUD
+
+    @property
+    def silence(self) -> float:
+        """[s] without telemetry after which the output is switched off."""
+        return max(SILENCE, 1.5 / self.sample_rate)
+
+    def configure(self, board: Hello) -> Configure:
+        """What to ask of this board."""
+        period = max(round(1e9 / self.sample_rate / board.tick_ns), board.shortest_period)
+        timeout = min(max(1.2 * self.command_timeout, LEAST_TIMEOUT), SILENCE)
+        return Configure(period, round(timeout * 1e3), self.decay)
+
+    def refusal(self, board: Hello) -> str:
+        """Why this board cannot be used as configured; empty if it can."""
+        edges, channels = self.edges_per_revolution, 1 if self.single_channel else 2
+        if board.edges_per_revolution not in (0, edges):
+            return (
+                f"the board was flashed for an encoder with {board.edges_per_revolution} edges per revolution, "
+                f"the parameter edges_per_revolution is {edges}: set it right, or flash the board again."
+            )
+        if board.channels != channels:
+            return (
+                f"the board reads {board.channels} encoder channel(s), but single_channel is "
+                f"{str(self.single_channel).lower()}: set that parameter, or flash the board again."
+            )
+        return ""
+
+    def info(self, board: Hello | None) -> Info:
+        """How to read the samples; `board` is None before it has said who it is."""
+        tick = board.tick_ns if board else USUAL_TICK
+        return Info(
+            name=self.name,
+            source="hardware",
+            measurement=Measurement.EDGES,
+            edges_per_revolution=self.edges_per_revolution,
+            single_channel=self.single_channel,
+            edge_resolution=tick / 1e9,
+            sample_period=board.sample_period * tick / 1e9 if board else 1.0 / self.sample_rate,
+            max_voltage=self.max_voltage,
+            decay=Decay(board.decay).name.lower() if board else self.decay.name.lower(),
+        )

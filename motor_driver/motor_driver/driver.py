@@ -1,0 +1,172 @@
+"""What the driver does with a board: bytes and time in, samples and bytes out; no port, no clock, no ROS.
+
+The output is on only while the user wants it. Whatever ends the board's running (a lost port, a reset, silence, its own
+time-out) is a stop: the user's wish is void then, and nothing but the user's next wish switches the output on again.
+"""
+
+from dataclasses import dataclass
+
+from motor_driver.config import Config
+from motor_driver.exchange import Exchange
+from motor_driver.frames import Flag, Hello, OtherVersion, Pong, Telemetry
+from motor_driver.handshake import Handshake, reset_cause
+from motor_driver.protocol import Event, LinkCounters
+from motor_driver.readout import Readout
+from motor_driver.session import Session
+from motor_driver.wiring import Wiring
+from motor_model.sample import Info, Sample
+
+NO_LINK = "no link to the board yet"
+HELD_UP = "the board heard no command for too long and switched off"
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """A sample and its instant on the host's monotonic clock."""
+
+    sample: Sample
+    host: int  # [ns]
+    restarted: bool  # the board counts edges from 0 again since this one
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """What is to be done now."""
+
+    data: bytes  # to the port
+    stop: str  # not empty: the user's wish is void, for this reason
+
+
+class Driver:
+    """All logic of the driver; times are the host's monotonic clock in ns."""
+
+    def __init__(self, config: Config) -> None:
+        self.config = config
+        self.session: Session | None = None  # while a port is open
+        self.trouble = NO_LINK  # while there is no port
+        self.stopped = ""  # why the output was switched off, until the user switches it on
+        self.board: Hello | None = None  # the latest that ran
+        self.wiring = Wiring(config.max_voltage, config.single_channel)
+        self.readings = self.resets = self.openings = 0
+        self._readout: Readout | None = None
+        self._anew = False  # the board that runs now was reset since the one before
+        self._drift = 0.0
+        self._counted = LinkCounters()  # of ports that were closed
+        self._stop = ""
+
+    @property
+    def info(self) -> Info:
+        """What `motor/info` says."""
+        return self.config.info(self.board)
+
+    @property
+    def counters(self) -> LinkCounters:
+        """Frames, over all ports that were opened."""
+        now = self.session.decoder.counters if self.session else LinkCounters()
+        was = self._counted
+        return LinkCounters(was.good + now.good, was.bad + now.bad, was.lost + now.lost)
+
+    @property
+    def runs(self) -> bool:
+        """Whether a board samples and is heard."""
+        return self.session is not None and self.session.runs and not self.session.silent
+
+    def refusal(self) -> str:
+        """Why the output cannot be switched on now; empty if it can."""
+        if self.session is None:
+            return self.trouble
+        if self.session.silent:
+            return f"no telemetry comes from {self.session.port}"
+        return "" if self.session.runs else f"the board on {self.session.port} has not answered yet"
+
+    def opened(self, port: str, now: int) -> None:
+        """A port was opened."""
+        self.session = Session(port, Handshake(self.config, port, now))
+        self.openings += 1
+
+    def closed(self, why: str) -> None:
+        """The port is gone, or cannot be opened."""
+        self.trouble = why
+        if self.session and self.session.runs:
+            self._halt(why)
+        self._counted, self.session = self.counters, None
+
+    def received(self, data: bytes, now: int) -> list[Reading]:
+        """Bytes were read at `now`: the samples in them."""
+        if self.session is None:
+            return []
+        readings: list[Reading] = []
+        for event in self.session.decoder.receive(data):
+            readings += self._hear(self.session, event, now)
+        self.readings += len(readings)
+        return readings
+
+    def step(self, now: int, wish: bool, voltage: float) -> Order:
+        """What to send at `now`, while the user wants the output on or not, and this voltage [V]."""
+        session = self.session
+        if session and self.runs and now - session.heard > self.config.silence * 1e9:
+            session.silent = True
+            self._halt(f"no telemetry from {session.port} for {self.config.silence * 1e3:.0f} ms")
+        stop, self._stop = self._stop, ""
+        wish = wish and not stop
+        if wish:
+            self.stopped = ""
+        duty = self._readout.duty(voltage) if self._readout else 0
+        return Order(session.due(now, wish, duty) if session else b"", stop)
+
+    def _halt(self, why: str) -> None:
+        self._stop = self.stopped = why
+
+    def _hear(self, session: Session, event: Event, now: int) -> list[Reading]:
+        if isinstance(event, OtherVersion):
+            session.handshake.refuse(event)
+        elif isinstance(event.frame, Hello):
+            self._hear_hello(session, event.frame, now)
+        elif isinstance(event.frame, Telemetry):
+            return self._hear_telemetry(session, event.frame, now)
+        elif isinstance(event.frame, Pong) and session.exchange and session.latest and self._readout:
+            session.exchange.hear_pong(event.frame, self._readout.clock, now)
+        return []
+
+    def _hear_hello(self, session: Session, hello: Hello, now: int) -> None:
+        if session.handshake.reset_in(hello):
+            self._reset(session, reset_cause(hello))
+        if session.handshake.hear(hello):
+            self._anew = self.board is not None and self.board.boot != hello.boot
+            self.board = hello
+            session.begin(Exchange(self.config.baud, self._drift), now)
+
+    def _reset(self, session: Session, cause: str) -> None:
+        self.resets += 1
+        self._halt(f"the board was reset ({cause})")
+        session.end()
+
+    def _hear_telemetry(self, session: Session, frame: Telemetry, now: int) -> list[Reading]:
+        if session.handshake.reset_in(frame):
+            self._reset(session, "by what, its lost hello would have said")
+        if session.exchange is None or self.board is None:
+            return []
+        restarted = False
+        if self._readout is None:
+            self._readout = Readout(self.config, self.board)
+            self._readout.clock.hear(frame.time, now)
+        elif session.latest is None:
+            restarted = self._anew or not self._readout.clock.hear(frame.time, now, resumed=True)
+        elif not self._readout.clock.hear(frame.time, now):
+            self._reset(session, "its clock started anew")
+            return []
+        if restarted:
+            self._readout.restart(frame, self.board, now)
+            self.wiring = Wiring(self.config.max_voltage, self.config.single_channel)
+        session.latest, session.heard, session.silent = frame, now, False
+        if session.switch.hear(frame):
+            self._halt(HELD_UP if frame.flags & Flag.TIMED_OUT else "the board switched off")
+        return [self._reading(session.exchange, self._readout, frame, now, restarted)]
+
+    def _reading(self, exchange: Exchange, readout: Readout, frame: Telemetry, now: int, restarted: bool) -> Reading:
+        host = exchange.hear_telemetry(readout.clock.newest, now)
+        if exchange.fit.fit:
+            self._drift = exchange.fit.fit.drift
+        sample = readout.sample(frame)
+        self.wiring = self.wiring.see(sample)
+        return Reading(sample, host, restarted)

@@ -1,0 +1,63 @@
+"""Pings and pongs: the two-way exchange that ties the board's clock to the host's."""
+
+from dataclasses import dataclass
+
+from motor_driver.board_clock import BoardClock
+from motor_driver.clock_fit import ClockFit
+from motor_driver.frames import Frame, Ping, Pong, Telemetry
+from motor_driver.protocol import LEAST
+
+PING_EVERY = 20_000_000  # [ns]
+MEMORY = 64  # pings that may still be answered
+BITS = 10  # a byte on the line, start and stop bit included
+
+
+@dataclass(frozen=True, slots=True)
+class BoardCounters:
+    """What the board has counted, modulo 2^16."""
+
+    bad_frames: int = 0  # from the host
+    dropped_samples: int = 0
+
+
+class Exchange:
+    """Feeds a clock fit with when frames were sent and read; host times in ns of a monotonic clock."""
+
+    def __init__(self, baud: int, drift: float = 0.0) -> None:
+        self._byte = BITS * 1e9 / baud  # [ns]
+        self.fit = ClockFit(drift)
+        self.board = BoardCounters()
+        self.round_trip: int | None = None  # [ns] latest
+        self._sent: dict[int, int] = {}
+        self._token, self._latest = 0, -PING_EVERY
+
+    def asks(self, now: int) -> Ping | None:
+        """A ping, if one is due at `now`, which is taken for when it is written."""
+        if now - self._latest < PING_EVERY:
+            return None
+        self._token, self._latest = (self._token + 1) & 0xFFFFFFFF, now
+        self._sent[self._token] = now
+        if len(self._sent) > MEMORY:
+            del self._sent[next(iter(self._sent))]
+        return Ping(self._token)
+
+    def hear_pong(self, pong: Pong, clock: BoardClock, host: int) -> None:
+        """Take an answer read at `host`."""
+        sent = self._sent.pop(pong.token, None)
+        self.board = BoardCounters(pong.bad_frames, pong.dropped_samples)
+        if sent is None:
+            return
+        received, answered = clock.near(pong.received), clock.near(pong.sent)
+        self.round_trip = host - sent - (answered - received)
+        self.fit.before(received, sent + self._line_time(Ping))
+        self.fit.after(answered, host - self._line_time(Pong))
+
+    def hear_telemetry(self, board: int, host: int) -> int:
+        """Take a sample's time [ns] and when it was read; the sample's instant on the host's clock."""
+        read = host - self._line_time(Telemetry)
+        self.fit.after(board, read)
+        return self.fit.fit.host(board) if self.fit.fit else read
+
+    def _line_time(self, kind: type[Frame]) -> int:
+        """[ns] that a frame takes on the line, from the start of its first byte to the start of its last."""
+        return round((LEAST + kind.BODY.size + 1) * self._byte)

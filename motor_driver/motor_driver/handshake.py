@@ -1,0 +1,89 @@
+"""From an opened port to a board that samples as configured, and back to the beginning when it was reset."""
+
+from enum import Enum, auto
+
+from motor_driver.config import Config
+from motor_driver.frames import Configure, FromHost, Hello, Identify, OtherVersion, ResetCause, Telemetry
+from motor_model.errors import MotorError
+
+ASK_EVERY = 200_000_000  # [ns]
+PATIENCE = 3_000_000_000  # [ns] that a board may take after its port was opened: an Uno is reset by that
+
+
+class Phase(Enum):
+    """How far it has come."""
+
+    IDENTIFY = auto()
+    CONFIGURE = auto()
+    RUN = auto()
+
+
+class Handshake:
+    """Asks until it is answered; time in ns is an argument."""
+
+    def __init__(self, config: Config, port: str, now: int) -> None:
+        self._config, self._port = config, port
+        self._opened, self._asked = now, now - ASK_EVERY
+        self.phase = Phase.IDENTIFY
+        self.hello: Hello | None = None  # the latest
+        self._refusal = ""
+
+    def hear(self, frame: Hello) -> bool:
+        """Take a hello; True when the board now runs as configured."""
+        if self.phase is Phase.IDENTIFY:
+            self._refusal = self._config.refusal(frame)
+            self.hello = frame
+            if not self._refusal:
+                self._go(Phase.CONFIGURE)
+        elif self.phase is Phase.CONFIGURE and self.hello is not None:
+            if frame.boot != self.hello.boot:
+                self.hello = frame
+            done = (frame.sample_period, frame.command_timeout, frame.decay) == self._wanted()
+            if done and frame.latch != self.hello.latch:  # not an old answer: to configure is to switch off
+                self.hello, self.phase = frame, Phase.RUN
+                return True
+        return False
+
+    def refuse(self, other: OtherVersion) -> None:
+        """A frame of another version came."""
+        self._refusal = str(other.error(self._port))
+
+    def reset_in(self, frame: Telemetry | Hello) -> bool:
+        """Whether this shows that the board was reset while it ran."""
+        return self.phase is Phase.RUN and self.hello is not None and frame.boot != self.hello.boot
+
+    def begin_again(self) -> None:
+        """The board was reset."""
+        self._go(Phase.IDENTIFY)
+
+    def asks(self, now: int) -> FromHost | None:
+        """What to send at `now`."""
+        if self.phase is Phase.RUN or now - self._asked < ASK_EVERY:
+            return None
+        self._asked = now
+        return Configure(*self._wanted()) if self.phase is Phase.CONFIGURE else Identify()
+
+    def problem(self, now: int) -> str:
+        """What keeps the board from running, as a sentence; empty if nothing does, or it is too early to say."""
+        if self._refusal or self.phase is Phase.RUN or now - self._opened < PATIENCE:
+            return self._refusal
+        return (
+            f"nothing on {self._port} answers as a motor board: flash it (ros2 run motor_board flash), and see that "
+            f"the parameter baud, {self._config.baud}, is that of its firmware."
+        )
+
+    def _wanted(self) -> tuple[int, int, int]:
+        if self.hello is None:
+            raise MotorError("the board has not said who it is; this is a mistake in the driver: report it.")
+        configure = self._config.configure(self.hello)
+        return configure.sample_period, configure.command_timeout, configure.decay
+
+    def _go(self, phase: Phase) -> None:
+        self.phase, self._asked = phase, self._asked - ASK_EVERY
+        self._refusal = ""
+
+
+def reset_cause(hello: Hello) -> str:
+    """In words."""
+    names = [cause.name.lower().replace("_", " ") for cause in ResetCause if hello.reset_cause & cause and cause.name]
+    return ", ".join(names) or "unknown cause"

@@ -1,0 +1,103 @@
+"""The real motor as a ROS node: the board on a serial port, with the topics and services of the simulated one."""
+
+import time
+
+from rclpy.node import Node
+
+from motor_driver import status
+from motor_driver.driver import Driver, Reading
+from motor_driver.link import Closed, Event, Link, Opened, Received
+from motor_driver.parameters import ROWS, config_of
+from motor_ros.gate import Gate
+from motor_ros.messages import time_message
+from motor_ros.parameters import declare
+from motor_ros.plant import Plant
+from motor_ros.run import run
+
+WATCH_EVERY = 0.01  # [s]
+SETTLING = 100_000_000  # [ns] a clock that goes back further than this was set
+
+
+class MotorDriver(Node):
+    """Passes bytes between link and driver, and samples and commands between driver and plant."""
+
+    def __init__(self) -> None:
+        super().__init__("motor_driver")
+        values = declare(self, ROWS)
+        self._driver = Driver(config_of(values))
+        self._was = status.tally(self._driver, time.monotonic_ns())
+        self._said = ""
+        self._stamp = 0  # [ns] ROS time of the latest sample
+        gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]))
+        self._plant = Plant(self, self._driver.info, gate, self._driver.refusal, self._work)
+        wake = self.create_guard_condition(self._work)
+        self._link = Link(str(values["port"]), int(values["baud"]), wake.trigger)
+        self.create_timer(WATCH_EVERY, self._work)
+        self.create_timer(1.0, self._on_second)
+
+    def close(self) -> None:
+        """Switch the output off while the port is still open."""
+        self._plant.gate = self._plant.gate.enable(False)
+        self._work()
+
+    def destroy_node(self) -> None:
+        """Close the port, then the node."""
+        self._link.close()
+        super().destroy_node()
+
+    def _work(self) -> None:
+        """Take what has come, then send what is due."""
+        to_ros = self._plant.now() - time.monotonic_ns()
+        for event in self._link.take():
+            for reading in self._hear(event):
+                self._publish(reading, to_ros)
+        self._act()
+
+    def _hear(self, event: Event) -> list[Reading]:
+        match event:
+            case Received(data, at):
+                return self._driver.received(data, at)
+            case Opened(port, at):
+                self._driver.opened(port, at)
+                self.get_logger().info(f"opened {port}")
+            case Closed(why):
+                self._driver.closed(why)
+                self._say()
+        return []
+
+    def _publish(self, reading: Reading, to_ros: int) -> None:
+        if reading.restarted:
+            self._plant.recount()
+        if self._plant.info != self._driver.info:
+            self._plant.info = self._driver.info
+            self._plant.publish_info()
+        stamp = reading.host + to_ros
+        if self._stamp - SETTLING < stamp <= self._stamp:  # a better fit never takes the samples back in time
+            stamp = self._stamp + 1
+        self._stamp = stamp
+        self._plant.publish(reading.sample, time_message(self._stamp))
+
+    def _act(self) -> None:
+        order = self._driver.step(time.monotonic_ns(), self._plant.gate.enabled, self._plant.voltage())
+        self._link.write(order.data)
+        if order.stop:
+            self._plant.gate = self._plant.gate.enable(False)
+            self._say()
+
+    def _say(self) -> None:
+        """Log what is wrong, once."""
+        problem = status.problem(self._driver, self._was, time.monotonic_ns())
+        if problem and problem != self._said:
+            self.get_logger().error(problem)
+        self._said = problem
+
+    def _on_second(self) -> None:
+        now = time.monotonic_ns()
+        self._say()
+        self._plant.diagnose(self._said, status.values(self._driver, self._was, now))
+        self._was = status.tally(self._driver, now)
+
+
+def main(args: list[str] | None = None) -> int:
+    """`ros2 run motor_driver motor_driver`."""
+    return run(MotorDriver, args)

@@ -1,0 +1,38 @@
+"""The driver's parameters as a table, and the configuration they make."""
+
+from collections.abc import Mapping
+
+from motor_driver.config import Config
+from motor_driver.frames import BAUD, Decay
+from motor_model.errors import MotorError
+from motor_ros.parameters import Row, Value
+from motor_ros.plant import SHARED_PARAMETERS, max_voltage_row
+
+ROWS = (
+    *SHARED_PARAMETERS,
+    max_voltage_row(),
+    Row("port", "", "the board's serial port, such as /dev/ttyACM0; empty: the only one on USB", read_only=True),
+    Row("baud", BAUD, "of the serial port; the firmware's", "", 9600, 4_000_000, read_only=True),
+    Row("decay", "brake", "what the bridge does in the off part of a PWM period: brake or coast", read_only=True),
+)
+
+
+def config_of(values: Mapping[str, Value]) -> Config:
+    """The driver's configuration.
+
+    Raises:
+        MotorError: there is no such decay.
+    """
+    names = [decay.name.lower() for decay in Decay]
+    if values["decay"] not in names:
+        raise MotorError(f"there is no decay '{values['decay']}': choose {' or '.join(names)}.")
+    return Config(
+        name=str(values["name"]),
+        sample_rate=float(values["sample_rate"]),
+        edges_per_revolution=int(values["edges_per_revolution"]),
+        single_channel=bool(values["single_channel"]),
+        max_voltage=float(values["max_voltage"]),
+        command_timeout=float(values["command_timeout"]),
+        decay=Decay[str(values["decay"]).upper()],
+        baud=int(values["baud"]),
+    )

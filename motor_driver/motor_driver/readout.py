@@ -1,0 +1,60 @@
+"""Telemetry frames as samples: voltages, continuous times, and the speed by the rule that all plants share."""
+
+from math import nan
+
+from motor_driver.board_clock import BoardClock
+from motor_driver.config import Config
+from motor_driver.frames import NOT_MEASURED, Flag, Hello, Telemetry
+from motor_model.sample import Sample
+from motor_model.speed_rule import SpeedState, revolution_share, single_channel_speed, speed_magnitude
+
+HALF, WRAP = 1 << 31, 1 << 32
+
+
+class Readout:
+    """Follows one board through wraps and lost frames; a board that starts anew counts edges from 0 again."""
+
+    def __init__(self, config: Config, board: Hello) -> None:
+        self._config = config
+        self._slot = revolution_share(config.edges_per_revolution)
+        self.clock = BoardClock(board.tick_ns)
+        self._begin(board)
+
+    def _begin(self, board: Hello) -> None:
+        self._tick, self._top = board.tick_ns, board.pwm_top
+        self._count, self._edge_time, self._speed_state = 0, 0, SpeedState()
+
+    def restart(self, frame: Telemetry, board: Hello, host: int) -> None:
+        """The board has started anew; this is the first that it says, read at `host` [ns]."""
+        self.clock.restart(frame.time, host, board.tick_ns)
+        self._begin(board)
+
+    def sample(self, frame: Telemetry) -> Sample:
+        """The sample in a frame whose time the clock has just heard."""
+        now = self.clock.newest
+        steps = (frame.edge_count - self._count) % WRAP
+        self._count += steps - WRAP if steps >= HALF else steps
+        if frame.edge_valid:
+            self._edge_time = self.clock.before(frame.edge_time)
+        voltage = frame.duty / self._top * self._config.max_voltage
+        period = frame.edge_period * self._tick / 1e9
+        return Sample(
+            sample_time=now,
+            speed=self._speed(frame, speed_magnitude(self._slot, now, self._edge_time, period), voltage, now),
+            voltage=voltage,
+            edge_count=self._count,
+            edge_time=self._edge_time,
+            edge_period=period,
+            supply_voltage=nan if frame.supply == NOT_MEASURED else frame.supply * 1e-3,
+        )
+
+    def _speed(self, frame: Telemetry, magnitude: float, voltage: float, now: int) -> float:
+        if not self._config.single_channel:
+            return -magnitude if frame.flags & Flag.REVERSE else magnitude
+        speed, self._speed_state = single_channel_speed(self._speed_state, magnitude, voltage, now)
+        return speed
+
+    def duty(self, voltage: float) -> int:
+        """What to command for a voltage [V], within what there is."""
+        share = min(max(voltage / self._config.max_voltage, -1.0), 1.0)
+        return round(share * self._top)

@@ -1,0 +1,62 @@
+"""One opened port: what is known of the board on it, and what is due to be sent to it."""
+
+from dataclasses import dataclass, field
+
+from motor_driver.exchange import Exchange
+from motor_driver.frames import Command, FromHost, Telemetry
+from motor_driver.handshake import Handshake, Phase
+from motor_driver.protocol import Decoder, Encoder
+from motor_driver.switch import Switch
+
+REPEAT = 10_000_000  # [ns] after which an unchanged command is sent again
+
+
+@dataclass
+class Session:
+    """Lives as long as its port is open; times in ns are arguments."""
+
+    port: str
+    handshake: Handshake
+    decoder: Decoder = field(default_factory=Decoder)
+    encoder: Encoder = field(default_factory=Encoder)
+    switch: Switch = field(default_factory=Switch)
+    exchange: Exchange | None = None  # while the board runs
+    latest: Telemetry | None = None  # since it runs
+    heard: int = 0  # [ns] when `latest` was read
+    silent: bool = False
+    sent: tuple[int, int] | None = None  # latest duty, and when [ns]
+    greeted: bool = False
+
+    @property
+    def runs(self) -> bool:
+        """Whether the board samples as configured."""
+        return self.handshake.phase is Phase.RUN
+
+    def begin(self, exchange: Exchange, now: int) -> None:
+        """The board runs from now on."""
+        self.exchange, self.heard, self.silent = exchange, now, False
+        self.switch, self.latest, self.sent = Switch(), None, None
+
+    def end(self) -> None:
+        """The board was reset."""
+        self.handshake.begin_again()
+        self.exchange = None
+
+    def due(self, now: int, wish: bool, duty: int) -> bytes:
+        """What to send now, while the user wants the output on or not, and this duty."""
+        frames: list[FromHost | None] = [self.handshake.asks(now)]
+        if self.exchange:
+            frames += [self.switch.asks(wish, self.latest, now), self.exchange.asks(now)]
+            if self.switch.listening:
+                frames.append(self._command(duty, now))
+        data = b"".join(self.encoder.send(frame) for frame in frames if frame is not None)
+        if not self.greeted:
+            self.greeted, data = True, b"\0" + data
+        return data
+
+    def _command(self, duty: int, now: int) -> Command | None:
+        """Say a new duty at once, and go on saying it: the board stops without."""
+        if self.sent is not None and self.sent[0] == duty and now - self.sent[1] < REPEAT:
+            return None
+        self.sent = (duty, now)
+        return Command(duty)

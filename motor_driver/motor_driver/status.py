@@ -1,0 +1,96 @@
+"""The driver's state as a diagnostic: one sentence on what is wrong and how to mend it, and the link's numbers."""
+
+from dataclasses import dataclass
+
+from motor_driver.driver import Driver
+from motor_driver.exchange import Exchange
+from motor_driver.frames import Hello
+from motor_driver.protocol import LinkCounters
+
+LEAST_RATE = 0.95  # of the requested one
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """What had been counted at some time."""
+
+    at: int = 0  # [ns]
+    readings: int = 0
+    link: LinkCounters = LinkCounters()
+    runs: bool = False
+    openings: int = 0
+
+
+def tally(driver: Driver, now: int) -> Tally:
+    """What has been counted by now [ns]."""
+    return Tally(now, driver.readings, driver.counters, driver.runs, driver.openings)
+
+
+def problem(driver: Driver, was: Tally, now: int) -> str:
+    """What is wrong, the most important first; empty if nothing is."""
+    session, rate = driver.session, achieved(driver, was, now)
+    if session is None:
+        return driver.trouble
+    steady = was.runs and driver.runs and was.openings == driver.openings
+    sentences = (
+        session.handshake.problem(now),
+        f"no telemetry comes from {session.port}: see its cable, or reset the board" if session.silent else "",
+        f"{driver.stopped}: the output is off until motor/enable is called with data: true" if driver.stopped else "",
+        driver.wiring.finding,
+        f"{rate:.0f} samples per second instead of {driver.config.sample_rate:.0f}"
+        if steady and rate < LEAST_RATE * driver.config.sample_rate
+        else "",
+        _noise(driver.counters, was.link),
+    )
+    return next(filter(None, sentences), "")
+
+
+def values(driver: Driver, was: Tally, now: int) -> dict[str, str]:
+    """The link's numbers by name and unit."""
+    session, counters = driver.session, driver.counters
+    rows = {
+        "port": session.port if session else "none",
+        "output": session.switch.output.name.lower().replace("_", " ") if session else "off",
+        "good frames": counters.good,
+        "CRC errors": counters.bad,
+        "lost frames": counters.lost,
+        "achieved rate [Hz]": f"{achieved(driver, was, now):.1f}",
+        "requested rate [Hz]": f"{driver.config.sample_rate:.1f}",
+        "ports opened": driver.openings,
+        "board resets": driver.resets,
+        **_board(driver.board),
+        **_clock(session.exchange if session else None),
+    }
+    return {key: str(value) for key, value in rows.items()}
+
+
+def achieved(driver: Driver, was: Tally, now: int) -> float:
+    """[Hz] samples per second since `was`."""
+    return (driver.readings - was.readings) / max((now - was.at) * 1e-9, 1e-9)
+
+
+def _noise(counters: LinkCounters, was: LinkCounters) -> str:
+    bad, lost = counters.bad - was.bad, counters.lost - was.lost
+    if not bad and not lost:
+        return ""
+    return f"{bad} damaged and {lost} lost frames in the last second: see cable, ground and the machine's load"
+
+
+def _board(board: Hello | None) -> dict[str, object]:
+    if board is None:
+        return {}
+    version = f"{board.firmware_major}.{board.firmware_minor}.{board.firmware_patch}"
+    return {"firmware": version, "board id": board.board_id}
+
+
+def _clock(exchange: Exchange | None) -> dict[str, object]:
+    if exchange is None or exchange.fit.fit is None or exchange.round_trip is None:
+        return {}
+    fit = exchange.fit.fit
+    return {
+        "frames damaged on the way to the board": exchange.board.bad_frames,
+        "samples the board could not send": exchange.board.dropped_samples,
+        "clock drift [ppm]": f"{-fit.drift * 1e6:.1f}",
+        "clock uncertainty [ms]": f"{fit.bound * 1e-6:.3f}",
+        "round trip [ms]": f"{exchange.round_trip * 1e-6:.2f}",
+    }

@@ -1,0 +1,59 @@
+"""The board's output switch from the driver's side: on only when the user has said so, off when in doubt."""
+
+from enum import Enum, auto
+
+from motor_driver.frames import Enable, Telemetry
+
+ASK_EVERY = 10_000_000  # [ns]
+
+
+class Output(Enum):
+    """What is known of the board's output."""
+
+    OFF = auto()
+    TURNING_ON = auto()
+    ON = auto()
+    TURNING_OFF = auto()
+
+
+class Switch:
+    """Follows the user's wish until telemetry confirms it; time in ns is an argument."""
+
+    def __init__(self) -> None:
+        self.output = Output.OFF  # to configure is to switch off
+        self._asked: int | None = None
+
+    @property
+    def listening(self) -> bool:
+        """Whether the board may act on commands."""
+        return self.output in (Output.ON, Output.TURNING_ON)
+
+    def hear(self, frame: Telemetry) -> bool:
+        """Take what the board says; True if it has switched off by itself."""
+        if frame.enabled:
+            if self.output is Output.TURNING_ON:
+                self.output = Output.ON
+            elif self.output is Output.OFF:
+                self._go(Output.TURNING_OFF)
+            return False
+        fell = self.output is Output.ON
+        if self.output is not Output.TURNING_ON:
+            self.output = Output.OFF
+        return fell
+
+    def asks(self, wish: bool, latest: Telemetry | None, now: int) -> Enable | None:
+        """What to send at `now`, given what the user wants and the board said last."""
+        if wish and self.output is Output.OFF:
+            self._go(Output.TURNING_ON)
+        elif not wish and self.listening:
+            self._go(Output.TURNING_OFF)
+        waiting = self.output in (Output.TURNING_ON, Output.TURNING_OFF)
+        if not waiting or (self._asked is not None and now - self._asked < ASK_EVERY):
+            return None
+        self._asked = now
+        if self.output is Output.TURNING_OFF or latest is None:
+            return Enable(0)
+        return Enable(1, latest.boot, latest.latch)
+
+    def _go(self, output: Output) -> None:
+        self.output, self._asked = output, None

@@ -1,0 +1,119 @@
+"""The driver's logic against the real firmware on the emulated chip, in lockstep: the test owns both clocks."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from board.bench import MS, TICK
+
+from motor_board.build import FirmwareConfig, firmware
+from motor_board.emulator import Emulator
+from motor_board.faults import Faults, Wire
+from motor_board.shaft import EncoderConfig
+from motor_driver.config import Config
+from motor_driver.driver import Driver, Reading
+from motor_model.parameters import Parameters, paper_motor
+from motor_ros.gate import Gate
+
+HOST = 7_000_000_000_000_000  # [ns] of the host's clock at the chip's cycle 0
+
+
+@dataclass
+class Rig:
+    """Board, wire with faults, driver and gate, as the node joins them; `voltage` is what a user keeps asking for."""
+
+    config: Config = field(default_factory=Config)
+    parameters: Parameters = field(default_factory=paper_motor)
+    firmware: FirmwareConfig = field(default_factory=lambda: FirmwareConfig(edges_per_revolution=96))
+    enabled: bool = True
+    step: int = MS // 4  # [cycle] between two looks at the port
+    emulator: Emulator = None  # type: ignore[assignment]  # of a rig before, or made
+
+    def __post_init__(self) -> None:
+        if self.emulator is None:
+            self.emulator = Emulator(firmware(self.firmware), self.parameters, EncoderConfig(seed=3))
+        self.driver = Driver(self.config)
+        self.gate = Gate(self.enabled, self.config.command_timeout)
+        self.faults = Faults()
+        self.readings: list[Reading] = []
+        self.stops: list[str] = []
+        self.clean = b""  # what the board said before any fault
+        self.voltage: float | None = None
+        self.plugged, self.alive = False, True
+        self._in, self._out = Wire(1), Wire(2)
+        self._asked = self._told = 0
+
+    @property
+    def now(self) -> int:
+        """[ns] the host's clock."""
+        return HOST + self.emulator.chip.cycle * 125 // 2
+
+    @property
+    def pins(self) -> float:
+        """[V] at the motor."""
+        return self.emulator.shaft.voltage
+
+    def host(self, sample_time: int) -> float:
+        """[ns] the host's clock at a sample of a board that has not been reset."""
+        ticks = (sample_time - 1_000_000_000) // 500
+        return HOST + (self.emulator.chip.clock_zero + ticks * TICK) * 62.5
+
+    def close(self) -> None:
+        self.emulator.close()
+
+    def plug(self) -> None:
+        """The port opens."""
+        self._in.cut()
+        self._out.cut()
+        self.plugged = True
+        self.driver.opened("the port", self.now)
+
+    def unplug(self) -> None:
+        """The port is gone."""
+        self.plugged = False
+        self.driver.closed("the port is gone")
+
+    def enable(self, on: bool = True) -> str:
+        """Call motor/enable; the refusal."""
+        refusal = self.driver.refusal() if on else ""
+        if not refusal:
+            self.gate = self.gate.enable(on)
+        return refusal
+
+    def run(self, milliseconds: float) -> None:
+        """Let time pass."""
+        end = self.emulator.chip.cycle + round(milliseconds * MS)
+        while self.emulator.chip.cycle < end:
+            self._step(min(self.step, end - self.emulator.chip.cycle))
+
+    def until(self, condition: Callable[[], bool], most: float) -> float:
+        """[ms] until something holds, which it does within `most`."""
+        begin = self.emulator.chip.cycle
+        while not condition():
+            assert self.emulator.chip.cycle - begin < most * MS, "it did not happen"
+            self._step(self.step)
+        return (self.emulator.chip.cycle - begin) / MS
+
+    def _step(self, cycles: int) -> None:
+        self.emulator.run(self.emulator.chip.cycle + cycles)
+        said = self.emulator.chip.drain()
+        self.clean += said
+        self._out.send(b"" if self.faults.stuck_telemetry or not self.plugged else said, self.faults, self.now)
+        if self.alive:
+            self._drive()
+        self.emulator.chip.feed(self._in.receive(self.now))
+
+    def _drive(self) -> None:
+        """What the node does with what has come."""
+        data = self._out.receive(self.now)
+        readings = self.driver.received(data, self.now) if data and self.plugged else []
+        self.readings += readings
+        if self.voltage is not None and self.now - self._told >= 5_000_000:
+            self._told = self.now
+            self.gate = self.gate.take(self.voltage, self.now)
+        if readings or self.now - self._asked > 10_000_000:
+            self._asked = self.now
+            order = self.driver.step(self.now, self.gate.enabled, self.gate.voltage(self.now))
+            if order.stop:
+                self.stops.append(order.stop)
+                self.gate = self.gate.enable(False)
+            self._in.send(order.data if self.plugged else b"", self.faults, self.now)

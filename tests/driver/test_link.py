@@ -1,0 +1,164 @@
+"""The serial port: what is wrong is said with its cure, and it comes back by itself."""
+
+import errno
+import os
+import pty
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+import serial
+
+from motor_board.port import Port
+from motor_driver import link
+from motor_driver.link import Closed, Event, Link, Opened, PortError, Received, chosen, open_port
+
+PATIENCE = 10.0  # [s]
+
+
+class Listener:
+    """Collects a link's events, and waits for one."""
+
+    def __init__(self, path: Path) -> None:
+        self.events: list[Event] = []
+        self._told = threading.Event()
+        self.link = Link(str(path), 500_000, self._told.set)
+
+    def wait(self, condition: Callable[[], bool], what: str) -> None:
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            assert self._told.wait(end - time.monotonic()), f"still waiting for {what}"
+            self._told.clear()
+            self.events += self.link.take()
+
+    def wait_for(self, kind: type, count: int = 1) -> list[Event]:
+        def found() -> list[Event]:
+            return [event for event in self.events if isinstance(event, kind)]
+
+        self.wait(lambda: len(found()) >= count, kind.__name__)
+        return found()
+
+
+@pytest.fixture
+def port(tmp_path: Path) -> Iterator[Port]:
+    port = Port(tmp_path / "port")
+    yield port
+    port.close()
+
+
+@pytest.fixture
+def listener(tmp_path: Path) -> Iterator[Listener]:
+    listener = Listener(tmp_path / "port")
+    yield listener
+    listener.link.close()
+
+
+def read(port: Port, count: int) -> bytes:
+    """What a client has written."""
+    data, end = b"", time.monotonic() + PATIENCE
+    while len(data) < count:
+        assert time.monotonic() < end
+        port.opened()
+        data += port.read()
+        time.sleep(0.001)
+    return data
+
+
+def test_waits_for_a_port_reads_writes_and_comes_back(port: Port, listener: Listener, tmp_path: Path) -> None:
+    (missing,) = listener.wait_for(Closed)
+    assert isinstance(missing, Closed)
+    assert missing.why.startswith(f"there is no {tmp_path / 'port'}: plug the board in, or set the parameter port; the")
+    for count in (1, 2):
+        port.plug()
+        listener.wait_for(Opened, count)
+        before = time.monotonic_ns()
+        listener.link.write(b"hello")
+        assert read(port, 5) == b"hello"
+        listener.events.clear()
+        port.write(b"back")
+        listener.wait(lambda: b"".join(e.data for e in listener.events if isinstance(e, Received)) == b"back", "bytes")
+        assert all(before < e.at < time.monotonic_ns() for e in listener.events if isinstance(e, Received))
+        port.unplug()
+        assert "is gone: plug the board in again" in str(listener.wait_for(Closed)[0])
+        listener.link.write(b"nobody hears this")
+        listener.events = [Opened("", 0)] * count
+
+
+def test_ends_within_half_a_second_and_frees_the_port(port: Port, listener: Listener, tmp_path: Path) -> None:
+    port.plug()
+    listener.wait_for(Opened)
+    listener.link.close()
+    assert not listener.link._thread.is_alive()  # close waits for no more than that
+    assert link.END == 0.5
+    open_port(str(tmp_path / "port"), 500_000).close()
+
+
+def test_a_port_in_use_is_refused(port: Port, listener: Listener, tmp_path: Path) -> None:
+    port.plug()
+    listener.wait_for(Opened)
+    with pytest.raises(PortError, match=r"port is in use: end the other program \(another motor_driver, a serial mon"):
+        open_port(str(tmp_path / "port"), 500_000)
+
+
+def test_a_stuck_port_does_not_hold_up_the_writer(listener: Listener, port: Port) -> None:
+    port.plug()
+    listener.wait_for(Opened)
+    for _ in range(100):
+        listener.link.write(bytes(4096))  # nobody reads: what does not fit is lost
+    port.unplug()
+    listener.wait_for(Closed)
+
+
+def test_no_serial_port_and_no_permission(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(PortError, match="file cannot be opened as a serial port with 500000 baud"):
+        open_port(str(tmp_path / "file"), 500_000)
+
+    def refuse(*_: object, **__: object) -> None:
+        raise serial.SerialException(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr(serial, "Serial", refuse)
+    monkeypatch.setenv("LOGNAME", "ada")
+    with pytest.raises(PortError) as error:
+        open_port("/dev/ttyACM0", 500_000)
+    assert str(error.value) == (
+        "no permission for /dev/ttyACM0: add yourself to the group dialout (sudo usermod -aG dialout ada), "
+        "log out and in again."
+    )
+
+
+@pytest.mark.parametrize(
+    ("devices", "words"),
+    [
+        ([], r"no board is plugged in \(there is no serial port here at all\): plug it in"),
+        ([("/dev/ttyS0", None)], r"no board is plugged in \(the ports here are /dev/ttyS0 \(n/a\)\)"),
+        ([("/dev/ttyACM0", 1), ("/dev/ttyUSB0", 1)], "set the parameter port to one of /dev/ttyACM0, /dev/ttyUSB0"),
+    ],
+)
+def test_without_a_name_the_only_port_on_usb_is_taken(
+    devices: list[tuple[str, int | None]], words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = [SimpleNamespace(device=device, vid=vid, description="n/a") for device, vid in devices]
+    monkeypatch.setattr(link.list_ports, "comports", lambda: found)
+    with pytest.raises(PortError, match=words):
+        chosen("")
+    found.append(SimpleNamespace(device="/dev/ttyACM7", vid=1, description="Uno"))
+    if len(devices) < 2:
+        assert chosen("") == "/dev/ttyACM7"
+    assert chosen("/dev/mine") == "/dev/mine"
+
+
+def test_a_client_that_hangs_up_at_once_is_no_trouble(listener: Listener, tmp_path: Path) -> None:
+    """A port that vanishes in the middle of being opened, again and again."""
+    for _ in range(20):
+        master, slave = pty.openpty()
+        (tmp_path / "port").unlink(missing_ok=True)
+        (tmp_path / "port").symlink_to(os.ttyname(slave))
+        os.close(slave)
+        os.close(master)
+    (tmp_path / "port").unlink()
+    listener.wait_for(Closed)
+    assert listener.link._thread.is_alive()

@@ -1,0 +1,109 @@
+"""Whoever dies, the motor stops: real processes, real firmware; times are those of the emulated board's clock."""
+
+import signal
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from subprocess import Popen
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from std_msgs.msg import Float64
+from std_srvs.srv import SetBool
+from system.user import User
+from workbench import PATIENCE, Bench
+
+from motor_board.chip import FREQUENCY
+from motor_board.live import LiveBoard
+from motor_ros import qos
+
+Start = Callable[..., "Popen[str]"]
+MOST = 0.150  # [s] to 0 V at the pins
+
+
+@pytest.fixture
+def driver(start: Start, live: LiveBoard, tmp_path: Path) -> "Popen[str]":
+    return start("motor_driver", "motor_driver", "--ros-args", "-p", f"port:={tmp_path / 'port'}")
+
+
+@pytest.fixture
+def user(bench: Bench) -> User:
+    return User(bench)
+
+
+def seconds(board: LiveBoard) -> float:
+    return board.truth().cycle / FREQUENCY
+
+
+def seconds_to_rest(board: LiveBoard) -> float:
+    """[s] on the board's clock until the pins are at 0 V."""
+    begin, patience = seconds(board), time.monotonic() + PATIENCE
+    while board.truth().voltage != 0.0:
+        assert time.monotonic() < patience, "the pins are not at 0 V"
+        time.sleep(0.001)
+    return seconds(board) - begin
+
+
+def test_a_killed_controller(bench: Bench, driver: "Popen[str]", live: LiveBoard, start: Start) -> None:
+    reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+    controller = start("motor_control", "motor_control")
+    bench.heard(reference)
+    reference.publish(Float64(data=60.0))
+    bench.wait(lambda: live.truth().speed > 50.0, "motion")
+    controller.kill()
+    assert seconds_to_rest(live) < MOST
+
+
+def test_a_killed_driver_and_its_successor(driver: "Popen[str]", live: LiveBoard, user: User, start: Start) -> None:
+    user.voltage = 6.0
+    user.until_on(lambda sample: sample.speed > 50.0, "motion")
+    driver.kill()
+    assert 0.05 < seconds_to_rest(live) < MOST
+    start("motor_driver", "motor_driver", "--ros-args", "-p", f"port:={live._port._link}")
+    user.until_on(lambda sample: sample.speed > 50.0, "motion by the next driver")
+
+
+def test_a_driver_that_is_ended_leaves_0_volt(driver: "Popen[str]", live: LiveBoard, user: User) -> None:
+    user.voltage = 6.0
+    user.until_on(lambda sample: sample.speed > 50.0, "motion")
+    driver.send_signal(signal.SIGINT)
+    assert seconds_to_rest(live) < MOST
+    _, err = driver.communicate(timeout=PATIENCE)
+    assert driver.returncode == 0 and "Traceback" not in err
+
+
+def test_unplugged_and_plugged_in_again(bench: Bench, driver: "Popen[str]", live: LiveBoard, user: User) -> None:
+    status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    user.voltage = 6.0
+    user.until_on(lambda sample: sample.speed > 50.0, "motion")
+    live.faults = replace(live.faults, plugged=False)
+    assert seconds_to_rest(live) < MOST
+    bench.wait(lambda: bool(status) and "plug the board in" in status[-1].status[0].message, "the cure")
+    refused = bench.call(SetBool, "motor/enable", SetBool.Request(data=True))
+    assert not refused.success and "the output stays off: there is no" in refused.message
+    begin, count = seconds(live), len(user.samples)
+    live.faults = replace(live.faults, plugged=True)
+    bench.wait(lambda: len(user.samples) > count, "samples")
+    assert seconds(live) - begin < 1.0
+    assert {sample.voltage for sample in user.more(60)} == {0.0} and live.truth().voltage == 0.0
+    bench.wait(lambda: "until motor/enable is called" in status[-1].status[0].message, "what to do")
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.until_on(lambda sample: sample.voltage == 6.0, "the output on")
+    times = [sample.sample_time for sample in user.samples]
+    assert times == sorted(set(times))
+
+
+def test_damaged_bytes_are_counted_in_the_diagnostics(bench: Bench, driver: "Popen[str]", live: LiveBoard) -> None:
+    status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    live.faults = replace(live.faults, bit_error_rate=1e-3)
+
+    def value(key: str) -> float:
+        values = [pair for pair in (status[-1].status[0].values if status else []) if pair.key == key]
+        return float(values[0].value) if values else 0.0
+
+    bench.wait(lambda: value("CRC errors") > 20.0, "CRC errors")
+    bench.wait(lambda: value("frames damaged on the way to the board") > 0.0, "the board's count")
+    bench.wait(lambda: 100.0 < value("achieved rate [Hz]") < 190.0, "the rate that is left")
+    assert value("requested rate [Hz]") == 200.0 and value("lost frames") > 20.0
+    assert status[-1].status[0].level == b"\x01"

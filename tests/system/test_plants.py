@@ -1,0 +1,112 @@
+"""Simulated and real motor swap: the same checks over motor_sim, and over motor_driver on the emulated board."""
+
+import json
+from collections.abc import Callable
+from itertools import pairwise
+from math import tau
+from pathlib import Path
+from subprocess import Popen
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool
+from system.user import User
+from workbench import PATIENCE, Bench, end
+
+from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_msgs.msg import MotorInfo
+from motor_ros import qos
+
+Start = Callable[..., "Popen[str]"]
+
+
+@pytest.fixture
+def user(bench: Bench) -> User:
+    return User(bench)
+
+
+def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, start_plant: Start, user: User) -> None:
+    motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA}, max_voltage=6.0)
+    process = start_plant(motor, "name:=wheel", "max_voltage:=6.0")
+    info = bench.hear(MotorInfo, "motor/info", qos.INFO)
+    joints = bench.hear(JointState, "joint_states", qos.JOINT_STATES)
+    status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    user.voltage = 8.0  # more than there is
+    user.until_on(lambda sample: sample.speed > 0.999 * 6.0 / PAPER_KV, "full speed")
+    steady = user.steady(6.0, 250)
+    assert (info[-1].name, info[-1].measurement, info[-1].single_channel) == ("wheel", "edges", True)
+    assert (info[-1].edges_per_revolution, info[-1].max_voltage, info[-1].decay) == (96, 6.0, "brake")
+    assert info[-1].sample_period == 0.005
+    assert {sample.header.frame_id for sample in steady} == {"wheel"}
+    assert {b.sample_time - a.sample_time for a, b in pairwise(steady)} == {5_000_000}
+    tick = round(info[-1].edge_resolution * 1e9)
+    assert all((sample.edge_time - 1_000_000_000) % tick == 0 for sample in steady)  # from power-up
+    first, last = steady[150], steady[-1]
+    turned = (last.edge_count - first.edge_count) * tau / 96
+    assert turned / ((last.edge_time - first.edge_time) * 1e-9) == pytest.approx(6.0 / PAPER_KV, rel=1e-4)
+    assert last.speed == pytest.approx(6.0 / PAPER_KV, rel=0.01)
+    stamps = [sample.header.stamp.sec * 10**9 + sample.header.stamp.nanosec for sample in steady]
+    assert stamps[-1] - stamps[0] == pytest.approx(steady[-1].sample_time - steady[0].sample_time, abs=20e6)
+    assert joints[-1].name == ["wheel"] and joints[-1].position[0] > joints[-5].position[0]
+    ours = [one for array in status for one in array.status if one.hardware_id == "wheel"]
+    assert ours and ours[-1].level == b"\x00" and ours[-1].message == "driven"
+    end(process)
+    assert process.returncode == 0
+
+
+def test_stops_without_commands_and_while_disabled(bench: Bench, start_plant: Start, user: User) -> None:
+    start_plant()
+    user.voltage = 4.5
+    user.until_on(lambda sample: sample.speed > 30.0, "motion")
+    user.sending = False
+    silent = user.until(lambda sample: sample.voltage == 0.0, "0 V after the time-out")
+    last = max(sample.sample_time for sample in user.samples if sample.voltage == 4.5)
+    assert 0.0 < (silent.sample_time - last) * 1e-9 < 0.15
+    user.sending = True
+    user.until_on(lambda sample: sample.voltage == 4.5, "commands again")
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=False)).success
+    user.until(lambda sample: sample.voltage == 0.0, "the output off")
+    user.until(lambda sample: sample.speed == 0.0, "a true zero")
+    assert all(sample.voltage == 0.0 for sample in user.samples[-20:])
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.until_on(lambda sample: sample.voltage == 4.5, "the output on")
+    user.voltage = float("nan")
+    user.until(lambda sample: sample.voltage == 0.0, "0 V instead of what is no number")
+    assert all(sample.voltage in (0.0, 4.5) for sample in user.samples)
+
+
+def test_stays_off_at_the_start_where_the_user_wants_that(bench: Bench, start_plant: Start, user: User) -> None:
+    start_plant(None, "enabled_at_start:=false")
+    user.voltage = 4.5
+    assert {sample.voltage for sample in user.more(60)} == {0.0}
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.until_on(lambda sample: sample.voltage == 4.5, "the output on")
+
+
+def test_a_value_out_of_range_is_one_sentence(start_plant: Start) -> None:
+    process = start_plant(None, "sample_rate:=5000.0")
+    out, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, out) == (1, "")
+    assert "sample_rate" in err and "10 to 1000 Hz" in err and err.count("\n") == 1
+
+
+@pytest.mark.parametrize("start_plant", ["motor_driver"], indirect=True)  # for motor_sim others show it
+def test_experiment_and_identification_find_the_motor(start_plant: Start, start: Start, tmp_path: Path) -> None:
+    """A motor whose friction nobody told of, on the pins of the emulated board."""
+    hidden = {"kv": 0.071, "ka": 0.0052, "ks": 0.4, "breakaway_voltage": 0.7, "stribeck_speed": 8.0}
+    start_plant(Parameters(hidden, ("static_friction",)))
+    process = start("motor_identification", "experiment", "ramps", "--output", tmp_path / "bag")
+    out, err = process.communicate(timeout=60.0)
+    assert process.returncode == 0, err
+    process = start(
+        "motor_identification",
+        *("identify", tmp_path / "bag", "--effects", "static_friction", "--json", tmp_path / "fit.json"),
+    )
+    out, err = process.communicate(timeout=60.0)
+    assert process.returncode == 0, err
+    fit = json.loads((tmp_path / "fit.json").read_text(encoding="utf-8"))
+    found = fit["model"]["parameters"]
+    for name, share in {"kv": 1e-4, "ka": 1e-3, "ks": 1e-3, "breakaway_voltage": 1e-3}.items():
+        assert found[name]["value"] == pytest.approx(hidden[name], rel=share), name
+    assert fit["residual_rms"] < 3.0 * fit["noise_floor"]

@@ -1,0 +1,61 @@
+"""A user of the plant, whichever it is."""
+
+from collections.abc import Callable
+
+from std_srvs.srv import SetBool
+from workbench import Bench
+
+from motor_msgs.msg import MotorSpeed, MotorVoltage
+from motor_ros import qos
+from motor_ros.messages import time_message, voltage_message
+
+
+class User:
+    """Sends a voltage after every sample, as a controller would."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench, self.voltage, self.sending = bench, 0.0, True
+        self.samples: list[MotorSpeed] = []
+        self._publisher = bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+        bench.node.create_subscription(MotorSpeed, "motor/speed", self._on_sample, qos.SPEED)
+
+    def _on_sample(self, message: MotorSpeed) -> None:
+        self.samples.append(message)
+        if self.sending:
+            self._publisher.publish(voltage_message(self.voltage, time_message(0), "user"))
+
+    def until(self, condition: Callable[[MotorSpeed], bool], what: str) -> MotorSpeed:
+        """The first new sample for which the condition holds."""
+        begin = len(self.samples)
+        self.bench.wait(lambda: any(condition(sample) for sample in self.samples[begin:]), what)
+        return next(sample for sample in self.samples[begin:] if condition(sample))
+
+    def until_on(self, condition: Callable[[MotorSpeed], bool], what: str) -> MotorSpeed:
+        """As `until`, by a user who switches on again: a busy machine holds the emulated board up, which is a stop."""
+        begin = looked = len(self.samples)
+
+        def enough() -> bool:
+            return any(map(condition, self.samples[looked:])) or len(self.samples) > looked + 300
+
+        while not any(map(condition, self.samples[begin:])):
+            self.bench.wait(enough, what)
+            looked = len(self.samples)
+            if self.samples[-1].voltage == 0.0:
+                self.bench.call(SetBool, "motor/enable", SetBool.Request(data=True))
+        return next(sample for sample in self.samples[begin:] if condition(sample))
+
+    def steady(self, voltage: float, count: int) -> list[MotorSpeed]:
+        """So many samples in a row at this voltage [V]."""
+
+        def steady(sample: MotorSpeed) -> bool:
+            return sample is self.samples[-1] and {one.voltage for one in self.samples[-count:]} == {voltage}
+
+        begin = len(self.samples)
+        self.until_on(lambda sample: len(self.samples) >= begin + count and steady(sample), "a steady voltage")
+        return self.samples[-count:]
+
+    def more(self, count: int) -> list[MotorSpeed]:
+        """So many new samples."""
+        begin = len(self.samples)
+        self.bench.wait(lambda: len(self.samples) >= begin + count, "more samples")
+        return self.samples[begin : begin + count]
