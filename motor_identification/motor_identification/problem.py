@@ -19,6 +19,7 @@ from motor_model.encoder import show
 from motor_model.errors import RecordingError
 from motor_model.simulate import NOWHERE, roll_out
 
+WORTHWHILE = 50_000  # steps of motion (some 3 ms) for which it pays to start threads
 COARSENESS = 4.0  # of the motion while a swarm searches
 
 
@@ -120,7 +121,11 @@ class Problem:
         """The same for parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
         vectors[:, :, INDEX["coarseness"]] = self.coarseness
         residuals = np.empty((len(vectors), len(self.weight)))
-        share = -(-len(vectors) // max(self.workers, 1))
+        steps = len(vectors) * sum(
+            len(data.time) + len(time) for data, (time, _) in zip(self.intervals, self.commands, strict=True)
+        )
+        workers = max(self.workers, 1) if steps > WORTHWHILE else 1
+        share = -(-len(vectors) // workers)
         parts = [slice(i, i + share) for i in range(0, len(vectors), share)]
 
         def work(part: slice) -> None:
