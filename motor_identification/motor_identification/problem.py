@@ -1,6 +1,6 @@
 """A fitting problem: recordings and a set of unknowns, as a cost for a swarm and residuals for least squares."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -19,6 +19,7 @@ from motor_model.encoder import show
 from motor_model.errors import RecordingError
 from motor_model.simulate import NOWHERE, roll_out
 
+WORTHWHILE = 50_000  # steps of motion (some 3 ms) for which it pays to start threads
 COARSENESS = 4.0  # of the motion while a swarm searches
 
 
@@ -58,6 +59,7 @@ class Problem:
     workers: int = 1
     coarseness: float = 1.0  # of the simulation, see `motor.py`
     tracks: tuple[Track, ...] = ()  # the measured angle of every recording, for what is periodic in it
+    spared: Callable[[Intervals], Bools] | None = None  # marks intervals of a recording that no fit may see
 
     @cached_property
     def commands(self) -> tuple[tuple[Floats, Floats], ...]:
@@ -94,6 +96,15 @@ class Problem:
         kept = tuple(without(data, marks) for data, marks in zip(self.intervals, bad, strict=True))
         return replace(self, intervals=kept)
 
+    def sparing(self, spared: Callable[[Intervals], Bools]) -> "Problem":
+        """The same problem without the intervals that this marks, now and whenever its intervals are read again."""
+        return replace(self.without(tuple(spared(data) for data in self.intervals)), spared=spared)
+
+    def read_again(self, intervals: tuple[Intervals, ...]) -> "Problem":
+        """The same problem with its recordings' intervals read in another way."""
+        again = replace(self, intervals=intervals)
+        return again if self.spared is None else again.sparing(self.spared)
+
     def increments(self, place: Floats) -> tuple[Floats, ...]:
         """Simulated minus measured travel [rad] in the intervals of every recording, at one place (D,)."""
         residuals = self.residuals(place)
@@ -120,7 +131,11 @@ class Problem:
         """The same for parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
         vectors[:, :, INDEX["coarseness"]] = self.coarseness
         residuals = np.empty((len(vectors), len(self.weight)))
-        share = -(-len(vectors) // max(self.workers, 1))
+        steps = len(vectors) * sum(
+            len(data.time) + len(time) for data, (time, _) in zip(self.intervals, self.commands, strict=True)
+        )
+        workers = max(self.workers, 1) if steps > WORTHWHILE else 1
+        share = -(-len(vectors) // workers)
         parts = [slice(i, i + share) for i in range(0, len(vectors), share)]
 
         def work(part: slice) -> None:
