@@ -31,6 +31,8 @@ setup(
         "console_scripts": [
             "motor_identification = motor_identification.node:main",
             "identify = motor_identification.cli.identify:main",
+            "diagnose = motor_identification.cli.diagnose:main",
+            "explore = motor_identification.cli.explore:main",
             "experiment = motor_identification.cli.experiment:main",
             "record = motor_identification.cli.record:main",
             "play = motor_identification.cli.play:main",

@@ -35,7 +35,14 @@ class Speeds:
         return np.asarray(np.sqrt(self.problem.weight)[:, None] * self.problem.jacobian(place))
 
 
-def descend(problem: Problem, target: Residuals, place: Floats, most: float = np.inf) -> tuple[Floats, int]:
+def descend(
+    problem: Problem,
+    target: Residuals,
+    place: Floats,
+    most: float = np.inf,
+    iterations: int = 60,
+    tolerance: float = 1e-12,
+) -> tuple[Floats, int]:
     """Least squares (trust region reflective) from a place, kept if it is not improved; and the simulations.
 
     Residuals far above `most` count by their size, not by its square (SciPy's soft_l1): a few false ones do not pull.
@@ -49,10 +56,10 @@ def descend(problem: Problem, target: Residuals, place: Floats, most: float = np
         jac=target.jacobian,
         bounds=(low, high),
         x_scale=high - low,
-        ftol=1e-12,
-        xtol=1e-12,
-        gtol=1e-14,
-        max_nfev=60,
+        ftol=tolerance,
+        xtol=tolerance,
+        gtol=0.01 * tolerance,
+        max_nfev=iterations,
         loss="soft_l1" if robust else "linear",
         f_scale=most if robust else 1.0,
     )

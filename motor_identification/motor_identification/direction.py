@@ -31,7 +31,7 @@ def redirected(problem: Problem, place: Floats) -> Problem:
             continue
         motion = _Motion(vectors[0, r], float(starts[0, r]), problem.commands[r])
         intervals.append(reader(recording, motion, SURELY * rms))
-    return replace(problem, intervals=tuple(intervals))
+    return problem.read_again(tuple(intervals))
 
 
 @dataclass(frozen=True)

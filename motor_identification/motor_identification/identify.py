@@ -67,7 +67,7 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     refuse_nonsense(recordings, request.effects)
     effects = normalised(request.effects)
     whole = make_problem(recordings, without_periodic(effects), request.workers)
-    found, place, evaluations = _searched(whole, request, lambda share: tell("search", 0.8 * share))
+    found, place, evaluations = searched(whole, request, lambda share: tell("search", 0.8 * share))
     tell("least squares", 0.8)
     directed = redirected(whole, place)
     directed, place, more = add_periodic(directed, place, effects)
@@ -83,7 +83,7 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     return replace(fit, notes=notes, duration=perf_counter() - begun)
 
 
-def _searched(whole: Problem, request: Request, progress: Callable[[float], None]) -> tuple[Found, Floats, int]:
+def searched(whole: Problem, request: Request, progress: Callable[[float], None]) -> tuple[Found, Floats, int]:
     """The whole box searched on an excerpt of joined intervals, then least squares on everything."""
     coarse = whole.coarse(COARSE)
     searched = excerpt(coarse)

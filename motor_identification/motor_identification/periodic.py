@@ -15,10 +15,11 @@ from motor_identification.unknowns import carried
 from motor_model.effects import EFFECT_BY_NAME
 
 ROUNDS = 2  # the second time, the motor that bridges the gaps of the measured angle has the effect already
+ITERATIONS = 25  # of a descent
 RIPPLES = 2  # lines of the spectrum that are tried
 
 Tracks = tuple[Track, ...]
-Start = tuple[Tracks, Mapping[str, Floats]]  # measured angles, and the values of an effect in every recording
+Start = tuple[Tracks, Mapping[str, Floats]]  # measured angles, and an effect's values in every recording
 
 
 def without_periodic(effects: tuple[str, ...]) -> tuple[str, ...]:
@@ -31,20 +32,30 @@ def add_periodic(problem: Problem, place: Floats, effects: tuple[str, ...]) -> t
     evaluations = 0
     for effect in _STARTS:
         if effect in effects:
-            problem, place, more = added(problem, place, effect)
-            evaluations += more
+            larger = added(problem, place, effect)
+            if larger is not None:
+                problem, place, more = larger
+                evaluations += more
     return problem, place, evaluations
 
 
-def added(bare: Problem, place: Floats, effect: str) -> tuple[Problem, Floats, int]:
-    """Extend a fit by one periodic effect."""
+def added(bare: Problem, place: Floats, effect: str, least: float = 0.0) -> tuple[Problem, Floats, int] | None:
+    """Extend a fit by one periodic effect; None where its spectrum promises less than `least`.
+
+    That is in squared standard deviations.
+    """
     effects, evaluations = (*bare.unknowns.effects, effect), 0
     full, end = bare.anchored(place, effects), place
     for _ in range(ROUNDS):
         ends = []
-        for tracks, values in _STARTS[effect](bare, place, full.tracks):
+        starts = _STARTS[effect](bare, place, full.tracks, least)
+        if not starts:
+            return None
+        least = 0.0
+        for tracks, values in starts:
             trial = replace(full, tracks=tracks)
-            end, more = descend(trial, Speeds(trial), carried(bare.unknowns, place, full.unknowns, values))
+            start = carried(bare.unknowns, place, full.unknowns, values)
+            end, more = descend(trial, Speeds(trial), start, iterations=ITERATIONS, tolerance=1e-8)
             ends.append((float(trial.costs(end[None])[0]), trial, end))
             evaluations += more
         _cost, best, end = min(ends, key=lambda row: row[0])
@@ -53,23 +64,26 @@ def added(bare: Problem, place: Floats, effect: str) -> tuple[Problem, Floats, i
         bare = replace(bare, intervals=best.intervals, tracks=best.tracks if bare.tracks else ())
         full = best.anchored(end, effects)
     free = replace(best, tracks=())  # a complete model does not drift, and then its own angle is the better one
-    onward, more = descend(free, Speeds(free), end)
+    onward, more = descend(free, Speeds(free), end, iterations=ITERATIONS, tolerance=1e-10)
     if float(free.costs(onward[None])[0]) < float(best.costs(end[None])[0]):
         best, end = free, onward
     return best, end, evaluations + more
 
 
-def phases(bare: Problem, place: Floats, effect: str, values: Mapping[str, float]) -> Start:
-    """Measured angles and phases under which a known periodic effect fits recordings best; see `added`."""
-    tracks = bare.anchored(place, bare.unknowns.effects).tracks
+def phases(bare: Problem, place: Floats, effect: str, cycles: float, tracks: Tracks = ()) -> Start:
+    """Measured angles and phases under which a known periodic effect fits recordings best; see `added`.
+
+    Without `tracks` a motor that lacks the effect bridges the gaps of the measured angle.
+    """
+    tracks = tracks or bare.anchored(place, bare.unknowns.effects).tracks
     if effect == "torque_ripple":
-        ripple = ripple_of(bare, place, tracks, values["ripple_cycles"])
+        ripple = ripple_of(bare, place, tracks, cycles)
         return ripple.tracks, {"ripple_phase": np.array(ripple.phases)}
-    ((tracks, wave),) = _eccentricities(bare, place, tracks)
+    ((tracks, wave),) = _eccentricities(bare, place, tracks, 0.0)
     return tracks, {"eccentricity_phase": wave["eccentricity_phase"]}
 
 
-def _eccentricities(problem: Problem, place: Floats, tracks: Tracks) -> list[Start]:
+def _eccentricities(problem: Problem, place: Floats, tracks: Tracks, _least: float) -> list[Start]:
     """The first harmonic of what a fit leaves over the angle, by least squares."""
     waves = []
     for data, track, increments in zip(problem.intervals, tracks, problem.increments(place), strict=True):
@@ -84,7 +98,7 @@ def _eccentricities(problem: Problem, place: Floats, tracks: Tracks) -> list[Sta
     return [(tracks, {"eccentricity": size, "eccentricity_phase": np.asarray(np.angle(waves), dtype=np.float64)})]
 
 
-def _ripples(problem: Problem, place: Floats, tracks: Tracks) -> list[Start]:
+def _ripples(problem: Problem, place: Floats, tracks: Tracks, least: float) -> list[Start]:
     return [
         (
             ripple.tracks,
@@ -94,7 +108,7 @@ def _ripples(problem: Problem, place: Floats, tracks: Tracks) -> list[Start]:
                 "ripple_phase": np.array(ripple.phases),
             },
         )
-        for ripple in ripples(problem, place, tracks)[:RIPPLES]
+        for ripple in ripples(problem, place, tracks, least)[:RIPPLES]
     ]
 
 

@@ -1,6 +1,6 @@
 """A fitting problem: recordings and a set of unknowns, as a cost for a swarm and residuals for least squares."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -59,6 +59,7 @@ class Problem:
     workers: int = 1
     coarseness: float = 1.0  # of the simulation, see `motor.py`
     tracks: tuple[Track, ...] = ()  # the measured angle of every recording, for what is periodic in it
+    spared: Callable[[Intervals], Bools] | None = None  # marks intervals of a recording that no fit may see
 
     @cached_property
     def commands(self) -> tuple[tuple[Floats, Floats], ...]:
@@ -94,6 +95,15 @@ class Problem:
         """The same problem without the marked intervals of every recording."""
         kept = tuple(without(data, marks) for data, marks in zip(self.intervals, bad, strict=True))
         return replace(self, intervals=kept)
+
+    def sparing(self, spared: Callable[[Intervals], Bools]) -> "Problem":
+        """The same problem without the intervals that this marks, now and whenever its intervals are read again."""
+        return replace(self.without(tuple(spared(data) for data in self.intervals)), spared=spared)
+
+    def read_again(self, intervals: tuple[Intervals, ...]) -> "Problem":
+        """The same problem with its recordings' intervals read in another way."""
+        again = replace(self, intervals=intervals)
+        return again if self.spared is None else again.sparing(self.spared)
 
     def increments(self, place: Floats) -> tuple[Floats, ...]:
         """Simulated minus measured travel [rad] in the intervals of every recording, at one place (D,)."""

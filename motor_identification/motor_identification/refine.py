@@ -12,7 +12,7 @@ import numpy as np
 
 from motor_identification.evidence import likely_noise
 from motor_identification.intervals import Intervals
-from motor_identification.noise import AngleNoise, Whitening, likely_growth, make_whitening, whiten
+from motor_identification.noise import AngleNoise, Whitening, adjoint, likely_growth, make_whitening, whiten
 from motor_identification.problem import Problem
 from motor_identification.recording import Bools, Floats
 from motor_identification.slots import Projection, SlotTable, likely_variance, slot_index
@@ -45,6 +45,11 @@ class Encoder:
         """White residuals from angle increments [rad]."""
         white = whiten(self.whitening, increments)
         return white if self.projection is None else self.projection(white)
+
+    def pull(self, white: Floats) -> Floats:
+        """The transpose of `white` but for the table's prior, (I,) → (I,): for products with what is white."""
+        left = white if self.projection is None else self.projection(white)[: len(white)]
+        return adjoint(self.whitening, left)
 
 
 def learn(problem: Problem, place: Floats) -> tuple[Encoder, ...]:

@@ -23,6 +23,8 @@ from motor_model.effects import SPEC_BY_NAME
 BLOCK = 8.0  # turns
 FINENESS = 4.0  # grid points to the width of a line
 CANDIDATES = 4
+KNOTS = 16  # grid points
+CHANCE, BASE = 8.0, 12  # of the sum of white squares, for each counted run and so many more: slips explain by chance
 
 
 @dataclass(frozen=True)
@@ -50,28 +52,53 @@ class _Run:
     white: Floats  # of measured minus simulated increments
 
 
-def ripples(problem: Problem, place: Floats, tracks: Sequence[Track]) -> list[Ripple]:
-    """The most likely ripples in what a fitted place (D,) leaves on measured angles, best first, each another line."""
+def ripples(problem: Problem, place: Floats, tracks: Sequence[Track], least: float = 0.0) -> list[Ripple]:
+    """The most likely ripples in what a fitted place (D,) leaves on measured angles, best first, each another line.
+
+    None where the spectrum promises less than `least` of the sum of white squares.
+    """
     values = problem.unknowns.parameters(place, "").values
     rate, inertia = values["kv"] / values["ka"], values["ka"]
     runs = _runs(problem, place, tracks)
     spec = SPEC_BY_NAME["ripple_cycles"]
     turns = max(np.ptp(np.concatenate([run.start, run.end])) for run in runs) / tau
-
-    def power(cycles: float, parts: Sequence[Integers]) -> float:
-        rows = zip(runs, parts, strict=True)
-        return sum(float(_explained(_sums(run, cycles, rate, inertia, part))) for run, part in rows)
-
-    blocks = [_blocks(run) for run in runs]
     width = 1.0 / (FINENESS * min(BLOCK, max(turns, 1.0)))
     rough = np.arange(spec.low, spec.high, width)
-    spectrum = np.array([power(cycles, blocks) for cycles in rough])
+    spectra = [_spectrum(run, rough, rate, inertia) for run in runs]
+    spectrum = np.sum([powers for powers, _blocks in spectra], axis=0)
+    if spectrum.max() - 2.0 * sum(blocks for _powers, blocks in spectra) < least:
+        return []
     found = []
     for peak in _peaks(spectrum, CANDIDATES):
         fine = rough[peak] + np.arange(-width, width, 1.0 / (FINENESS * max(turns, 1.0)))
         lines = [_line(runs, tracks, cycles, rate, inertia, problem) for cycles in fine]
         found.append(max(lines, key=lambda line: line.explained))
-    return sorted(found, key=lambda line: -line.explained)
+    chance = CHANCE * sum(int(run.stretch.max()) + BASE for run in runs) if least > 0.0 else 0.0
+    likely = [line for line in found if line.explained > max(least, chance)]
+    return sorted(likely, key=lambda line: -line.explained)
+
+
+def _spectrum(run: _Run, cycles: Floats, rate: float, inertia: float) -> tuple[Floats, int]:
+    """How much a ripple of each number of cycles explains, each block of a few turns on its own; and how many blocks.
+
+    The products with the residual are exact; those of the responses among themselves change slowly with the cycles, and
+    are had at every KNOTS-th only.
+    """
+    block = _blocks(run)
+    blocks = int(block.max()) + 1
+    pull = run.encoder.pull(run.white)
+    knots = cycles[::KNOTS]
+    shapes = np.array([_sums(run, knot, rate, inertia, block) for knot in knots])
+    sizes = 0.5 * (shapes[:, :, 0] + shapes[:, :, 2])  # sine and cosine are as good as independent in every block
+    powers = np.empty(len(cycles))
+    for i, number in enumerate(cycles):
+        sine, cosine = _bare_response(run, number, rate, inertia)
+        at = min((number - knots[0]) / (knots[1] - knots[0]), len(knots) - 1.0001)
+        size = sizes[int(at)] + (at - int(at)) * (sizes[int(at) + 1] - sizes[int(at)])
+        along = np.bincount(block, np.where(run.moving, pull * sine, 0.0), blocks)
+        across = np.bincount(block, np.where(run.moving, pull * cosine, 0.0), blocks)
+        powers[i] = float(np.sum((along**2 + across**2)[size > 0.0] / size[size > 0.0]))
+    return powers, blocks
 
 
 def ripple_of(problem: Problem, place: Floats, tracks: Sequence[Track], cycles: float) -> Ripple:
@@ -125,9 +152,15 @@ def _whitened(run: _Run, increments: Floats) -> Floats:
 
 def _response(run: _Run, cycles: float, rate: float, inertia: float) -> tuple[Floats, Floats]:
     """Whitened increments that loads of sin(cycles·θ) and of cos(cycles·θ), 1 V each, make."""
+    sine, cosine = _bare_response(run, cycles, rate, inertia)
+    return _whitened(run, sine), _whitened(run, cosine)
+
+
+def _bare_response(run: _Run, cycles: float, rate: float, inertia: float) -> tuple[Floats, Floats]:
+    """The same, not whitened [rad]."""
     sine, cosine = np.zeros(len(run.start)), np.zeros(len(run.start))
     _fill_response(run.order, run.start, run.end, run.duration, run.moving, cycles, rate, inertia, sine, cosine)
-    return _whitened(run, sine), _whitened(run, cosine)
+    return sine, cosine
 
 
 @compiled
@@ -163,18 +196,6 @@ def _products(white: Floats, sine: Floats, cosine: Floats, block: Integers, sums
         row[2] += cosine[i] * cosine[i]
         row[3] += sine[i] * white[i]
         row[4] += cosine[i] * white[i]
-
-
-@compiled
-def _explained(sums: Floats) -> float:
-    """How much of the sum of squares the best wave in each block explains."""
-    total = 0.0
-    for b in range(len(sums)):
-        ss, sc, cc, sw, cw = sums[b]
-        determinant = ss * cc - sc * sc
-        if determinant > 1e-9 * ss * cc:
-            total += (cc * sw * sw - 2.0 * sc * sw * cw + ss * cw * cw) / determinant
-    return total
 
 
 def _peaks(spectrum: Floats, count: int) -> list[int]:

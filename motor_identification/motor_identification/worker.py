@@ -1,43 +1,175 @@
-"""A worker process for long computations: the node that asks stays alive, and can end the work at any moment."""
+"""A worker process for long computations: the node that asks stays alive, hears how far it is, and can end it."""
 
 import multiprocessing
 import os
+import queue
 import signal
+import sys
 import threading
+import time
+import traceback
 from collections.abc import Callable
-from concurrent.futures import Future, ProcessPoolExecutor
-from typing import Any, TypeVar
+from concurrent.futures import Future
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from typing import Any
 
-T = TypeVar("T")
+from motor_model.errors import MotorError
+
+GRACE = 0.5  # [s] that a computation has to stop by itself; after that its process is ended
+LOOK_EVERY = 0.1  # [s] how long it takes at most to notice that a computation is to stop
+STOPPED = "the computation was stopped."
 
 
-def _begin() -> None:
-    """Ctrl-C in the terminal is for the node, which ends its worker itself; if it is killed, so is the worker."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_follow_the_parent, daemon=True).start()
+class Ended(MotorError):
+    """A computation was stopped, or its process has died."""
 
 
-def _follow_the_parent() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
+@dataclass(frozen=True)
+class Call:
+    """A computation that was asked for: `answer` gets its result or its MotorError, from another thread."""
+
+    function: Callable[..., Any]
+    arguments: tuple[Any, ...]
+    heard: Callable[..., None] | None  # of progress, also in another thread
+    answer: "Future[Any]" = field(default_factory=Future)
+    unwanted: threading.Event = field(default_factory=threading.Event)
+
+    def stop(self) -> None:
+        """End it: at once where it has not begun, else within `GRACE`."""
+        self.unwanted.set()
+        self.answer.cancel()
 
 
 class Worker:
-    """One process, started at once so that its imports are done when the first job comes."""
+    """One process, started at once so that its imports are done when the first call comes; a dead one is replaced."""
 
     def __init__(self, prepare: Callable[[], object]) -> None:
-        context = multiprocessing.get_context("spawn")  # fork would copy DDS threads in an unknown state
-        self._pool = ProcessPoolExecutor(1, mp_context=context, initializer=_begin)
-        self._pool.submit(prepare)
+        self._context = multiprocessing.get_context("spawn")  # fork would copy DDS threads in an unknown state
+        self._prepare = prepare
+        self._calls: queue.SimpleQueue[Call | None] = queue.SimpleQueue()
+        self._starting = threading.Lock()
+        self._closed = False
+        self._start()
+        self._server = threading.Thread(target=self._serve, daemon=True)
+        self._server.start()
 
-    def submit(self, function: Callable[..., T], *arguments: Any) -> "Future[T]":
-        """Queue a call; its result or exception arrives in the future, from another thread."""
-        return self._pool.submit(function, *arguments)
+    def submit(self, function: Callable[..., Any], *arguments: Any, heard: Callable[..., None] | None = None) -> Call:
+        """Queue a call. Where `heard` is given, the function gets `progress` and `stopped` by these names."""
+        call = Call(function, arguments, heard)
+        self._calls.put(call)
+        return call
 
     def close(self) -> None:
         """End the process, whatever it is doing."""
-        for process in list((self._pool._processes or {}).values()):
-            process.terminate()
-        self._pool.shutdown(wait=True, cancel_futures=True)  # the pool has to see it, or it stumbles at exit
+        with self._starting:
+            self._closed = True
+            self._process.terminate()
+        self._calls.put(None)
+        self._server.join()
+        self._process.join()
+
+    def _start(self) -> None:
+        with self._starting:
+            if self._closed:
+                return
+            self._connection, theirs = self._context.Pipe()
+            self._process = self._context.Process(target=_work, args=(theirs, self._prepare), daemon=True)
+            self._process.start()
+            theirs.close()  # so that its end is seen here
+
+    def _serve(self) -> None:
+        while (call := self._calls.get()) is not None:
+            if not call.answer.set_running_or_notify_cancel():
+                continue
+            if not self._process.is_alive():
+                self._start()
+            try:
+                call.answer.set_result(self._computed(call))
+            except MotorError as error:
+                call.answer.set_exception(error)
+            except Exception as error:  # of who heard the progress: the next call must not get this one's answer
+                traceback.print_exc(file=sys.stderr)
+                self._replace()
+                call.answer.set_exception(_broken(error))
+
+    def _replace(self) -> None:
+        self._process.kill()
+        self._process.join()
+        self._start()
+
+    def _computed(self, call: Call) -> Any:
+        """What the process says in the end; while it computes, what it tells is handed on."""
+        deadline = float("inf")
+        try:
+            self._connection.send((call.function, call.arguments, call.heard is not None))
+            while True:
+                if call.unwanted.is_set() and deadline == float("inf"):
+                    self._connection.send(None)
+                    deadline = time.monotonic() + GRACE
+                if time.monotonic() > deadline:
+                    self._replace()
+                    raise Ended(STOPPED)
+                if self._connection.poll(LOOK_EVERY):
+                    kind, value = self._connection.recv()
+                    if kind == "answer":
+                        return value
+                    if kind == "error":
+                        raise value
+                    if call.heard is not None:
+                        call.heard(*value)
+        except (EOFError, OSError):
+            self._process.join()
+            code = self._process.exitcode or 0
+            self._start()
+            raise Ended(_died(code)) from None
+
+
+def _broken(error: Exception) -> MotorError:
+    return MotorError(f"the computation broke: {type(error).__name__}: {error}.")
+
+
+def _died(code: int) -> str:
+    how = f"was killed ({signal.Signals(-code).name})" if code < 0 else f"ended with status {code}"
+    return (
+        f"the computing process {how}, perhaps for want of memory: ask again, or for a shorter part of the recording."
+    )
+
+
+def _work(connection: Connection, prepare: Callable[[], object]) -> None:
+    """The process: calls one after the other, each answered over the connection."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C in the terminal is for the node, which ends its worker itself
+    calls: queue.SimpleQueue[tuple[Any, ...]] = queue.SimpleQueue()
+    unwanted = threading.Event()
+    threading.Thread(target=_listen, args=(connection, calls, unwanted), daemon=True).start()
+    prepare()
+    speaking = threading.Lock()  # progress comes from any thread
+
+    def say(kind: str, value: Any) -> None:
+        with speaking:
+            connection.send((kind, value))
+
+    while True:
+        function, arguments, told = calls.get()
+        hooks = {"progress": lambda *told: say("told", told), "stopped": unwanted.is_set} if told else {}
+        try:
+            say("answer", function(*arguments, **hooks))
+        except MotorError as error:
+            say("error", error)
+        except Exception as error:
+            traceback.print_exc(file=sys.stderr)
+            say("error", _broken(error))
+
+
+def _listen(connection: Connection, calls: "queue.SimpleQueue[tuple[Any, ...]]", unwanted: threading.Event) -> None:
+    """Take calls, and the word to stop one; where the node has gone, go too."""
+    try:
+        while True:
+            message = connection.recv()
+            if message is None:
+                unwanted.set()
+            else:
+                unwanted.clear()
+                calls.put(message)
+    except (EOFError, OSError):
+        os._exit(1)

@@ -21,7 +21,7 @@ BASE = (
 )
 
 EFFECTS = (
-    Effect("coulomb_friction", "ks·sign ω while moving", "staircase", (P("ks", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE),)),
+    Effect("coulomb_friction", "ks·sign ω while moving", "ramps", (P("ks", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE),)),
     Effect(
         "static_friction",
         "more friction at low speed, and a breakaway level at rest",

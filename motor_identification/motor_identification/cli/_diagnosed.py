@@ -1,0 +1,151 @@
+"""What the commands that diagnose share: a diagnosis with a progress bar, on the terminal and in files."""
+
+import json
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import datetime, timezone
+from math import isfinite
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING
+
+from motor_model.errors import MotorError
+
+if TYPE_CHECKING:
+    from motor_identification.diagnose import Stage
+    from motor_identification.diagnosis import Diagnosis
+    from motor_identification.job import DiagnosisJob
+
+BAR = "{desc} {bar} {percentage:3.0f} %"
+
+
+def diagnosed(job: "DiagnosisJob") -> "Diagnosis":
+    """Diagnose with a progress bar, and print what came out.
+
+    Raises:
+        MotorError: it cannot be done.
+        KeyboardInterrupt: Ctrl-C or SIGTERM; every thread has been told to stop.
+    """
+    from tqdm import tqdm
+
+    from motor_identification.job import notes_of, run_diagnosis
+    from motor_identification.words import as_table, summary
+
+    speaking = threading.Lock()  # stages come from any thread
+    with _interruptible() as stopped, tqdm(total=100, delay=2.0, disable=None, bar_format=BAR) as bar:
+
+        def show(stage: "Stage") -> None:
+            with speaking:
+                bar.set_description(_described(stage), refresh=False)
+                bar.update(max(round(100 * stage.share) - bar.n, 0))
+
+        diagnosis = run_diagnosis(job, show, stopped)
+    print(as_table(diagnosis))
+    print(f"\n{summary(diagnosis)}", *notes_of(diagnosis), sep="\n")
+    return diagnosis
+
+
+def _described(stage: "Stage") -> str:
+    return f"{stage.text}, gap {stage.gap:.3g} rad/s" if isfinite(stage.gap) else stage.text
+
+
+@contextmanager
+def _interruptible() -> "Iterator[Callable[[], bool]]":
+    """Within, Ctrl-C and SIGTERM interrupt the main thread and make what this yields true for all others."""
+    unwanted = threading.Event()
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        unwanted.set()
+        raise KeyboardInterrupt
+
+    before = {number: signal.signal(number, interrupt) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield unwanted.is_set
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+@dataclass(frozen=True)
+class Files:
+    """Where a diagnosis goes; None is nowhere."""
+
+    model: str | None = None
+    json: str | None = None
+    report: str | None = None  # a directory, for the report, the model and the JSON
+
+    def rows(self) -> "list[tuple[str, Callable[[Diagnosis, Path], None], Path]]":
+        """What is written, how and where; what comes without being asked for has no name."""
+        rows = [("model", write_model, self.model), ("json", write_json, self.json)]
+        if self.report is not None:
+            files = (("", write_model, "model.yaml"), ("", write_json, "diagnosis.json"))
+            last = ("report", write_report, "report.html")  # the longest: nothing waits for it
+            rows += [(name, write, os.path.join(self.report, file)) for name, write, file in (*files, last)]
+        return [(name, write, Path(path)) for name, write, path in rows if path]
+
+    def check(self) -> None:
+        """Refuse before anything is computed what could not be written afterwards.
+
+        Raises:
+            MotorError: a directory is missing or must not be written to.
+        """
+        for _name, _write, path in self.rows():
+            directory = path.parent
+            if self.report is not None and directory == Path(self.report):  # it will be made
+                directory = next(parent for parent in path.absolute().parents if parent.exists())
+            if not directory.is_dir() or not os.access(directory, os.W_OK) or path.is_dir():
+                raise MotorError(f"cannot write {path}: name a file in a directory that exists and can be written to.")
+
+    def write(self, diagnosis: "Diagnosis") -> None:
+        """Write everything, and say where it is.
+
+        Raises:
+            MotorError: something cannot be written; everything else is.
+        """
+        troubles = []
+        if self.report is not None:
+            _make(Path(self.report))
+        for name, write, path in self.rows():
+            try:
+                write(diagnosis, path)
+                if name:
+                    print(f"{name}: {path}")
+            except MotorError as error:
+                troubles.append(str(error))
+        if troubles:
+            raise MotorError(" ".join(troubles))
+
+
+def _make(directory: Path) -> None:
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise MotorError(f"cannot make the directory {directory}: {error.strerror}.") from error
+
+
+def write_model(diagnosis: "Diagnosis", path: Path) -> None:
+    """The model with the effects that were found, as a model file."""
+    from motor_identification.findings import save_model
+
+    save_model(path, diagnosis.model, datetime.now(timezone.utc).isoformat(timespec="seconds"))
+
+
+def write_json(diagnosis: "Diagnosis", path: Path) -> None:
+    """Everything that was found, in the form that the interfaces promise."""
+    from motor_identification.words import as_json
+
+    try:
+        path.write_text(json.dumps(as_json(diagnosis), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise MotorError(f"cannot write {path}: {error.strerror}.") from error
+
+
+def write_report(diagnosis: "Diagnosis", path: Path) -> None:
+    """The report, with pictures, in one file."""
+    from motor_identification import report
+
+    report.write_report(diagnosis, path)

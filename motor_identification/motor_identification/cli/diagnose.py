@@ -1,0 +1,67 @@
+"""`diagnose`: find the effects that a motor's model lacks, from bags."""
+
+import argparse
+import os
+import sys
+
+from motor_identification.cli._shell import shell
+from motor_model.effects import EFFECTS
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    effects = "\n".join(f"  {effect.name:22}{effect.summary}" for effect in EFFECTS)
+    parser = argparse.ArgumentParser(
+        prog="diagnose",
+        description="Find where simulation and measurement disagree, name the effects that are missing from the\n"
+        "model, and show on data that no fit has seen how far they close the gap. (`explore` drives the\n"
+        "motor too, and records what a diagnosis asks for.)",
+        epilog=f"effects:\n{effects}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("bags", nargs="+", metavar="BAG", help="recordings of one motor")
+    parser.add_argument(
+        "--validate", nargs="+", default=[], metavar="BAG", help="judge by these (default: parts of the others)"
+    )
+    parser.add_argument("--known-effects", default="", metavar="A,B", help="in the model already, separated by commas")
+    parser.add_argument("--topic-namespace", default="", metavar="NS", help="of the recorded motor")
+    parser.add_argument("--start", type=float, default=0.0, metavar="S", help="from here [s], not of --validate")
+    parser.add_argument("--stop", type=float, default=0.0, metavar="S", help="to here [s], not of --validate")
+    parser.add_argument("--output", metavar="FILE", help="write the model here (YAML)")
+    parser.add_argument("--json", metavar="FILE", help="write everything that was found here")
+    parser.add_argument("--report", metavar="DIR", help="write report.html, the model and the JSON into this directory")
+    return parser
+
+
+def main(args: list[str] | None = None) -> int:
+    """`ros2 run motor_identification diagnose`."""
+    options = parser().parse_args(args)
+    return shell(lambda: _diagnose(options))
+
+
+def _diagnose(options: argparse.Namespace) -> int:
+    from motor_identification.cli._diagnosed import Files, diagnosed
+    from motor_identification.job import DiagnosisJob
+
+    files = Files(options.output, options.json, options.report)
+    files.check()
+    job = DiagnosisJob(
+        uris=tuple(options.bags),
+        validation=tuple(options.validate),
+        known=named(options.known_effects),
+        topic_namespace=options.topic_namespace,
+        start=options.start,
+        stop=options.stop,
+        workers=os.cpu_count() or 1,
+    )
+    files.write(diagnosed(job))
+    return 0
+
+
+def named(effects: str) -> tuple[str, ...]:
+    """The names in a list with commas."""
+    return tuple(name.strip() for name in effects.split(",") if name.strip())
+
+
+if __name__ == "__main__":
+    sys.exit(main())

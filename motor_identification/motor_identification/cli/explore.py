@@ -1,0 +1,137 @@
+"""`explore`: experiment, diagnose, the experiment that the diagnosis asks for, diagnose again, in one command."""
+
+import argparse
+import os
+import signal
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from motor_identification.cli._shell import positive, shell
+from motor_identification.cli.diagnose import named
+from motor_model.excitation import PROFILES
+
+if TYPE_CHECKING:
+    from motor_identification.diagnosis import Diagnosis
+
+# Options that `experiment` has too, and that go to it as they are.
+_OF_EXPERIMENT = (
+    "model", "voltage", "topic_namespace", "sample_rate", "edges_per_revolution", "edge_resolution",
+    "slot_irregularity", "seed",
+)  # fmt: skip
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        prog="explore",
+        description="Drive a motor through a profile, diagnose the recording, drive the profile that the diagnosis "
+        "suggests, and diagnose all recordings together, until nothing is open. Drives the live plant (motor_sim or "
+        "motor_driver), or with --model a simulated motor offline. The motor stands still whenever nothing is "
+        "recorded, and however this ends.",
+        epilog="DIRECTORY gets a bag for every round, and after each report.html, model.yaml and diagnosis.json. "
+        "Profiles and the defaults of the simulated motor: see experiment --help.",
+    )
+    parser.add_argument("directory", metavar="DIRECTORY", help="for everything; must not exist, or be empty")
+    parser.add_argument("--profile", choices=list(PROFILES), default="rich", metavar="P", help="first (default rich)")
+    parser.add_argument("--rounds", type=_rounds, default=3, metavar="N", help="experiments at most (default 3)")
+    parser.add_argument("--voltage", type=positive, metavar="V", help="peak of the profiles (default: all there is)")
+    parser.add_argument("--known-effects", default="", metavar="A,B", help="in the model already, separated by commas")
+    parser.add_argument("--topic-namespace", metavar="NS", help="of the motor to drive")
+    parser.add_argument("--model", metavar="FILE", help="model file to simulate offline; '' is the paper's motor")
+    offline = parser.add_argument_group("offline, with --model")
+    offline.add_argument("--sample-rate", type=positive, metavar="HZ")
+    offline.add_argument("--edges-per-revolution", type=int, metavar="N")
+    offline.add_argument("--edge-resolution", type=float, metavar="S", help="timer tick")
+    offline.add_argument("--slot-irregularity", type=float, metavar="SHARE", help="of a slot")
+    offline.add_argument("--seed", type=int, metavar="N", help="of disc and starting angle")
+    return parser
+
+
+def _rounds(text: str) -> int:
+    if int(text) < 1:
+        raise argparse.ArgumentTypeError("at least 1")
+    return int(text)
+
+
+def main(args: list[str] | None = None) -> int:
+    """`ros2 run motor_identification explore`."""
+    options = parser().parse_args(args)
+    return shell(lambda: _explore(options))
+
+
+def _explore(options: argparse.Namespace) -> int:
+    from motor_identification.cli._diagnosed import Files
+
+    directory, files = _made(Path(options.directory)), Files(report=options.directory)
+    profiles: list[str] = []
+    bags: list[str] = []
+    following = options.profile
+    try:
+        while following:
+            profiles.append(following)
+            bags.append(str(directory / f"{len(profiles)}_{following}"))
+            status = _recorded(following, bags[-1], options)
+            if status != 0:
+                return status
+            diagnosis = _diagnosed(bags, options)
+            files.write(diagnosis)
+            following, why = _following(diagnosis, profiles, options.rounds)
+            print(why)
+    except KeyboardInterrupt:
+        print(f"Interrupted; what was recorded is in {directory}.", file=sys.stderr)
+        raise
+    return 0
+
+
+def _recorded(profile: str, bag: str, options: argparse.Namespace) -> int:
+    """One experiment; returns its exit status."""
+    from motor_identification.cli import experiment
+
+    given = {name: getattr(options, name) for name in _OF_EXPERIMENT}
+    passed = [f"--{name.replace('_', '-')}={value}" for name, value in given.items() if value is not None]
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        return experiment.main([profile, "--output", bag, *passed])
+    finally:  # a live experiment has handlers of its own, under which nothing later could be interrupted
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+
+
+def _diagnosed(bags: list[str], options: argparse.Namespace) -> "Diagnosis":
+    from motor_identification.cli._diagnosed import diagnosed
+    from motor_identification.job import DiagnosisJob
+
+    namespace = "" if options.model is not None else options.topic_namespace or ""  # offline there is none
+    known = named(options.known_effects)
+    return diagnosed(DiagnosisJob(tuple(bags), known=known, topic_namespace=namespace, workers=os.cpu_count() or 1))
+
+
+def _made(directory: Path) -> Path:
+    from motor_model.errors import MotorError
+
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        if any(directory.iterdir()):
+            raise MotorError(f"{directory} is not empty: name a directory that does not exist yet.")
+    except OSError as error:
+        raise MotorError(f"cannot make the directory {directory}: {error.strerror}.") from error
+    return directory
+
+
+def _following(diagnosis: "Diagnosis", done: list[str], rounds: int) -> tuple[str, str]:
+    """The profile to record next, empty if there is none, and why in a sentence."""
+    wanted = diagnosis.suggested_experiment
+    if not wanted:
+        return "", "No further experiment is needed."
+    if wanted in done:
+        return "", f"'{wanted}' was suggested again: more of the same would not tell more about this motor."
+    if wanted not in PROFILES:
+        return "", f"'{wanted}' was suggested, which is no profile: record it by hand, and diagnose all bags."
+    if len(done) == rounds:
+        return "", f"'{wanted}' was suggested next; --rounds {rounds} ends here."
+    return wanted, f"\nRound {len(done) + 1}: '{wanted}', as suggested."
+
+
+if __name__ == "__main__":
+    sys.exit(main())

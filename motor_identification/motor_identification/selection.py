@@ -1,0 +1,150 @@
+"""One step of a diagnosis: every effect that a model lacks is tried, and judged on data that no fit has seen."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from math import log
+
+from motor_identification.candidates import extended
+from motor_identification.evidence import Noise, likely_noise
+from motor_identification.held_out import HeldOut, Kept
+from motor_identification.problem import Problem
+from motor_identification.recording import Floats
+from motor_model.effects import EFFECT_BY_NAME
+
+FALSE_ALARMS = 0.01  # chance that a complete model is given an effect that it does not have
+MARGIN = 5.0  # of log likelihood by which a finding has to beat another effect, else both are named
+RELEVANT = 0.3  # share of the excess over the noise floor that a finding has to explain ...
+NEAR = 1.15  # ... where the gap is more than this many times the floor; nearer to it,
+SEEN = 0.01  # this share of the gap
+STANDS_IN = (
+    0.95  # of the excess: what explains less, and leaves the gap above the floor, may stand in for another effect
+)
+AT_FLOOR = 1.3  # times the noise floor: explained
+
+
+@dataclass(frozen=True)
+class Model:
+    """A fitted motor, and how it does on held-out data."""
+
+    problem: Problem  # its training data
+    place: Floats
+    held: HeldOut
+    noise: Noise  # what it leaves in the training data
+    likelihood: float  # logarithm, of the held-out data
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        """What it has beyond kv and ka."""
+        return self.problem.unknowns.effects
+
+    @property
+    def floor(self) -> float:
+        """[rad/s] the gap that timer and slots alone leave."""
+        return self.held.floor(self.noise.share)
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A model with one more effect."""
+
+    effect: str
+    before: Model  # without it, on the same held-out intervals
+    model: Model
+
+    @property
+    def evidence(self) -> float:
+        """Logarithm of the likelihood ratio to the model without it."""
+        return self.model.likelihood - self.before.likelihood
+
+    @property
+    def shrinks(self) -> float:
+        """Share of the gap that it takes away."""
+        return 1.0 - self.model.held.gap / self.before.held.gap
+
+    @property
+    def explains(self) -> float:
+        """Share of the excess over the noise floor that it takes away."""
+        floor, before, after = (gap**2 for gap in (self.model.floor, self.before.held.gap, self.model.held.gap))
+        return (before - after) / (before - floor) if before > floor else 1.0
+
+
+def judged(kept: Kept, problem: Problem, place: Floats) -> Model:
+    """A fitted motor on held-out data."""
+    held = kept.judged(problem, place)
+    noise = likely_noise(list(zip(problem.intervals, problem.increments(place), strict=True)))
+    return Model(problem, place, held, noise, held.log_likelihood(noise))
+
+
+def lacking(effects: Sequence[str]) -> list[str]:
+    """The effects a model can be given next: what it does not have, whose own condition it has."""
+    return [
+        effect.name
+        for effect in EFFECT_BY_NAME.values()
+        if effect.name not in effects
+        and effect.name != "missed_edges"
+        and (effect.implies is None or effect.implies in effects)
+    ]
+
+
+def tried(
+    current: Model,
+    kept: Kept,
+    effects: Sequence[str],
+    workers: int,
+    heard: Callable[[Trial], None],
+    least: float = 0.0,
+) -> list[Trial]:
+    """Every effect added to a model, best first; `heard` is told of each as it is done.
+
+    A periodic effect is not fitted where its spectrum promises less than `least`.
+    """
+
+    def one(effect: str) -> Trial:
+        larger = extended(current.problem, current.place, effect, least)
+        if larger is None:
+            trial = Trial(effect, current, current)
+        elif EFFECT_BY_NAME[effect].periodic:  # it may turn the shaft back where the model without it does not
+            own = kept.redirected(*larger[:2])
+            trial = Trial(effect, judged(own, current.problem, current.place), judged(own, *larger[:2]))
+        else:
+            trial = Trial(effect, current, judged(kept, *larger[:2]))
+        heard(trial)
+        return trial
+
+    with ThreadPoolExecutor(max(workers, 1)) as pool:
+        return sorted(pool.map(one, effects), key=lambda trial: -trial.evidence)
+
+
+def threshold() -> float:
+    """What the logarithm of the likelihood ratio has to exceed, by Markov's inequality for all effects together."""
+    return log(len(EFFECT_BY_NAME) / FALSE_ALARMS)
+
+
+def accepted(trials: Sequence[Trial]) -> Trial | None:
+    """The trial that is a finding, if there is one: likely, and relevant to the gap."""
+    for trial in trials:
+        near = trial.before.held.gap < NEAR * trial.model.floor
+        relevant = trial.shrinks > SEEN if near else trial.explains > RELEVANT
+        if trial.evidence > threshold() and relevant and _visible(trial):
+            return trial
+    return None
+
+
+def _visible(trial: Trial) -> bool:
+    """Whether an eccentricity is more than the first harmonic that random slots have by chance."""
+    if trial.effect != "encoder_eccentricity":
+        return True
+    unknowns = trial.model.problem.unknowns
+    size = float(trial.model.place[unknowns.names.index("eccentricity")])
+    slot = max(data.slot for data in trial.model.problem.intervals)
+    chance = trial.model.noise.share * slot * (2.0 * slot / 6.2832) ** 0.5
+    return bool(size > 5.0 * chance)
+
+
+def rivals(found: Trial, trials: Sequence[Trial]) -> tuple[str, ...]:
+    """Effects that explain as much as a finding does."""
+    return tuple(
+        trial.effect for trial in trials if trial is not found and trial.evidence > found.evidence - MARGIN
+        and trial.evidence > threshold()
+    )  # fmt: skip

@@ -1,0 +1,195 @@
+"""A diagnosis as others see it: a sentence or two, a table, JSON."""
+
+from math import inf, isfinite, isnan, log10
+from typing import Any
+
+from motor_identification.diagnosis import Diagnosis, Finding, Verdict
+from motor_identification.discrepancy import shape_left, where
+from motor_identification.fit import Fit
+from motor_identification.shape import shape_in_words
+from motor_model.effects import SPEC_BY_NAME
+
+TOO_SHORT = "The recording is too short to keep any of its motion out of the fits: nothing can be judged by it."
+MOST = 6  # effects that are listed by name in a sentence
+
+
+def named(effect: str) -> str:
+    """An effect's name as a person writes it."""
+    return effect.replace("_", " ").replace("coulomb", "Coulomb")
+
+
+def listed(names: tuple[str, ...] | list[str], last: str = "and") -> str:
+    """Names as a person lists them."""
+    return "".join(names) if len(names) < 2 else ", ".join(names[:-1]) + f" {last} {names[-1]}"
+
+
+def summary(diagnosis: Diagnosis) -> str:
+    """What was missing, what it explains and what is left, in one to three sentences."""
+    return " ".join(part for part in (_SUMMARIES[diagnosis.verdict](diagnosis), _next(diagnosis)) if part)
+
+
+def fell(diagnosis: Diagnosis) -> str:
+    """By how much the gap fell, beside the noise floor."""
+    before, after = f"{diagnosis.gap_before:.3g}", f"{diagnosis.gap_after:.3g}"
+    return f"the gap on held-out motion falls from {before} to {after} rad/s ({against_floor(diagnosis)})"
+
+
+def against_floor(diagnosis: Diagnosis) -> str:
+    """The final gap as a multiple of the noise floor."""
+    floor = diagnosis.noise_floor
+    if floor <= 0.0:
+        return "the recording says nothing of its own noise"
+    return f"{diagnosis.gap_after / floor:.2g} × the noise floor of {floor:.3g}"
+
+
+def quantity(name: str, value: float, error: float) -> str:
+    """A parameter with its unit and standard error."""
+    unit = SPEC_BY_NAME[name].unit
+    unit = "" if unit == "–" else f" {unit}"
+    text = f"{name} = {value:.{digits(value, error)}g}"
+    return f"{text}{unit} (not identifiable)" if isnan(error) else f"{text} ± {error:.2g}{unit}"
+
+
+def digits(value: float, error: float) -> int:
+    """How many digits of a value its standard error leaves, with one more; between 3 and 8."""
+    if value == 0.0 or not 0.0 < error < inf:
+        return 4
+    return int(min(max(log10(abs(value) / error) + 2.0, 3.0), 8.0))
+
+
+def _found(findings: tuple[Finding, ...]) -> str:
+    each = [
+        f"{named(one.effect)} ({', '.join(quantity(name, *value) for name, value in one.parameters.items())})"
+        for one in findings
+    ]
+    text = listed(each) + (" was missing" if len(each) == 1 else " were missing")
+    return text[0].upper() + text[1:]
+
+
+def _explained(diagnosis: Diagnosis) -> str:
+    model = "it" if len(diagnosis.findings) == 1 else "them"
+    return f"{_found(diagnosis.findings)}. With {model}, {fell(diagnosis)}."
+
+
+def _nothing(diagnosis: Diagnosis) -> str:
+    gap = f"{diagnosis.gap_after:.3g} rad/s, {against_floor(diagnosis)}"
+    return f"Nothing is missing: the gap on held-out motion is {gap}."
+
+
+def _unexplained(diagnosis: Diagnosis) -> str:
+    begin = f"{_found(diagnosis.findings)}, and {fell(diagnosis)}. " if diagnosis.findings else ""
+    left = f"the gap on held-out motion is {diagnosis.gap_after:.3g} rad/s, {against_floor(diagnosis)}"
+    also = "Something else" if diagnosis.findings else "Something"
+    shape = shape_in_words(shape_left(diagnosis.after))
+    text = f"{also} is missing that no effect of the table explains" + ("" if diagnosis.findings else f": {left}")
+    return f"{begin}{text}. It is worst {where(diagnosis.after, diagnosis.slot_share)}. {shape}".strip()
+
+
+def _undecided(diagnosis: Diagnosis) -> str:
+    open_ = [one for one in diagnosis.findings if one.ambiguous_with]
+    clear = tuple(one for one in diagnosis.findings if not one.ambiguous_with)
+    parts = [f"{_found(clear)}."] if clear else []
+    for one in open_:
+        text = listed([named(name) for name in (one.effect, *one.ambiguous_with)], "or")
+        parts.append(f"{text[0].upper()}{text[1:]} is missing, and this recording cannot tell which.")
+    if open_ or clear:
+        text = fell(diagnosis)
+        parts.append(f"{text[0].upper()}{text[1:]}.")
+    elif not diagnosis.after.counted.any():
+        parts.append(TOO_SHORT)
+    else:
+        parts.append(
+            f"Nothing is missing that this recording could show: the gap is {diagnosis.gap_after:.3g} rad/s, "
+            f"{against_floor(diagnosis)}."
+        )
+    if not open_ and diagnosis.undetectable:
+        parts.append(f"It could not have shown {unseen(diagnosis.undetectable)}.")
+    return " ".join(parts)
+
+
+def unseen(effects: tuple[str, ...]) -> str:
+    """Effects by name, not too many of them."""
+    names = [named(name) for name in effects]
+    return listed(names, "or") if len(names) <= MOST else f"{', '.join(names[:MOST])} and {len(names) - MOST} others"
+
+
+def _next(diagnosis: Diagnosis) -> str:
+    profile = diagnosis.suggested_experiment
+    return f"Record the profile '{profile}' and diagnose both recordings together." if profile else ""
+
+
+_SUMMARIES = {
+    Verdict.EXPLAINED: _explained,
+    Verdict.NOTHING_MISSING: _nothing,
+    Verdict.UNEXPLAINED: _unexplained,
+    Verdict.UNDECIDED: _undecided,
+}
+
+
+def as_table(diagnosis: Diagnosis) -> str:
+    """The gap effect by effect, what each one's parameters are and where it was seen, for a terminal."""
+    rows = [("effect", "gap [rad/s]", "× floor", "parameters")]
+    rows.append((_known(diagnosis.baseline), *_gap(diagnosis, diagnosis.gap_before), ""))
+    for one in diagnosis.findings:
+        values = ", ".join(quantity(name, *value) for name, value in one.parameters.items())
+        also = "".join(f" or {name}" for name in one.ambiguous_with)
+        rows.append((f"+ {one.effect}{also}", *_gap(diagnosis, one.gap_after), values))
+    rows.append(("noise floor", *_gap(diagnosis, diagnosis.noise_floor), ""))
+    widths = [max(len(row[i]) for row in rows) for i in range(4)]
+    lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    return "\n".join(lines + [f"{one.effect} was seen {one.where}" for one in diagnosis.findings])
+
+
+def _known(fit: Fit) -> str:
+    return "kv, ka" + "".join(f", {name}" for name in fit.parameters.effects)
+
+
+def _gap(diagnosis: Diagnosis, gap: float) -> tuple[str, str]:
+    floor = diagnosis.noise_floor
+    return f"{gap:.4g}", f"{gap / floor:.3g}" if floor > 0.0 else "–"
+
+
+def as_json(diagnosis: Diagnosis) -> dict[str, Any]:
+    """The form that interfaces promise; null where there is no number."""
+    return {
+        "bags": list(diagnosis.bags),
+        "validation": list(diagnosis.validation),
+        "noise_floor": _number(diagnosis.noise_floor),
+        "gap_before": _number(diagnosis.gap_before),
+        "gap_after": _number(diagnosis.gap_after),
+        "verdict": diagnosis.verdict.value,
+        "undetectable": list(diagnosis.undetectable),
+        "suggested_experiment": diagnosis.suggested_experiment or None,
+        "baseline": _model(diagnosis.baseline),
+        "findings": [_finding(one) for one in diagnosis.findings],
+        "model": _model(diagnosis.model),
+    }
+
+
+def _finding(one: Finding) -> dict[str, Any]:
+    return {
+        "effect": one.effect,
+        "gap_before": _number(one.gap_before),
+        "gap_after": _number(one.gap_after),
+        "where": one.where,
+        "parameters": {name: _value(*value) for name, value in one.parameters.items()},
+        "alternatives": [{"effect": other.effect, "gap_after": _number(other.gap_after)} for other in one.alternatives],
+        "ambiguous_with": list(one.ambiguous_with),
+        "suggested_experiment": one.suggested_experiment or None,
+    }
+
+
+def _model(fit: Fit) -> dict[str, Any]:
+    values = fit.parameters.values
+    return {
+        "effects": list(fit.parameters.effects),
+        "parameters": {name: _value(value, fit.standard_errors[name]) for name, value in values.items()},
+    }
+
+
+def _value(value: float, error: float) -> dict[str, float | None]:
+    return {"value": _number(value), "standard_error": _number(error)}
+
+
+def _number(value: float) -> float | None:
+    return float(value) if isfinite(value) else None

@@ -1,0 +1,160 @@
+"""Effects hidden in the independent plant are named and sized, shown on data that no fit has seen; and nothing else."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plant import profiles, record
+
+from motor_identification.diagnose import Stage, Stopped, diagnose
+from motor_identification.diagnosis import Diagnosis, Verdict
+from motor_identification.evidence import Noise, likely_noise, log_likelihood
+from motor_identification.held_out import keep_out
+from motor_identification.intervals import intervals_of
+from motor_identification.problem import make_problem
+from motor_identification.recording import Recording, check
+from motor_identification.selection import FALSE_ALARMS, judged, threshold
+from motor_model.effects import EFFECTS
+from motor_model.errors import ModelError, RecordingError
+from motor_model.parameters import PAPER_KA, PAPER_KV
+
+BASE = {"kv": 0.9 * PAPER_KV, "ka": 1.2 * PAPER_KA}
+
+
+def made(hidden: dict[str, float], drive: profiles.Profile, seed: int) -> Recording:
+    return check(record(BASE | hidden, *drive, seed=seed, disc_seed=3, irregularity=0.005)[0])
+
+
+def diagnosed(hidden: dict[str, float], known: tuple[str, ...] = ()) -> Diagnosis:
+    """Trained on `rich`, judged on other voltages from another start."""
+    later = hidden | ({"step_time": 4.0} if "step_time" in hidden else {})
+    return diagnose([made(hidden, profiles.rich(), 1)], [made(later, profiles.random(12.0, 10.0, 5), 2)], known)
+
+
+SINGLES = {
+    "coulomb_friction": {"ks": 0.4},
+    "transport_delay": {"delay": 0.006},
+    "dead_zone": {"dead_zone_voltage": 0.5},
+    "load_step": {"step_voltage": 0.4, "step_time": 11.0},
+    "coast_drive": {"coast_share": 0.4},
+    "encoder_eccentricity": {"eccentricity": 0.03, "eccentricity_phase": 1.0},
+}
+
+
+@pytest.mark.parametrize("effect", SINGLES)
+def test_a_hidden_effect_is_named_and_sized(effect: str) -> None:
+    hidden = SINGLES[effect]
+    found = diagnosed(hidden)
+    assert found.verdict is Verdict.EXPLAINED and [one.effect for one in found.findings] == [effect]
+    (finding,) = found.findings
+    for name, (value, sigma) in finding.parameters.items():
+        if not name.endswith("_phase"):
+            assert value == pytest.approx(hidden[name], rel=2e-3)
+            assert 0.0 < sigma < 0.01 * abs(value)
+    for name, value in BASE.items():
+        assert found.model.parameters.value(name) == pytest.approx(value, rel=1e-4)
+    assert finding.gap_before == pytest.approx(found.gap_before, rel=0.1)
+    assert found.gap_before > 2.0 * found.noise_floor
+    assert 0.8 < found.gap_after / found.noise_floor < 1.25
+    assert finding.evidence > 100.0 > threshold() and finding.ambiguous_with == ()
+    others = {other.effect: other for other in finding.alternatives}
+    assert set(others) <= {effect.name for effect in EFFECTS} and effect not in others
+    assert all(other.evidence < finding.evidence - 100.0 for other in others.values())
+    assert finding.where and found.undetectable == () and found.suggested_experiment == ""
+
+
+def test_static_friction_comes_with_coulomb_friction() -> None:
+    found = diagnosed({"ks": 0.4, "breakaway_voltage": 0.9, "stribeck_speed": 4.0})
+    assert [one.effect for one in found.findings] == ["coulomb_friction", "static_friction"]
+    assert np.all(np.diff(found.trace) < 0.0) and len(found.trace) == 3
+    assert found.model.parameters.value("breakaway_voltage") == pytest.approx(0.9, rel=2e-3)
+
+
+def test_two_at_once_and_what_first_stood_in_for_both_is_replaced() -> None:
+    """A load step at the very beginning explains more than a constant load while friction is still missing."""
+    found = diagnosed({"ks": 0.4, "bias_voltage": 0.3})
+    assert {one.effect for one in found.findings} == {"coulomb_friction", "load_bias"}
+    assert found.model.parameters.value("bias_voltage") == pytest.approx(0.3, rel=1e-3)
+    assert 0.8 < found.gap_after / found.noise_floor < 1.15
+
+
+def test_nothing_hidden_nothing_named() -> None:
+    found = diagnosed({})
+    assert found.verdict is Verdict.NOTHING_MISSING and found.findings == ()
+    assert found.gap_before == found.gap_after and 0.8 < found.gap_after / found.noise_floor < 1.15
+
+
+def test_what_is_known_is_not_found_again() -> None:
+    found = diagnosed({"ks": 0.4, "delay": 0.006}, ("coulomb_friction",))
+    assert found.baseline.parameters.effects == ("coulomb_friction",)
+    assert [one.effect for one in found.findings] == ["transport_delay"]
+
+
+def test_missed_edges_are_counted() -> None:
+    found = diagnosed({"miss_rate": 0.005})
+    assert [one.effect for one in found.findings] == ["missed_edges"]
+    rate, sigma = found.findings[0].parameters["miss_rate"]
+    assert abs(rate - 0.005) < 4.0 * sigma and 1e-4 < sigma < 1e-3
+
+
+def test_what_is_not_in_the_table_stays_unexplained() -> None:
+    found = diagnosed({"slew_rate": 150.0})  # the bridge follows the command at so many V/s
+    assert found.verdict is Verdict.UNEXPLAINED and found.findings == ()
+    assert found.gap_after > 1.3 * found.noise_floor
+
+
+def test_a_single_step_cannot_tell_and_says_what_would() -> None:
+    step = made({"ks": 0.4}, profiles.step(10.0, 1.0), 4)
+    alone = diagnose([step])
+    assert alone.verdict is Verdict.UNDECIDED and alone.findings == ()
+    assert "coulomb_friction" in alone.undetectable and alone.suggested_experiment == "ramps"
+    both = diagnose([step, made({"ks": 0.4}, profiles.ramps(12.0, 1.5), 5)])
+    assert [one.effect for one in both.findings] == ["coulomb_friction"] and both.verdict is Verdict.EXPLAINED
+    assert both.model.parameters.value("ks") == pytest.approx(0.4, rel=2e-3)
+
+
+def test_a_part_of_one_recording_is_kept_out_of_every_fit() -> None:
+    recording = made({"ks": 0.4}, profiles.rich(), 6)
+    kept = keep_out([recording], [])
+    problem = make_problem([recording], ("coulomb_friction",))
+    place = np.array([np.log(BASE["kv"]), np.log(BASE["ka"]), 0.4])
+    model = judged(kept, problem, place)
+    (scored,) = model.held.scored
+    assert 0.2 < scored.mean() < 0.3
+    found = diagnose([recording])
+    assert [one.effect for one in found.findings] == ["coulomb_friction"]
+    (fitted,), (judge,) = found.after.problem.intervals, found.after.scored
+    assert 0.2 < judge.sum() / len(fitted.first) < 0.3
+
+
+def test_the_stop_rule_keeps_its_word() -> None:
+    """A likelihood ratio on unseen data exceeds e^k with a chance of at most e^−k, here of a model with a false wave."""
+    data = intervals_of(made({}, profiles.step(8.0, 0.5), 7))
+    data = replace(data, slack=0.0 * data.slack)
+    random = np.random.default_rng(0)
+    truth, wrong = Noise(0.01, 0.0), 0.003 * data.slot * np.sin(np.arange(len(data.first)) / 30.0)
+    edges = 0.01 * data.slot * random.standard_normal((4000, len(data.first) + 1))
+    ratios = np.array(
+        [log_likelihood(data, row, truth) - log_likelihood(data, row - wrong, truth) for row in np.diff(edges, axis=1)]
+    )
+    for level in (1.0, 2.0, 3.0):
+        assert np.mean(-ratios > level) < np.exp(-level)
+    assert np.mean(ratios) > 0.5  # and it was a model that differs
+    assert threshold() == pytest.approx(np.log(len(EFFECTS) / FALSE_ALARMS))
+    found = likely_noise([(data, np.diff(edges[0]))])
+    assert 0.006 < found.share < 0.016 and found.growth == 0.0
+
+
+def test_progress_stop_and_refusals() -> None:
+    recording = made({"ks": 0.4}, profiles.staircase(10.0, 3, 0.3), 8)
+    heard: list[Stage] = []
+    diagnose([recording], progress=heard.append)
+    shares = [stage.share for stage in heard]
+    assert shares == sorted(shares) and shares[0] == 0.0 and 0.5 < shares[-1] <= 1.0
+    assert any(stage.best_effect == "coulomb_friction" for stage in heard)
+    with pytest.raises(Stopped, match="stopped"):
+        diagnose([recording], stopped=lambda: True)
+    with pytest.raises(ModelError, match="not an effect"):
+        diagnose([recording], known=("gremlins",))
+    with pytest.raises(RecordingError, match="no recording"):
+        diagnose([])
