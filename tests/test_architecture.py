@@ -26,7 +26,7 @@ ROS = {"rclpy", "motor_msgs", "motor_ros", "std_msgs", "std_srvs", "sensor_msgs"
 ROS |= {"builtin_interfaces"}
 # Where ROS may be imported: node files, command files, and the modules that turn messages into plain values.
 SHELLS = re.compile(
-    r"(/node\.py|/messages\.py|/cli/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(control|driver)/parameters\.py)$"
+    r"(/node\.py|/messages\.py|/diagnose_action\.py|/cli/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(control|driver)/parameters\.py)$"
 )
 BAGS = re.compile(r"motor_identification/bag/\w+\.py$")
 
@@ -85,6 +85,7 @@ def test_package_xml_names_what_is_imported(package: str) -> None:
     text = (ROOT / package / "package.xml").read_text(encoding="utf-8")
     declared = set(re.findall(r"<(?:exec_)?depend>([\w-]+)</", text))
     keys = {"numpy": "python3-numpy", "scipy": "python3-scipy", "yaml": "python3-yaml", "tqdm": "python3-tqdm"}
+    keys["jinja2"] = "python3-jinja2"
     keys |= {"matplotlib": "python3-matplotlib", "serial": "python3-serial"}
     rows = re.findall(r"from PyPI[^:]*: ([^>]*?) -->", text)
     from_pypi = {name.strip().split(".")[0] for row in rows for name in row.split(",")}

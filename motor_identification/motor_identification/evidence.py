@@ -77,4 +77,5 @@ def likely_noise(rows: list[tuple[Intervals, Floats]]) -> Noise:
     for _ in range(3):  # one after the other: the two hardly interact
         best = max((Noise(best.share, growth) for growth in growths), key=likelihood)
         best = max((Noise(share, best.growth) for share in shares), key=likelihood)
-    return best
+    finer = (Noise(best.share * 10.0 ** (0.025 * i), best.growth) for i in range(-5, 6))
+    return max(finer, key=likelihood) if best.share > 0.0 else best

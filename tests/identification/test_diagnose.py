@@ -128,7 +128,7 @@ def test_a_part_of_one_recording_is_kept_out_of_every_fit() -> None:
 
 
 def test_the_stop_rule_keeps_its_word() -> None:
-    """A likelihood ratio on unseen data exceeds e^k with a chance of at most e^−k, here of a model with a false wave."""
+    """A likelihood ratio on unseen data exceeds e^k with a chance of at most e^−k; here: a false wave."""
     data = intervals_of(made({}, profiles.step(8.0, 0.5), 7))
     data = replace(data, slack=0.0 * data.slack)
     random = np.random.default_rng(0)

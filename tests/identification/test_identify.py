@@ -192,7 +192,7 @@ def test_one_level_does_not_tell_friction_from_gain_and_says_so() -> None:
     fit = identify([made({"ks": 0.5}, profiles.step(10.0, 1.0), seed=1)], quick("coulomb_friction"))
     assert set(fit.not_identifiable) >= {"kv", "ks"}
     assert isnan(fit.standard_errors["kv"]) and isnan(fit.standard_errors["ks"])
-    assert fit.suggested_experiment == "staircase"
+    assert fit.suggested_experiment == "ramps"
     text = sentence(fit)
     assert "(not identifiable)" in text and "cannot be told apart in this recording" in text
     assert "The profile 'staircase' would show it." in text
