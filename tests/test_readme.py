@@ -12,7 +12,8 @@ import pytest
 from domains import free_domain
 
 ROOT = Path(__file__).resolve().parents[1]
-BLOCKS = re.findall(r"```bash\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL)
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"```bash\n(.*?)```", README, re.DOTALL)
 COMMANDS = [line.split("  #")[0].strip() for block in BLOCKS for line in block.splitlines() if line.strip()]
 SCRIPTS = ("./demo.sh", "./test.sh", "source env.sh")  # the demo has a test of its own; this is the third's environment
 NODES = re.compile(
@@ -39,7 +40,17 @@ def test_the_readme_has_the_commands_that_are_run_here() -> None:
     assert len(COMMANDS) >= 15
 
 
-@pytest.mark.timeout(180)
+def assert_the_ladder(printed: str) -> None:
+    """The gaps that the README shows are those that are printed, but for the last digits."""
+    shown = README[README.index("effect              gap") :]
+    for row in (r"kv, ka", r"\+ coulomb_friction", r"\+ static_friction", r"noise floor"):
+        pattern = re.compile(rf"^{row} +([\d.]+) +([\d.]+)", re.MULTILINE)
+        ours, theirs = (pattern.search(text) for text in (shown, printed))
+        assert ours is not None and theirs is not None, printed
+        assert [float(n) for n in theirs.groups()] == pytest.approx([float(n) for n in ours.groups()], rel=0.03)
+
+
+@pytest.mark.timeout(240)
 def test_every_command_works_as_written(tmp_path: Path) -> None:
     environment = {**os.environ, "ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     write_log(tmp_path / "log.csv")
@@ -52,10 +63,12 @@ def test_every_command_works_as_written(tmp_path: Path) -> None:
                 nodes.append(subprocess.Popen(command.split(), cwd=tmp_path, env=environment))
                 continue
             done = subprocess.run(
-                ["bash", "-c", command], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=60
+                ["bash", "-c", command], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120
             )
             assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
             assert "Traceback" not in done.stderr
+            if " diagnose " in command:
+                assert_the_ladder(done.stdout)
             if "service call" in command:
                 assert "success=True" in done.stdout
     finally:
@@ -64,6 +77,7 @@ def test_every_command_works_as_written(tmp_path: Path) -> None:
         for node in nodes:
             assert node.wait(20.0) == 0
     assert (tmp_path / "model.yaml").exists() and (tmp_path / "report" / "fit.png").stat().st_size > 20_000
+    assert 100_000 < (tmp_path / "diagnosis" / "report.html").stat().st_size < 3_000_000
 
 
 def test_the_environment_says_what_to_do_where_nothing_is_built(tmp_path: Path) -> None:

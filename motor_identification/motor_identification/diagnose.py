@@ -43,7 +43,8 @@ from motor_model.effects import EFFECT_BY_NAME, normalised
 from motor_model.errors import MotorError, RecordingError
 
 MOST = 6  # findings
-RIVALS = 2  # that are tried in a finding's place at the end
+RIVALS = 2  # that are tried in a finding's place
+NEARLY = 0.75  # of the evidence of the first finding: another way to begin
 MISSED = 5  # miscounted intervals from which on edges are missing
 
 
@@ -68,6 +69,7 @@ class _Step:
     before: Model
     found: Trial
     trials: tuple[Trial, ...]
+    lost: tuple[str, ...] = ()  # effects that were taken instead, and whose way ended further from the floor
 
 
 def diagnose(
@@ -93,10 +95,11 @@ def diagnose(
     tell("first fit", 0.0, "", float("nan"))
     kept = keep_out(recordings, validation)
     base, kept = _first(recordings, normalised(known), kept, workers)
-    steps, current, trials, kept = _climbed(base, kept, workers, tell)
+    steps, current, kept = _climbed(base, kept, [], workers, tell)
+    steps, current, kept = _by_another_way(steps, current, kept, workers, tell)
     tell("checking", 0.9, "", current.held.gap)
     steps, current = _needed(*_without_stand_ins(steps, current), kept)
-    return _told(base, steps, current, trials, kept, recordings, validation, perf_counter() - begun)
+    return _told(base, steps, current, recordings, validation, perf_counter() - begun)
 
 
 @dataclass
@@ -132,10 +135,10 @@ def _settled(problem: Problem, place: Floats, kept: Kept) -> tuple[Model, Kept]:
 
 
 def _climbed(
-    current: Model, kept: Kept, workers: int, tell: _Telling
-) -> tuple[list[_Step], Model, tuple[Trial, ...], Kept]:
-    """Effects added as long as one is found: the steps, the last model, and what was tried on it in vain."""
-    steps: list[_Step] = []
+    current: Model, kept: Kept, steps: list[_Step], workers: int, tell: _Telling
+) -> tuple[list[_Step], Model, Kept]:
+    """Effects added to those of earlier steps as long as one is found: all steps, the last model, its judge."""
+    steps = list(steps)
     while True:
         done = 0.1 + 0.8 * (1.0 - 0.5 ** len(steps))
         left = lacking(current.effects)
@@ -158,9 +161,31 @@ def _climbed(
             trials.sort(key=lambda trial: -trial.evidence)
             best = accepted(trials)
         if best is None or len(steps) == MOST:
-            return steps, current, tuple(trials), kept
+            return steps, current, kept
         steps.append(_Step(current, best, tuple(trials)))
         current, kept = _settled(best.model.problem, best.model.place, kept)
+
+
+def _by_another_way(
+    steps: list[_Step], current: Model, kept: Kept, workers: int, tell: _Telling
+) -> tuple[list[_Step], Model, Kept]:
+    """Where the gap stays above the floor, what was nearly taken first is taken instead, and all that follows from it.
+
+    While others are missing too, one effect can do as well as another, and the wrong one blocks the way.
+    """
+    if not steps or current.held.gap <= AT_FLOOR * current.floor:
+        return steps, current, kept
+    first = steps[0]
+    near = [
+        trial for trial in first.trials if trial is not first.found and trial.evidence > NEARLY * first.found.evidence
+    ]
+    for trial in near[:RIVALS]:
+        if trial.evidence > threshold():
+            begun, judge = _settled(trial.model.problem, trial.model.place, kept)
+            other = _climbed(begun, judge, [_Step(first.before, trial, first.trials)], workers, tell)
+            if other[1].held.gap < current.held.gap:
+                steps, current, kept = other
+    return steps, current, kept
 
 
 def _without_stand_ins(steps: list[_Step], current: Model) -> tuple[list[_Step], Model]:
@@ -179,7 +204,8 @@ def _without_stand_ins(steps: list[_Step], current: Model) -> tuple[list[_Step],
 
 def _needed(steps: list[_Step], current: Model, kept: Kept) -> tuple[list[_Step], Model]:
     """The steps that hold their own beside later ones, or what does better in their place; the model with them."""
-    for step in list(steps[:-1]):
+    steps = list(steps)
+    for step in steps[:-1]:
         effect = step.found.effect
         left = tuple(name for name in current.effects if name != effect and EFFECT_BY_NAME[name].implies != effect)
         smaller = current.problem.with_effects(left)
@@ -192,6 +218,9 @@ def _needed(steps: list[_Step], current: Model, kept: Kept) -> tuple[list[_Step]
         for other in tried(without, kept, lacking_now, 1, lambda trial: None):
             simpler = len(EFFECT_BY_NAME[other.effect].parameters) < len(EFFECT_BY_NAME[effect].parameters)
             choices.append((other, other.model, MARGIN if simpler else -MARGIN))
+        lost = tuple(name for name in (effect, *lacking_now))
+        at = next(i for i, one in enumerate(steps) if one.found.effect == effect)
+        steps[at] = step = replace(steps[at], lost=(*steps[at].lost, *lost))  # unless one of them wins now
         for trial, model, grace in choices:
             if model.likelihood > current.likelihood - grace:
                 steps = [one for one in steps if one.found.effect in model.effects or one is step]
@@ -206,8 +235,6 @@ def _told(
     base: Model,
     steps: Sequence[_Step],
     last: Model,
-    trials: Sequence[Trial],
-    kept: Kept,
     recordings: Sequence[Recording],
     validation: Sequence[Recording],
     duration: float,
@@ -252,7 +279,7 @@ def _as_fit(model: Model) -> Fit:
 
 def _finding(step: _Step, model: Fit) -> Finding:
     effect = step.found.effect
-    also = rivals(step.found, step.trials)
+    also = tuple(name for name in rivals(step.found, step.trials) if name not in step.lost)
     profiles = [EFFECT_BY_NAME[name].shown_by for name in (effect, *also)]
     return Finding(
         effect=effect,

@@ -110,3 +110,11 @@ def test_experiment_and_identification_find_the_motor(start_plant: Start, start:
     for name, share in {"kv": 1e-4, "ka": 1e-3, "ks": 1e-3, "breakaway_voltage": 1e-3}.items():
         assert found[name]["value"] == pytest.approx(hidden[name], rel=share), name
     assert fit["residual_rms"] < 3.0 * fit["noise_floor"]
+    process = start("motor_identification", "diagnose", tmp_path / "bag", "--json", tmp_path / "diagnosis.json")
+    out, err = process.communicate(timeout=90.0)
+    assert process.returncode == 0, err
+    diagnosis = json.loads((tmp_path / "diagnosis.json").read_text(encoding="utf-8"))
+    assert [one["effect"] for one in diagnosis["findings"]] == ["coulomb_friction", "static_friction"]
+    assert diagnosis["verdict"] != "unexplained" and diagnosis["gap_before"] > 5.0 * diagnosis["gap_after"]
+    for name in ("ks", "breakaway_voltage"):
+        assert diagnosis["model"]["parameters"][name]["value"] == pytest.approx(hidden[name], rel=2e-3), name
