@@ -32,7 +32,6 @@ def diagnosed(hidden: dict[str, float], known: tuple[str, ...] = ()) -> Diagnosi
 
 
 SINGLES = {
-    "coulomb_friction": {"ks": 0.4},
     "transport_delay": {"delay": 0.006},
     "dead_zone": {"dead_zone_voltage": 0.5},
     "load_step": {"step_voltage": 0.4, "step_time": 11.0},

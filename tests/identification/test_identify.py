@@ -195,7 +195,7 @@ def test_one_level_does_not_tell_friction_from_gain_and_says_so() -> None:
     assert fit.suggested_experiment == "ramps"
     text = sentence(fit)
     assert "(not identifiable)" in text and "cannot be told apart in this recording" in text
-    assert "The profile 'staircase' would show it." in text
+    assert "The profile 'ramps' would show it." in text
     assert "not identifiable" in as_table(fit)
     content = as_json(fit)
     assert content["model"]["parameters"]["ks"]["standard_error"] is None

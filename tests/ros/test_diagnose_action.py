@@ -2,6 +2,7 @@
 
 import os
 import signal
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from subprocess import Popen
@@ -52,6 +53,9 @@ def node(bags: Path, models: Path) -> Iterator["Popen[str]"]:
     assert process.returncode == 0
 
 
+SETTLED = 0.6  # [s] two announcements and a bit
+
+
 class Asked:
     """A goal that was sent, and everything that is said about it."""
 
@@ -84,6 +88,9 @@ class Asked:
 def ask(bench: Bench, node: "Popen[str]") -> Iterator[Callable[..., Asked]]:
     client = ActionClient(bench.node, Diagnose, "motor/diagnose")
     bench.wait(client.server_is_ready, "motor/diagnose")
+    # The server may not have found this client's reader yet, and its answer would be lost; nothing tells of that.
+    begun = time.monotonic()
+    bench.wait(lambda: time.monotonic() - begun > SETTLED, "the server to find its client")
     yield lambda **goal: Asked(bench, client, **goal)
     client.destroy()
 
