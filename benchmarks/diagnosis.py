@@ -151,7 +151,7 @@ def main() -> int:
     lines = [
         "# Diagnosis: what was hidden, and what was named",
         "",
-        f"{machine()}; two diagnoses at a time, one core each.",
+        f"{machine()}; two diagnoses at a time, one core each; {options.motors} motors a row.",
         "",
         "| hidden | right | else named (verdict) | gap after / floor | median error | within 5 % or 3 σ | time |",
         "|---|---:|---|---:|---:|---:|---:|",
