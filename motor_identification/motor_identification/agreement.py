@@ -39,9 +39,7 @@ def dissents(refined: Refined, place: Floats) -> tuple[Dissent, ...]:
     problem = refined.problem
     if len(problem.recordings) < 2:
         return ()
-    jacobian, residuals = problem.jacobian(place), problem.residuals(place)
-    ends = np.cumsum([len(data.first) for data in problem.intervals])
-    parts = zip(np.split(jacobian, ends[:-1]), np.split(residuals, ends[:-1]), strict=True)
+    parts = zip(problem.split(problem.jacobian(place)), problem.split(problem.residuals(place)), strict=True)
     return tuple(_one(refined, r, place, *part) for r, part in enumerate(parts))
 
 

@@ -16,15 +16,16 @@ def undetectable(model: Model) -> tuple[str, ...]:
     on the training data, is what there would have been to find.
     """
     problem, place = model.problem, model.place
-    columns = problem.jacobian(place)
-    root = np.sqrt(problem.weight)[:, None]
+    columns, without = problem.jacobian(place), problem.residuals(place)
+    root = np.sqrt(problem.weight)
+    weighted = root[:, None] * columns
     hidden = []
     for effect in lacking(model.effects):
         if EFFECT_BY_NAME[effect].periodic:
             continue
         larger, there = noticeable(problem, place, effect)
-        trace = larger.residuals(there) - problem.residuals(place)
-        imitation = np.linalg.lstsq(root * columns, root[:, 0] * trace, rcond=1e-9)[0]
+        trace = larger.residuals(there) - without
+        imitation = np.linalg.lstsq(weighted, root * trace, rcond=1e-9)[0]
         left = trace - columns @ imitation
         if _evidence(model, left) < threshold():
             hidden.append(effect)
@@ -33,9 +34,7 @@ def undetectable(model: Model) -> tuple[str, ...]:
 
 def _evidence(model: Model, left: Floats) -> float:
     """The logarithm of the likelihood ratio that a trace [rad/s] would bring."""
-    total, column = 0.0, 0
-    for data in model.problem.intervals:
-        part = left[column : column + len(data.first)] * data.duration
-        total += log_likelihood(data, 0.0 * part, model.noise) - log_likelihood(data, part, model.noise)
-        column += len(data.first)
-    return total
+    rows = zip(model.problem.intervals, model.problem.travelled(left), strict=True)
+    return sum(
+        log_likelihood(data, 0.0 * part, model.noise) - log_likelihood(data, part, model.noise) for data, part in rows
+    )

@@ -8,16 +8,18 @@ The noise is that of `noise.py`: each edge off by timer and slots (variance R), 
 model does not know (q a second).
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 from math import log
 
 import numpy as np
 
 from motor_identification.intervals import Intervals
-from motor_identification.recording import Bools, Floats
-from motor_model.compiled import compiled
+from motor_identification.noise import AngleNoise, surprise
+from motor_identification.recording import Floats
 
-CLIP = 25.0  # squared standard deviations beyond which an interval says no more: an outlier must not decide
+CLIP = 25.0  # squared standard deviations beyond which an interval says no more
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
 SHARES = (0.0, *(0.05 * 10.0 ** (-0.25 * i) for i in range(17)))  # of a slot: irregularity
 DECADES = 28  # half decades of growth
@@ -31,36 +33,26 @@ class Noise:
     growth: float  # [rad²/s] drift of the simulated angle
 
 
-@compiled
-def _log_likelihood(
-    fresh: Bools, start: Floats, end: Floats, duration: Floats, growth: float, increments: Floats, clip: float
-) -> float:
-    """Of increments [rad] with variances [rad²] of the angle at both ends; without the constant of the Gaussian."""
-    total, variance, carried = 0.0, 0.0, 0.0
-    for k in range(len(fresh)):
-        if fresh[k]:
-            variance, carried = start[k], 0.0
-        predicted = variance + growth * duration[k]
-        spread = predicted + end[k]
-        innovation = increments[k] + carried
-        total -= 0.5 * (min(innovation * innovation / spread, clip) + np.log(spread))
-        gain = predicted / spread
-        variance = gain * end[k]
-        carried = (1.0 - gain) * innovation
-    return total
+def angle_noise(data: Intervals, share: float) -> AngleNoise:
+    """What timer and irregular slots (a share of a slot) leave at both ends of one recording's intervals."""
+    still = data.slack > 0.0
+    tick = np.maximum(data.blur, 1e-4 * data.slot + 1e-12)
+    variance = tick**2 + (share * data.slot) ** 2
+    end = np.where(still, (SLACK_BLUR * data.slack) ** 2, variance)
+    return AngleNoise(data.fresh, np.where(still, 0.0, variance), end, data.duration)
 
 
 def log_likelihood(data: Intervals, increments: Floats, noise: Noise) -> float:
-    """Of the increments [rad] (simulated minus measured) that a model leaves in one recording's intervals."""
-    slot = noise.share * data.slot
-    still = data.slack > 0.0
-    tick = np.maximum(data.blur, 1e-4 * data.slot + 1e-12)
-    variance = tick**2 + slot**2
-    end = np.where(still, (SLACK_BLUR * data.slack) ** 2, variance)
-    start = np.where(still, 0.0, variance)
-    return float(
-        _log_likelihood(data.fresh, start, end, data.duration, noise.growth, np.ascontiguousarray(increments), CLIP)
-    )
+    """Of the increments [rad] (simulated minus measured) that a model leaves in one recording's intervals.
+
+    Without the constant of the Gaussian.
+    """
+    return _of_increments(angle_noise(data, noise.share), noise.growth, np.ascontiguousarray(increments))
+
+
+def _of_increments(noise: AngleNoise, growth: float, increments: Floats) -> float:
+    squares, logarithms = surprise(noise.fresh, noise.start, noise.end, noise.duration, growth, increments, CLIP)
+    return -0.5 * float(squares + logarithms)
 
 
 def likely_noise(rows: list[tuple[Intervals, Floats]]) -> Noise:
@@ -68,14 +60,22 @@ def likely_noise(rows: list[tuple[Intervals, Floats]]) -> Noise:
     mean = float(np.mean(np.concatenate([increments**2 / data.duration for data, increments in rows])))
     growths = [0.0, *(mean * 10.0 ** (0.5 * (2 - i)) for i in range(DECADES))]
 
-    def likelihood(noise: Noise) -> float:
-        price = log(sum(len(increments) for _, increments in rows) + 1.0) * (noise.growth > 0.0)
-        return sum(log_likelihood(data, increments, noise) for data, increments in rows) - price
+    def ends(share: float) -> list[AngleNoise]:
+        return [angle_noise(data, share) for data, _ in rows]
+
+    def likelihood(noises: list[AngleNoise], growth: float) -> float:
+        price = log(sum(len(increments) for _, increments in rows) + 1.0) * (growth > 0.0)
+        pairs = zip(noises, rows, strict=True)
+        return sum(_of_increments(noise, growth, increments) for noise, (_, increments) in pairs) - price
+
+    def likely_share(shares: Iterable[float], growth: float) -> float:
+        return max(shares, key=lambda share: likelihood(ends(share), growth))
 
     shares = SHARES if rows[0][0].slot > 0.0 else (0.0,)
-    best = Noise(shares[-1], 0.0)
+    share, growth = shares[-1], 0.0
     for _ in range(3):  # one after the other: the two hardly interact
-        best = max((Noise(best.share, growth) for growth in growths), key=likelihood)
-        best = max((Noise(share, best.growth) for share in shares), key=likelihood)
-    finer = (Noise(best.share * 10.0 ** (0.025 * i), best.growth) for i in range(-5, 6))
-    return max(finer, key=likelihood) if best.share > 0.0 else best
+        growth = max(growths, key=partial(likelihood, ends(share)))
+        share = likely_share(shares, growth)
+    if share > 0.0:
+        share = likely_share([share * 10.0 ** (0.025 * i) for i in range(-5, 6)], growth)
+    return Noise(share, growth)

@@ -14,13 +14,14 @@ import numpy as np
 from motor_identification.intervals import Intervals
 from motor_identification.problem import Problem
 from motor_identification.recording import Floats, Integers, Recording
+from motor_model.effects import EFFECTS
 
 LONG = 60.0  # [s] of all recordings together above which excerpts are searched
 PIECES = 4
 STILL = 0.1  # [s] without any speed before a motor counts as standing
 # Effects of something that happens once, or slowly, can be anywhere; phases count from a recording's beginning.
 WHOLE = frozenset({"load_step", "warm_up"})
-BEGINNING = frozenset({"torque_ripple", "encoder_eccentricity"})
+BEGINNING = frozenset(effect.name for effect in EFFECTS if effect.periodic)
 
 
 def excerpt(problem: Problem, longest: float = LONG) -> Problem:

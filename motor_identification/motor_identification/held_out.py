@@ -60,10 +60,7 @@ class HeldOut:
 
     def floors(self, share: float) -> Floats:
         """[rad/s] what timer and irregular slots (a share of a slot) alone leave in each interval that counts."""
-        squares = [
-            data.sigma**2 + np.where(data.slack > 0.0, 0.0, 2.0 * (share * data.slot / data.duration) ** 2)
-            for data in self.problem.intervals
-        ]
+        squares = [data.floor_squared(share * data.slot) for data in self.problem.intervals]
         return np.asarray(np.sqrt(np.concatenate(squares)[self.counted]))
 
     def floor(self, share: float) -> float:

@@ -49,6 +49,11 @@ class Intervals:
         """[rad/s] what the blur of both ends leaves in the mean speed, shape (I,)."""
         return np.asarray(sqrt(2.0) * self.blur / self.duration)
 
+    def floor_squared(self, slot_sigma: float) -> Floats:
+        """[rad²/s²] what the blur and flanks off by `slot_sigma` [rad] leave in the mean speed, shape (I,)."""
+        flanks = np.where(self.slack > 0.0, 0.0, 2.0 * (slot_sigma / self.duration) ** 2)
+        return np.asarray(self.sigma**2 + flanks)
+
     @property
     def fresh(self) -> Bools:
         """Which intervals do not begin where the one before ended, shape (I,)."""

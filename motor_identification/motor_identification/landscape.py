@@ -33,15 +33,12 @@ class Landscape:
 def landscape_of(problem: Problem) -> Landscape:
     """A fitting problem as what a search looks at."""
     root = np.sqrt(problem.weight)
-    noise = [
-        data.sigma**2 + 2.0 * (np.where(data.slack > 0.0, 0.0, IRREGULAR * data.slot) / data.duration) ** 2
-        for data in problem.intervals
-    ]
+    noise = [data.floor_squared(IRREGULAR * data.slot) for data in problem.intervals]
     low, high = problem.unknowns.low, problem.unknowns.high
     return Landscape(
         low,
         high,
-        (low == -np.pi) & (high == np.pi),  # a phase
+        np.zeros(len(low), dtype=bool),  # phases are not searched here, see `periodic.py`
         problem.costs,
         lambda places: np.asarray(problem.evaluate(places) * root),
         explained=float(problem.weight @ np.concatenate(noise)),

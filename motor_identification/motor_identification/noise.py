@@ -63,16 +63,19 @@ def fill_gains(
 
 @compiled
 def surprise(
-    fresh: Bools, start: Floats, end: Floats, duration: Floats, growth: float, increments: Floats
+    fresh: Bools, start: Floats, end: Floats, duration: Floats, growth: float, increments: Floats, most: float
 ) -> tuple[float, float]:
-    """Σ ν²/S and Σ ln S of increments [rad] under a growth q [rad²/s]: minus twice their logarithmic likelihood."""
+    """Σ ν²/S and Σ ln S of increments [rad] under a growth q [rad²/s]: minus twice their logarithmic likelihood.
+
+    No interval adds more than `most` to the first: an outlier must not decide.
+    """
     squares, logarithms, product = 0.0, 0.0, 1.0
     variance, carried = 0.0, 0.0
     for k in range(len(fresh)):
         predicted = (start[k] if fresh[k] else variance) + growth * duration[k]
         total = predicted + end[k]
         innovation = increments[k] + (0.0 if fresh[k] else carried)
-        squares += innovation * innovation / total
+        squares += min(innovation * innovation / total, most)
         product *= total  # one logarithm for several intervals
         if not 1e-200 < product < 1e200:
             logarithms, product = logarithms + np.log(product), 1.0
@@ -130,7 +133,7 @@ def likely_growth(noise: AngleNoise, increments: Floats) -> float:
     candidates = [0.0, *(scale * 10.0 ** (-0.5 * i) for i in range(20))]
     best, chosen = inf, 0.0
     for growth in candidates:
-        squares, logarithms = surprise(noise.fresh, noise.start, noise.end, noise.duration, growth, increments)
+        squares, logarithms = surprise(noise.fresh, noise.start, noise.end, noise.duration, growth, increments, inf)
         cost = squares + logarithms
         if cost < best - log(len(increments) + 1.0):
             best, chosen = cost, growth

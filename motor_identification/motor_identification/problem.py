@@ -105,12 +105,18 @@ class Problem:
         again = replace(self, intervals=intervals)
         return again if self.spared is None else again.sparing(self.spared)
 
+    def split(self, rows: Floats) -> list[Floats]:
+        """What is for all intervals, shape (I, …), recording by recording."""
+        ends = np.cumsum([len(data.first) for data in self.intervals])
+        return np.split(rows, ends[:-1])
+
+    def travelled(self, speeds: Floats) -> tuple[Floats, ...]:
+        """[rad] of every recording, from mean speeds [rad/s] in all intervals, shape (I,)."""
+        return tuple(part * data.duration for part, data in zip(self.split(speeds), self.intervals, strict=True))
+
     def increments(self, place: Floats) -> tuple[Floats, ...]:
         """Simulated minus measured travel [rad] in the intervals of every recording, at one place (D,)."""
-        residuals = self.residuals(place)
-        ends = np.cumsum([len(data.first) for data in self.intervals])
-        parts = np.split(residuals, ends[:-1])
-        return tuple(part * data.duration for part, data in zip(parts, self.intervals, strict=True))
+        return self.travelled(self.residuals(place))
 
     @cached_property
     def weight(self) -> Floats:

@@ -97,20 +97,14 @@ class Refined:
     @property
     def noise_floor(self) -> float:
         """[rad/s] time-weighted RMS of what timer tick (or count quantisation) and irregular slots alone leave."""
-        squares = [
-            data.sigma**2 + np.where(data.slack > 0.0, 0.0, 2.0 * (encoder.slot_sigma / data.duration) ** 2)
-            for data, encoder in zip(self.problem.intervals, self.encoders, strict=True)
-        ]
+        rows = zip(self.problem.intervals, self.encoders, strict=True)
+        squares = [data.floor_squared(encoder.slot_sigma) for data, encoder in rows]
         return sqrt(float(self.problem.weight @ np.concatenate(squares)))
 
     def white(self, residuals: Floats) -> Floats:
         """From mean speeds' residuals [rad/s] (I,) to white ones, all recordings one after the other."""
-        parts, column = [], 0
-        for data, encoder in zip(self.problem.intervals, self.encoders, strict=True):
-            part = residuals[column : column + len(data.first)] * data.duration
-            parts.append(encoder.white(part))
-            column += len(data.first)
-        return np.concatenate(parts)
+        rows = zip(self.encoders, self.problem.travelled(residuals), strict=True)
+        return np.concatenate([encoder.white(increments) for encoder, increments in rows])
 
     def outliers(self, place: Floats) -> tuple[Bools, ...]:
         """Intervals of every recording that no noise explains, where they are few; else none is marked.
