@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from motor_identification.agreement import dissents, sentence_of
-from motor_identification.identifiability import not_told_apart
+from motor_identification.identifiability import not_told_apart, telling_apart
 from motor_identification.recording import Floats
 from motor_identification.refine import Refined
 from motor_identification.statistics import certainty
@@ -102,5 +102,4 @@ def _suggestion(not_identifiable: tuple[str, ...], alike: dict[str, tuple[str, .
             return effect.shown_by
     if not_identifiable:
         return "staircase"
-    profiles = {EFFECT_BY_NAME[rival].shown_by for rivals in alike.values() for rival in rivals}
-    return profiles.pop() if len(profiles) == 1 else "rich" if profiles else ""
+    return telling_apart(rival for rivals in alike.values() for rival in rivals)

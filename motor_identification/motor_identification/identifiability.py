@@ -1,5 +1,7 @@
 """What a recording can tell and what not, whatever the noise: judged by the directions of the Jacobian alone."""
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -85,3 +87,9 @@ def _trace(refined: Refined, place: Floats, effect: str) -> Floats:
     vectors[1, :, INDEX[name]] += step
     without, with_it = refined.problem.evaluate_vectors(vectors, starts)
     return refined.white((with_it - without) / step)
+
+
+def telling_apart(rivals: Iterable[str]) -> str:
+    """The profile that separates an effect from its rivals; empty where there are none."""
+    profiles = {EFFECT_BY_NAME[rival].shown_by for rival in rivals}
+    return profiles.pop() if len(profiles) == 1 else "rich" if profiles else ""

@@ -6,12 +6,12 @@ from time import perf_counter
 
 import numpy as np
 
-from motor_identification.descent import Speeds, descend, typical
+from motor_identification.descent import Speeds, descend
 from motor_identification.direction import redirected
 from motor_identification.excerpt import excerpt
 from motor_identification.fit import Fit, SearchReport, judge
 from motor_identification.landscape import landscape_of
-from motor_identification.missed import find_miscounted
+from motor_identification.missed import cleaned
 from motor_identification.periodic import add_periodic, without_periodic
 from motor_identification.problem import Problem, make_problem
 from motor_identification.recording import Floats, Recording
@@ -24,8 +24,6 @@ from motor_model.errors import MotorError, RecordingError
 Progress = Callable[[str, float], None]  # what is being done, share done 0 to 1
 
 COARSE = 0.02  # [s] length of the intervals that the swarm compares
-HEAVY = 2.0  # times its middle half, from which on a distribution has tails that no noise makes
-CLEANINGS = 8  # rounds at most of leaving out miscounted intervals: each makes the next easier to see
 MISCOUNTED = "{} of {} intervals are off by whole slots (edges missed or counted twice) and were left out."
 UNFINISHED = (
     "The search used up its {} simulations before independent descents agreed ({} of {} did): give it more epochs or "
@@ -72,15 +70,19 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     directed = redirected(whole, place)
     directed, place, more = add_periodic(directed, place, effects)
     evaluations += more
-    place, counted, more = _without_miscounted(directed, place)
+    counted, place, more = cleaned(directed, place)
     evaluations += more
     tell("least squares", 0.9)
     refined, place, more = _refined(counted, place)
-    report = SearchReport(np.sqrt(found.trace), found.swarms, len(found.descents), found.agreeing, found.agreed)
-    fit = judge(refined, place, report, evaluations + more)
+    fit = judge(refined, place, report_of(found), evaluations + more)
     tell("done", 1.0)
     notes = (*fit.notes, *_left_out(directed, counted, refined.problem), *_unfinished(found))
     return replace(fit, notes=notes, duration=perf_counter() - begun)
+
+
+def report_of(found: Found) -> SearchReport:
+    """How a global search went."""
+    return SearchReport(np.sqrt(found.trace), found.swarms, len(found.descents), found.agreeing, found.agreed)
 
 
 def searched(whole: Problem, request: Request, progress: Callable[[float], None]) -> tuple[Found, Floats, int]:
@@ -94,23 +96,6 @@ def searched(whole: Problem, request: Request, progress: Callable[[float], None]
         evaluations += more
     place, more = descend(whole, Speeds(whole), place)
     return found, place, evaluations + more
-
-
-def _without_miscounted(problem: Problem, place: Floats) -> tuple[Floats, Problem, int]:
-    """Fit mean speeds, leave out what is off by whole slots, and again: the place, what was kept, simulations."""
-    evaluations = 0
-    for _ in range(CLEANINGS):
-        place, more = descend(problem, Speeds(problem), place)
-        evaluations += more
-        whole, middle = typical(problem, place)
-        if whole > HEAVY * middle:  # false intervals pull so much that they hide each other
-            place, more = descend(problem, Speeds(problem), place, most=middle)
-            evaluations += more
-        bad = find_miscounted(problem, place)
-        if not any(marks.any() for marks in bad):
-            break
-        problem = problem.without(bad)
-    return place, problem, evaluations
 
 
 def _refined(problem: Problem, place: Floats) -> tuple[Refined, Floats, int]:

@@ -200,6 +200,8 @@ def joined(intervals: Intervals, duration: float) -> Intervals:
 
     A mean speed over many slots says as much about the motor as those over its parts, but for what happens within it.
     """
+    if len(intervals.first) == 0:
+        return intervals
     group = np.empty(len(intervals.first), dtype=np.int64)
     _group(intervals.fresh, intervals.duration, duration, group)
     begin = np.flatnonzero(np.diff(group, prepend=-1))

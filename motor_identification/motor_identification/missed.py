@@ -2,11 +2,14 @@
 
 import numpy as np
 
+from motor_identification.descent import Speeds, descend, typical
 from motor_identification.intervals import Intervals
 from motor_identification.problem import Problem
 from motor_identification.recording import Bools, Floats
 
 WITHIN = 4.0  # standard deviations from a whole number of slots
+HEAVY = 2.0  # times its middle half, from which on a distribution has tails that no noise makes
+CLEANINGS = 8  # rounds at most of leaving out miscounted intervals: each makes the next easier to see
 
 
 def miscounted(data: Intervals, increments: Floats) -> Bools:
@@ -28,3 +31,29 @@ def find_miscounted(problem: Problem, place: Floats) -> tuple[Bools, ...]:
     """The miscounted intervals of every recording, judged at a fitted place (D,)."""
     rows = zip(problem.intervals, problem.increments(place), strict=True)
     return tuple(miscounted(data, increments) for data, increments in rows)
+
+
+def without_tails(problem: Problem, place: Floats) -> tuple[Floats, int] | None:
+    """The fit of most intervals and its simulations, where some are so far off that they pull a fit (D,) of all."""
+    whole, middle = typical(problem, place)
+    return descend(problem, Speeds(problem), place, most=middle) if whole > HEAVY * middle else None
+
+
+def cleaned(problem: Problem, place: Floats) -> tuple[Problem, Floats, int]:
+    """Fit mean speeds from a place (D,), leave out what is off by whole slots, and again.
+
+    Returns what is kept, its best fit, and the number of simulations.
+    """
+    evaluations = 0
+    for _ in range(CLEANINGS):
+        place, more = descend(problem, Speeds(problem), place)
+        evaluations += more
+        most = without_tails(problem, place)
+        if most is not None:  # else false intervals hide each other
+            place, more = most
+            evaluations += more
+        bad = find_miscounted(problem, place)
+        if not any(marks.any() for marks in bad):
+            break
+        problem = problem.without(bad)
+    return problem, place, evaluations

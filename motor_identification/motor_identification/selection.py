@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cached_property
 from math import log
 
 from motor_identification.candidates import extended
@@ -14,12 +15,14 @@ from motor_model.effects import EFFECT_BY_NAME
 
 FALSE_ALARMS = 0.01  # chance that a complete model is given an effect that it does not have
 MARGIN = 5.0  # of log likelihood by which a finding has to beat another effect, else both are named
-RELEVANT = 0.3  # share of the excess over the noise floor that a finding has to explain ...
-NEAR = 1.15  # ... where the gap is more than this many times the floor; nearer to it,
-SEEN = 0.01  # this share of the gap
-STANDS_IN = (
-    0.95  # of the excess: what explains less, and leaves the gap above the floor, may stand in for another effect
-)
+TIE = 0.5  # of log likelihood within which the more common effect is taken, the one that is earlier in the table
+RELEVANT, MOSTLY = (
+    0.3,
+    0.5,
+)  # share of the excess over the noise floor that a finding has to explain, above and at it,
+SEEN = 0.01  # and share of the gap,
+LASTING = 0.1  # [s] both in intervals of this length: of a coarse encoder, shorter ones show little but its steps
+STANDS_IN = 0.95  # of the excess: what explains less and leaves the gap above the floor may stand in for another effect
 AT_FLOOR = 1.3  # times the noise floor: explained
 
 
@@ -58,15 +61,22 @@ class Trial:
         return self.model.likelihood - self.before.likelihood
 
     @property
-    def shrinks(self) -> float:
-        """Share of the gap that it takes away."""
-        return 1.0 - self.model.held.gap / self.before.held.gap
-
-    @property
     def explains(self) -> float:
         """Share of the excess over the noise floor that it takes away."""
-        floor, before, after = (gap**2 for gap in (self.model.floor, self.before.held.gap, self.model.held.gap))
-        return (before - after) / (before - floor) if before > floor else 1.0
+        return explained(self.before.held.gap, self.model.held.gap, self.model.floor)
+
+    @cached_property
+    def relevant(self) -> bool:
+        """Whether it takes away a good part of what lasts longer than the encoder's noise."""
+        before, after = self.before.held.joined(LASTING), self.model.held.joined(LASTING)
+        explains = explained(before.gap, after.gap, after.floor(self.model.noise.share))
+        near = self.before.held.gap <= AT_FLOOR * self.model.floor
+        return explains > (MOSTLY if near else RELEVANT) and 1.0 - after.gap / before.gap > SEEN
+
+
+def explained(before: float, after: float, floor: float) -> float:
+    """Share of a gap's excess over the noise floor, in squares, that is gone after."""
+    return (before**2 - after**2) / (before**2 - floor**2) if before > floor else 1.0
 
 
 def judged(kept: Kept, problem: Problem, place: Floats) -> Model:
@@ -122,13 +132,25 @@ def threshold() -> float:
 
 
 def accepted(trials: Sequence[Trial]) -> Trial | None:
-    """The trial that is a finding, if there is one: likely, and relevant to the gap."""
-    for trial in trials:
-        near = trial.before.held.gap < NEAR * trial.model.floor
-        relevant = trial.shrinks > SEEN if near else trial.explains > RELEVANT
-        if trial.evidence > threshold() and relevant and _visible(trial):
-            return trial
-    return None
+    """The trial that is a finding, if there is one: likely, and relevant to the gap; of equals the most common."""
+    best = next((trial for trial in trials if _convinces(trial)), None)
+    if best is None:
+        return None
+    equals = [
+        trial
+        for trial in trials
+        if trial.evidence > best.evidence - TIE and size(trial.effect) <= size(best.effect) and _convinces(trial)
+    ]
+    return min(equals, key=lambda trial: list(EFFECT_BY_NAME).index(trial.effect))
+
+
+def _convinces(trial: Trial) -> bool:
+    return trial.evidence > threshold() and trial.relevant and _visible(trial)
+
+
+def size(effect: str) -> int:
+    """Number of parameters of an effect."""
+    return len(EFFECT_BY_NAME[effect].parameters)
 
 
 def _visible(trial: Trial) -> bool:
@@ -143,8 +165,10 @@ def _visible(trial: Trial) -> bool:
 
 
 def rivals(found: Trial, trials: Sequence[Trial]) -> tuple[str, ...]:
-    """Effects that explain as much as a finding does."""
+    """Effects that explain as much as a finding does, and with no more parameters."""
+    least = max(found.evidence - MARGIN, threshold())
     return tuple(
-        trial.effect for trial in trials if trial is not found and trial.evidence > found.evidence - MARGIN
-        and trial.evidence > threshold()
-    )  # fmt: skip
+        trial.effect
+        for trial in trials
+        if trial.effect != found.effect and trial.evidence > least and size(trial.effect) <= size(found.effect)
+    )

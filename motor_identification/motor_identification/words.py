@@ -6,6 +6,7 @@ from typing import Any
 from motor_identification.diagnosis import Diagnosis, Finding, Verdict
 from motor_identification.discrepancy import shape_left, where
 from motor_identification.fit import Fit
+from motor_identification.selection import AT_FLOOR, LASTING
 from motor_identification.shape import shape_in_words
 from motor_model.effects import SPEC_BY_NAME
 
@@ -31,7 +32,11 @@ def summary(diagnosis: Diagnosis) -> str:
 def fell(diagnosis: Diagnosis) -> str:
     """By how much the gap fell, beside the noise floor."""
     before, after = f"{diagnosis.gap_before:.3g}", f"{diagnosis.gap_after:.3g}"
-    return f"the gap on held-out motion falls from {before} to {after} rad/s ({against_floor(diagnosis)})"
+    text = f"the gap on held-out motion falls from {before} to {after} rad/s ({against_floor(diagnosis)})"
+    if diagnosis.gap_before > AT_FLOOR * diagnosis.noise_floor:
+        return text
+    lasting = [f"{held.joined(LASTING).gap:.3g}" for held in (diagnosis.before, diagnosis.after)]
+    return f"{text}, in stretches of {LASTING:g} s, where the encoder's steps matter less, from {' to '.join(lasting)}"
 
 
 def against_floor(diagnosis: Diagnosis) -> str:
@@ -62,8 +67,7 @@ def _found(findings: tuple[Finding, ...]) -> str:
         f"{named(one.effect)} ({', '.join(quantity(name, *value) for name, value in one.parameters.items())})"
         for one in findings
     ]
-    text = listed(each) + (" was missing" if len(each) == 1 else " were missing")
-    return text[0].upper() + text[1:]
+    return _capital(listed(each) + (" was missing" if len(each) == 1 else " were missing"))
 
 
 def _explained(diagnosis: Diagnosis) -> str:
@@ -77,32 +81,39 @@ def _nothing(diagnosis: Diagnosis) -> str:
 
 
 def _unexplained(diagnosis: Diagnosis) -> str:
-    begin = f"{_found(diagnosis.findings)}, and {fell(diagnosis)}. " if diagnosis.findings else ""
-    left = f"the gap on held-out motion is {diagnosis.gap_after:.3g} rad/s, {against_floor(diagnosis)}"
-    also = "Something else" if diagnosis.findings else "Something"
     shape = shape_in_words(shape_left(diagnosis.after))
-    text = f"{also} is missing that no effect of the table explains" + ("" if diagnosis.findings else f": {left}")
-    return f"{begin}{text}. It is worst {where(diagnosis.after, diagnosis.slot_share)}. {shape}".strip()
+    worst = f"It is worst {where(diagnosis.after, diagnosis.slot_share)}. {shape}".strip()
+    missing = "is missing that no effect of the table explains"
+    if diagnosis.findings:
+        return f"{_each(diagnosis)} {_capital(fell(diagnosis))}. Something else {missing}. {worst}"
+    left = f"the gap on held-out motion is {diagnosis.gap_after:.3g} rad/s, {against_floor(diagnosis)}"
+    return f"Something {missing}: {left}. {worst}"
+
+
+def _each(diagnosis: Diagnosis) -> str:
+    """What is missing, and between what this recording cannot tell."""
+    clear = tuple(one for one in diagnosis.findings if not one.ambiguous_with)
+    parts = [f"{_found(clear)}."] if clear else []
+    for one in diagnosis.findings:
+        if one.ambiguous_with:
+            names = listed([named(name) for name in (one.effect, *one.ambiguous_with)], "or")
+            parts.append(f"{_capital(names)} is missing, and this recording cannot tell which.")
+    return " ".join(parts)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 def _undecided(diagnosis: Diagnosis) -> str:
-    open_ = [one for one in diagnosis.findings if one.ambiguous_with]
-    clear = tuple(one for one in diagnosis.findings if not one.ambiguous_with)
-    parts = [f"{_found(clear)}."] if clear else []
-    for one in open_:
-        text = listed([named(name) for name in (one.effect, *one.ambiguous_with)], "or")
-        parts.append(f"{text[0].upper()}{text[1:]} is missing, and this recording cannot tell which.")
-    if open_ or clear:
-        text = fell(diagnosis)
-        parts.append(f"{text[0].upper()}{text[1:]}.")
+    if diagnosis.findings:
+        parts = [_each(diagnosis), f"{_capital(fell(diagnosis))}."]
     elif not diagnosis.after.counted.any():
-        parts.append(TOO_SHORT)
+        parts = [TOO_SHORT]
     else:
-        parts.append(
-            f"Nothing is missing that this recording could show: the gap is {diagnosis.gap_after:.3g} rad/s, "
-            f"{against_floor(diagnosis)}."
-        )
-    if not open_ and diagnosis.undetectable:
+        gap = f"{diagnosis.gap_after:.3g} rad/s, {against_floor(diagnosis)}"
+        parts = [f"Nothing is missing that this recording could show: the gap is {gap}."]
+    if diagnosis.undetectable and not any(one.ambiguous_with for one in diagnosis.findings):
         parts.append(f"It could not have shown {unseen(diagnosis.undetectable)}.")
     return " ".join(parts)
 

@@ -8,12 +8,16 @@ import pytest
 
 from motor_identification.agreement import dissents, sentence_of
 from motor_identification.csv_import import CsvForm, Kind, read_log
+from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis import Diagnosis, Verdict
 from motor_identification.findings import sentence
 from motor_identification.fit import Fit
 from motor_identification.identify import Request, identify
 from motor_identification.problem import make_problem
 from motor_identification.recording import Recording, check, recording_of
 from motor_identification.refine import Refined, learn
+from motor_identification.selection import LASTING
+from motor_model.simulate import simulate
 
 DATA = Path(__file__).resolve().parents[3] / "shared/data"
 pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="the measured data are not part of the repository")
@@ -168,3 +172,58 @@ def test_closed_loop_stairs_on_a_coasting_bridge() -> None:
     assert 160.0 < degrees(coasting.parameters.gain) < 172.0
     recordings = undc("prbs", "stairs")
     assert "stairs" in contradictions(recordings, identify(recordings, Request(SLIDING)))
+
+
+def coasting() -> list[Recording]:
+    """Two random telegraphs at two levels, by a bridge that coasts in the off time."""
+    form = CsvForm("t", "u", "y", Kind.SPEED, "deg/s", edges_per_revolution=2800, max_voltage=5.0)
+    logs = [(day, read_log(DATA / f"undc/prbs_coast_2024-08-{day}.csv", form)) for day in ("03", "05")]
+    return [check(recording_of(log.runs[0].samples, log.info, day)) for day, log in logs]
+
+
+def found_in(recordings: list[Recording]) -> tuple[Diagnosis, dict[str, tuple[str, ...]]]:
+    """A diagnosis, and what it names with what that cannot be told from."""
+    found = diagnose(recordings)
+    return found, {one.effect: one.ambiguous_with for one in found.findings}
+
+
+def test_diagnosis_of_a_telegraph_one_way() -> None:
+    """A delay, and an offset that friction, a constant load and a dead zone make alike."""
+    found, named = found_in(undc("prbs"))
+    assert found.verdict is Verdict.UNDECIDED and found.suggested_experiment == "rich"
+    assert named == {"coulomb_friction": ("load_bias", "dead_zone"), "transport_delay": ()}
+    assert 0.0093 < found.model.parameters.value("delay") < 0.0095
+    assert 0.23 < found.gap_before < 0.25 and 1.05 < found.gap_after / found.noise_floor < 1.15
+    _found, with_static = found_in(undc("prbs", "static"))  # a load that pushes at standstill is out
+    assert with_static == {"coulomb_friction": ("dead_zone",), "transport_delay": ()}
+
+
+def test_diagnosis_of_a_coasting_bridge_predicts_its_static_curve() -> None:
+    """Two effects that only together explain anything; the same kv as years later with a braking bridge."""
+    found, named = found_in(coasting())
+    assert found.verdict is Verdict.UNEXPLAINED  # a rest of twice the floor is nothing that is in the table
+    assert named == {"coulomb_friction": ("load_bias", "dead_zone"), "coast_drive": ()}
+    assert 0.41 < found.gap_before < 0.42 and 1.8 < found.gap_after / found.noise_floor < 2.1
+    values = found.model.parameters.values
+    assert 0.98 < values["coast_share"] <= 1.0 and 0.354 < values["kv"] < 0.362 and 0.30 < values["ks"] < 0.325
+    table = np.genfromtxt(DATA / "undc/static_coast_2024-08-05.csv", delimiter=",", names=True)
+    for fit, low, high in ((found.baseline, 8.0, 8.7), (found.model, 0.2, 0.4)):
+        errors = []
+        for voltage, speed in zip(table["u"], table["y"], strict=True):
+            times = np.array([0.0, 20.0, 21.0])
+            travel = simulate(fit.parameters, np.zeros(1), np.array([voltage]), times).angle
+            errors.append(travel[2] - travel[1] - np.radians(speed))
+        assert low < float(np.sqrt(np.mean(np.square(errors)))) < high
+
+
+def test_diagnosis_of_steps_both_ways_by_a_coarse_encoder() -> None:
+    """Dead band, asymmetry and delay of the EV3 motor, under a floor that hides them from sample to sample."""
+    found, named = found_in(ev3())
+    assert found.verdict is Verdict.UNDECIDED
+    assert named == {
+        "coulomb_friction": ("dead_zone",), "direction_asymmetry": (), "transport_delay": ("armature_inductance",)
+    }  # fmt: skip
+    values = found.model.parameters.values
+    assert 0.22 < values["ks"] < 0.30 and 0.94 < values["reverse_gain"] < 0.97 and 0.014 < values["delay"] < 0.022
+    before, after = (held.joined(LASTING).gap for held in (found.before, found.after))
+    assert 0.33 < before < 0.38 and 0.16 < after < 0.20
