@@ -79,4 +79,5 @@ def run(create: Callable[[], Node], args: list[str] | None = None) -> int:
                 close()
             node.destroy_node()
         rclpy.try_shutdown()
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C does not turn a clean end into a failure
     return 0

@@ -1,0 +1,1 @@
+"""What is started together: which programs, with which parameters; launch files pass it on to ROS 2's launch system."""

@@ -1,0 +1,96 @@
+"""The launch files in the genuine launch system, where that is installed: they load, start, pass data, and end."""
+
+import ast
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import yaml
+from bringup.test_sessions import FILES
+from domains import free_domain
+
+from motor_identification.bag import messages, read_recording
+
+LAUNCH = Path(__file__).resolve().parents[2] / "motor_bringup" / "launch"
+BAGS = Path(__file__).resolve().parents[2] / "bags"
+RUN = """
+import sys
+from launch import LaunchDescription, LaunchService
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+told = [tuple(word.split(":=", 1)) for word in sys.argv[2:]]
+service = LaunchService(noninteractive=True)
+source = PythonLaunchDescriptionSource(sys.argv[1])
+service.include_launch_description(LaunchDescription([IncludeLaunchDescription(source, launch_arguments=told)]))
+sys.exit(service.run())
+"""
+
+
+def test_each_file_passes_on_its_own_table() -> None:
+    """Without the launch system: the file's syntax, and which session it names."""
+    assert {path.name for path in LAUNCH.iterdir() if path.is_file()} == {f"{name}.launch.py" for name in FILES}
+    for name in FILES:
+        tree = ast.parse((LAUNCH / f"{name}.launch.py").read_text(encoding="utf-8"))
+        imported = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+        functions = [node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+        assert imported == {"launch", "motor_bringup.actions", f"motor_bringup.{name}"}
+        assert functions == ["generate_launch_description"]
+
+
+def started(name: str, folder: Path, *told: str) -> "subprocess.Popen[str]":
+    pytest.importorskip("launch_ros", reason="ROS 2's launch system is not installed here (it is not on PyPI)")
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    environment["ROS_LOG_DIR"] = str(folder / "log")
+    return subprocess.Popen(
+        [sys.executable, "-c", RUN, str(LAUNCH / f"{name}.launch.py"), *told],
+        cwd=folder,
+        env=environment,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+
+
+def test_from_a_motor_to_its_model(tmp_path: Path) -> None:
+    model = f"model:={BAGS / 'closed_loop.yaml'}"
+    process = started("identify", tmp_path, model, "profile:=step", "bag:=bag", "namespace:=left")
+    out, _ = process.communicate(timeout=60.0)
+    assert process.returncode == 0 and "Traceback" not in out, out
+    assert read_recording(tmp_path / "bag", "left").info.name == "left"
+    assert set(yaml.safe_load((tmp_path / "model.yaml").read_text(encoding="utf-8"))["parameters"]) == {"kv", "ka"}
+
+
+def test_a_step_that_fails_ends_all_and_says_so(tmp_path: Path) -> None:
+    (tmp_path / "bag").mkdir()
+    process = started("identify", tmp_path, "bag:=bag", "profile:=step")
+    out, _ = process.communicate(timeout=60.0)
+    assert process.returncode == 1 and "experiment ended with exit status 1" in out
+    assert not (tmp_path / "model.yaml").exists()
+
+
+def test_ctrl_c_ends_everything_and_the_bag_is_whole(tmp_path: Path) -> None:
+    process = started("motor", tmp_path, "record:=bag")
+    assert process.stdout is not None
+    while "simulating" not in process.stdout.readline():
+        assert process.poll() is None
+    samples = 0
+    while samples < 200:
+        assert process.poll() is None
+        time.sleep(0.1)
+        written = messages(tmp_path / "bag", {"/motor/speed"}) if list(tmp_path.glob("bag/*.mcap")) else ()
+        samples = sum(1 for _ in written)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=20.0)
+    assert process.returncode == 0 and out.count("process has finished cleanly") == 3, out
+    assert sum(1 for _ in messages(tmp_path / "bag", {"/motor/speed"})) >= samples
+    assert (tmp_path / "bag" / "metadata.yaml").is_file()
+
+
+def test_a_word_that_is_no_choice_ends_it(tmp_path: Path) -> None:
+    process = started("motor", tmp_path, "plant:=toaster")
+    out, _ = process.communicate(timeout=30.0)
+    assert process.returncode == 1 and "toaster" in out and "emulated" in out

@@ -1,0 +1,122 @@
+"""The pages beside the README: their commands and code run as they stand there, their links lead somewhere."""
+
+import os
+import re
+import signal
+import subprocess
+from pathlib import Path
+
+import pytest
+from bringup.test_parameter_files import reference
+from domains import free_domain
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGES = sorted(
+    path.relative_to(ROOT).as_posix()
+    for pattern in ("*.md", "motor_*/README.md", "docs/*.md", "bags/*.md")
+    for path in ROOT.glob(pattern)
+)
+BLOCK = re.compile(r"^( *)```(bash|python)\n(.*?)^ *```", re.DOTALL | re.MULTILINE)
+NODE = re.compile(r"ros2 run (motor_\w+) (\1|board_emulator)\b")
+# Commands that are not run here, and why.
+ELSEWHERE = {
+    r"\./test\.sh|ruff check": "the tests themselves, and tests/test_architecture.py",
+    r"bags/make\.sh": "tests/test_golden_bags.py",
+    r"ros2 run motor_board flash": "needs a board; tests/board/test_flash.py",
+    r"ros2 run motor_board board_emulator|ros2 run motor_driver": "the same in README.md",
+    r"ros2 topic pub --rate 20 motor/voltage": "needs a board",
+}
+
+
+def blocks(page: str, language: str) -> list[str]:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    return [match[3] for match in BLOCK.finditer(text) if match[2] == language]
+
+
+def commands(page: str) -> list[str]:
+    lines = [line.split("  #")[0].strip() for block in blocks(page, "bash") for line in block.splitlines()]
+    return [line for line in lines if line and not any(re.match(pattern, line) for pattern in ELSEWHERE)]
+
+
+RUN = [page for page in PAGES if page != "README.md" and commands(page)]  # the README has a test of its own
+
+
+def test_pages_are_found_and_every_exception_is_needed() -> None:
+    assert len(PAGES) >= 14 and len(RUN) >= 3
+    packages = {path.parent.name for path in ROOT.glob("motor_*/package.xml")}
+    assert {f"{package}/README.md" for package in packages - {"motor_control"}} <= set(PAGES)
+    lines = [line.strip() for page in PAGES for block in blocks(page, "bash") for line in block.splitlines()]
+    for pattern in ELSEWHERE:
+        assert any(re.match(pattern, line) for line in lines), pattern
+
+
+@pytest.mark.parametrize("page", RUN)
+def test_every_command_works_as_written(page: str, tmp_path: Path) -> None:
+    environment = {**os.environ, "ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    (tmp_path / "bags").symlink_to(ROOT / "bags")
+    nodes = []
+    try:
+        for command in commands(page):
+            if NODE.match(command):
+                nodes.append(subprocess.Popen(command.split(), cwd=tmp_path, env=environment))
+                continue
+            done = subprocess.run(
+                ["bash", "-c", command], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=60
+            )
+            assert done.returncode == 0 and "Traceback" not in done.stderr, f"{command}\n{done.stdout}\n{done.stderr}"
+    finally:
+        for node in nodes:
+            node.send_signal(signal.SIGINT)
+        ended = [node.wait(20.0) for node in nodes]
+    assert not any(ended)
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if blocks(page, "python")])
+def test_code_runs_as_written(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "bags").symlink_to(ROOT / "bags")
+    monkeypatch.chdir(tmp_path)
+    for block in blocks(page, "python"):
+        exec(compile(block, page, "exec"), {"__name__": page})
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_lead_somewhere(page: str) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)\s]+)\)", text):
+        if target.startswith("http"):
+            continue
+        file, _, anchor = target.partition("#")
+        linked = (ROOT / page).parent / file if file else ROOT / page
+        assert linked.exists(), target
+        if anchor:
+            titles = re.findall(r"^#+ (.+)$", linked.read_text(encoding="utf-8"), re.MULTILINE)
+            assert anchor in {re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles}, target
+
+
+def test_the_reference_is_as_it_would_be_written_now() -> None:
+    page = (ROOT / "docs" / "interfaces.md").read_text(encoding="utf-8")
+    assert page == reference("make_interfaces").page(), "run python docs/make_interfaces.py"
+    files = [path for kind in ("msg", "srv", "action") for path in (ROOT / "motor_msgs" / kind).iterdir()]
+    for path in files:
+        assert f"## motor_msgs/{path.parent.name}/{path.stem}\n" in page
+        fields = re.findall(r"^[\w/\[\]]+ +([a-z]\w*)(?: |$)", path.read_text(encoding="utf-8"), re.MULTILINE)
+        assert len(fields) > 1 and all(f"| `{field}` |" in page for field in fields), path
+
+
+def test_the_messages_of_the_troubleshooting_are_those_of_the_program() -> None:
+    """Every quoted symptom is in the sources, … standing for what is filled in."""
+    files = [
+        *ROOT.glob("motor_*/motor_*/**/*.py"),
+        *ROOT.glob("ros2_stand_in/*.py"),
+        ROOT / "setup.sh",
+        ROOT / "env.sh",
+    ]
+    source = "\n".join(path.read_text(encoding="utf-8") for path in files)
+    source = re.sub(r"\{[^{}]*\}", "…", re.sub(r'"\s*\n\s*f?"', "", source))  # f-strings, as one line
+    page = (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
+    symptoms = [row.split("|")[1] for row in page.splitlines() if row.startswith("|")]
+    quoted = [words for symptom in symptoms for words in re.findall(r'"([^"]+)"', symptom)]
+    assert len(quoted) > 15
+    for words in quoted:
+        for part in words.split("…"):
+            assert part.strip() in source, words
