@@ -1,4 +1,4 @@
-"""`ros2 bag`: recording and playing go to the workbench's own executables; `info` reads the bag's metadata."""
+"""`ros2 bag`: the workbench's own executables record and play, its library repairs; `info` reads the metadata."""
 
 import argparse
 import datetime
@@ -9,7 +9,7 @@ import yaml
 
 from motor_model.errors import MotorError
 from ros2_stand_in import packages
-from ros2_stand_in.arguments import positive
+from ros2_stand_in.arguments import not_negative, positive
 from ros2_stand_in.run import become
 
 _PACKAGE = "motor_identification"
@@ -41,12 +41,36 @@ def play_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-r", "--rate", type=positive, default=1.0, help="how fast, as a multiple of real time")
     parser.add_argument("-l", "--loop", action="store_true", help="start again at the end")
     parser.add_argument("--topics", nargs="+", default=[], metavar="TOPIC", help="play these topics only")
+    parser.add_argument("--start-offset", type=not_negative, default=0.0, help="leave out so many seconds")
+    parser.add_argument(
+        "-m", "--remap", nargs="+", default=[], metavar="OLD:=NEW", help="publish topics under other names"
+    )
 
 
 def play(args: argparse.Namespace) -> int:
     """Become the workbench's player."""
     command = [str(packages.executable(_PACKAGE, "play")), args.bag_path, "--rate", str(args.rate)]
-    become([*command, *(["--loop"] if args.loop else []), *(["--topics", *args.topics] if args.topics else [])])
+    optional = {"--topics": args.topics, "--remap": args.remap}
+    optional["--start-offset"] = [str(args.start_offset)] if args.start_offset else []
+    words = [word for option, values in optional.items() if values for word in (option, *values)]
+    become([*command, *(["--loop"] if args.loop else []), *words])
+
+
+def reindex_arguments(parser: argparse.ArgumentParser) -> None:
+    """What `ros2 bag reindex` takes."""
+    parser.add_argument("bag_path", type=Path, help="bag, which is a directory")
+    parser.add_argument("-s", "--storage", choices=["mcap", "sqlite3"], help="storage (default: by the files' names)")
+
+
+def reindex(args: argparse.Namespace) -> int:
+    """Write the metadata.yaml that a crash left unwritten."""
+    from motor_identification.bag import repair  # NumPy takes a while, which no other verb has to wait for
+
+    if not args.bag_path.is_dir():
+        raise MotorError("Must specify a bag directory")
+    done = repair(args.bag_path)
+    print(f"{args.bag_path}: metadata.yaml {'written' if done else 'needs no repair, or cannot have one'}.")
+    return 0
 
 
 def info_arguments(parser: argparse.ArgumentParser) -> None:
@@ -76,7 +100,7 @@ def _metadata(bag: Path) -> dict[str, Any]:
         raise MotorError(f"Bag path '{bag}' does not exist!")
     if not file.is_file():
         raise MotorError(
-            f"{bag} has no metadata.yaml: it is not a bag, or recording was cut off; what it holds can still be played."
+            f"{bag} has no metadata.yaml: it is not a bag, or was cut off; then `ros2 bag reindex {bag}` helps."
         )
     try:
         metadata: dict[str, Any] = yaml.safe_load(file.read_text())["rosbag2_bagfile_information"]

@@ -43,4 +43,5 @@ VERBS = (
     Verb("bag record", "bag:record", "Record topics to a bag."),
     Verb("bag play", "bag:play", "Publish what a bag recorded."),
     Verb("bag info", "bag:info", "Print what is in a bag."),
+    Verb("bag reindex", "bag:reindex", "Write the metadata.yaml that a crash left unwritten."),
 )

@@ -1,5 +1,7 @@
 """`record` and `play` as processes over DDS: what is published is what is in the bag, and what comes out again."""
 
+import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -18,9 +20,9 @@ from motor_identification.bag import BagWriter, messages, read_recording, topics
 from motor_identification.cli._offered import offered
 from motor_identification.cli._recorder import Recorder
 from motor_model.sample import Info, Sample
-from motor_msgs.msg import MotorInfo, MotorSpeed
+from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
-from motor_ros.messages import info_message, speed_message, time_message
+from motor_ros.messages import info_message, speed_message, time_message, voltage_message
 
 PERIOD = 5_000_000  # [ns]
 DEEP = QoSProfile(depth=1000)  # loses nothing, however busy the machine is
@@ -215,6 +217,79 @@ def test_ctrl_c_in_a_long_pause_ends_at_once(start: Start, tmp_path: Path) -> No
     assert play.returncode == 0 and ("nothing played" in out or " 1 messages" in out or " 2 messages" in out)
 
 
+def test_a_part_is_played_beside_a_plant_under_another_name(bench: Bench, start: Start, tmp_path: Path) -> None:
+    live = bench.publisher(MotorSpeed, "motor/speed")
+    speeds = bench.hear(MotorSpeed, "motor/speed", DEEP)
+    shown = bench.hear(MotorSpeed, "recorded/speed", DEEP)
+    infos = bench.hear(MotorInfo, "motor/info", qos.INFO)
+    play = start(
+        "motor_identification",
+        *("play", write(tmp_path / "bag", 100), "--start-offset", "0.4", "--remap", "motor/speed:=recorded/speed"),
+    )
+    bench.wait(lambda: len(shown) >= 20 and bool(infos), "the rest of the bag")
+    out, err = play.communicate(timeout=PATIENCE)
+    assert (play.returncode, err) == (0, "")
+    assert [message.edge_count for message in shown] == list(range(80, 100)) and speeds == []
+    assert infos[0].name == "wheel"  # latched in the part that is left out
+    assert out.startswith("Playing /motor/info, /motor/speed as /recorded/speed from ") and "20 messages played" in out
+    play = start("motor_identification", "play", tmp_path / "bag", "--topics", "motor/speed")
+    _, err = play.communicate(timeout=PATIENCE)
+    assert err.startswith("bench publishes /motor/speed too, and listeners cannot tell the two apart: leave it out")
+    assert "--remap /motor/speed:=/recorded/motor/speed." in err and err.count("\n") == 1
+    assert live.get_subscription_count() == 1
+
+
+@pytest.mark.parametrize("last", [4.0, 0.0])
+def test_no_motor_is_left_under_a_voltage(bench: Bench, start: Start, tmp_path: Path, last: float) -> None:
+    with BagWriter(tmp_path / "bag") as writer:
+        channel = writer.topic("/motor/voltage", "motor_msgs/msg/MotorVoltage", offered(qos.VOLTAGE))
+        for k, volts in enumerate((1.0, 2.0, last)):
+            stamp = time_message(k)
+            writer.write(channel, 10**18 + k * PERIOD, serialize_message(voltage_message(volts, stamp, "us")))
+    voltages = bench.hear(MotorVoltage, "motor/voltage", DEEP)
+    play = start("motor_identification", "play", tmp_path / "bag")
+    bench.wait(lambda: play.poll() is not None, "the end of the bag")
+    bench.wait(lambda: len(voltages) >= 3 and voltages[-1].voltage == 0.0, "0 V")
+    expected = [1.0, 2.0, 4.0, 0.0] if last else [1.0, 2.0, 0.0]
+    assert [message.voltage for message in voltages] == expected
+
+
+def test_a_cut_bag_is_played_and_gets_its_metadata(start: Start, tmp_path: Path) -> None:
+    with BagWriter(tmp_path / "going/on") as writer:
+        channel = writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed", offered(qos.SPEED))
+        for k in range(120):
+            data = serialize_message(speed_message(sample(k), time_message(k * PERIOD), "wheel"))
+            writer.write(channel, 10**18 + k * PERIOD, data)
+            if k == 99:
+                writer.flush()
+                shutil.copytree(tmp_path / "going/on", tmp_path / "bag")  # what a crash at this moment leaves
+    play = start("motor_identification", "play", tmp_path / "bag", "--rate", "10")
+    out, err = play.communicate(timeout=PATIENCE)
+    assert play.returncode == 0 and "100 messages played" in out
+    assert (
+        "is cut off: 100 messages, 0.50 s up to the cut." in err and "had no metadata.yaml; it has been written" in err
+    )
+    assert (tmp_path / "bag/metadata.yaml").is_file()
+
+
+def test_a_full_disk_ends_recording_and_loses_nothing(bench: Bench, start: Start, tmp_path: Path) -> None:
+    speed = bench.publisher(MotorSpeed, "motor/speed", DEEP)
+    record = start("motor_identification", "record", tmp_path / "bag")
+    bench.heard(speed)
+    say(speed, range(100))
+    written(bench, tmp_path / "bag", 100)
+    resource.prlimit(record.pid, resource.RLIMIT_FSIZE, (1000, 1000))  # the file is longer already
+    say(speed, range(100, 200))
+    bench.wait(lambda: record.poll() is not None, "the end of recording")
+    _, err = record.communicate()
+    assert record.returncode == 1
+    assert err == (
+        f"{tmp_path}/bag cannot be written (File too large): make room, or choose another place; "
+        "the 100 messages recorded until then are kept.\n"
+    )
+    assert read_recording(tmp_path / "bag").sample_time.tolist() == [k * PERIOD for k in range(100)]
+
+
 def test_only_the_topics_that_are_named(bench: Bench, start: Start, tmp_path: Path) -> None:
     infos: list[MotorInfo] = []
     speeds: list[MotorSpeed] = []
@@ -232,6 +307,8 @@ def test_only_the_topics_that_are_named(bench: Bench, start: Start, tmp_path: Pa
         (["{0}/nothing"], "There is no bag"),
         (["{0}/empty"], "has no messages"),
         (["{0}/bag", "--topics", "/other"], "has no messages on /other; it has /motor/info, /motor/speed"),
+        (["{0}/bag", "--remap", "other:=new"], "has no messages on /other; it has /motor/info, /motor/speed"),
+        (["{0}/bag", "--start-offset", "7"], "is 0.01 s long: choose a --start-offset below that"),
         (["{0}/odd"], "no topic whose type is installed here"),
     ],
 )

@@ -5,6 +5,8 @@ import re
 
 import pytest
 
+from motor_identification.bag import BagWriter
+
 METADATA = """\
 rosbag2_bagfile_information:
   version: 9
@@ -65,9 +67,21 @@ def test_info_of_an_empty_bag_of_an_older_ros(ros2, bag):
 def test_info_without_metadata_is_a_sentence(ros2, bag, tmp_path):
     (bag / "metadata.yaml").unlink()
     assert ros2("bag", "info", str(bag), status=1).err == (
-        f"{bag} has no metadata.yaml: it is not a bag, or recording was cut off; what it holds can still be played.\n"
+        f"{bag} has no metadata.yaml: it is not a bag, or was cut off; then `ros2 bag reindex {bag}` helps.\n"
     )
     assert ros2("bag", "info", str(tmp_path / "no"), status=1).err == f"Bag path '{tmp_path / 'no'}' does not exist!\n"
+
+
+def test_reindex_writes_what_a_crash_left_unwritten(ros2, tmp_path):
+    bag = tmp_path / "run"
+    with BagWriter(bag) as writer:
+        writer.write(writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed"), 10**18, b"\x00\x01\x00\x00")
+    before = ros2("bag", "info", str(bag)).out
+    (bag / "metadata.yaml").unlink()
+    assert ros2("bag", "reindex", str(bag)).out == f"{bag}: metadata.yaml written.\n"
+    assert ros2("bag", "info", str(bag)).out == before and "Count: 1 |" in before
+    assert "needs no repair" in ros2("bag", "reindex", "-s", "mcap", str(bag)).out
+    assert ros2("bag", "reindex", str(tmp_path / "no"), status=1).err == "Must specify a bag directory\n"
 
 
 @pytest.mark.parametrize("text", ["", "a: [", "rosbag2_bagfile_information: 5", METADATA.replace("  duration", "  d")])
@@ -99,6 +113,11 @@ def handed_on(ros2, tmp_path):
         ("record -a -o run", "record run --all"),
         ("play run", "play run --rate 1.0"),
         ("play run -r 2.5 -l --topics /a /b", "play run --rate 2.5 --loop --topics /a /b"),
+        (
+            "play run --start-offset 1.5 --remap motor/speed:=old/speed",
+            "play run --rate 1.0 --remap motor/speed:=old/speed --start-offset 1.5",
+        ),
+        ("play run -m a:=b c:=d", "play run --rate 1.0 --remap a:=b c:=d"),
     ],
 )
 def test_recording_and_playing_are_handed_on(handed_on, words, command):

@@ -3,6 +3,7 @@
 from motor_identification.bag.contents import Contents
 from motor_identification.bag.motor import read_recording
 from motor_identification.bag.reader import contents, in_time_order, messages, topics
+from motor_identification.bag.repair import repair
 from motor_identification.bag.topic import Qos, Topic, absolute_name
 from motor_identification.bag.writer import FLUSH_EVERY, BagWriter
 
@@ -17,5 +18,6 @@ __all__ = [
     "in_time_order",
     "messages",
     "read_recording",
+    "repair",
     "topics",
 ]

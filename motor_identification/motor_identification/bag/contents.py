@@ -1,9 +1,21 @@
 """What is in a bag, before anybody reads its messages."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
-from motor_identification.bag.metadata import Span
 from motor_identification.bag.topic import Topic
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """The earliest and the latest log time [ns since 1970]."""
+
+    first: int
+    last: int
+
+    def including(self, log_time: int) -> "Span":
+        """The span stretched to another message."""
+        return Span(min(self.first, log_time), max(self.last, log_time))
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,6 +25,7 @@ class Contents:
     topics: tuple[Topic, ...] = ()
     span: Span | None = None
     cut: bool = False  # a file ends before its end: this is what can be read
+    custom_data: Mapping[str, str] = field(default_factory=dict)  # what the recorder noted, such as experiment.profile
 
     @property
     def message_count(self) -> int:
@@ -33,4 +46,5 @@ class Contents:
         span = self.span or other.span
         if span and other.span:
             span = span.including(other.span.first).including(other.span.last)
-        return Contents(tuple(topics.values()), span, self.cut or other.cut)
+        noted = {**self.custom_data, **other.custom_data}
+        return Contents(tuple(topics.values()), span, self.cut or other.cut, noted)

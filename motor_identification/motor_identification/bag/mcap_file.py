@@ -7,7 +7,7 @@ no index, gives up a cut chunk as a whole and takes ten times as long per messag
 
 import struct
 import zlib
-from collections.abc import Callable, Container, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO, TypeVar
@@ -18,11 +18,10 @@ from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.reader import make_reader
-from mcap.records import Channel, Chunk, Schema
+from mcap.records import Channel, Chunk, Metadata, Schema
 from mcap.writer import MCAP0_MAGIC
 
-from motor_identification.bag.contents import Contents
-from motor_identification.bag.metadata import Span
+from motor_identification.bag.contents import Contents, Span
 from motor_identification.bag.topic import Topic, load_profiles
 from motor_model.errors import RecordingError
 
@@ -36,7 +35,9 @@ _DECOMPRESS: dict[str, Callable[[bytes], bytes]] = {  # each returns what is the
     "zstd": lambda data: zstandard.ZstdDecompressor().decompressobj().decompress(data),
     "lz4": lambda data: bytes(lz4.frame.LZ4FrameDecompressor().decompress(data)),
 }
-_DAMAGE = (McapError, struct.error, UnicodeDecodeError, KeyError, zstandard.ZstdError, RuntimeError)
+_DAMAGE = (
+    McapError, struct.error, UnicodeDecodeError, KeyError, OverflowError, zstandard.ZstdError, RuntimeError
+)  # fmt: skip
 
 
 class _Cut(Exception):
@@ -50,6 +51,7 @@ class McapFile:
         self.path = path
         self.cut = True  # until the end of the data has been seen
         self.topics: dict[int, Topic] = {}  # by channel
+        self.noted: dict[str, str] = {}  # by record and key: what its recorder said about the recording
         self._schemas: dict[int, Schema] = {}
 
     def messages(self, wanted: Container[str] | None = None) -> Iterator[Stored]:
@@ -72,7 +74,9 @@ class McapFile:
         """What the index at the end of the file says is in it; None where there is no index."""
         with self.path.open("rb") as stream:
             try:
-                summary = make_reader(stream).get_summary()
+                reader = make_reader(stream)
+                summary = reader.get_summary()
+                noted = _noted(reader.iter_metadata() if summary and summary.metadata_indexes else ())
             except (*_DAMAGE, OSError):
                 return None
         if summary is None or summary.statistics is None:
@@ -84,19 +88,19 @@ class McapFile:
             for channel in summary.channels.values()
         ]
         span = Span(statistics.message_start_time, statistics.message_end_time) if statistics.message_count else None
-        return Contents(tuple(topics), span)
+        return Contents(tuple(topics), span, custom_data=noted)
 
     def _read(self, stream: BinaryIO, size: int, wanted: Container[str] | None) -> Iterator[Stored]:
-        for opcode, content in _records(stream, size):
+        for opcode, content, ended in _records(stream, size):
             if opcode == Opcode.MESSAGE:
                 channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(content)
                 topic = self.topics.get(channel)
                 if topic is not None and (wanted is None or topic.name in wanted):
                     yield topic, log_time, content[_MESSAGE_HEAD.size :]
             elif opcode == Opcode.CHUNK:
-                data, whole = _unpack(content)
+                data = _unpack(content, ended)
                 yield from self._read(BytesIO(data), len(data), wanted)
-                if not whole:
+                if not ended:
                     raise _Cut
             elif opcode == Opcode.SCHEMA:
                 schema = _parse(Schema.read, content)
@@ -104,34 +108,37 @@ class McapFile:
             elif opcode == Opcode.CHANNEL:
                 found = _parse(Channel.read, content)
                 self.topics[found.id] = _topic(found, self._schemas.get(found.schema_id))
+            elif opcode == Opcode.METADATA:
+                self.noted |= _noted([_parse(Metadata.read, content)])
             elif opcode == Opcode.DATA_END:
                 self.cut = False
                 return
 
 
-def _records(stream: BinaryIO, size: int) -> Iterator[tuple[int, bytes]]:
-    """Opcode and content of every record; only a chunk may come shorter than it was."""
+def _records(stream: BinaryIO, size: int) -> Iterator[tuple[int, bytes, bool]]:
+    """Opcode and content of every record, and whether that is all of it; only a chunk may come shorter than it was."""
     while head := stream.read(_RECORD_HEAD.size):
         if len(head) < _RECORD_HEAD.size:
             raise _Cut
         opcode, length = _RECORD_HEAD.unpack(head)
         content = stream.read(min(length, size))  # a damaged length must not ask for more memory than there is file
-        if len(content) < length and opcode != Opcode.CHUNK:
+        ended = len(content) == length
+        if not ended and opcode != Opcode.CHUNK:
             raise _Cut
-        yield opcode, content
+        yield opcode, content, ended
 
 
-def _unpack(content: bytes) -> tuple[bytes, bool]:
-    """The records in a chunk, as far as they are there, and whether that is all."""
+def _unpack(content: bytes, ended: bool) -> bytes:
+    """The records in a chunk, as far as they are there: of one that has not ended, what can be decompressed."""
     chunk = _parse(Chunk.read, content)
     try:
         data = _DECOMPRESS[chunk.compression](chunk.data)
     except _DAMAGE as error:
         raise _Cut from error
     whole = len(data) == chunk.uncompressed_size
-    if whole and chunk.uncompressed_crc not in (0, zlib.crc32(data)):
-        raise _Cut
-    return data, whole
+    if (ended and not whole) or (whole and chunk.uncompressed_crc not in (0, zlib.crc32(data))):
+        raise _Cut  # damaged, not cut: any part of it may be wrong
+    return data
 
 
 def _parse(read: Callable[[ReadDataStream], Record], content: bytes) -> Record:
@@ -139,6 +146,16 @@ def _parse(read: Callable[[ReadDataStream], Record], content: bytes) -> Record:
         return read(ReadDataStream(BytesIO(content)))
     except _DAMAGE as error:
         raise _Cut from error
+
+
+def _noted(records: Iterable[Metadata]) -> dict[str, str]:
+    """Metadata records as `name.key`; that of rosbag2 repeats metadata.yaml."""
+    return {
+        f"{record.name}.{key}": value
+        for record in records
+        if record.name != "rosbag2"
+        for key, value in record.metadata.items()
+    }
 
 
 def _topic(channel: Channel, schema: Schema | None, message_count: int = 0) -> Topic:
@@ -150,4 +167,5 @@ def _topic(channel: Channel, schema: Schema | None, message_count: int = 0) -> T
         definition=schema.data.decode(errors="replace") if schema and schema.encoding == "ros2msg" else "",
         qos=load_profiles(channel.metadata.get("offered_qos_profiles", "")),
         message_count=message_count,
+        type_hash=channel.metadata.get("topic_type_hash", ""),
     )

@@ -2,56 +2,68 @@
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import yaml
 
+from motor_identification.bag.contents import Contents, Span
 from motor_identification.bag.topic import Qos, Topic
 
 VERSION = 9
+FILE_NAME = "metadata.yaml"
+KEY = "rosbag2_bagfile_information"  # that everything stands under
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
-    """The earliest and the latest log time [ns since 1970]."""
-
-    first: int
-    last: int
-
-    def including(self, log_time: int) -> "Span":
-        """The span stretched to another message."""
-        return Span(min(self.first, log_time), max(self.last, log_time))
-
-
-def bag_metadata(topics: Mapping[Topic, str], counts: Mapping[str, int], span: Span, file_name: str) -> dict[str, Any]:
-    """The content for a bag of one MCAP file; `topics` maps each topic to its type hash."""
-    total = sum(counts.values())
-    times = {
-        "starting_time": {"nanoseconds_since_epoch": span.first},
-        "duration": {"nanoseconds": span.last - span.first},
-    }
+def bag_metadata(files: Mapping[str, Contents], storage: str) -> dict[str, Any]:
+    """The content for a bag of these files, by name and in their order; `storage` is `mcap` or `sqlite3`."""
+    whole = Contents()
+    for contents in files.values():
+        whole = whole.joined(contents)
     return {
         "version": VERSION,
-        "storage_identifier": "mcap",
-        **times,
-        "message_count": total,
+        "storage_identifier": storage,
+        **_times(whole.span),
+        "message_count": whole.message_count,
         "topics_with_message_count": [
-            {"topic_metadata": _topic_metadata(topic, type_hash), "message_count": counts.get(topic.name, 0)}
-            for topic, type_hash in topics.items()
+            {"topic_metadata": _topic_metadata(topic), "message_count": topic.message_count} for topic in whole.topics
         ],
         "compression_format": "",  # the chunks inside the MCAP are compressed, which rosbag2 does not count
         "compression_mode": "",
-        "relative_file_paths": [file_name],
-        "files": [{"path": file_name, **times, "message_count": total}],
-        "custom_data": None,
+        "relative_file_paths": list(files),
+        "files": [
+            {"path": name, **_times(contents.span), "message_count": contents.message_count}
+            for name, contents in files.items()
+        ],
+        "custom_data": dict(whole.custom_data) or None,
         "ros_distro": os.environ.get("ROS_DISTRO", "jazzy"),
     }
 
 
+def write_metadata(bag: Path, metadata: dict[str, Any]) -> None:
+    """Write the directory's `metadata.yaml`.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    # First whole, then under its name: a reader never sees half of it.
+    unfinished = bag / f"{FILE_NAME}.tmp"
+    unfinished.write_text(yaml_text({KEY: metadata}), encoding="utf-8")
+    unfinished.replace(bag / FILE_NAME)
+
+
+def read_metadata(bag: Path) -> dict[str, Any]:
+    """What `metadata.yaml` says; empty where it is missing or damaged."""
+    try:
+        content: Any = yaml.safe_load((bag / FILE_NAME).read_text(encoding="utf-8"))
+        return dict(content[KEY])
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError, ValueError):
+        return {}
+
+
 def profiles_text(profiles: tuple[Qos, ...]) -> str:
-    """Profiles as the text that stands in the metadata of an MCAP channel."""
-    return yaml_text([profile.entry() for profile in profiles]).strip() if profiles else ""
+    """Profiles as the text in the metadata of an MCAP channel: a list, as rosbag2 writes it, empty or not."""
+    return yaml_text([profile.entry() for profile in profiles]).strip()
 
 
 def yaml_text(value: Any) -> str:
@@ -66,11 +78,16 @@ class _WithoutAnchors(yaml.SafeDumper):
         return True
 
 
-def _topic_metadata(topic: Topic, type_hash: str) -> dict[str, Any]:
+def _times(span: Span | None) -> dict[str, Any]:
+    first, last = (span.first, span.last) if span else (0, 0)
+    return {"starting_time": {"nanoseconds_since_epoch": first}, "duration": {"nanoseconds": last - first}}
+
+
+def _topic_metadata(topic: Topic) -> dict[str, Any]:
     return {
         "name": topic.name,
         "type": topic.type_name,
         "serialization_format": "cdr",
         "offered_qos_profiles": [profile.entry() for profile in topic.qos],
-        "type_description_hash": type_hash,
+        "type_description_hash": topic.type_hash,
     }

@@ -7,8 +7,7 @@ import apsw
 from rosbags.interfaces import Connection, ConnectionExtRosbag2, MessageDefinitionFormat
 from rosbags.rosbag2 import Reader, ReaderError
 
-from motor_identification.bag.contents import Contents
-from motor_identification.bag.metadata import Span
+from motor_identification.bag.contents import Contents, Span
 from motor_identification.bag.topic import Topic, from_stored
 from motor_model.errors import RecordingError
 
@@ -22,6 +21,7 @@ class SqliteFile:
         self.path = path
         self.cut = True  # until the last row has been read
         self.topics: dict[int, Topic] = {}  # by connection
+        self.noted: dict[str, str] = {}  # nothing: what a recorder noted stands in metadata.yaml
 
     def messages(self, wanted: Container[str] | None = None) -> Iterator[Stored]:
         """Messages of the wanted topics (None: of all) in the order of their log times.
@@ -54,7 +54,9 @@ class SqliteFile:
 def _topic(connection: Connection) -> Topic:
     definition = connection.msgdef.data if connection.msgdef.format == MessageDefinitionFormat.MSG else ""
     profiles = connection.ext.offered_qos_profiles if isinstance(connection.ext, ConnectionExtRosbag2) else []
-    return Topic(connection.topic, connection.msgtype, definition, from_stored(profiles), connection.msgcount)
+    return Topic(
+        connection.topic, connection.msgtype, definition, from_stored(profiles), connection.msgcount, connection.digest
+    )
 
 
 def _unreadable(path: Path, error: Exception) -> RecordingError:

@@ -7,14 +7,13 @@ from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, Protocol
+from typing import Protocol
 
-import yaml
 import zstandard
 
-from motor_identification.bag.contents import Contents
+from motor_identification.bag.contents import Contents, Span
 from motor_identification.bag.mcap_file import McapFile
-from motor_identification.bag.metadata import Span
+from motor_identification.bag.metadata import read_metadata
 from motor_identification.bag.sqlite_file import SqliteFile
 from motor_identification.bag.topic import Topic
 from motor_model.errors import RecordingError
@@ -27,6 +26,7 @@ _ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"  # of a compressed message; CDR starts with a 
 
 class _File(Protocol):
     cut: bool
+    noted: dict[str, str]
 
     @property
     def topics(self) -> dict[int, Topic]: ...
@@ -43,19 +43,19 @@ class Bag:
     """A rosbag2 directory (with or without its metadata.yaml) or a single storage file.
 
     Raises:
-        RecordingError: there is nothing at the path, or it is not a bag.
+        RecordingError: there is nothing at the path, it is not a bag, or nobody lets us read it.
     """
 
     def __init__(self, uri: str | Path) -> None:
         self.uri = str(uri)
         self.cut = False  # after `messages`: a file ended before its end
         self.topics: dict[str, Topic] = {}  # after `messages`: all topics met, by name
-        self._files = _files(Path(uri))
-        self.missing = _missing(Path(uri), self._files)  # names of files that metadata.yaml knows and nobody has
+        self.files = _files(Path(uri))
+        self.missing = _missing(Path(uri), self.files)  # names of files that metadata.yaml knows and nobody has
 
     def messages(self, wanted: Container[str] | None = None) -> Iterator[Stored]:
         """Messages of the wanted topics (None: of all), file after file, each from its beginning to its end or cut."""
-        for path in self._files:
+        for path in self.files:
             with _opened(path) as file:
                 for topic, log_time, data in file.messages(wanted):
                     yield topic, log_time, _decompressed(data) if data[:4] == _ZSTD_MAGIC else data
@@ -65,16 +65,33 @@ class Bag:
     def contents(self) -> Contents:
         """Topics, counts and times: from the files' indices where there are any, else by reading through the files."""
         contents = Contents()
-        for path in self._files:
+        for path in self.files:
+            contents = contents.joined(self.contents_of(path))
+        noted = read_metadata(Path(self.uri)).get("custom_data")
+        return replace(contents, custom_data=noted) if isinstance(noted, dict) else contents
+
+    def contents_of(self, path: Path) -> Contents:
+        """The same of one of the files."""
+        with _opened(path) as file:
+            return file.contents() or _counted(file)
+
+    @property
+    def compressed(self) -> bool:
+        """Whether its files or its messages are; chunks compressed inside a file do not count."""
+        if any(path.suffix == _COMPRESSED for path in self.files):
+            return True
+        for path in self.files:
             with _opened(path) as file:
-                contents = contents.joined(file.contents() or _counted(file))
-        return contents
+                for _, _, data in file.messages():
+                    return data[:4] == _ZSTD_MAGIC
+        return False
 
 
 def _files(path: Path) -> list[Path]:
-    if not path.exists():
-        raise RecordingError(f"There is no bag {path}: check the path.")
-    candidates = list(path.iterdir()) if path.is_dir() else [path]
+    with _readable(path):
+        if not path.exists():
+            raise RecordingError(f"There is no bag {path}: check the path.")
+        candidates = list(path.iterdir()) if path.is_dir() else [path]
     # Where a crash left a file beside the beginning of its compressed copy, the file itself comes later, and stays.
     compressed_first = sorted(filter(_is_storage, candidates), key=lambda file: file.suffix != _COMPRESSED)
     found = {_plain_name(file): file for file in compressed_first}
@@ -101,17 +118,31 @@ def _by_number(name: str) -> list[tuple[int, str]]:
 
 def _missing(path: Path, files: list[Path]) -> list[str]:
     """Files that metadata.yaml lists and that are not there; the listing itself may be missing or damaged."""
-    try:
-        metadata: Any = yaml.safe_load((path / "metadata.yaml").read_text(encoding="utf-8"))
-        listed = [Path(name).name for name in metadata["rosbag2_bagfile_information"]["relative_file_paths"]]
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError):
-        return []
+    listed = read_metadata(path).get("relative_file_paths")
     there = {_plain_name(file) for file in files}
-    return [name for name in listed if name.removesuffix(_COMPRESSED) not in there]
+    names = [Path(str(name)).name for name in (listed if isinstance(listed, list) else [])]
+    return [name for name in names if name.removesuffix(_COMPRESSED) not in there]
+
+
+@contextmanager
+def _readable(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise RecordingError(
+            f"{path} cannot be read ({error.strerror}): see to whom it belongs, and that its disk is there."
+        ) from error
 
 
 @contextmanager
 def _opened(path: Path) -> Iterator[_File]:
+    with _readable(path), _plain(path) as file:
+        yield file
+
+
+@contextmanager
+def _plain(path: Path) -> Iterator[_File]:
+    """The file, decompressed where it has to be."""
     if path.suffix != _COMPRESSED:
         yield _FORMATS[path.suffix](path)
         return
@@ -137,4 +168,4 @@ def _counted(file: _File) -> Contents:
         counts[topic.name] += 1
         span = (span or Span(log_time, log_time)).including(log_time)
     topics = tuple(replace(topic, message_count=counts[topic.name]) for topic in file.topics.values())
-    return Contents(topics, span, file.cut)
+    return Contents(topics, span, file.cut, file.noted)

@@ -35,6 +35,7 @@ class Topic:
     definition: str = ""  # ros2msg text with all nested types
     qos: tuple[Qos, ...] = ()
     message_count: int = 0
+    type_hash: str = ""  # REP 2016
 
 
 def absolute_name(namespace: str, name: str) -> str:

@@ -5,21 +5,25 @@ recording (`rosbags` keeps up to 1 MiB, half a minute of a motor, in memory and 
 compresses its chunks. What it lacks, `metadata.yaml` and the QoS, is added here.
 """
 
+import fcntl
+import os
 import shutil
 import time
 from collections import Counter
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import replace
 from importlib.metadata import version
+from io import BufferedWriter
 from pathlib import Path
 from types import TracebackType
-from typing import BinaryIO
 
 from mcap.writer import CompressionType, Writer
 
+from motor_identification.bag.contents import Contents, Span
 from motor_identification.bag.definition import installed
-from motor_identification.bag.metadata import Span, bag_metadata, profiles_text, yaml_text
+from motor_identification.bag.disk import refused, told
+from motor_identification.bag.metadata import bag_metadata, profiles_text, write_metadata, yaml_text
 from motor_identification.bag.topic import Qos, Topic
 from motor_model.errors import RecordingError
 
@@ -27,15 +31,10 @@ FLUSH_EVERY = 0.5  # [s] what a kill -9 loses at most, if `flush` is called as o
 _CHUNK_SIZE = 256 * 1024  # [bytes] about 10 s of a motor's topics
 
 
-@dataclass(frozen=True, slots=True)
-class _Channel:
-    number: int
-    topic: Topic
-    type_hash: str
-
-
 class BagWriter:
     """A new bag, open for messages until `close`; a context manager.
+
+    Where the disk refuses something, everything up to the last flush stays readable, and nothing is written any more.
 
     Raises:
         RecordingError: something exists at the path already (it stays untouched), or it cannot be created or written.
@@ -45,44 +44,56 @@ class BagWriter:
         self.path = Path(path)
         self.counts: Counter[str] = Counter()  # messages by topic
         self._stream = _create(self.path)
-        self._writer = Writer(self._stream, chunk_size=_CHUNK_SIZE, compression=CompressionType.ZSTD)
-        self._writer.start(profile="ros2", library=f"motor_identification (mcap {version('mcap')})")
         self._schemas: dict[str, int] = {}
-        self._channels: dict[str, _Channel] = {}  # by topic name
-        self._names: dict[int, str] = {}  # of topics, by channel
+        self._channels: dict[str, int] = {}  # by topic name
+        self._topics: dict[int, Topic] = {}  # by channel
+        self._noted: dict[str, str] = {}
         self._span: Span | None = None
         self._flushed = time.monotonic()
+        self._whole, self._kept = 0, 0  # bytes, and messages in them, that the operating system has
+        self._refusal: RecordingError | None = None
         self._closed = False
+        self._writer = Writer(self._stream, chunk_size=_CHUNK_SIZE, compression=CompressionType.ZSTD)
+        with self._writing():
+            self._writer.start(profile="ros2", library=f"motor_identification (mcap {version('mcap')})")
 
     def topic(self, name: str, type_name: str, qos: tuple[Qos, ...] = ()) -> int:
         """The channel of a topic for `write`; a name that is known already keeps its channel."""
         if name in self._channels:
-            return self._channels[name].number
+            return self._channels[name]
         definition = installed(type_name)
-        if type_name not in self._schemas:
-            encoding = "ros2msg" if definition.text else ""
-            self._schemas[type_name] = self._writer.register_schema(type_name, encoding, definition.text.encode())
-        metadata = {"offered_qos_profiles": profiles_text(qos), "topic_type_hash": definition.type_hash}
-        number: int = self._writer.register_channel(name, "cdr", self._schemas[type_name], metadata)
-        topic = Topic(name, type_name, definition.text, qos)
-        self._channels[name] = _Channel(number, topic, definition.type_hash)
-        self._names[number] = name
+        topic = Topic(name, type_name, definition.text, qos, type_hash=definition.type_hash)
+        with self._writing():
+            if type_name not in self._schemas:
+                encoding = "ros2msg" if definition.text else ""
+                self._schemas[type_name] = self._writer.register_schema(type_name, encoding, definition.text.encode())
+            metadata = {"offered_qos_profiles": profiles_text(qos), "topic_type_hash": definition.type_hash}
+            number: int = self._writer.register_channel(name, "cdr", self._schemas[type_name], metadata)
+        self._channels[name], self._topics[number] = number, topic
         return number
+
+    def note(self, name: str, values: Mapping[str, str]) -> None:
+        """Keep words about the recording: an MCAP metadata record, and `name.key` in the custom_data of the bag."""
+        with self._writing():
+            self._writer.add_metadata(name, dict(values))
+        self._noted.update({f"{name}.{key}": value for key, value in values.items()})
+        self.flush()
 
     def write(self, channel: int, log_time: int, data: bytes, publish_time: int | None = None) -> None:
         """Append one serialised message (CDR with its encapsulation header); times in ns since 1970."""
-        with _told(self.path):
+        with self._writing():
             self._writer.add_message(channel, log_time, data, log_time if publish_time is None else publish_time)
-        self.counts[self._names[channel]] += 1
+        self.counts[self._topics[channel].name] += 1
         self._span = (self._span or Span(log_time, log_time)).including(log_time)
         if time.monotonic() - self._flushed >= FLUSH_EVERY:
             self.flush()
 
     def flush(self) -> None:
         """Hand everything written so far to the operating system, which keeps it even if this process is killed."""
-        with _told(self.path):
+        with self._writing():
             self._writer.flush()
-        self._flushed = time.monotonic()
+            self._whole = self._stream.tell()
+        self._kept, self._flushed = self.message_count, time.monotonic()
 
     @property
     def message_count(self) -> int:
@@ -95,20 +106,20 @@ class BagWriter:
         return (self._span.last - self._span.first) * 1e-9 if self._span else 0.0
 
     def close(self) -> None:
-        """Finish the file and write `metadata.yaml`; a second call does nothing."""
-        if self._closed:
+        """Finish the file and write `metadata.yaml`; a second call, or one after a refusal, does nothing."""
+        if self._closed or self._refusal:
             return
         self._closed = True
-        topics = {channel.topic: channel.type_hash for channel in self._channels.values()}
-        metadata = bag_metadata(topics, self.counts, self._span or Span(0, 0), Path(self._stream.name).name)
-        with _told(self.path):
+        topics = tuple(replace(topic, message_count=self.counts[topic.name]) for topic in self._topics.values())
+        contents = Contents(topics, self._span, custom_data=self._noted)
+        metadata = bag_metadata({Path(self._stream.name).name: contents}, "mcap")
+        self.flush()
+        with self._writing():
             self._writer.add_metadata("rosbag2", {"serialized_metadata": yaml_text(metadata)})
             self._writer.finish()
             self._stream.close()
-            # First whole, then under its name: a reader never sees half of it.
-            unfinished = self.path / "metadata.yaml.tmp"
-            unfinished.write_text(yaml_text({"rosbag2_bagfile_information": metadata}), encoding="utf-8")
-            unfinished.replace(self.path / "metadata.yaml")
+        with told(self.path):
+            write_metadata(self.path, metadata)
 
     def discard(self) -> None:
         """Remove the bag, which this writer made: for when there turned out to be nothing worth keeping."""
@@ -124,21 +135,32 @@ class BagWriter:
     ) -> None:
         self.close()
 
+    @contextmanager
+    def _writing(self) -> Iterator[None]:
+        if self._refusal:
+            raise self._refusal
+        try:
+            yield
+        except OSError as error:
+            self._give_up(error)
+            assert self._refusal is not None
+            raise self._refusal from error
 
-def _create(path: Path) -> BinaryIO:
-    if path.exists() or path.is_symlink():
-        raise RecordingError(f"{path} exists already and is left as it is: choose another name, or move it away.")
-    with _told(path):
+    def _give_up(self, error: OSError) -> None:
+        """Leave the file as it was when it was last whole: half a chunk behind it helps nobody."""
+        kept = f"; the {self._kept} messages recorded until then are kept" if self._kept else ""
+        self._refusal = refused(self.path, error, kept)
+        with suppress(OSError):  # a disk that refuses this too leaves a file that is cut off, which can be read
+            os.ftruncate(self._stream.fileno(), self._whole)
+        self._stream.raw.close()  # and not the stream, which would write what it still has in memory behind the end
+
+
+def _create(path: Path) -> BufferedWriter:
+    with told(path):
+        if path.exists() or path.is_symlink():
+            raise RecordingError(f"{path} exists already and is left as it is: choose another name, or move it away.")
         path.mkdir(parents=True)
-        return (path / f"{path.resolve().name}_0.mcap").open("xb")
-
-
-@contextmanager
-def _told(path: Path) -> Iterator[None]:
-    """A disk that is full or write-protected, in a sentence."""
-    try:
-        yield
-    except OSError as error:
-        raise RecordingError(
-            f"{path} cannot be written ({error.strerror}): make room, or choose another place."
-        ) from error
+        stream = (path / f"{path.resolve().name}_0.mcap").open("xb")
+    with suppress(OSError):  # some file systems have no locks; `repair` must not take it for one that a crash left
+        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    return stream

@@ -4,104 +4,46 @@ import sys
 import time
 
 import rclpy
-from rclpy.node import Node
-from rclpy.time import Time
 from tqdm import tqdm
 
 from motor_identification.bag import BagWriter
+from motor_identification.cli._driver import Driver
 from motor_identification.cli._recorder import Recorder
-from motor_identification.experiment import Plan, make_plan
 from motor_model.errors import MotorError
-from motor_model.excitation import Profile
-from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
-from motor_ros import qos
-from motor_ros.messages import info_of, voltage_message
-from motor_ros.run import Interrupt, spin, start_ros
+from motor_ros.run import Interrupt, spin
 
 PATIENCE = 10.0  # [s] for a plant to appear
-SILENCE = 1.0  # [s] without samples after which the plant is gone
-OURS = "experiment"  # frame_id of the voltages this command sends
 RECORDED = ("motor/speed", "motor/info", "motor/voltage", "motor/model")
 
 
-class Driver(Node):
-    """Answers every sample with the plan's command for that instant of the plant's clock."""
-
-    def __init__(self, profile: Profile, voltage: float | None, namespace: str) -> None:
-        super().__init__("experiment", namespace=namespace)
-        self._profile, self._wanted = profile, voltage
-        self.info: MotorInfo | None = None
-        self.plan: Plan | None = None
-        self.ready: Time | None = None  # when the recorder began to hear
-        self.done, self.problem = False, ""
-        self._start: int | None = None  # [ns] plant's clock
-        self.elapsed = 0.0  # [s]
-        self.heard: float | None = None  # [s] monotonic time of the latest sample
-        self._voltage = self.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
-        self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
-        self.create_subscription(MotorSpeed, "motor/speed", self._on_sample, qos.SPEED)
-        self.create_subscription(MotorVoltage, "motor/voltage", self._on_voltage, qos.VOLTAGE)
-
-    def _on_info(self, message: MotorInfo) -> None:
-        self.info = message
-        if self.plan is None:
-            info = info_of(message)
-            try:
-                self.plan = make_plan(self._profile, self._wanted, info.max_voltage, info.sample_period)
-            except MotorError as error:
-                self.problem = str(error)
-
-    def _on_sample(self, message: MotorSpeed) -> None:
-        self.heard = time.monotonic()
-        if self.plan is None or self.ready is None or self.done:
-            return
-        if Time.from_msg(message.header.stamp) < self.ready:  # waited in the queue: the recorder does not have it
-            return
-        if self._start is None:
-            self._start = message.sample_time
-        self.elapsed = (message.sample_time - self._start) * 1e-9
-        command = self.plan.command(self.elapsed)
-        self.done = command is None
-        self.send(command or 0.0)
-
-    def _on_voltage(self, message: MotorVoltage) -> None:
-        if self.ready and message.header.frame_id != OURS:
-            self.problem = "something else sends motor/voltage too (a controller with a reference?): stop it first."
-
-    def send(self, voltage: float) -> None:
-        """Ask the plant for a voltage [V]."""
-        self._voltage.publish(voltage_message(voltage, self.get_clock().now().to_msg(), OURS))
-
-    def silent(self) -> bool:
-        """Whether the plant has stopped sending samples."""
-        if self.heard is not None and time.monotonic() - self.heard > SILENCE:
-            self.problem = f"the samples stopped after {self.elapsed:.2f} s: is the plant still running?"
-        return bool(self.problem)
-
-
-def drive(profile: Profile, voltage: float | None, output: str, namespace: str) -> int:
+def drive(node: Driver, output: str, interrupt: Interrupt) -> int:
     """Run the plan on the live plant; returns the exit status.
 
     Raises:
-        MotorError: no plant, a plant that falls silent, another driver, or a bag that cannot be written.
+        MotorError: no plant, one that falls silent, restarts, is switched off or too fast, another driver, or a bag
+            that cannot be written.
     """
-    interrupt = Interrupt()
-    start_ros()
-    node = Driver(profile, voltage, namespace)
     try:
         _wait_for_plant(node, interrupt)
+        if interrupt:
+            return 130
         with BagWriter(output) as writer:
+            if node.limit is not None and not _scaled(node, writer, interrupt):
+                return 130
+            writer.note("experiment", _words(node))
             recorder = Recorder(node, writer, [node.resolve_topic_name(topic) for topic in RECORDED])
             try:
                 _follow(node, interrupt, recorder)
             finally:
-                node.send(0.0)
+                node.stop()
                 recorder.close()
+        if recorder.refusal:
+            raise recorder.refusal
         if node.problem:
             raise MotorError(f"{node.problem} What was recorded until then is in {output}.")
         count = recorder.counts[node.resolve_topic_name("motor/speed")]
         how = "interrupted, " if interrupt else ""
-        print(f"{output}: {how}{count} samples, {node.elapsed:.2f} s of '{profile.name}'")
+        print(f"{output}: {how}{count} samples, {node.elapsed:.2f} s of '{node.profile.name}'{_peak(node)}")
         return 130 if interrupt else 0
     finally:
         node.destroy_node()
@@ -112,7 +54,7 @@ def _wait_for_plant(node: Driver, interrupt: Interrupt) -> None:
     deadline = time.monotonic() + PATIENCE
     spin(
         node,
-        lambda: bool((node.plan and node.heard) or node.problem or interrupt) or time.monotonic() > deadline,
+        lambda: bool((node.plan and node.heard) or node.failed() or interrupt) or time.monotonic() > deadline,
     )
     if node.problem:
         raise MotorError(node.problem)
@@ -121,18 +63,51 @@ def _wait_for_plant(node: Driver, interrupt: Interrupt) -> None:
         raise MotorError(f"nothing on {topic}: start motor_sim or motor_driver, or simulate offline with --model.")
 
 
+def _scaled(node: Driver, writer: BagWriter, interrupt: Interrupt) -> bool:
+    """Find the voltage for a speed; however that ends, the motor gets 0 V, and without success there is no bag."""
+    from motor_identification.cli._probe import scale  # compiled code, which no other experiment has to wait for
+
+    done = False
+    try:
+        scale(node, interrupt)
+        done = not interrupt
+    finally:
+        node.stop()
+        if not done:
+            writer.discard()
+    return done
+
+
+def _words(node: Driver) -> dict[str, str]:
+    """What is going to be done, for the bag."""
+    words = node.plan.words() if node.plan else {}
+    if node.info:
+        words |= {"motor": node.info.name, "source": node.info.source}
+    return words | ({"speed_limit": repr(node.limit)} if node.limit else {})
+
+
+def _peak(node: Driver) -> str:
+    return f", peak {node.plan.voltage:g} V" if node.plan else ""
+
+
 def _follow(node: Driver, interrupt: Interrupt, recorder: Recorder) -> None:
     """Start once the recorder hears the samples, and show progress until the plan is done."""
     speed = node.resolve_topic_name("motor/speed")
-    spin(node, lambda: recorder.counts[speed] > 0 or node.silent() or bool(interrupt))
-    node.ready = node.get_clock().now()
-    total = node.plan.duration if node.plan else 0.0
+
+    def failed() -> bool:
+        return bool(interrupt or recorder.refusal) or node.failed()
+
+    spin(node, lambda: recorder.counts[speed] > 0 or failed())
+    if node.plan is None or failed():
+        return
+    node.follow(node.plan)
+    total = node.plan.duration
     columns = "{desc} {bar} {n:.1f}/{total:.1f} s"
-    with tqdm(total=total, desc=node._profile.name, disable=None, file=sys.stderr, bar_format=columns) as bar:
+    with tqdm(total=total, desc=node.profile.name, disable=None, file=sys.stderr, bar_format=columns) as bar:
 
         def over() -> bool:
             bar.update(min(node.elapsed, total) - bar.n)
-            return node.done or bool(interrupt) or node.silent()
+            return node.done or failed()
 
         spin(node, over)
 

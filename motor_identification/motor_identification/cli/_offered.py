@@ -6,7 +6,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 
 from motor_identification.bag import Qos
 
-_DEPTH = 1000  # of a subscription that must not lose a message while the disk is slow
+DEPTH = 1000  # of a subscription that must not lose a message while the disk is slow
 _PLAYED_DEPTH = 100  # of a publisher whose recorded depth is unknown: DDS does not tell it
 
 
@@ -29,7 +29,7 @@ def to_hear(publishers: Iterable[QoSProfile]) -> QoSProfile:
     profiles = list(publishers)
     reliable = all(profile.reliability == ReliabilityPolicy.RELIABLE for profile in profiles)
     latched = all(profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for profile in profiles)
-    return _profile(reliable, latched, _DEPTH)
+    return _profile(reliable, latched, DEPTH)
 
 
 def to_play(recorded: tuple[Qos, ...]) -> QoSProfile:

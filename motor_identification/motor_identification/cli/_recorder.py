@@ -2,38 +2,57 @@
 
 import time
 from collections import Counter
-from collections.abc import Sequence
-from functools import partial
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from importlib import import_module
+from operator import itemgetter
 from typing import Any
 
+from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
 from motor_identification.bag import FLUSH_EVERY, BagWriter
-from motor_identification.cli._offered import offered, to_hear
+from motor_identification.cli._offered import DEPTH, offered, to_hear
+from motor_model.errors import RecordingError
 
 LOOK_EVERY = 0.2  # [s] how long a topic that appears later may go unheard
-_DRAIN_AT_MOST = 0.3  # [s]
+DRAIN_EVERY = 0.02  # [s] how long a message waits in DDS, which stamps it and has room for a thousand
+
+
+class _NotWaitedFor(CallbackGroup):
+    """Subscriptions that do not wake the executor: to wake it for a message costs more than to take the message."""
+
+    def can_execute(self, entity: object) -> bool:
+        return False
+
+
+def _not_called(data: bytes) -> None:
+    """What a subscription wants to have, and nobody calls."""
 
 
 class Recorder:
     """Writes every message on the topics to the bag from now until `close`; runs on the node's own executor.
 
     Topics need not exist yet. `topics` are absolute names; None is every topic that is not hidden. `counts` has the
-    messages by topic, `notes` sentences about topics that cannot be recorded.
+    messages by topic, `notes` sentences about topics that cannot be recorded. When the bag can no longer be written,
+    `refusal` says why and nothing more is recorded: whoever runs the node decides what to stop first.
     """
 
     def __init__(self, node: Node, writer: BagWriter, topics: Sequence[str] | None) -> None:
         self.notes: list[str] = []
+        self.refusal: RecordingError | None = None
         self._node = node
         self._writer = writer
         self._wanted = None if topics is None else frozenset(topics)
         self._subscriptions: dict[str, Subscription] = {}
+        self._channels: dict[str, int] = {}
+        self._group = _NotWaitedFor()
         self._asked: dict[str, QoSProfile] = {}
         self._unusable: set[str] = set()
-        self._timers = [node.create_timer(LOOK_EVERY, self.look), node.create_timer(FLUSH_EVERY, writer.flush)]
+        rows = ((DRAIN_EVERY, self.drain), (LOOK_EVERY, self.look), (FLUSH_EVERY, self._flush))
+        self._timers = [node.create_timer(period, callback) for period, callback in rows]
         self.look()
 
     @property
@@ -54,17 +73,29 @@ class Recorder:
                 if publishers:
                     self._hear(topic, types[0], [publisher.qos_profile for publisher in publishers])
 
+    def drain(self) -> None:
+        """Write what has arrived, in the order in which it did."""
+        arrived: list[tuple[int, int, int, bytes]] = []  # received, channel, sent, data
+        for topic, subscription in self._subscriptions.items():
+            channel, room = self._channels[topic], DEPTH  # at most: who sends faster than we take must not hold us up
+            with subscription.handle:
+                while room > 0 and (taken := subscription.handle.take_message(subscription.msg_type, True)):
+                    data, info = taken
+                    # When DDS received it: waiting in this process does not count. Some middleware does not say.
+                    received = info.get("received_timestamp") or time.time_ns()
+                    arrived.append((received, channel, info.get("source_timestamp") or received, data))
+                    room -= 1
+        arrived.sort(key=itemgetter(0))
+        with self._noticing():
+            for received, channel, sent, data in arrived:
+                self._writer.write(channel, received, data, sent)
+
     def close(self) -> None:
         """Write what has arrived and has not been taken yet, and stop."""
         for timer in self._timers:
             self._node.destroy_timer(timer)
-        deadline = time.monotonic() + _DRAIN_AT_MOST
+        self.drain()
         for subscription in self._subscriptions.values():
-            with subscription.handle:
-                while time.monotonic() < deadline and (
-                    taken := subscription.handle.take_message(subscription.msg_type, True)
-                ):
-                    subscription.callback(*taken)
             self._node.destroy_subscription(subscription)
         self._subscriptions.clear()
 
@@ -85,18 +116,31 @@ class Recorder:
             self._unusable.add(topic)
             self.notes.append(f"{topic} is not recorded: its type {type_name} is not installed here.")
             return
-        channel = self._writer.topic(topic, type_name, offered(*publishers))
+        try:
+            channel = self._writer.topic(topic, type_name, offered(*publishers))
+        except RecordingError as error:
+            self.refusal = error
+            return
+        self.drain()
         before = self._subscriptions.pop(topic, None)
         if before is not None:
             self._node.destroy_subscription(before)
-        keep = partial(self._keep, channel)
-        self._subscriptions[topic] = self._node.create_subscription(message_class, topic, keep, fitting, raw=True)
+        self._channels[topic] = channel
+        self._subscriptions[topic] = self._node.create_subscription(
+            message_class, topic, _not_called, fitting, raw=True, callback_group=self._group
+        )
         self._asked[topic] = fitting
 
-    def _keep(self, channel: int, data: bytes, info: dict[str, int]) -> None:
-        # When DDS received it: queueing in this process does not count. Some middleware does not say.
-        received = info.get("received_timestamp") or time.time_ns()
-        self._writer.write(channel, received, data, info.get("source_timestamp") or received)
+    def _flush(self) -> None:
+        with self._noticing():
+            self._writer.flush()
+
+    @contextmanager
+    def _noticing(self) -> Iterator[None]:
+        try:
+            yield
+        except RecordingError as error:
+            self.refusal = error
 
 
 def message_type(type_name: str) -> Any:

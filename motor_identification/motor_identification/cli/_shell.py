@@ -27,6 +27,14 @@ def positive(text: str) -> float:
     return number
 
 
+def not_negative(text: str) -> float:
+    """A number that is 0 or more, as an argparse type."""
+    number = float(text)
+    if not 0.0 <= number < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not 0 or more")
+    return number
+
+
 def in_place(line: str) -> None:
     """Replace the last line of a terminal; a file or a pipe gets nothing."""
     if sys.stdout.isatty():

@@ -5,7 +5,8 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._shell import positive, shell
+from motor_identification.cli._plant_options import add_plant_options
+from motor_identification.cli._shell import shell
 from motor_model.excitation import PROFILES, profile
 from motor_model.parameters import paper_motor
 
@@ -21,22 +22,15 @@ def parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="experiment",
         description="Drive the motor through a voltage profile and record it into a bag. Without --model the live "
-        "plant (motor_sim or motor_driver) is driven; with --model a simulated motor runs offline, at full speed.",
+        "plant (motor_sim or motor_driver) is driven; with --model a simulated motor runs offline, at full speed. "
+        "However a live experiment ends, the motor gets 0 V. The bag says which profile it was, under custom_data in "
+        "its metadata.yaml.",
         epilog=f"profiles:\n{rows}",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("profile", choices=list(PROFILES), metavar="PROFILE", help="one of the profiles below")
     parser.add_argument("--output", required=True, metavar="BAG", help="the bag to write; must not exist")
-    parser.add_argument("--voltage", type=positive, metavar="V", help="peak of the profile (default: all there is)")
-    parser.add_argument("--model", metavar="FILE", help="model file to simulate offline; '' is the paper's motor")
-    live = parser.add_argument_group("live")
-    live.add_argument("--topic-namespace", default="", metavar="NS", help="of the motor to drive")
-    offline = parser.add_argument_group("offline, with --model")
-    offline.add_argument("--sample-rate", type=positive, default=200.0, metavar="HZ", help="default 200")
-    offline.add_argument("--edges-per-revolution", type=int, default=96, metavar="N", help="default 96")
-    offline.add_argument("--edge-resolution", type=float, default=4e-6, metavar="S", help="timer tick, default 4e-6 s")
-    offline.add_argument("--slot-irregularity", type=float, default=0.0, metavar="SHARE", help="of a slot, default 0")
-    offline.add_argument("--seed", type=int, default=0, metavar="N", help="of disc and starting angle, default 0")
+    add_plant_options(parser)
     return parser
 
 
@@ -48,17 +42,24 @@ def main(args: list[str] | None = None) -> int:
 
 def _live(options: argparse.Namespace) -> int:
     from motor_identification.cli._drive import drive
+    from motor_identification.cli._driver import Driver
+    from motor_ros.run import Interrupt, start_ros
 
-    return drive(profile(options.profile), options.voltage, options.output, options.topic_namespace)
+    interrupt = Interrupt()
+    start_ros()
+    wanted = profile(options.profile)
+    return drive(Driver(wanted, options.voltage, options.speed, options.topic_namespace), options.output, interrupt)
 
 
 def _offline(options: argparse.Namespace) -> int:
-    from motor_identification.experiment import make_plan
+    from motor_identification.experiment import make_plan, slowed
     from motor_model.board import BoardConfig
     from motor_model.model_file import load
 
     model = load(options.model) if options.model else paper_motor()
     plan = make_plan(profile(options.profile), options.voltage, model.max_voltage, 1.0 / options.sample_rate)
+    if options.speed is not None:
+        plan = slowed(plan, model, options.speed)
     config = BoardConfig(
         name=model.name,
         sample_rate=options.sample_rate,
@@ -68,7 +69,10 @@ def _offline(options: argparse.Namespace) -> int:
         seed=options.seed,
     )
     count = _write(options.output, plan, model, config)
-    print(f"{options.output}: {count} samples, {plan.duration:.2f} s of '{plan.profile.name}' with '{model.name}'")
+    print(
+        f"{options.output}: {count} samples, {plan.duration:.2f} s of '{plan.profile.name}' with '{model.name}', "
+        f"peak {plan.voltage:g} V"
+    )
     return 0
 
 
@@ -85,6 +89,7 @@ def _write(path: str, plan: "Plan", model: "Parameters", config: "BoardConfig") 
 
     begin, count = time.time_ns(), 0
     with BagWriter(path) as writer:
+        writer.note("experiment", {**plan.words(), "motor": model.name, "source": "simulation"})
         info = writer.topic("/motor/info", "motor_msgs/msg/MotorInfo", offered(qos.INFO))
         speed = writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed", offered(qos.SPEED))
         voltage = writer.topic("/motor/voltage", "motor_msgs/msg/MotorVoltage", offered(qos.VOLTAGE))

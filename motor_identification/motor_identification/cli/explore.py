@@ -7,18 +7,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._shell import positive, shell
+from motor_identification.cli._plant_options import add_plant_options, passed_on
+from motor_identification.cli._shell import shell
 from motor_identification.cli.diagnose import named
 from motor_model.excitation import PROFILES
 
 if TYPE_CHECKING:
     from motor_identification.diagnosis import Diagnosis
-
-# Options that `experiment` has too, and that go to it as they are.
-_OF_EXPERIMENT = (
-    "model", "voltage", "topic_namespace", "sample_rate", "edges_per_revolution", "edge_resolution",
-    "slot_irregularity", "seed",
-)  # fmt: skip
 
 
 def parser() -> argparse.ArgumentParser:
@@ -30,21 +25,13 @@ def parser() -> argparse.ArgumentParser:
         "motor_driver), or with --model a simulated motor offline. The motor stands still whenever nothing is "
         "recorded, and however this ends.",
         epilog="DIRECTORY gets a bag for every round, and after each report.html, model.yaml and diagnosis.json. "
-        "Profiles and the defaults of the simulated motor: see experiment --help.",
+        "Profiles: see experiment --help.",
     )
     parser.add_argument("directory", metavar="DIRECTORY", help="for everything; must not exist, or be empty")
     parser.add_argument("--profile", choices=list(PROFILES), default="rich", metavar="P", help="first (default rich)")
     parser.add_argument("--rounds", type=_rounds, default=3, metavar="N", help="experiments at most (default 3)")
-    parser.add_argument("--voltage", type=positive, metavar="V", help="peak of the profiles (default: all there is)")
     parser.add_argument("--known-effects", default="", metavar="A,B", help="in the model already, separated by commas")
-    parser.add_argument("--topic-namespace", metavar="NS", help="of the motor to drive")
-    parser.add_argument("--model", metavar="FILE", help="model file to simulate offline; '' is the paper's motor")
-    offline = parser.add_argument_group("offline, with --model")
-    offline.add_argument("--sample-rate", type=positive, metavar="HZ")
-    offline.add_argument("--edges-per-revolution", type=int, metavar="N")
-    offline.add_argument("--edge-resolution", type=float, metavar="S", help="timer tick")
-    offline.add_argument("--slot-irregularity", type=float, metavar="SHARE", help="of a slot")
-    offline.add_argument("--seed", type=int, metavar="N", help="of disc and starting angle")
+    add_plant_options(parser)
     return parser
 
 
@@ -88,11 +75,9 @@ def _recorded(profile: str, bag: str, options: argparse.Namespace) -> int:
     """One experiment; returns its exit status."""
     from motor_identification.cli import experiment
 
-    given = {name: getattr(options, name) for name in _OF_EXPERIMENT}
-    passed = [f"--{name.replace('_', '-')}={value}" for name, value in given.items() if value is not None]
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
-        return experiment.main([profile, "--output", bag, *passed])
+        return experiment.main([profile, "--output", bag, *passed_on(options)])
     finally:  # a live experiment has handlers of its own, under which nothing later could be interrupted
         for number, handler in handlers.items():
             signal.signal(number, handler)
@@ -102,7 +87,7 @@ def _diagnosed(bags: list[str], options: argparse.Namespace) -> "Diagnosis":
     from motor_identification.cli._diagnosed import diagnosed
     from motor_identification.job import DiagnosisJob
 
-    namespace = "" if options.model is not None else options.topic_namespace or ""  # offline there is none
+    namespace = "" if options.model is not None else options.topic_namespace  # offline there is none
     known = named(options.known_effects)
     return diagnosed(DiagnosisJob(tuple(bags), known=known, topic_namespace=namespace, workers=os.cpu_count() or 1))
 

@@ -3,89 +3,89 @@
 import argparse
 import sys
 import time
-from collections import deque
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
-from motor_identification.cli._shell import in_place, positive, shell
+from motor_identification.cli._shell import in_place, not_negative, positive, shell
 
 if TYPE_CHECKING:
-    from rclpy.node import Node
-    from rclpy.publisher import Publisher
-
     from motor_identification.bag import Contents
+    from motor_identification.cli._publishers import Publishers
+    from motor_identification.cli._schedule import Schedule
 
-_SLICE = 0.1  # [s] how long a pause takes at most to notice Ctrl-C
-_SETTLED, _PATIENCE = 0.5, 3.0  # [s] without a new subscriber, or without any, until playing starts
-_LONE_ROUND = 1.0  # [s] a round of --loop with a single message
+_EXAMPLE = """\
+a recording beside a motor, by eye: let the motor (motor_sim with the model that identify found, or the real one) run
+under the recorded voltages, give the recorded speed a name of its own, and draw both in one plot
 
+  play BAG --topics motor/voltage motor/speed --remap motor/speed:=recorded/motor/speed
 
-@dataclass
-class _Schedule:
-    """When each message is due: on one time line from the start, so that no error adds up."""
-
-    rate: float
-    started: float | None = None  # [s] on the monotonic clock, of this round
-    first: int = 0  # [ns] log time
-    played: int = 0
-    late: deque[float] = field(default_factory=lambda: deque(maxlen=100_000))  # [s] of the latest messages
-
-    def begin(self, first: int, round_length: float) -> None:
-        """The first message of a round is here; the next round follows after `round_length` [s of log time]."""
-        self.started = time.monotonic() if self.started is None else self.started + round_length / self.rate
-        self.first = first
-
-    def wait(self, log_time: int, interrupted: Callable[[], bool]) -> bool:
-        """Sleep until the message is due, and count it; False where Ctrl-C came first."""
-        due = (self.started or 0.0) + (log_time - self.first) * 1e-9 / self.rate
-        while (left := due - time.monotonic()) > 0.0:
-            if interrupted():
-                return False
-            time.sleep(min(left, _SLICE))
-        if interrupted():
-            return False
-        self.late.append(time.monotonic() - due)
-        self.played += 1
-        return True
+and the recorded speed alone, from the tenth second on, as if the motor ran:  play BAG --start-offset 10
+"""
 
 
-def main(args: list[str] | None = None) -> int:
-    """Entry point; returns the exit status."""
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
     parser = argparse.ArgumentParser(
         prog="play",
-        description="Publish the messages of a bag again, with their original spacing and QoS. A plant that listens to "
-        "motor/voltage will move its motor.",
+        description="Publish the messages of a bag again, with their original spacing and QoS, as they were "
+        "serialised. A plant that listens to motor/voltage will move its motor; at the end it gets 0 V.",
+        epilog=_EXAMPLE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("bag", metavar="BAG", help="a rosbag2 directory or a .mcap or .db3 file")
     parser.add_argument("--rate", type=positive, default=1.0, metavar="R", help="times as fast (default: 1)")
     parser.add_argument("--loop", action="store_true", help="begin again at the end, until Ctrl-C")
+    parser.add_argument(
+        "--start-offset",
+        type=not_negative,
+        default=0.0,
+        metavar="S",
+        help="leave out the first S seconds; what was latched in them (such as motor/info) is published all the same",
+    )
     parser.add_argument("--topics", nargs="+", metavar="TOPIC", help="only these (default: all)")
-    options = parser.parse_args(args)
+    parser.add_argument(
+        "--remap", nargs="+", type=_renamed, default=[], metavar="OLD:=NEW", help="publish a topic under another name"
+    )
+    return parser
+
+
+def main(args: list[str] | None = None) -> int:
+    """Entry point; returns the exit status."""
+    options = parser().parse_args(args)
     return shell(lambda: _play(options))
+
+
+def _renamed(text: str) -> tuple[str, str]:
+    old, separator, new = text.partition(":=")
+    if not (separator and old.strip("/") and new.strip("/")):
+        raise argparse.ArgumentTypeError(f"'{text}' is not of the form OLD:=NEW, such as motor/speed:=recorded/speed")
+    return old, new
 
 
 def _play(options: argparse.Namespace) -> int:
     import rclpy
 
-    from motor_identification.bag import contents
+    from motor_identification.bag import absolute_name
+    from motor_identification.cli._publishers import Publishers
+    from motor_identification.cli._schedule import Schedule
     from motor_ros.run import Interrupt, start_ros
 
     interrupt = Interrupt()
-    bag = contents(options.bag)
-    if bag.cut:
-        cut = f"{options.bag} is cut off: {bag.message_count} messages, {bag.duration:.2f} s up to the cut."
-        print(cut, file=sys.stderr)
+    bag = _opened(options.bag, options.start_offset)
+    chosen = [absolute_name("", name) for name in options.topics] if options.topics else None
+    names = {absolute_name("", old): absolute_name("", new) for old, new in options.remap}
+    schedule = Schedule(options.rate)
     start_ros([])
     try:
         node = rclpy.create_node("play", enable_rosout=False, start_parameter_services=False)
-        publishers = _publishers(node, options.bag, bag, options.topics)
-        _wait_for_subscribers(node, publishers, lambda: bool(interrupt))
-        print(f"Playing {', '.join(publishers)} from {options.bag}; Ctrl-C ends it.", flush=True)
-        schedule = _Schedule(options.rate)
-        _publish(options, bag, publishers, schedule, lambda: bool(interrupt))
-        if not interrupt:
-            _deliver(publishers)
+        publishers = Publishers(node, options.bag, bag, chosen, names)
+        publishers.wait_for_subscribers(lambda: bool(interrupt))
+        publishers.warn_of_others()
+        print(f"Playing {publishers} from {options.bag}; Ctrl-C ends it.", flush=True)
+        try:
+            _publish(options, bag, publishers, schedule, lambda: bool(interrupt))
+        finally:
+            publishers.close()
         node.destroy_node()
     finally:
         rclpy.try_shutdown()
@@ -94,91 +94,83 @@ def _play(options: argparse.Namespace) -> int:
     return 0
 
 
-def _publishers(node: "Node", uri: str, bag: "Contents", chosen: list[str] | None) -> "dict[str, Publisher]":
-    """A publisher for each topic that is wanted, has messages, and whose type is installed."""
-    from motor_identification.bag import absolute_name
-    from motor_identification.cli._offered import to_play
-    from motor_identification.cli._recorder import message_type
+def _opened(uri: str, offset: float) -> "Contents":
+    """What is in the bag; its metadata.yaml is written where a crash left it without."""
+    from motor_identification.bag import contents, repair
     from motor_model.errors import RecordingError
 
-    there = {topic.name: topic for topic in bag.topics if topic.message_count}
-    wanted = [absolute_name("", name) for name in chosen] if chosen else list(there)
-    unknown = [name for name in wanted if name not in there]
-    if unknown or not there:
-        what = (
-            f"has no messages on {', '.join(unknown)}; it has {', '.join(sorted(there))}"
-            if there
-            else "has no messages"
-        )
-        raise RecordingError(f"{uri} {what}: choose another bag{' or other --topics' if there else ''}.")
-    publishers: dict[str, Any] = {}
-    for name in wanted:
-        message_class = message_type(there[name].type_name)
-        if message_class is None:
-            print(f"{name} is not played: its type {there[name].type_name} is not installed here.", file=sys.stderr)
-        else:
-            publishers[name] = node.create_publisher(message_class, name, to_play(there[name].qos))
-    if not publishers:
-        raise RecordingError(f"{uri} has no topic whose type is installed here: install its messages and source them.")
-    return publishers
-
-
-def _wait_for_subscribers(node: "Node", publishers: "dict[str, Publisher]", interrupted: Callable[[], bool]) -> None:
-    """Let those connect who listen already, so that they get the first message too; finding them takes a while."""
-    started = changed = time.monotonic()
-    before: list[int] = []
-    while (now := time.monotonic()) - started < _PATIENCE and not interrupted():
-        connected = [publisher.get_subscription_count() for publisher in publishers.values()]
-        known = [node.count_subscribers(name) for name in publishers]
-        if connected != before:
-            before, changed = connected, now
-        if any(connected) and connected == known and now - changed >= _SETTLED:
-            return
-        time.sleep(0.02)
+    bag = contents(uri)
+    if bag.cut:
+        print(f"{uri} is cut off: {bag.message_count} messages, {bag.duration:.2f} s up to the cut.", file=sys.stderr)
+    if bag.span and offset > bag.duration:
+        raise RecordingError(f"{uri} is {bag.duration:.2f} s long: choose a --start-offset below that.")
+    try:
+        if repair(uri):
+            print(f"{uri} had no metadata.yaml; it has been written from what is there.", file=sys.stderr)
+    except RecordingError as error:  # it can be played all the same
+        print(error, file=sys.stderr)
+    return bag
 
 
 def _publish(
     options: argparse.Namespace,
     bag: "Contents",
-    publishers: "dict[str, Publisher]",
-    schedule: _Schedule,
+    publishers: "Publishers",
+    schedule: "Schedule",
     interrupted: Callable[[], bool],
 ) -> None:
-    from motor_identification.bag import in_time_order, messages
-
+    start = (bag.span.first if bag.span else 0) + round(options.start_offset * 1e9)
+    for topic, data in _latched_before(start, options, bag, publishers):
+        publishers.publish(topic, data)
     shown = time.monotonic()
-    # A round ends one mean spacing behind its last message, so that the next one continues it.
-    count = sum(topic.message_count for topic in bag.topics if topic.name in publishers)
-    round_length = bag.duration * count / (count - 1) if count > 1 and bag.duration else _LONE_ROUND
     going = True
     while going:
         begun = False
-        for topic, _, log_time, data in in_time_order(messages(options.bag, publishers), options.bag):
+        for topic, log_time, data in _from(start, options.bag, publishers):
             if not begun:
-                schedule.begin(log_time, round_length)
+                schedule.begin(log_time)
                 begun = True
             if not schedule.wait(log_time, interrupted):
                 return
-            publishers[topic].publish(data)
+            publishers.publish(topic, data)
             if time.monotonic() - shown >= 1.0:
                 shown = time.monotonic()
-                in_place(
-                    f"{(log_time - schedule.first) * 1e-9:.0f} of {bag.duration:.0f} s, {schedule.played} messages"
-                )
+                in_place(f"{schedule.elapsed(log_time):.0f} of {bag.duration:.0f} s, {schedule.played} messages")
         going = options.loop and begun
 
 
-def _deliver(publishers: "dict[str, Publisher]") -> None:
-    """Wait until the last messages have arrived: a publisher that goes takes them with it."""
-    from rclpy.duration import Duration
+def _from(start: int, uri: str, wanted: "Publishers") -> Iterator[tuple[str, int, bytes]]:
+    """Topic, log time and data of the wanted messages from a log time on, in the order of time."""
+    from motor_identification.bag import in_time_order, messages
 
-    for publisher in publishers.values():
-        publisher.wait_for_all_acked(Duration(seconds=0.5))
+    for topic, _, log_time, data in in_time_order(messages(uri, wanted), uri):
+        if log_time >= start:
+            yield topic, log_time, data
 
 
-def _summary(uri: str, schedule: _Schedule) -> str:
-    late = sorted(schedule.late)
-    if not late:
+def _latched_before(
+    start: int, options: argparse.Namespace, bag: "Contents", wanted: "Publishers"
+) -> Iterator[tuple[str, bytes]]:
+    """The latest message before a log time on each topic whose publisher kept it for those who came later."""
+    from motor_identification.bag import messages
+
+    if options.start_offset == 0.0:
+        return
+    latched = {
+        topic.name
+        for topic in bag.topics
+        if topic.name in wanted and any(profile.durability == "transient_local" for profile in topic.qos)
+    }
+    before = {topic: data for topic, _, log_time, data in messages(options.bag, latched) if log_time < start}
+    yield from before.items()
+
+
+def _summary(uri: str, schedule: "Schedule") -> str:
+    if not schedule.played:
         return f"{uri}: nothing played"
-    p99 = late[min(len(late) - 1, int(0.99 * len(late)))]
-    return f"{uri}: {schedule.played} messages played, 99 % of them within {p99 * 1e3:.2f} ms of their time"
+    late = schedule.late_at_most(0.99) * 1e3
+    return f"{uri}: {schedule.played} messages played, 99 % of them within {late:.2f} ms of their time"
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -28,7 +28,8 @@ def main(args: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="record",
         description=f"Record topics into a bag until Ctrl-C, by default {', '.join(TOPICS)}. They may appear later; "
-        "the bag is a rosbag2 directory with MCAP storage.",
+        "the bag is a rosbag2 directory with MCAP storage. What is older than half a second survives whatever happens "
+        "to this program, and a bag that was cut off is read as it is.",
     )
     parser.add_argument("bag", metavar="BAG", help="where the bag goes; must not exist")
     parser.add_argument("topics", metavar="TOPIC", nargs="*", help="relative names are in --topic-namespace")
@@ -78,9 +79,11 @@ def _listen(writer: "BagWriter", topics: list[str] | None, interrupt: object, du
         recorder = Recorder(node, writer, topics)
         node.create_timer(1.0, lambda: in_place(_progress(writer, recorder)))
         deadline = time.monotonic() + (duration or float("inf"))
-        spin(node, lambda: bool(interrupt) or time.monotonic() >= deadline)
+        spin(node, lambda: bool(interrupt or recorder.refusal) or time.monotonic() >= deadline)
         recorder.close()
         node.destroy_node()
+        if recorder.refusal:
+            raise recorder.refusal
         return recorder.notes
     finally:
         rclpy.try_shutdown()

@@ -1,0 +1,131 @@
+"""The node of a live experiment: answers every sample with the plan's command, and sees when something is wrong."""
+
+import time
+
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.time import Time
+
+from motor_identification.experiment import Plan, make_plan
+from motor_model.errors import MotorError
+from motor_model.excitation import Profile
+from motor_model.sample import Info, Sample
+from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
+from motor_ros import qos
+from motor_ros.messages import info_of, sample_of, voltage_message
+
+SILENCE = 1.0  # [s] without samples after which the plant is gone
+DEAF = 0.5  # [s] without any voltage, while there should be one, after which the output is off
+LEAST = 0.02  # of max_voltage: a command that any bridge can follow
+TOO_FAST = 2  # samples in a row: a single one may be a flank that came early
+ARRIVAL = 0.5  # [s] for the last command to arrive
+OURS = "experiment"  # frame_id of the voltages this command sends
+
+
+class Driver(Node):
+    """Answers every sample with the plan's command for that instant of the plant's clock.
+
+    `problem` is a sentence as soon as the experiment has to end; from then on no voltage is sent.
+    """
+
+    def __init__(self, profile: Profile, voltage: float | None, limit: float | None, namespace: str) -> None:
+        super().__init__("experiment", namespace=namespace)
+        self.profile, self._wanted, self.limit = profile, voltage, limit
+        self.info: Info | None = None
+        self.plan: Plan | None = None
+        self.samples: list[Sample] = []  # of a probe
+        self.done, self.problem = False, ""
+        self._following: Plan | None = None
+        self._ready = self.get_clock().now()  # samples from before have waited in the queue
+        self._enough: float | None = None  # [rad/s] that ends a probe
+        self.elapsed = 0.0  # [s]
+        self.heard: float | None = None  # [s] monotonic time of the latest sample
+        self._start: int | None = None  # [ns] plant's clock
+        self._latest = 0  # [ns] plant's clock
+        self._asked = 0.0  # [V] the latest command
+        self._deaf_since: float | None = None  # [s] monotonic time
+        self._too_fast = 0
+        self._voltage = self.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+        self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
+        self.create_subscription(MotorSpeed, "motor/speed", self._on_sample, qos.SPEED)
+        self.create_subscription(MotorVoltage, "motor/voltage", self._on_voltage, qos.VOLTAGE)
+
+    def follow(self, plan: Plan, enough: float | None = None) -> None:
+        """Do what a plan says from now on; with `enough` it is a probe, kept in `samples`, that ends at that speed."""
+        self._following, self._enough, self.samples = plan, enough, []
+        self._ready, self._start, self.done, self.elapsed = self.get_clock().now(), None, False, 0.0
+        self.heard = time.monotonic()  # nobody has listened while something else was done
+
+    def send(self, voltage: float) -> None:
+        """Ask the plant for a voltage [V]."""
+        self._asked = voltage
+        self._voltage.publish(voltage_message(voltage, self.get_clock().now().to_msg(), OURS))
+
+    def stop(self) -> None:
+        """Send 0 V, see that it arrives, and send nothing else any more."""
+        self.done = True
+        self.send(0.0)
+        self._voltage.wait_for_all_acked(Duration(seconds=ARRIVAL))
+
+    def failed(self) -> bool:
+        """Whether the plant has stopped sending samples, is not alone, or there is another problem."""
+        plants = self.count_publishers("motor/speed")
+        if plants > 1:
+            self.problem = f"{plants} nodes publish motor/speed: stop all but the plant that is to be driven."
+        elif self.heard is not None and time.monotonic() - self.heard > SILENCE:
+            self.problem = f"the samples stopped after {self.elapsed:.2f} s: is the plant still running?"
+        return bool(self.problem)
+
+    def _on_info(self, message: MotorInfo) -> None:
+        try:
+            info = info_of(message)
+            if self.info is None:
+                self.plan = make_plan(self.profile, self._wanted, info.max_voltage, info.sample_period)
+            elif info != self.info:
+                self.problem = "motor/info has changed, so that the plan is for another plant: start anew."
+            self.info = info
+        except MotorError as error:
+            self.problem = str(error)
+
+    def _on_sample(self, message: MotorSpeed) -> None:
+        self.heard = time.monotonic()
+        if self._following is None or self.problem or Time.from_msg(message.header.stamp) < self._ready:
+            return
+        if self._enough is not None:
+            self.samples.append(sample_of(message))
+            self.done |= abs(message.speed) >= self._enough
+        if self.done:
+            return
+        if self._start is None:
+            self._start = message.sample_time
+        self._watch(message)
+        self.elapsed, self._latest = (message.sample_time - self._start) * 1e-9, message.sample_time
+        if not self.problem:
+            command = self._following.command(self.elapsed)
+            self.done = command is None
+            self.send(command or 0.0)
+
+    def _on_voltage(self, message: MotorVoltage) -> None:
+        if self._following and message.header.frame_id != OURS:
+            self.problem = "something else sends motor/voltage too (a controller with a reference?): stop it first."
+
+    def _watch(self, message: MotorSpeed) -> None:
+        if message.sample_time <= self._latest:
+            self.problem = (
+                f"the plant's clock stepped back after {self.elapsed:.2f} s: was it restarted, or are there two?"
+            )
+        self._too_fast = self._too_fast + 1 if abs(message.speed) > (self.limit or float("inf")) else 0
+        if self._too_fast >= TOO_FAST:
+            self.problem = self._beyond(abs(message.speed))
+        if message.voltage != 0.0:
+            self._deaf_since = None
+        elif self.info and abs(self._asked) > LEAST * self.info.max_voltage:
+            self._deaf_since = self._deaf_since or time.monotonic()
+            if time.monotonic() - self._deaf_since > DEAF:
+                self.problem = "the plant applies 0 V whatever it is sent: switch it on, motor/enable with data: true."
+
+    def _beyond(self, speed: float) -> str:
+        return (
+            f"the motor ran at {speed:.4g} rad/s after {self.elapsed:.2f} s, at {self._asked:.3g} V, "
+            f"above --speed {self.limit:g}, and was stopped: give less --voltage."
+        )
