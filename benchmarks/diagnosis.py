@@ -84,13 +84,14 @@ class Outcome:
     seconds: float
 
 
-def one(hidden: tuple[str, ...], seed: int) -> Outcome:
-    """Hide it in a random motor and diagnose."""
+def one(hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None) -> Outcome:
+    """Hide it in a random motor and diagnose; `sizes` are given, all others drawn."""
     random = np.random.default_rng([seed, len(hidden), *map(ord, "".join(hidden))])
     values = {"kv": PAPER_KV * random.uniform(0.7, 1.4), "ka": PAPER_KA * random.uniform(0.6, 1.5)}
     for name in hidden:
         for parameter, bounds in (SIZES | OUTSIDE)[name].items():
             values[parameter] = float(random.uniform(*bounds))
+    values |= sizes or {}
     share, disc = float(random.uniform(0.0, 0.01)), int(random.integers(1000))
     later = values | ({"step_time": float(random.uniform(3.0, 8.0))} if "step_time" in values else {})
     drives = profiles.rich(12.0, seed), profiles.random(12.0, 14.0, seed + 500)

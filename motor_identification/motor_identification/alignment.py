@@ -1,6 +1,6 @@
-"""Slips of the measured angle: a motor that swings about a standstill turns by some slots that no one channel tells.
+"""Slips of the measured angle: a motor that swings about a standstill turns by an angle that no one channel tells.
 
-The angle between two counted runs is then off by whole slots, and the phase of a fast ripple is lost from one to the
+The angle between two counted runs is then off by some slots, and the phase of a fast ripple is lost from one to the
 next. Given the ripple, each run says how far; the most likely path of slips through all runs is found by dynamic
 programming (A. Viterbi, IEEE Trans. Inf. Theory 13(2), 1967), and ripple and path in turns.
 """
@@ -12,17 +12,18 @@ import numpy as np
 from motor_identification.recording import Floats, Integers
 from motor_model.compiled import compiled
 
-MOST = 6  # slots of slip from one run to the next
-PRICE = 10.0  # of a slip by one slot, in halves of a squared standard deviation
+FINENESS = 4  # steps to a slot
+MOST = 6 * FINENESS  # steps of slip from one run to the next
+PRICE = 10.0 / FINENESS  # of a slip by one step, in halves of a squared standard deviation
 ROUNDS = 4
 
 
 @dataclass(frozen=True)
 class Aligned:
-    """A ripple's complex amplitude [V], each run's slip in slots, shape (B,), and how much of the cost they explain."""
+    """A ripple's complex amplitude [V], each run's slip in slots (B,), and how much of the cost they explain."""
 
     weight: complex
-    slips: Integers
+    slips: Floats
     explained: float
 
 
@@ -31,13 +32,14 @@ def align(sums: Floats, turn: float) -> Aligned:
 
     sums: for every run ss, sc, cc, sw, cw with s and c the responses to sine and cosine, w the residual; shape (B, 5).
     """
+    step = turn / FINENESS
     weight = _best(sums[[int(np.argmax([_alone(row) for row in sums]))]])
     slips = np.zeros(len(sums), dtype=np.int64)
     explained = 0.0
     for _ in range(ROUNDS):
-        explained = float(_viterbi(sums, weight.real, weight.imag, turn, slips))
-        weight = _best(_turned(sums, np.asarray(slips * turn)))
-    return Aligned(weight, slips, explained)
+        explained = float(_viterbi(sums, weight.real, weight.imag, step, slips))
+        weight = _best(_turned(sums, np.asarray(slips * step)))
+    return Aligned(weight, slips / FINENESS, explained)
 
 
 def _alone(row: Floats) -> float:
@@ -70,14 +72,14 @@ def _turned(sums: Floats, angle: Floats) -> Floats:
 
 
 @compiled
-def _viterbi(sums: Floats, real: float, imag: float, turn: float, slips: Integers) -> float:
+def _viterbi(sums: Floats, real: float, imag: float, step: float, slips: Integers) -> float:
     """Fill the most likely slips of all runs under one wave; returns what they explain."""
     width = 4 * MOST + 1
     score, origin = np.full((len(sums), width), -np.inf), np.zeros((len(sums), width), dtype=np.int64)
     for b in range(len(sums)):
         ss, sc, cc, sw, cw = sums[b]
         for k in range(width):
-            angle = turn * (k - 2 * MOST)
+            angle = step * (k - 2 * MOST)
             x = real * np.cos(angle) - imag * np.sin(angle)
             y = real * np.sin(angle) + imag * np.cos(angle)
             gain = 2.0 * (x * sw + y * cw) - (x * x * ss + 2.0 * x * y * sc + y * y * cc)

@@ -26,7 +26,8 @@ def concluded(
     """Everything as a result, but for how long it took; `search` is that of the first fit."""
     last = way.model
     model, baseline = _as_fit(last, search), _as_fit(base, search)
-    findings = tuple(_finding(step, model) for step in way.steps)
+    gaps = [step.before.held.gap for step in way.steps[1:]] + [last.held.gap]  # after each step, settled
+    findings = tuple(_finding(step, model, gap) for step, gap in zip(way.steps, gaps, strict=False))
     share, missed = last.noise.share, _missed(last)
     before = base.held
     if missed is not None:
@@ -50,7 +51,7 @@ def concluded(
         validation=tuple(recording.uri for recording in validation),
         miscounted=last.held.miscounted,
         left_out=sum(data.left_out for data in last.held.problem.intervals),
-        trace=np.array([before.gap, *(step.found.model.held.gap for step in way.steps)]),
+        trace=np.array([before.gap, *gaps[: len(way.steps)]]),
         duration=0.0,
     )
 
@@ -62,12 +63,12 @@ def _as_fit(model: Model, search: SearchReport) -> Fit:
     return judge(refined, place, search, evaluations)
 
 
-def _finding(step: Step, model: Fit) -> Finding:
+def _finding(step: Step, model: Fit, gap_after: float) -> Finding:
     effect, also = step.found.effect, step.rivals
     return Finding(
         effect=effect,
         gap_before=step.before.held.gap,
-        gap_after=step.found.model.held.gap,
+        gap_after=gap_after,
         evidence=step.found.evidence,
         where=_where(step),
         parameters={

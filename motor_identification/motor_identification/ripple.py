@@ -3,11 +3,12 @@
 A load sin(cθ + φ) of 1 V moves the speed of a fitted motor by a linear response that is had in closed form between two
 measured angles; the residual's part along it, for any number of cycles c a turn, is a periodogram over the angle (over
 time: N. R. Lomb, Astrophys. Space Sci. 39, 1976). A line is as narrow as the angle range is wide, so that blocks of a
-few turns are searched first, their powers added, and then the whole recording around the best.
+few turns are searched first, their powers added, and then the whole recording around the best. What each counted run's
+wrong initial speed leaves (the model came to it without the ripple) is projected out before.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import tau
 
 import numpy as np
@@ -49,7 +50,8 @@ class _Run:
     end: Floats  # [rad]
     duration: Floats  # [s]
     moving: Bools
-    white: Floats  # of measured minus simulated increments
+    white: Floats  # of measured minus simulated increments, without what an initial speed explains
+    transient: Floats  # whitened increments that an initial speed of every counted run makes, of length 1 in each
 
 
 def ripples(problem: Problem, place: Floats, tracks: Sequence[Track], least: float = 0.0) -> list[Ripple]:
@@ -122,15 +124,30 @@ def _line(
 
 
 def _runs(problem: Problem, place: Floats, tracks: Sequence[Track]) -> list[_Run]:
+    values = problem.unknowns.parameters(place, "").values
+    rate = values["kv"] / values["ka"]
     runs = []
     rows = zip(problem.intervals, tracks, problem.increments(place), learn(problem, place), strict=True)
     for data, track, increments, encoder in rows:
         angle, moving = track.at(data.time), data.slack == 0.0
         order = np.argsort(data.time[data.first], kind="stable")
-        white = encoder.white(np.where(moving, -increments, 0.0))[: len(moving)]
         stretch = track.run_at(data.time[data.first])
-        runs.append(_Run(encoder, order, stretch, angle[data.first], angle[data.last], data.duration, moving, white))
+        run = _Run(
+            encoder, order, stretch, angle[data.first], angle[data.last], data.duration, moving, -increments, increments
+        )
+        fading = np.zeros(len(increments))
+        _fill_transient(order, stretch, data.duration, moving, rate, fading)
+        white, transient = _whitened(run, run.white), _whitened(run, fading)
+        length = np.sqrt(np.bincount(stretch, transient**2))[stretch]
+        run = replace(run, white=white, transient=np.divide(transient, length, where=length > 0.0, out=0.0 * length))
+        runs.append(replace(run, white=_without_transient(run, white)))
     return runs
+
+
+def _without_transient(run: _Run, white: Floats) -> Floats:
+    """What is left of whitened increments (I,) once every run has an initial speed of its own."""
+    along = np.bincount(run.stretch, run.transient * white)
+    return white - along[run.stretch] * run.transient
 
 
 def _sums(run: _Run, cycles: float, rate: float, inertia: float, block: Integers) -> Floats:
@@ -153,7 +170,7 @@ def _whitened(run: _Run, increments: Floats) -> Floats:
 def _response(run: _Run, cycles: float, rate: float, inertia: float) -> tuple[Floats, Floats]:
     """Whitened increments that loads of sin(cycles·θ) and of cos(cycles·θ), 1 V each, make."""
     sine, cosine = _bare_response(run, cycles, rate, inertia)
-    return _whitened(run, sine), _whitened(run, cosine)
+    return _without_transient(run, _whitened(run, sine)), _without_transient(run, _whitened(run, cosine))
 
 
 def _bare_response(run: _Run, cycles: float, rate: float, inertia: float) -> tuple[Floats, Floats]:
@@ -184,6 +201,21 @@ def _fill_response(
         travel = -((then - speed) + load / inertia) / rate
         sine[i], cosine[i] = travel.imag, travel.real
         speed = then
+
+
+@compiled
+def _fill_transient(
+    order: Integers, stretch: Integers, duration: Floats, moving: Bools, rate: float, travel: Floats
+) -> None:
+    """Increments of dx/dt = −rate·x in every run that begins with x = 1 rad/s."""
+    speed, number = 0.0, -1
+    for i in order:
+        if stretch[i] != number or not moving[i]:
+            speed, number = 1.0, stretch[i]
+        if moving[i]:
+            fade = np.exp(-rate * duration[i])
+            travel[i] = speed * (1.0 - fade) / rate
+            speed *= fade
 
 
 @compiled
