@@ -23,7 +23,7 @@ LEAST_GAIN = 4.0  # of a sum of squared standard deviations, for a closer look
 VALUES: dict[str, Sequence[float]] = {
     "ks": (0.03,),
     "breakaway_voltage": (0.1, 0.03),  # above ks
-    "stribeck_speed": (0.01, 0.1),
+    "stribeck_speed": (0.01, 0.035, 0.1),
     "drag": (0.05,),
     "bias_voltage": (0.02,),
     "step_voltage": (0.03, -0.03),

@@ -126,4 +126,4 @@ def spared(data: Intervals) -> Bools:
 
 def _own_blocks(data: Intervals, same: bool) -> Bools:
     block = (data.time[data.first] // min(BLOCK, data.time[-1] / LEAST)).astype(np.int64)
-    return np.asarray(block % SHARE != SHARE - 1 if same else block % 2 == 1)
+    return np.asarray(block % SHARE != SHARE - 1 if same else block % 2 == 0)

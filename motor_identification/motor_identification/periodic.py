@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from motor_identification.descent import Speeds, descend
+from motor_identification.descent import Speeds, descend, typical
 from motor_identification.direction import redirected
 from motor_identification.problem import Problem
 from motor_identification.recording import Floats
@@ -17,6 +17,7 @@ from motor_model.effects import EFFECT_BY_NAME
 ROUNDS = 2  # the second time, the motor that bridges the gaps of the measured angle has the effect already
 ITERATIONS = 25  # of a descent
 RIPPLES = 2  # lines of the spectrum that are tried
+SIZES, PHASES, TURNS = (1.0, 1.3, 1.6), 12, 3  # of a ripple on which a motor without friction swings
 
 Tracks = tuple[Track, ...]
 Start = tuple[Tracks, Mapping[str, Floats]]  # measured angles, and an effect's values in every recording
@@ -45,12 +46,17 @@ def added(bare: Problem, place: Floats, effect: str, least: float = 0.0) -> tupl
     That is in squared standard deviations.
     """
     effects, evaluations = (*bare.unknowns.effects, effect), 0
+    choices: list[tuple[Problem, Floats]] = []
     full, end = bare.anchored(place, effects), place
     for _ in range(ROUNDS):
         ends = []
         starts = _STARTS[effect](bare, place, full.tracks, least)
         if not starts:
             return None
+        if effect == "torque_ripple" and "ks" not in bare.unknowns.names and not choices:
+            swinging, there, more = _swinging(bare, place, starts[0][1])
+            choices.append((swinging, there))
+            evaluations += more
         least = 0.0
         for tracks, values in starts:
             trial = replace(full, tracks=tracks)
@@ -65,9 +71,37 @@ def added(bare: Problem, place: Floats, effect: str, least: float = 0.0) -> tupl
         full = best.anchored(end, effects)
     free = replace(best, tracks=())  # a complete model does not drift, and then its own angle is the better one
     onward, more = descend(free, Speeds(free), end, iterations=ITERATIONS, tolerance=1e-10)
-    if float(free.costs(onward[None])[0]) < float(best.costs(end[None])[0]):
-        best, end = free, onward
-    return best, end, evaluations + more
+    evaluations += more
+    choices += [(best, end), (free, onward)]
+    best, end = min(choices, key=lambda one: float(one[0].costs(one[1][None])[0]))
+    return best, end, evaluations
+
+
+def _swinging(bare: Problem, place: Floats, values: Mapping[str, Floats]) -> tuple[Problem, Floats, int]:
+    """A motor without friction swings on its ripple at every standstill, which only its own simulation can follow.
+
+    So its phase is searched there, and its size anew, whichever way the shaft turned; then directions and fit in turns.
+    """
+    free = bare.with_effects((*bare.unknowns.effects, "torque_ripple"))
+    grid = [
+        carried(bare.unknowns, place, free.unknowns, {**values, "ripple_voltage": size * values["ripple_voltage"],
+                                                      "ripple_phase": 0.0 * values["ripple_phase"] + phase})
+        for size in SIZES
+        for phase in np.linspace(-np.pi, np.pi, PHASES, endpoint=False)
+    ]  # fmt: skip
+    residuals = free.evaluate(np.array(grid))
+    either_way = np.minimum(np.abs(residuals), np.abs(residuals + 2.0 * free.speed))
+    most = 3.0 * float(np.median(np.abs(bare.residuals(place))))
+    there = grid[int(np.argmin(np.minimum(either_way, most) ** 2 @ free.weight))]
+    evaluations = len(grid)
+    for _ in range(TURNS):
+        free = redirected(free, there)
+        most = typical(free, there)[1]
+        there, more = descend(free, Speeds(free), there, most=most, iterations=ITERATIONS, tolerance=1e-6)
+        evaluations += more
+    free = redirected(free, there)
+    there, more = descend(free, Speeds(free), there, iterations=ITERATIONS, tolerance=1e-8)
+    return free, there, evaluations + more
 
 
 def phases(bare: Problem, place: Floats, effect: str, cycles: float, tracks: Tracks = ()) -> Start:

@@ -20,7 +20,7 @@ RELEVANT, MOSTLY = (
     0.3,
     0.5,
 )  # share of the excess over the noise floor that a finding has to explain, above and at it,
-SEEN = 0.01  # and share of the gap,
+SEEN = 0.03  # and share of the gap,
 LASTING = 0.1  # [s] both in intervals of this length: of a coarse encoder, shorter ones show little but its steps
 STANDS_IN = 0.95  # of the excess: what explains less and leaves the gap above the floor may stand in for another effect
 AT_FLOOR = 1.3  # times the noise floor: explained

@@ -123,7 +123,7 @@ def standing(recording: Recording, values: dict[str, float], table: Floats | Non
     Without a table of the holes the disc is regular and only its angle within a slot is estimated.
     """
     time, number, off = offsets(recording, values)
-    own = np.floor(time / BLOCK) % 2.0 == 1.0
+    own = np.floor(time / BLOCK) % 2.0 == 0.0
     holes = number[own].astype(np.int64)
     known = np.zeros(EDGES) if table is None else np.where(np.isnan(table), np.nanmedian(table), table)
     misfits = [off[own] - known[(holes + turn) % EDGES] for turn in range(1 if table is None else EDGES)]

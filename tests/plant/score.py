@@ -68,7 +68,7 @@ def score(recording: Recording, motion: Motion) -> Score:
     block = np.floor(start / min(BLOCK, last / LEAST))
     counts = (between & ~_miscounted(excess, between, slot)) | still
     slots = np.where(still, 0.0, slots)
-    return Score(start, end, slots, excess / (end - start), counts & (block % 2 == 0), slot, tick)
+    return Score(start, end, slots, excess / (end - start), counts & (block % 2 == 1), slot, tick)
 
 
 def reported_edges(recording: Recording) -> tuple[Floats, Floats]:

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 BAR = "{desc} {bar} {percentage:3.0f} %"
 
 
-def diagnosed(job: "DiagnosisJob") -> "Diagnosis":
-    """Diagnose with a progress bar, and print what came out.
+def diagnosed(job: "DiagnosisJob", files: "Files") -> "Diagnosis":
+    """Diagnose with a progress bar, write files, and print what came out.
 
     Raises:
         MotorError: it cannot be done.
@@ -32,8 +32,7 @@ def diagnosed(job: "DiagnosisJob") -> "Diagnosis":
     """
     from tqdm import tqdm
 
-    from motor_identification.job import notes_of, run_diagnosis
-    from motor_identification.words import as_table, summary
+    from motor_identification.job import run_diagnosis
 
     speaking = threading.Lock()  # stages come from any thread
     with _interruptible() as stopped, tqdm(total=100, delay=2.0, disable=None, bar_format=BAR) as bar:
@@ -44,9 +43,19 @@ def diagnosed(job: "DiagnosisJob") -> "Diagnosis":
                 bar.update(max(round(100 * stage.share) - bar.n, 0))
 
         diagnosis = run_diagnosis(job, show, stopped)
-    print(as_table(diagnosis))
-    print(f"\n{summary(diagnosis)}", *notes_of(diagnosis), sep="\n")
+    written, troubles = files.write(diagnosis)  # first: whoever reads what is printed may stop reading
+    print(as_text(diagnosis), *written, sep="\n")
+    if troubles:
+        raise MotorError(" ".join(troubles))
     return diagnosis
+
+
+def as_text(diagnosis: "Diagnosis") -> str:
+    """What a terminal shows."""
+    from motor_identification.job import notes_of
+    from motor_identification.words import as_table, summary
+
+    return "\n".join([as_table(diagnosis), "", summary(diagnosis), *notes_of(diagnosis)])
 
 
 def _described(stage: "Stage") -> str:
@@ -100,31 +109,22 @@ class Files:
             if not directory.is_dir() or not os.access(directory, os.W_OK) or path.is_dir():
                 raise MotorError(f"cannot write {path}: name a file in a directory that exists and can be written to.")
 
-    def write(self, diagnosis: "Diagnosis") -> None:
-        """Write everything, and say where it is.
-
-        Raises:
-            MotorError: something cannot be written; everything else is.
-        """
-        troubles = []
+    def write(self, diagnosis: "Diagnosis") -> tuple[list[str], list[str]]:
+        """Write everything; returns lines that say where it is, and sentences about what could not be written."""
+        written, troubles = [], []
         if self.report is not None:
-            _make(Path(self.report))
+            try:
+                Path(self.report).mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                return [], [f"cannot make the directory {self.report}: {error.strerror}."]
         for name, write, path in self.rows():
             try:
                 write(diagnosis, path)
                 if name:
-                    print(f"{name}: {path}")
+                    written.append(f"{name}: {path}")
             except MotorError as error:
                 troubles.append(str(error))
-        if troubles:
-            raise MotorError(" ".join(troubles))
-
-
-def _make(directory: Path) -> None:
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise MotorError(f"cannot make the directory {directory}: {error.strerror}.") from error
+        return written, troubles
 
 
 def write_model(diagnosis: "Diagnosis", path: Path) -> None:

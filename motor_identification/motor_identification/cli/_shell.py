@@ -1,6 +1,7 @@
 """What the commands share: an error is one sentence on stderr, and Ctrl-C no traceback."""
 
 import argparse
+import os
 import sys
 from collections.abc import Callable
 from shutil import get_terminal_size
@@ -11,10 +12,15 @@ from motor_model.errors import MotorError
 def shell(work: Callable[[], int]) -> int:
     """Run a command's work and return its exit status: 1 with the sentence of a MotorError, 130 after Ctrl-C."""
     try:
-        return work()
+        status = work()
+        sys.stdout.flush()
+        return status
     except MotorError as error:
         print(error, file=sys.stderr)
         return 1
+    except BrokenPipeError:  # nobody reads any further, as behind `| head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except KeyboardInterrupt:
         return 130
 

@@ -54,7 +54,7 @@ def _diagnose(options: argparse.Namespace) -> int:
         stop=options.stop,
         workers=os.cpu_count() or 1,
     )
-    files.write(diagnosed(job))
+    diagnosed(job, files)
     return 0
 
 

@@ -13,6 +13,7 @@ from motor_identification.cli.diagnose import named
 from motor_model.excitation import PROFILES
 
 if TYPE_CHECKING:
+    from motor_identification.cli._diagnosed import Files
     from motor_identification.diagnosis import Diagnosis
 
 
@@ -61,8 +62,7 @@ def _explore(options: argparse.Namespace) -> int:
             status = _recorded(following, bags[-1], options)
             if status != 0:
                 return status
-            diagnosis = _diagnosed(bags, options)
-            files.write(diagnosis)
+            diagnosis = _diagnosed(bags, options, files)
             following, why = _following(diagnosis, profiles, options.rounds)
             print(why)
     except KeyboardInterrupt:
@@ -83,13 +83,14 @@ def _recorded(profile: str, bag: str, options: argparse.Namespace) -> int:
             signal.signal(number, handler)
 
 
-def _diagnosed(bags: list[str], options: argparse.Namespace) -> "Diagnosis":
+def _diagnosed(bags: list[str], options: argparse.Namespace, files: "Files") -> "Diagnosis":
     from motor_identification.cli._diagnosed import diagnosed
     from motor_identification.job import DiagnosisJob
 
     namespace = "" if options.model is not None else options.topic_namespace  # offline there is none
     known = named(options.known_effects)
-    return diagnosed(DiagnosisJob(tuple(bags), known=known, topic_namespace=namespace, workers=os.cpu_count() or 1))
+    job = DiagnosisJob(tuple(bags), known=known, topic_namespace=namespace, workers=os.cpu_count() or 1)
+    return diagnosed(job, files)
 
 
 def _made(directory: Path) -> Path:
