@@ -20,8 +20,9 @@ RELEVANT, MOSTLY = (
     0.3,
     0.5,
 )  # share of the excess over the noise floor that a finding has to explain, above and at it,
-SEEN = 0.03  # and share of the gap,
-LASTING = 0.1  # [s] both in intervals of this length: of a coarse encoder, shorter ones show little but its steps
+SEEN = 0.03  # and share of the gap, which has to be
+ABOVE = 1.15  # times the floor,
+LASTING = 0.1  # [s] all in intervals of this length: of a coarse encoder, shorter ones show little but its steps
 STANDS_IN = 0.95  # of the excess: what explains less and leaves the gap above the floor may stand in for another effect
 AT_FLOOR = 1.3  # times the noise floor: explained
 
@@ -69,7 +70,10 @@ class Trial:
     def relevant(self) -> bool:
         """Whether it takes away a good part of what lasts longer than the encoder's noise."""
         before, after = self.before.held.joined(LASTING), self.model.held.joined(LASTING)
-        explains = explained(before.gap, after.gap, after.floor(self.model.noise.share))
+        floor = after.floor(self.model.noise.share)
+        if before.gap < ABOVE * floor:
+            return False
+        explains = explained(before.gap, after.gap, floor)
         near = self.before.held.gap <= AT_FLOOR * self.model.floor
         return explains > (MOSTLY if near else RELEVANT) and 1.0 - after.gap / before.gap > SEEN
 
