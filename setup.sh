@@ -161,6 +161,7 @@ set +u
 source env.sh
 set -u
 quietly "compiling the motor" "$venv/bin/python" -m motor_identification.warm_up
+quietly "compiling the observer" "$venv/bin/python" -m motor_control.warm_up
 
 fingerprint >"$stamp"
 say "done. Next: ./demo.sh, or 'source env.sh' and 'ros2 run motor_sim motor_sim'."

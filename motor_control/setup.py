@@ -13,11 +13,12 @@ setup(
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),
     ],
-    install_requires=["setuptools"],
+    install_requires=["setuptools", "numpy>=1.26", "scipy>=1.11", "matplotlib>=3.6", "control>=0.10", "numba>=0.59"],
     zip_safe=False,
     entry_points={
         "console_scripts": [
             "motor_control = motor_control.node:main",
+            "tune = motor_control.cli.tune:main",
         ],
     },
 )

@@ -7,8 +7,8 @@ whether samples still come at all. Whatever is wrong, the answer is 0 V with a s
 from dataclasses import dataclass, replace
 from math import isfinite, nan
 
-from motor_control import pi, span
-from motor_control.checks import at_least
+from motor_control import law, pi
+from motor_control.law import Config, Run
 from motor_model.sample import Sample
 
 RUNNING, DISABLED, NO_SAMPLES, STOPPED = "running", "disabled", "no_samples", "stopped"
@@ -19,38 +19,7 @@ BAD_REFERENCE = "The reference is {}: publish a finite speed in rad/s on motor/r
 BAD_SAMPLE = "A sample on motor/speed says {} = {}: find out what is wrong with the plant."
 NEVER_A_SAMPLE = "No sample has come on motor/speed yet: start motor_sim or motor_driver."
 SILENCE = "No sample on motor/speed for {:.1f} s: see whether motor_sim or motor_driver still runs."
-BRAKING = "0 V until the motor turns slower than {:g} rad/s: with a single channel a brake would lose the direction."
 CALL_RESET = "{} Call motor/reset to go on."
-
-
-@dataclass(frozen=True, slots=True)
-class Config:
-    """How to control.
-
-    Raises:
-        MotorError: a value is negative or not finite.
-    """
-
-    gains: pi.Config
-    voltage_limit: float  # [V]
-    sample_timeout: float  # [s] silence after which there is no plant
-    reference_rate_limit: float  # [rad/s²] 0: none
-    reversal_speed: float  # [rad/s] a single-channel motor faster than this is not pushed against its motion
-    single_channel: bool = True  # the encoder does not measure direction
-
-    def __post_init__(self) -> None:
-        at_least(0.0, voltage_limit=self.voltage_limit, sample_timeout=self.sample_timeout)
-        at_least(0.0, reference_rate_limit=self.reference_rate_limit, reversal_speed=self.reversal_speed)
-
-
-@dataclass(frozen=True, slots=True)
-class Run:
-    """What is remembered from one sample to the next while running; a run ends with every stop, gap and restart."""
-
-    sample_time: int  # [ns]
-    reference: float  # [rad/s] behind the rate limit
-    law: pi.State
-    reversing: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,16 +43,23 @@ class Output:
     speed: float  # [rad/s] NaN: none
     terms: pi.Terms
     speed_sigma: float = nan  # [rad/s] NaN: measured, not estimated
+    innovation: float = nan  # [rad] angle at the latest edge less the observer's prediction
+    warning: bool = False  # somebody should read the reason
 
 
 def update(config: Config, state: State, sample: Sample, reference: float | None, now: float) -> tuple[Output, State]:
     """Answer one sample; reference [rad/s] is the latest one or None, now [s] is a monotonic clock of the caller's."""
     name, reason = _obstacle(state, sample, reference)
+    halted = State(state.since, now, None, None, state.latched)
     if reference is None or name != RUNNING:
-        output, run = _halt(name, reason, nan if reference is None else reference, sample.speed), None
-    else:
-        output, run = _step(config, _continued(config, state.run, sample), sample, reference)
-    return output, State(state.since, now, None, run, state.latched)
+        return _halt(name, reason, nan if reference is None else reference, sample.speed), halted
+    answer, run = law.step(config, _continued(config, state.run, sample), sample, reference)
+    if answer.fault:
+        reason = CALL_RESET.format(answer.fault)
+        return _halt(STOPPED, reason, answer.reference, answer.speed), stop(halted, answer.fault)
+    if not isfinite(answer.speed):
+        return _halt(STOPPED, answer.reason, answer.reference, answer.speed), halted
+    return _answered(answer), State(state.since, now, None, run, "")
 
 
 def watch(config: Config, state: State, now: float) -> tuple[Output | None, State]:
@@ -127,30 +103,21 @@ def _continued(config: Config, run: Run | None, sample: Sample) -> Run:
     """
     if run is not None and 0 <= sample.sample_time - run.sample_time <= config.sample_timeout * 1e9:
         return run
-    return Run(sample.sample_time, sample.speed, pi.State(), False)
+    return law.begin(config, sample)
 
 
-def _step(config: Config, run: Run, sample: Sample, wanted: float) -> tuple[Output, Run]:
-    """The law, for finite numbers; its time step is what passed on the plant's clock."""
-    dt = (sample.sample_time - run.sample_time) * 1e-9
-    reference = _approach(wanted, run.reference, config.reference_rate_limit, dt)
-    allowed = span.both_ways(config.voltage_limit)
-    law = run.law
-    if config.single_channel:
-        allowed = span.toward(reference, sample.speed, config.voltage_limit, config.reversal_speed, run.reversing)
-        if sample.speed == 0.0:  # what held the other direction is of no use from here
-            law = pi.State(min(max(law.integral, allowed.low), allowed.high))
-    terms, law = pi.update(config.gains, law, reference - sample.speed, 0.0, dt, allowed.low, allowed.high)
-    reason = BRAKING.format(config.reversal_speed) if allowed.braking else ""
-    output = Output(RUNNING, reason, reference, sample.speed, terms)
-    return output, Run(sample.sample_time, reference, law, allowed.reversing)
-
-
-def _approach(wanted: float, start: float, rate: float, dt: float) -> float:
-    """The reference [rad/s] that the rate limit [rad/s²] lets through; 0 is no limit."""
-    if rate == 0.0:
-        return wanted
-    return start + min(max(wanted - start, -rate * dt), rate * dt)
+def _answered(answer: law.Answer) -> Output:
+    """A running motor's output."""
+    return Output(
+        RUNNING,
+        answer.reason,
+        answer.reference,
+        answer.speed,
+        answer.terms,
+        answer.speed_sigma,
+        answer.innovation,
+        answer.warning,
+    )
 
 
 def _halt(name: str, reason: str, reference: float, speed: float) -> Output:

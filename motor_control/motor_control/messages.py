@@ -25,6 +25,7 @@ def control_state_message(output: Output, header: Header) -> ControlState:
         reference=output.reference,
         speed=output.speed,
         speed_sigma=output.speed_sigma,
+        innovation=output.innovation,
         error=terms.error,
         proportional=terms.proportional,
         integral=terms.integral,
@@ -43,9 +44,11 @@ def diagnostics_message(output: Output, config: Config, answered: int, publisher
         "publishers of motor/voltage": str(publishers),
         "voltage limit [V]": f"{config.voltage_limit:g}",
         "single channel": str(config.single_channel).lower(),
+        "speed source": "measured" if config.observer is None else "observer",
+        "feedforward": str(config.feedforward is not None).lower(),
     }
     status = DiagnosticStatus(
-        level=max(LEVELS[output.state], DiagnosticStatus.WARN if problem else DiagnosticStatus.OK),
+        level=max(LEVELS[output.state], DiagnosticStatus.WARN if problem or output.warning else DiagnosticStatus.OK),
         name=name,
         message=problem or output.reason or output.state,
         values=[KeyValue(key=key, value=value) for key, value in values.items()],

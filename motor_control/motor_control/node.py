@@ -13,9 +13,9 @@ from std_srvs.srv import Trigger
 
 from motor_control import controller
 from motor_control.messages import control_state_message, diagnostics_message
-from motor_control.parameters import ROWS, config_of
+from motor_control.parameters import ROWS
+from motor_control.settings import Settings
 from motor_model.errors import MotorError
-from motor_model.sample import Info
 from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import info_of, sample_of, voltage_message
@@ -31,9 +31,7 @@ class MotorControl(Node):
 
     def __init__(self) -> None:
         super().__init__("motor_control")
-        self._values = declare(self, ROWS)
-        self._info: Info | None = None
-        self._config = config_of(self._values, None)
+        self._settings = Settings(declare(self, ROWS))
         self._state = controller.State(since=time.monotonic())
         self._reference: float | None = None
         self._header = Header()  # of the latest sample
@@ -57,7 +55,7 @@ class MotorControl(Node):
 
     def _on_speed(self, message: MotorSpeed) -> None:
         sample, now = sample_of(message), time.monotonic()
-        output, self._state = controller.update(self._config, self._state, sample, self._reference, now)
+        output, self._state = controller.update(self._settings.config, self._state, sample, self._reference, now)
         self._header = message.header
         self._answered += 1
         if self._reference is not None:  # without one the motor is left to others, such as an experiment
@@ -65,8 +63,9 @@ class MotorControl(Node):
         self._show(output)
 
     def _on_watch(self) -> None:
+        self._settings.refresh()
         first = self._state.silent is None
-        output, self._state = controller.watch(self._config, self._state, time.monotonic())
+        output, self._state = controller.watch(self._settings.config, self._state, time.monotonic())
         if output is None:
             return
         self._header.stamp = self._now()
@@ -89,8 +88,7 @@ class MotorControl(Node):
 
     def _on_info(self, message: MotorInfo) -> None:
         try:
-            info = info_of(message)
-            self._config, self._info = config_of(self._values, info), info
+            self._settings.meet(info_of(message))
         except MotorError as error:
             self.get_logger().error(f"motor/info is not usable and left aside: {error}")
 
@@ -101,18 +99,16 @@ class MotorControl(Node):
         return response
 
     def _on_parameters(self, changed: list[Parameter]) -> SetParametersResult:
-        values = {**self._values, **{parameter.name: parameter.value for parameter in changed}}
         try:
-            self._config = config_of(values, self._info)
+            self._settings.change({parameter.name: parameter.value for parameter in changed})
         except MotorError as error:
             return SetParametersResult(successful=False, reason=str(error))
-        self._values = values
         return SetParametersResult(successful=True)
 
     def _on_second(self) -> None:
         name = f"{self.get_fully_qualified_name()}: {self._header.frame_id or 'no motor yet'}"
         rivals = self.count_publishers("motor/voltage")
-        message = diagnostics_message(self._output, self._config, self._answered, rivals, name)
+        message = diagnostics_message(self._output, self._settings.config, self._answered, rivals, name)
         message.header.stamp = self._now()
         self._diagnostics.publish(message)
         self._answered = 0

@@ -43,3 +43,18 @@ def toward(reference: float, speed: float, limit: float, reversal_speed: float, 
         return Span(0.0, 0.0, False, against)
     end = copysign(limit, reference)
     return Span(min(end, 0.0), max(end, 0.0), against, False)
+
+
+def known(reference: float, speed: float, forward: float, limit: float, reversal_speed: float) -> Span:
+    """A single channel's direction is known by an observer, but near a standstill not for sure.
+
+    Toward the reference anything within +-limit [V] goes; against it only what brakes a motion faster than
+    reversal_speed [rad/s], and what the reference by itself asks for: the feed-forward without any estimate, `forward`
+    [V]. Should the direction be wrong, nothing drives the motor away from the reference.
+    """
+    low, high = max(min(forward, 0.0), -limit), min(max(forward, 0.0), limit)
+    if reference > 0.0 or (speed < -reversal_speed and reference <= 0.0):
+        high = limit
+    if reference < 0.0 or (speed > reversal_speed and reference >= 0.0):
+        low = -limit
+    return Span(low, high, False, False)

@@ -27,11 +27,12 @@ MS = 1_000_000  # [ns]
 def feed(
     times_ms: list[float], speed: float, reference: float, config: Config = CONFIG, state: State | None = None
 ) -> tuple[Output, State]:
-    """Samples of one speed at these times; the last output."""
+    """Samples of one speed at these times from a plant that applies what it was asked for; the last output."""
     assert times_ms
     state = state or State()
     for time in times_ms:
-        output, state = controller.update(config, state, Sample(round(time * MS), speed, 0.0), reference, time * 1e-3)
+        sample = Sample(round(time * MS), speed, state.run.asked if state.run else 0.0)
+        output, state = controller.update(config, state, sample, reference, time * 1e-3)
     return output, state
 
 

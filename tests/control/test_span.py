@@ -56,3 +56,25 @@ def test_never_away_from_the_reference(reference: float, speed: float, limit: fl
     assert -limit <= low <= 0.0 <= high <= limit
     assert low == 0.0 or reference < 0.0
     assert high == 0.0 or reference > 0.0
+
+
+@pytest.mark.parametrize(
+    ("reference", "speed", "forward", "low", "high"),
+    [
+        (40.0, 100.0, 3.0, -12.0, 12.0),  # braked, for it is fast enough to be sure of the direction
+        (3.0, SLOW, 0.9, 0.0, 12.0),  # not near a standstill
+        (3.0, -FAST, 0.9, 0.0, 12.0),
+        (0.0, FAST, 0.0, -12.0, 0.0),
+        (0.0, -FAST, 0.0, 0.0, 12.0),
+        (0.0, SLOW, 0.0, 0.0, 0.0),
+        (3.0, SLOW, -1.5, -1.5, 12.0),  # what the ramp of the reference itself needs
+        (-3.0, SLOW, 20.0, -12.0, 12.0),
+        (-60.0, FAST, -4.5, -12.0, 0.0),  # a reversal is toward the reference
+    ],
+)
+def test_where_an_observer_knows_the_direction(
+    reference: float, speed: float, forward: float, low: float, high: float
+) -> None:
+    allowed = span.known(reference, speed, forward, 12.0, 10.0)
+    assert (allowed.low, allowed.high) == (low, high)
+    assert not allowed.braking and not allowed.reversing

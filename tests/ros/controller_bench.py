@@ -1,6 +1,8 @@
 """A plant that a test owns, and a user beside it: what the tests of the controller node share."""
 
 from diagnostic_msgs.msg import DiagnosticArray
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
 from std_msgs.msg import Float64
 from workbench import Bench
 
@@ -24,6 +26,7 @@ class FakePlant(Bench):
         self.states: list[ControlState] = self.hear(ControlState, "motor/control_state", qos.CONTROL_STATE)
         self.diagnostics: list[DiagnosticArray] = self.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         self.time = 0  # [ns]
+        self.enabled = True
 
     def meet(self) -> None:
         """Send samples until the controller hears everything and is heard."""
@@ -43,14 +46,23 @@ class FakePlant(Bench):
         self.wait(lambda: same(self.answer(0.0).reference), f"reference {reference}")
 
     def say(self, speed: float) -> None:
-        """One sample, 5 ms after the last."""
-        self.time += SAMPLE_NS
-        self._speed.publish(speed_message(Sample(self.time, speed, 0.0), time_message(self.time), "wheel"))
+        """One sample, 5 ms after the last, that applies what was asked for."""
+        voltage = self.voltages[-1].voltage if self.voltages and self.enabled else 0.0
+        self.send(Sample(self.time + SAMPLE_NS, speed, voltage))
+
+    def send(self, sample: Sample) -> None:
+        """A sample of the test's own."""
+        self.time = sample.sample_time
+        self._speed.publish(speed_message(sample, time_message(self.time), "wheel"))
 
     def answer(self, speed: float) -> ControlState:
         """What the controller answers to one more sample; without a reference it leaves the voltage to others."""
         count = len(self.voltages)
         self.say(speed)
+        return self.heard_back(count)
+
+    def heard_back(self, count: int) -> ControlState:
+        """The answer to the latest sample; `count` voltages had come before it."""
         stamp = time_message(self.time)
         self.wait(lambda: bool(self.states) and self.states[-1].header.stamp == stamp, "an answer to a sample")
         if self.states[-1].state == "disabled":
@@ -59,6 +71,14 @@ class FakePlant(Bench):
         self.wait(lambda: len(self.voltages) > count and self.voltages[-1].header.stamp == stamp, "a voltage")
         assert self.voltages[-1].voltage == self.states[-1].voltage
         return self.states[-1]
+
+    def assign(self, name: str, value: str | bool) -> tuple[bool, str]:
+        """Set a parameter that is no number; see `set`."""
+        kind = ParameterType.PARAMETER_BOOL if isinstance(value, bool) else ParameterType.PARAMETER_STRING
+        held = ParameterValue(type=kind, bool_value=value is True, string_value=value if isinstance(value, str) else "")
+        request = SetParameters.Request(parameters=[Parameter(name=name, value=held)])
+        result = self.call(SetParameters, "motor_control/set_parameters", request).results[0]
+        return result.successful, result.reason
 
     def tell(self, info: Info, measurement: str = "edges") -> None:
         """What `motor/info` says, in whatever words for the kind of measurement."""

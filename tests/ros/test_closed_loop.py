@@ -8,6 +8,7 @@ from subprocess import Popen
 import numpy as np
 import pytest
 from std_msgs.msg import Float64
+from std_srvs.srv import SetBool
 from workbench import PATIENCE, Bench, end
 
 from motor_identification.bag import read_recording
@@ -52,6 +53,42 @@ def test_holds_a_speed_and_changes_it_without_a_limit_cycle(bench: Bench, start:
     assert {state.state for state in shown} == {"running"}
     end(controller)
     bench.wait(lambda: samples[-1].voltage == 0.0, "0 V after the controller has gone")
+
+
+def test_with_its_model_the_loop_holds_slow_speeds_and_says_when_the_output_is_off(
+    bench: Bench, start: Start, tmp_path: Path
+) -> None:
+    sim(start, tmp_path)
+    model = f"model:={tmp_path / 'hidden.yaml'}"
+    gains = ("-p", f"kp:={PAPER_KA / 0.02}", "-p", f"ki:={PAPER_KV / 0.02}")
+    options = ("-p", model, "-p", "speed_source:=observer", "-p", "feedforward:=true", *gains)
+    start("motor_control", "motor_control", "--ros-args", *options)
+    states = bench.hear(ControlState, "motor/control_state", qos.CONTROL_STATE)
+    reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+    bench.heard(reference)
+    bench.wait(lambda: len(states) > 20 and states[-1].state == "disabled", "samples")
+
+    def hold(speed: float, seconds: float) -> list[ControlState]:
+        first = len(states)
+        reference.publish(Float64(data=speed))
+        bench.wait(lambda: len(states) > first + 200 * seconds, f"{seconds} s of states")
+        return states[first:]
+
+    for speed, share in ((100.0, 0.01), (-3.0, 0.15)):
+        late = hold(speed, 1.0)[-80:]
+        assert {state.state for state in late} == {"running"} and {state.reason for state in late} == {""}
+        assert np.max(np.abs(np.array([state.speed for state in late]) / speed - 1.0)) < share
+        assert 0.0 < np.median([state.speed_sigma for state in late]) < 0.3
+        assert 0.0 < np.max(np.abs([state.innovation for state in late])) < 0.02
+    assert hold(0.0, 0.5)[-1].speed == 0.0 and states[-1].voltage == 0.0
+    hold(20.0, 0.5)
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=False)).success
+    bench.wait(lambda: "motor/enable" in states[-1].reason, "the reason")
+    held = hold(20.0, 0.5)
+    assert len({state.integral for state in held[20:]}) == 1 and held[-1].state == "running"
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    assert np.mean([state.speed for state in hold(20.0, 1.0)[-60:]]) == pytest.approx(20.0, abs=0.3)
+    assert states[-1].reason == ""
 
 
 def test_experiment_on_the_live_plant_finds_the_hidden_friction(start: Start, tmp_path: Path) -> None:

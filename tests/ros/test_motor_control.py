@@ -3,6 +3,8 @@
 import subprocess
 import time
 from collections.abc import Iterator
+from math import isnan
+from pathlib import Path
 
 import pytest
 from controller_bench import SAMPLE_NS, FakePlant
@@ -11,6 +13,8 @@ from rcl_interfaces.srv import DescribeParameters
 from std_srvs.srv import Trigger
 from workbench import PATIENCE, end, start
 
+from motor_model.model_file import save
+from motor_model.parameters import Parameters
 from motor_model.sample import Info
 from motor_msgs.msg import MotorVoltage
 from motor_ros import qos
@@ -103,20 +107,24 @@ def test_ctrl_c_leaves_zero_volts(plant: FakePlant, process: subprocess.Popen[st
 @pytest.mark.usefixtures("process")
 def test_gains_are_live_and_bad_ones_refused(plant: FakePlant) -> None:
     plant.refer(100.0)
-    assert plant.answer(90.0).proportional == pytest.approx(2.0)
+    before = plant.answer(90.0)
+    assert before.proportional == pytest.approx(2.0)
     assert plant.set("motor_control", "kp", 0.5) == (True, "")
-    assert plant.answer(90.0).proportional == pytest.approx(5.0)
+    after = plant.answer(90.0)
+    assert after.proportional == pytest.approx(5.0)
+    assert after.voltage == pytest.approx(before.voltage + 2.5 * 10.0 * 0.005)  # no jump: the integral takes it up
     for name, value in (("kp", -1.0), ("ki", float("nan")), ("voltage_limit", float("inf")), ("sample_timeout", 0.0)):
         accepted, reason = plant.set("motor_control", name, value)
         assert not accepted and name in reason, reason
     assert plant.answer(90.0).proportional == pytest.approx(5.0)
-    assert plant.set("motor_control", "voltage_limit", 3.0) == (True, "")
-    assert plant.answer(90.0).voltage == 3.0
+    assert plant.set("motor_control", "voltage_limit", 2.0) == (True, "")
+    assert plant.answer(90.0).voltage == 2.0
 
 
 @pytest.mark.usefixtures("process")
 def test_parameters_are_described_with_unit_and_range(plant: FakePlant) -> None:
-    names = ["kp", "ki", "voltage_limit", "sample_timeout", "reference_rate_limit", "reversal_speed"]
+    names = ["kp", "ki", "voltage_limit", "sample_timeout", "reference_rate_limit", "reversal_speed", "stall_time"]
+    names.append("slot_irregularity")
     request = DescribeParameters.Request(names=names)
     described = plant.call(DescribeParameters, "motor_control/describe_parameters", request).descriptors  # type: ignore[attr-defined]
     assert [row.name for row in described] == names
@@ -140,6 +148,82 @@ def test_what_the_plant_says_of_itself_counts(plant: FakePlant) -> None:
 def test_reset_answers(plant: FakePlant) -> None:
     response = plant.call(Trigger, "motor/reset", Trigger.Request())
     assert response.success and response.message  # type: ignore[attr-defined]
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> str:
+    """A model file of the paper's motor with friction."""
+    path = tmp_path / "motor.yaml"
+    save(path, Parameters({"kv": KV, "ka": KA, "ks": 0.4}, ("coulomb_friction",)))
+    return str(path)
+
+
+@pytest.mark.usefixtures("process")
+def test_observer_and_feedforward_in_a_running_loop(plant: FakePlant, model: str) -> None:
+    """Without a model it says so; with one the speed comes from the edges, and nothing jumps."""
+    plant.tell(Info(name="wheel"))
+    plant.refer(50.0)
+    assert plant.assign("speed_source", "guess")[1].endswith("give measured or observer.")
+    assert plant.assign("speed_source", "observer") == (True, "")
+    state = plant.answer(50.0)
+    assert "No model is loaded" in state.reason and state.state == "running" and isnan(state.speed_sigma)
+    plant.wait(lambda: plant.answer(50.0).reason == state.reason and warned(plant, "No model is loaded"), "diagnostics")
+    accepted, reason = plant.assign("model", "nowhere.yaml")
+    assert not accepted and "cannot read the model file nowhere.yaml" in reason
+    assert plant.assign("model", model) == (True, "")
+    plant.wait(lambda: not isnan(plant.answer(50.0).speed_sigma), "an observer", 60.0)
+    assert plant.answer(50.0).reason == "" and not isnan(plant.states[-1].innovation)
+    assert plant.assign("feedforward", True) == (True, "")
+    state = plant.answer(50.0)
+    assert state.feedforward > 1.0
+    assert state.voltage == pytest.approx(state.proportional + state.integral + state.feedforward)
+
+
+def warned(plant: FakePlant, words: str) -> bool:
+    """Whether /diagnostics warns with these words."""
+    statuses = [array.status[0] for array in plant.diagnostics[-2:]]
+    return any(words in status.message and status.level == DiagnosticStatus.WARN for status in statuses)
+
+
+def test_a_model_at_the_start_is_ready_for_the_first_sample(plant: FakePlant, model: str) -> None:
+    arguments = ("-p", f"model:={model}", "-p", "speed_source:=observer", "-p", "feedforward:=true")
+    process = start("motor_control", "motor_control", "--ros-args", *arguments, "-p", "sample_timeout:=5.0")
+    try:
+        plant.tell(Info(name="wheel"))
+        plant.meet()
+        plant.wait(lambda: "motor/info" not in plant.answer(0.0).reason, "the plant's account of itself")
+        plant.refer(40.0)
+        plant.wait(lambda: not isnan(plant.answer(0.0).speed_sigma), "the observer")
+        assert plant.states[-1].feedforward == pytest.approx(KV * 40.0 + 0.4, abs=0.05)
+    finally:
+        end(process)
+
+
+@pytest.mark.usefixtures("process")
+def test_a_stall_is_latched_until_reset_and_said(plant: FakePlant) -> None:
+    plant.refer(100.0)
+    plant.wait(lambda: plant.answer(0.0).state == "stopped", "the stop")
+    state = plant.answer(0.0)
+    assert "no edge came" in state.reason and "motor/reset" in state.reason and state.voltage == 0.0
+    count = len(plant.diagnostics)
+    plant.wait(lambda: plant.answer(0.0).state == "stopped" and len(plant.diagnostics) > count, "diagnostics")
+    status = plant.diagnostics[-1].status[0]
+    assert status.level == DiagnosticStatus.ERROR and "no edge came" in status.message
+    response = plant.call(Trigger, "motor/reset", Trigger.Request())
+    assert "no edge came" in response.message
+    assert plant.answer(0.0).state == "running"
+
+
+@pytest.mark.usefixtures("process")
+def test_an_output_that_is_off_is_said_and_winds_nothing_up(plant: FakePlant) -> None:
+    plant.refer(20.0)
+    plant.enabled = False
+    plant.wait(lambda: "motor/enable" in plant.answer(10.0).reason, "the reason")
+    first, last = plant.states[-1].integral, [plant.answer(10.0) for _ in range(20)][-1]
+    assert last.integral == first and last.state == "running"
+    plant.enabled = True
+    plant.answer(10.0)
+    assert plant.answer(10.0).reason == "" and plant.answer(10.0).integral > first
 
 
 @pytest.mark.usefixtures("process")

@@ -1,0 +1,184 @@
+"""The loop at 1 kHz over DDS: how long a sample waits for its voltage, and what a controller costs beside a bare node.
+
+Sim and controller (observer and feed-forward on), then sim and a node that only echoes the same messages, in turns of
+one run. Latency is the time between the two publications, both as DDS stamps them in the processes that send: a raw
+listener reads them, and its own delay does not count. Where others load the machine, put `nice -n -5` before it.
+"""
+
+import argparse
+import os
+import struct
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import rclpy
+import soak_process
+from machine import machine
+from rclpy.node import Node
+from soak_process import Process, program
+from std_msgs.msg import Float64
+
+from motor_model.errors import MotorError
+from motor_model.model_file import save
+from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_msgs.msg import MotorSpeed, MotorVoltage
+from motor_ros import qos
+from motor_ros.run import stay_on_this_machine
+
+RESULTS = Path(__file__).with_name("results")
+BARE = Path(__file__).with_name("loop_peer.py")
+CONTROLLER, ECHO = "motor_control", "bare echo"
+SETTLING, PATIENCE = 3.0, 30.0  # [s] before anything is measured; for the first voltage
+PROMISED = 1.5  # times the echo's latency
+MOTOR = Parameters(
+    {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.4, "breakaway_voltage": 0.9, "stribeck_speed": 4.0}, ("static_friction",)
+)
+KP = PAPER_KA / 0.015
+soak_process.DOMAIN = "81"  # of this benchmark alone
+
+
+class Listener(Node):
+    """Notes when each sample and each voltage was published [ns], by the sample's stamp."""
+
+    def __init__(self) -> None:
+        super().__init__("listener")
+        self.samples: dict[tuple[int, int], int] = {}
+        self.voltages: dict[tuple[int, int], int] = {}
+        for kind, topic, profile, times in (
+            (MotorSpeed, "motor/speed", qos.SPEED, self.samples),
+            (MotorVoltage, "motor/voltage", qos.SPEED, self.voltages),  # deep: none is lost here
+        ):
+            self.create_subscription(kind, topic, self._note(times), profile, raw=True)
+        self._reference = self.create_publisher(Float64, "motor/reference", qos.REFERENCE)
+
+    def refer(self) -> None:
+        """Ask for 100 rad/s."""
+        self._reference.publish(Float64(data=100.0))
+
+    def _note(self, times: dict[tuple[int, int], int]):  # type: ignore[no-untyped-def]
+        def note(message: bytes, info: dict[str, int]) -> None:
+            times[struct.unpack_from("<iI", message, 4)] = info["source_timestamp"]  # the header's stamp comes first
+
+        return note
+
+    def latencies(self) -> np.ndarray:
+        """[s] from each answered sample to its voltage, and forget them."""
+        both = self.samples.keys() & self.voltages.keys()
+        spans = [(self.voltages[stamp] - self.samples[stamp]) * 1e-9 for stamp in both]
+        self.samples.clear()
+        self.voltages.clear()
+        return np.array(spans)
+
+
+@dataclass
+class Turns:
+    """What was measured of one answering process, over all its turns."""
+
+    latencies: list[np.ndarray] = field(default_factory=list)  # [s]
+    cpu: list[float] = field(default_factory=list)  # share of a core
+    answered: list[float] = field(default_factory=list)  # share of the samples
+
+
+def spin(listener: Listener, seconds: float) -> None:
+    """Hear messages for so long."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        rclpy.spin_once(listener, timeout_sec=0.1)
+
+
+def turn(listener: Listener, process: Process, seconds: float, turns: Turns) -> None:
+    """Measure one process for so long, and end it."""
+    try:
+        patience = time.monotonic() + PATIENCE
+        while not listener.voltages:
+            if time.monotonic() > patience:
+                raise MotorError("no voltage comes: see what the processes say above.")
+            listener.refer()
+            spin(listener, 0.2)
+        spin(listener, SETTLING)
+        listener.latencies()
+        before, begun = process.cpu(), time.monotonic()
+        spin(listener, seconds)
+        turns.cpu.append((process.cpu() - before) / (time.monotonic() - begun))
+        samples = len(listener.samples)
+        turns.latencies.append(listener.latencies())
+        turns.answered.append(len(turns.latencies[-1]) / max(samples, 1))
+    finally:
+        process.end()
+        spin(listener, 0.5)
+        listener.latencies()
+
+
+def measure(rate: float, seconds: float, count: int) -> dict[str, Turns]:
+    """Controller and echo in turns, beside one sim."""
+    rclpy.init(domain_id=int(soak_process.DOMAIN))
+    found = {CONTROLLER: Turns(), ECHO: Turns()}
+    with tempfile.TemporaryDirectory() as folder:
+        model = f"{folder}/model.yaml"
+        save(model, MOTOR)
+        listener = Listener()
+        gains = (f"kp:={KP}", f"ki:={KP * PAPER_KV / PAPER_KA}", "sample_timeout:=1.0")
+        sim = program("motor_sim", "motor_sim", f"model:={model}", f"sample_rate:={rate}", "slot_irregularity:=0.01")
+        try:
+            for _ in range(count):
+                control = program(
+                    CONTROLLER, CONTROLLER, f"model:={model}", "speed_source:=observer", "feedforward:=true", *gains
+                )
+                turn(listener, control, seconds, found[CONTROLLER])
+                turn(listener, Process(sys.executable, BARE), seconds, found[ECHO])
+        finally:
+            sim.end()
+            listener.destroy_node()
+            rclpy.try_shutdown()
+    return found
+
+
+def report(found: dict[str, Turns], rate: float) -> list[str]:
+    """The page."""
+    lines = [
+        "# Loop",
+        "",
+        f"{machine()}; niceness {os.nice(0)}, load average {os.getloadavg()[0]:.1f}. {rate:g} Hz.",
+        "",
+    ]
+    lines += ["| | sample to voltage: median | p99 | of one core | answered |", "|---|---:|---:|---:|---:|"]
+    tails = {}
+    for name, turns in found.items():
+        spans = np.concatenate(turns.latencies)
+        tails[name] = np.median([np.percentile(one, 99) for one in turns.latencies])
+        lines.append(
+            f"| {name} | {1e3 * np.median(spans):.3f} ms | {1e3 * tails[name]:.3f} ms | {np.mean(turns.cpu):.1%} | "
+            f"{np.mean(turns.answered):.2%} |"
+        )
+    ratio = tails[CONTROLLER] / tails[ECHO]
+    verdict = "holds" if ratio <= PROMISED else "**does not hold**"
+    lines += [
+        "",
+        f"p99 is the median of {len(found[ECHO].cpu)} turns'. Beside the echo's: {ratio:.2f}; promised is at most",
+    ]
+    lines[-1] += f" {PROMISED}: {verdict}."
+    return [*lines, ""]
+
+
+def main() -> int:
+    """`python benchmarks/loop.py [--seconds S] [--turns N] [--rate HZ]`."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seconds", type=float, default=10.0, help="of each turn")
+    parser.add_argument("--turns", type=int, default=5)
+    parser.add_argument("--rate", type=float, default=1000.0, help="[Hz]")
+    options = parser.parse_args()
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    stay_on_this_machine()
+    lines = report(measure(options.rate, options.seconds, options.turns), options.rate)
+    RESULTS.mkdir(exist_ok=True)
+    (RESULTS / "loop.md").write_text("\n".join(lines), encoding="utf-8")
+    print("\n".join(lines))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,141 @@
+"""`tune`: the gains of the speed controller from a motor model."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from motor_control.encoder import MEASURED, OBSERVER, Encoder
+from motor_control.tuning import Tuning, Wish, tune
+from motor_model import model_file
+from motor_model.errors import MotorError
+from motor_model.parameters import Parameters
+
+
+def positive(text: str) -> float:
+    """A number above 0, as an argparse type."""
+    number = float(text)
+    if not 0.0 < number < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
+    return number
+
+
+def share(text: str) -> float:
+    """A number from 0 to below 1, as an argparse type."""
+    number = float(text)
+    if not 0.0 <= number < 1.0:
+        raise argparse.ArgumentTypeError(f"{text} is not a share from 0 to below 1")
+    return number
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        prog="tune",
+        description="Make the gains of the speed controller from a motor model, and say what they will do.",
+        epilog="To use the gains: ros2 run motor_control motor_control --ros-args --params-file gains.yaml",
+    )
+    parser.add_argument("model", metavar="MODEL", help="model file (YAML), as 'identify --output' writes it")
+    parser.add_argument("--output", type=Path, metavar="FILE", help="write the gains here (ROS 2 parameter file)")
+    parser.add_argument("--figure", type=Path, metavar="FILE", help="draw the predicted step here (PNG)")
+    parser.add_argument(
+        "--time-constant",
+        type=positive,
+        metavar="S",
+        help="of the closed loop [s] (default: the fastest that delay and encoder allow)",
+    )
+    parser.add_argument(
+        "--speed-source",
+        choices=(MEASURED, OBSERVER),
+        default=MEASURED,
+        help="where the controller takes the speed from (default measured: the period between edges)",
+    )
+    parser.add_argument(
+        "--lowest-speed",
+        type=positive,
+        default=10.0,
+        metavar="RAD_S",
+        help="the slowest reference of interest [rad/s] (default 10)",
+    )
+    parser.add_argument("--sample-rate", type=positive, default=200.0, metavar="HZ", help="of the plant (default 200)")
+    parser.add_argument(
+        "--edges-per-revolution", type=int, default=96, metavar="N", help="of one polarity (default 96)"
+    )
+    parser.add_argument(
+        "--slot-irregularity", type=share, default=0.01, metavar="SHARE", help="of a slot, 1 sigma (default 0.01)"
+    )
+    parser.add_argument(
+        "--edge-resolution", type=positive, default=4e-6, metavar="S", help="of the edges' timer [s] (default 4e-6)"
+    )
+    parser.add_argument(
+        "--oscillation",
+        type=positive,
+        default=0.02,
+        metavar="SHARE",
+        help="of the speed, peak to peak, that an irregular disc may cause (default 0.02)",
+    )
+    return parser
+
+
+def main(args: list[str] | None = None) -> int:
+    """`ros2 run motor_control tune`."""
+    options = parser().parse_args(args)
+    try:
+        return _tune(options)
+    except MotorError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+
+
+def _tune(options: argparse.Namespace) -> int:
+    from motor_control.gain_file import save_gains
+    from motor_control.tuning_table import as_table, cautions
+
+    parameters = model_file.load(options.model)
+    encoder = Encoder(options.edges_per_revolution, options.slot_irregularity, options.edge_resolution)
+    wish = Wish(
+        sample_period=1.0 / options.sample_rate,
+        lowest_speed=options.lowest_speed,
+        time_constant=options.time_constant,
+        oscillation=options.oscillation,
+        source=options.speed_source,
+    )
+    tuning = tune(parameters, encoder, wish)
+    print(as_table(tuning))
+    for caution in cautions(tuning, parameters):
+        print(f"\n{caution}")
+    if options.output:
+        save_gains(options.output, tuning, options.model)
+        print(f"gains: {options.output}")
+    if options.figure:
+        _draw(options, tuning, parameters)
+        print(f"figure: {options.figure}")
+    return 0
+
+
+def _draw(options: argparse.Namespace, tuning: Tuning, parameters: Parameters) -> None:
+    """Rehearse the large step with the controller as its node would be set up, and draw it."""
+    from motor_control.parameters import ROWS, config_of
+    from motor_control.rehearsal import rehearse
+    from motor_control.tuning_figure import draw_tuning
+    from motor_model.board import BoardConfig
+
+    board = BoardConfig(
+        name=parameters.name,
+        sample_rate=options.sample_rate,
+        edges_per_revolution=options.edges_per_revolution,
+        edge_resolution=options.edge_resolution,
+        slot_irregularity=options.slot_irregularity,
+    )
+    values = {row.name: row.default for row in ROWS} | {"kp": tuning.gains.kp, "ki": tuning.gains.ki}
+    observed = tuning.wish.source == OBSERVER
+    values |= {"speed_source": tuning.wish.source, "model": options.model if observed else "", "feedforward": observed}
+    step = tuning.large_step
+    config = config_of(values, board.info(parameters), parameters if observed else None)
+    rehearsal = rehearse(parameters, board, config, lambda _: step.reference, float(step.time[-1]))
+    draw_tuning(tuning, rehearsal, parameters.name, options.figure)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,79 @@
+"""Two beliefs where a single channel leaves the direction open: the likely one, and the same edges the other way.
+
+Near a reversal the model decides, and may be wrong by an edge. So wherever an edge has left doubt, the mirrored motion
+is followed too. The voltage drives one of them on and brakes the other, hence the next edge or two tell which is true
+(a bank of two filters, compared by the likelihood of the edges: Bar-Shalom, Li & Kirubarajan, "Estimation with
+Applications to Tracking and Navigation", 2001, section 11.6).
+"""
+
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_control.kalman.belief import Belief, Noise, mirrored
+from motor_control.kalman.edge import edge_passed
+from motor_control.kalman.motion import acting, carried
+from motor_control.kalman.silence import bounded, nothing_seen, turned_round
+from motor_model.compiled import compiled
+
+OPEN = 12.0  # log-likelihood by which the chosen direction has to lead, else the other one is followed as well
+HEAD_START = 3.0  # of it, at most, that the chosen one is given: a wrong model is too sure of itself
+OVERTAKEN = 25.0  # by which the other has to lead to be taken for the true one: a model's own errors make less
+SETTLED = 25.0  # after which the other one is dropped
+
+Floats = NDArray[np.float64]
+
+
+class Pair(NamedTuple):
+    """The likely belief, the other one, and by how much log-likelihood the first leads; infinite: there is no other."""
+
+    likely: Belief
+    other: Belief
+    lead: float
+
+
+@compiled
+def _settled(likely: Belief, other: Belief, lead: float, choice: float) -> Pair:
+    """The pair after an edge whose direction was chosen with this much more likelihood."""
+    if lead == inf:
+        if choice < OPEN:
+            return Pair(likely, mirrored(likely, likely.load), min(choice, HEAD_START))
+        return Pair(likely, other, inf)
+    if likely.motor.speed * other.motor.speed > 0.0:  # they agree by now
+        return Pair(likely if lead >= -OVERTAKEN else other, other, inf)
+    if lead < -OVERTAKEN:
+        likely, other, lead = other, likely, -lead
+    return Pair(likely, other, inf if lead > SETTLED else lead)
+
+
+@compiled
+def followed(
+    p: Floats, noise: Noise, pair: Pair, latched: Floats, start: float, stop: float, edge: bool, steps: float
+) -> Pair:
+    """The pair from start to stop [s], where an edge passes or not, `steps` after the one before."""
+    likely, other, lead, choice = pair.likely, pair.other, pair.lead, inf
+    for which in range(2):
+        if which == 1 and lead == inf:
+            break
+        b = carried(p, noise, likely if which == 0 else other, latched, start, stop)
+        if edge:
+            b, score, doubt = edge_passed(p, noise, b, acting(p, latched, stop), steps)
+            lead += score if which == 0 else -score
+            choice = doubt if which == 0 else choice
+            b = bounded(p, noise, b)
+        if which == 0:
+            likely = b
+        else:
+            other = b
+    return _settled(likely, other, lead, choice) if edge else Pair(likely, other, lead)
+
+
+@compiled
+def at_sample(p: Floats, noise: Noise, pair: Pair, u: float, dt: float, seen: bool) -> Pair:
+    """The pair at a sample dt [s] after the last one; seen: an edge has come since; u: effective voltage [V]."""
+    likely, other = pair.likely, pair.other
+    if not seen:
+        likely, other = nothing_seen(noise, likely, dt), nothing_seen(noise, other, dt)
+    return Pair(bounded(p, noise, turned_round(p, noise, likely, u, dt)), bounded(p, noise, other), pair.lead)

@@ -1,0 +1,57 @@
+"""What a running controller is set to: parameters, the plant's own account, the model in its file."""
+
+from collections.abc import Mapping
+
+from motor_control.law import Config
+from motor_control.parameters import config_of, model_of
+from motor_control.preparation import Preparation
+from motor_model.sample import Info
+
+Value = bool | int | float | str
+
+
+class Settings:
+    """The configuration in force; a change that does not work leaves it as it is."""
+
+    def __init__(self, values: Mapping[str, Value]) -> None:
+        """The parameters at the start; a model that they name is ready when this returns.
+
+        Raises:
+            MotorError: a value does not work, or there is no such model.
+        """
+        self._values = dict(values)
+        self._info: Info | None = None
+        self._motor = model_of(str(values["model"]))
+        self._preparation = Preparation()
+        if self._motor is not None:
+            self._preparation.now()
+        self._ready = self._preparation.done
+        self.config: Config = config_of(self._values, None, self._motor, self._ready)
+
+    def change(self, values: Mapping[str, Value]) -> None:
+        """Other values for some of the parameters; a model is read again whenever it is named.
+
+        Raises:
+            MotorError: one does not work, or there is no such model.
+        """
+        motor = model_of(str(values["model"])) if "model" in values else self._motor
+        if motor is not None:
+            self._preparation.begin()
+        everything, ready = {**self._values, **values}, self._preparation.done
+        self.config = config_of(everything, self._info, motor, ready)
+        self._values, self._motor, self._ready = everything, motor, ready
+
+    def meet(self, info: Info) -> None:
+        """What the plant says of itself.
+
+        Raises:
+            MotorError: it does not fit.
+        """
+        if info != self._info:
+            self.config = config_of(self._values, info, self._motor, self._ready)
+            self._info = info
+
+    def refresh(self) -> None:
+        """Take what has been got ready meanwhile into use."""
+        if self._preparation.done and not self._ready:
+            self.change({})
