@@ -6,14 +6,13 @@ from dataclasses import replace
 import numpy as np
 
 from motor_identification.climb import Step, Way
-from motor_identification.descent import descend
 from motor_identification.detectable import undetectable
 from motor_identification.diagnosis import Alternative, Diagnosis, Finding, Verdict
 from motor_identification.discrepancy import where
 from motor_identification.fit import Fit, SearchReport, judge
 from motor_identification.identifiability import telling_apart
 from motor_identification.recording import Recording
-from motor_identification.refine import Refined, learn
+from motor_identification.refine import refine
 from motor_identification.selection import AT_FLOOR, LASTING, Model
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -58,8 +57,7 @@ def concluded(
 
 def _as_fit(model: Model, search: SearchReport) -> Fit:
     """A model with standard errors and everything else that an identification says."""
-    refined = Refined(model.problem, learn(model.problem, model.place))
-    place, evaluations = descend(model.problem, refined, model.place)
+    refined, place, evaluations = refine(model.problem, model.place)
     return judge(refined, place, search, evaluations)
 
 

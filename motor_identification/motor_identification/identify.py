@@ -15,7 +15,7 @@ from motor_identification.missed import cleaned
 from motor_identification.periodic import add_periodic, without_periodic
 from motor_identification.problem import Problem, make_problem
 from motor_identification.recording import Floats, Recording
-from motor_identification.refine import Refined, learn
+from motor_identification.refine import refine
 from motor_identification.refusals import refuse_nonsense
 from motor_identification.search import Found, SearchConfig, search
 from motor_model.effects import normalised
@@ -73,7 +73,7 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     counted, place, more = cleaned(directed, place)
     evaluations += more
     tell("least squares", 0.9)
-    refined, place, more = _refined(counted, place)
+    refined, place, more = refine(counted, place)
     fit = judge(refined, place, report_of(found), evaluations + more)
     tell("done", 1.0)
     notes = (*fit.notes, *_left_out(directed, counted, refined.problem), *_unfinished(found))
@@ -96,19 +96,6 @@ def searched(whole: Problem, request: Request, progress: Callable[[float], None]
         evaluations += more
     place, more = descend(whole, Speeds(whole), place)
     return found, place, evaluations + more
-
-
-def _refined(problem: Problem, place: Floats) -> tuple[Refined, Floats, int]:
-    """Learn the encoder from the residuals, fit white residuals, and again, without outliers."""
-    evaluations = 0
-    for last in (False, False, True):
-        refined = Refined(problem, learn(problem, place))
-        place, more = descend(problem, refined, place)
-        evaluations += more
-        far = refined.outliers(place)
-        if not last and any(marks.any() for marks in far):
-            problem = problem.without(far)
-    return refined, place, evaluations
 
 
 def _left_out(whole: Problem, counted: Problem, kept: Problem) -> list[str]:

@@ -10,6 +10,7 @@ from math import nan, sqrt
 
 import numpy as np
 
+from motor_identification.descent import descend
 from motor_identification.evidence import likely_noise
 from motor_identification.intervals import Intervals
 from motor_identification.noise import AngleNoise, Whitening, adjoint, likely_growth, make_whitening, whiten
@@ -133,3 +134,19 @@ class Refined:
         for row, column in zip(white[1:], columns[1:], strict=True):
             row[:] = self.white(column)
         return white.T
+
+
+def refine(problem: Problem, place: Floats) -> tuple[Refined, Floats, int]:
+    """Learn the encoder from what a fit (D,) leaves, fit white residuals, and again, without outliers.
+
+    Returns what was learnt, the place, and the number of simulations.
+    """
+    evaluations = 0
+    for last in (False, False, True):
+        refined = Refined(problem, learn(problem, place))
+        place, more = descend(problem, refined, place)
+        evaluations += more
+        far = refined.outliers(place)
+        if not last and any(marks.any() for marks in far):
+            problem = problem.without(far)
+    return refined, place, evaluations

@@ -31,11 +31,11 @@ def start_ros(args: list[str] | None = None) -> None:
 
 
 class Interrupt:
-    """Becomes true at the first SIGINT or SIGTERM."""
+    """Becomes true at the first SIGINT, SIGTERM or SIGHUP (a terminal that is closed)."""
 
     def __init__(self) -> None:
         self.received = False
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, self._on_signal)
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:

@@ -76,7 +76,9 @@ def test_two_controlled_motors_in_one_bag_do_not_meet(bench: Bench, start: Start
     def recorded() -> int:
         return contents(tmp_path / "bag").message_count if (tmp_path / "bag").is_dir() else 0
 
-    bench.heard(*references.values())
+    bench.wait(  # a controller and the recorder
+        lambda: all(publisher.get_subscription_count() == 2 for publisher in references.values()), "the recorder"
+    )
     bench.wait(lambda: recorded() > 0 and all(heard.values()), "samples of both in the bag")
     for left, right in ((60.0, 25.0), (20.0, 50.0)):
         references["left"].publish(Float64(data=left))

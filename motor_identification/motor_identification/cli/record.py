@@ -20,6 +20,7 @@ TOPICS = (
     "motor/control_state",
     "motor/model",
     "joint_states",
+    "/diagnostics",
 )
 
 
