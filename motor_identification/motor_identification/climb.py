@@ -134,7 +134,10 @@ def _taken(way: Way, steps: Sequence[Step]) -> Way:
 
 
 def _all_tried(way: Way, tell: Telling) -> list[Trial]:
-    """Every effect that the model lacks; those that repeat with the angle only where others leave a gap."""
+    """Every effect that the model lacks, where a finding could be made at all.
+
+    Those that repeat with the angle only where others leave a gap; slots learnt without them hide it.
+    """
     number, current = len(way.steps) + 1, way.model
     left = lacking(current.effects)
     count = 0
@@ -145,11 +148,13 @@ def _all_tried(way: Way, tell: Telling) -> list[Trial]:
         share = 0.1 + 0.8 * (1.0 - 0.5 ** (number - 1)) + 0.8 * 0.5**number * count / len(left)
         tell(f"step {number}: {trial.effect}", share, trial.effect, min(trial.model.held.gap, current.held.gap))
 
-    trials = tried(current, way.kept, [effect for effect in left if not _periodic(effect)], way.workers, heard)
+    plain = [] if current.quiet else [effect for effect in left if not _periodic(effect)]
+    trials = tried(current, way.kept, plain, way.workers, heard)
     best = accepted(trials)
     if best is None or best.model.held.gap > AT_FLOOR * best.model.floor:
         periodic = [effect for effect in left if _periodic(effect)]
-        trials += tried(current, way.kept, periodic, way.workers, heard, max(trials[0].evidence, 0.0))
+        least = max((trial.evidence for trial in trials), default=0.0)
+        trials += tried(current, way.kept, periodic, way.workers, heard, max(least, 0.0))
     return sorted(trials, key=lambda trial: -trial.evidence)
 
 

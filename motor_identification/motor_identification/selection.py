@@ -21,7 +21,7 @@ RELEVANT, MOSTLY = (
     0.5,
 )  # share of the excess over the noise floor that a finding has to explain, above and at it,
 SEEN = 0.03  # and share of the gap, which has to be
-ABOVE = 1.15  # times the floor,
+ABOVE, QUIET = 1.15, 1.05  # times the floor (less than the other: there is nothing to find),
 LASTING = 0.1  # [s] all in intervals of this length: of a coarse encoder, shorter ones show little but its steps
 STANDS_IN = 0.95  # of the excess: what explains less and leaves the gap above the floor may stand in for another effect
 AT_FLOOR = 1.3  # times the noise floor: explained
@@ -46,6 +46,12 @@ class Model:
     def floor(self) -> float:
         """[rad/s] the gap that timer and slots alone leave."""
         return self.held.floor(self.noise.share)
+
+    @cached_property
+    def quiet(self) -> bool:
+        """Whether it leaves nothing that lasts, so that no further effect could be relevant."""
+        lasting = self.held.joined(LASTING)
+        return lasting.gap < QUIET * lasting.floor(self.noise.share)
 
 
 @dataclass(frozen=True)
