@@ -147,8 +147,11 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--motors", type=int, default=5, help="for each row (default 5)")
     parser.add_argument("--nothing", type=int, default=50, help="motors in which nothing is hidden (default 50)")
+    parser.add_argument("--only", metavar="A+B", help="one row alone, such as dead_zone; not written")
     options = parser.parse_args()
     plan = rows(options.motors, options.nothing)
+    if options.only:
+        plan = [row for row in plan if "+".join(row[1]) == options.only]
     lines = [
         "# Diagnosis: what was hidden, and what was named",
         "",
@@ -194,7 +197,8 @@ def main() -> int:
     if errors:
         lines.append(f"- parameters of what was named: median relative error {np.median(errors):.1e}")
     print("\n".join(lines[-len(groups) - 1 :]))
-    RESULTS.parent.mkdir(exist_ok=True)
+    if options.only:
+        return 0
     RESULTS.write_text("\n".join(lines) + "\n", encoding="utf-8")
     return 0
 

@@ -16,13 +16,13 @@ from motor_model.effects import EFFECT_BY_NAME
 FALSE_ALARMS = 0.01  # chance that a complete model is given an effect that it does not have
 MARGIN = 5.0  # of log likelihood by which a finding has to beat another effect, else both are named
 TIE = 0.5  # of log likelihood within which the more common effect is taken, the one that is earlier in the table
-RELEVANT, MOSTLY = (
-    0.3,
-    0.5,
-)  # share of the excess over the noise floor that a finding has to explain, above and at it,
-SEEN = 0.03  # and share of the gap, which has to be
-ABOVE, QUIET = 1.15, 1.05  # times the floor (less than the other: there is nothing to find),
-LASTING = 0.1  # [s] all in intervals of this length: of a coarse encoder, shorter ones show little but its steps
+RELEVANT = 0.3  # share of the excess over the noise floor that a finding has to explain,
+MOSTLY = 0.5  # the same where the gap is at the floor already (see AT_FLOOR),
+SEEN = 0.03  # and share of the gap that has to go; and the gap before has to be
+ABOVE = 1.15  # times the floor,
+LASTING = 0.1  # [s] all that in intervals of this length: of a coarse encoder, shorter ones show little but its steps
+LEAST = 1e-3  # share of the gap itself that has to go in any case
+QUIET = 1.05  # times the floor in lasting intervals, less than ABOVE: from there on nothing can be found
 STANDS_IN = 0.95  # of the excess: what explains less and leaves the gap above the floor may stand in for another effect
 AT_FLOOR = 1.3  # times the noise floor: explained
 
@@ -81,7 +81,8 @@ class Trial:
             return False
         explains = explained(before.gap, after.gap, floor)
         near = self.before.held.gap <= AT_FLOOR * self.model.floor
-        return explains > (MOSTLY if near else RELEVANT) and 1.0 - after.gap / before.gap > SEEN
+        seen = after.gap < (1.0 - SEEN) * before.gap and self.model.held.gap < (1.0 - LEAST) * self.before.held.gap
+        return seen and explains > (MOSTLY if near else RELEVANT)
 
 
 def explained(before: float, after: float, floor: float) -> float:
