@@ -17,7 +17,7 @@ from motor_model.effects import EFFECT_BY_NAME
 ROUNDS = 2  # the second time, the motor that bridges the gaps of the measured angle has the effect already
 ITERATIONS = 25  # of a descent
 RIPPLES = 2  # lines of the spectrum that are tried
-SIZES, PHASES, TURNS = (1.0, 1.3, 1.6), 12, 3  # of a ripple on which a motor without friction swings
+SIZES, PHASES, TURNS = (1.0, 1.3, 1.6), 12, 3  # of a ripple that is followed on the simulated angle
 
 Tracks = tuple[Track, ...]
 Start = tuple[Tracks, Mapping[str, Floats]]  # measured angles, and an effect's values in every recording
@@ -53,9 +53,9 @@ def added(bare: Problem, place: Floats, effect: str, least: float = 0.0) -> tupl
         starts = _STARTS[effect](bare, place, full.tracks, least)
         if not starts:
             return None
-        if effect == "torque_ripple" and "ks" not in bare.unknowns.names and not choices:
-            swinging, there, more = _swinging(bare, place, starts[0][1])
-            choices.append((swinging, there))
+        if effect == "torque_ripple" and not choices:
+            adrift, there, more = _adrift(bare, place, starts[0][1])
+            choices.append((adrift, there))
             evaluations += more
         least = 0.0
         for tracks, values in starts:
@@ -77,10 +77,11 @@ def added(bare: Problem, place: Floats, effect: str, least: float = 0.0) -> tupl
     return best, end, evaluations
 
 
-def _swinging(bare: Problem, place: Floats, values: Mapping[str, Floats]) -> tuple[Problem, Floats, int]:
-    """A motor without friction swings on its ripple at every standstill, which only its own simulation can follow.
+def _adrift(bare: Problem, place: Floats, values: Mapping[str, Floats]) -> tuple[Problem, Floats, int]:
+    """A ripple on the simulated angle: what the shaft does where no edge comes, only a simulation of it can follow.
 
-    So its phase is searched there, and its size anew, whichever way the shaft turned; then directions and fit in turns.
+    Such as the swings of a motor without friction at every standstill, or the blocks that are kept out of a fit. Its
+    phase is searched there, and its size anew, whichever way the shaft turned; then directions and fit in turns.
     """
     free = bare.with_effects((*bare.unknowns.effects, "torque_ripple"))
     grid = [
