@@ -24,18 +24,14 @@ from motor_identification.selection import (
     threshold,
     tried,
 )
+from motor_identification.stopping import Stopped
 from motor_model.effects import EFFECT_BY_NAME
-from motor_model.errors import MotorError
 
 MOST = 6  # findings
 NEAR = 3.0  # times the floor: where most intervals may only be spoilt by a few
 FIRST_OF_TWO = 3  # effects that are tried together with any other where none alone is a finding
 OTHER_WAYS = 2  # to begin
 NEARLY = 0.75  # of the evidence of the first finding: another way to begin
-
-
-class Stopped(MotorError):
-    """The diagnosis was told to stop."""
 
 
 @dataclass(frozen=True)

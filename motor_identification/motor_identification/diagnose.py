@@ -10,7 +10,7 @@ from dataclasses import replace
 from time import perf_counter
 
 from motor_identification.backward import needed, without_stand_ins
-from motor_identification.climb import Stage, Stopped, Telling, Way, by_another_way, climbed, settled
+from motor_identification.climb import Stage, Telling, Way, by_another_way, climbed, settled
 from motor_identification.conclusion import concluded
 from motor_identification.diagnosis import Diagnosis
 from motor_identification.fit import SearchReport
@@ -20,6 +20,7 @@ from motor_identification.periodic import add_periodic, without_periodic
 from motor_identification.problem import make_problem
 from motor_identification.recording import Recording
 from motor_identification.refusals import refuse_nonsense
+from motor_identification.stopping import Stopped
 from motor_model.effects import normalised
 from motor_model.errors import RecordingError
 
@@ -47,7 +48,9 @@ def diagnose(
     refuse_nonsense(recordings, known)
     tell = Telling(progress or (lambda stage: None), stopped or (lambda: False))
     tell("first fit", 0.0, "", float("nan"))
-    start, report = _first(recordings, normalised(known), keep_out(recordings, validation), workers)
+    kept = keep_out(recordings, validation)
+    kept = replace(kept, problem=replace(kept.problem, stopped=tell.stopped))
+    start, report = _first(recordings, normalised(known), kept, workers)
     way = by_another_way(climbed(start, tell), tell)
     tell("checking", 0.9, "", way.model.held.gap)
     way = needed(without_stand_ins(way), tell)
@@ -59,7 +62,7 @@ def _first(
     recordings: Sequence[Recording], known: tuple[str, ...], kept: Kept, workers: int
 ) -> tuple[Way, SearchReport]:
     """The model to begin with, searched globally."""
-    whole = make_problem(recordings, without_periodic(known), workers)
+    whole = replace(make_problem(recordings, without_periodic(known), workers), stopped=kept.problem.stopped)
     if kept.same:
         whole = whole.sparing(spared)
     found, place, _evaluations = searched(whole, Request(known, workers=workers), lambda share: None)

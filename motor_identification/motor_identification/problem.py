@@ -11,6 +11,7 @@ from motor_identification.intervals import Intervals, intervals_of, joined, with
 from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.refusals import refuse_nonsense
 from motor_identification.residual import fill_residuals
+from motor_identification.stopping import Stopped
 from motor_identification.track import Track, make_track
 from motor_identification.unknowns import Unknowns, unknowns_of
 from motor_model.compiled import compiled
@@ -60,6 +61,7 @@ class Problem:
     coarseness: float = 1.0  # of the simulation, see `motor.py`
     tracks: tuple[Track, ...] = ()  # the measured angle of every recording, for what is periodic in it
     spared: Callable[[Intervals], Bools] | None = None  # marks intervals of a recording that no fit may see
+    stopped: Callable[[], bool] | None = None  # asked before every simulation
 
     @cached_property
     def commands(self) -> tuple[tuple[Floats, Floats], ...]:
@@ -135,6 +137,7 @@ class Problem:
 
     def evaluate_vectors(self, vectors: Floats, starts: Floats) -> Floats:
         """The same for parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
+        self.go_on()
         vectors[:, :, INDEX["coarseness"]] = self.coarseness
         residuals = np.empty((len(vectors), len(self.weight)))
         steps = len(vectors) * sum(
@@ -163,6 +166,15 @@ class Problem:
             with ThreadPoolExecutor(len(parts)) as pool:
                 list(pool.map(work, parts))
         return residuals
+
+    def go_on(self) -> None:
+        """Nothing, unless the computation was told to stop.
+
+        Raises:
+            Stopped: so it was.
+        """
+        if self.stopped is not None and self.stopped():
+            raise Stopped("the diagnosis was stopped.")
 
     def costs(self, places: Floats) -> Floats:
         """The swarm's cost: places (S, D) → time-weighted mean squares (S,) [rad²/s²]."""

@@ -7,7 +7,7 @@ few turns are searched first, their powers added, and then the whole recording a
 wrong initial speed leaves (the model came to it without the ripple) is projected out before.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import tau
 
@@ -66,12 +66,13 @@ def ripples(problem: Problem, place: Floats, tracks: Sequence[Track], least: flo
     turns = max(np.ptp(np.concatenate([run.start, run.end])) for run in runs) / tau
     width = 1.0 / (FINENESS * min(BLOCK, max(turns, 1.0)))
     rough = np.arange(spec.low, spec.high, width)
-    spectra = [_spectrum(run, rough, rate, inertia) for run in runs]
+    spectra = [_spectrum(run, rough, rate, inertia, problem.go_on) for run in runs]
     spectrum = np.sum([powers for powers, _blocks in spectra], axis=0)
     if spectrum.max() - 2.0 * sum(blocks for _powers, blocks in spectra) < least:
         return []
     found = []
     for peak in _peaks(spectrum, CANDIDATES):
+        problem.go_on()
         fine = rough[peak] + np.arange(-width, width, 1.0 / (FINENESS * max(turns, 1.0)))
         lines = [_line(runs, tracks, cycles, rate, inertia, problem) for cycles in fine]
         found.append(max(lines, key=lambda line: line.explained))
@@ -80,7 +81,7 @@ def ripples(problem: Problem, place: Floats, tracks: Sequence[Track], least: flo
     return sorted(likely, key=lambda line: -line.explained)
 
 
-def _spectrum(run: _Run, cycles: Floats, rate: float, inertia: float) -> tuple[Floats, int]:
+def _spectrum(run: _Run, cycles: Floats, rate: float, inertia: float, go_on: Callable[[], None]) -> tuple[Floats, int]:
     """How much a ripple of each number of cycles explains, each block of a few turns on its own; and how many blocks.
 
     The products with the residual are exact; those of the responses among themselves change slowly with the cycles, and
@@ -94,6 +95,7 @@ def _spectrum(run: _Run, cycles: Floats, rate: float, inertia: float) -> tuple[F
     sizes = 0.5 * (shapes[:, :, 0] + shapes[:, :, 2])  # sine and cosine are as good as independent in every block
     powers = np.empty(len(cycles))
     for i, number in enumerate(cycles):
+        go_on()
         sine, cosine = _bare_response(run, number, rate, inertia)
         at = min((number - knots[0]) / (knots[1] - knots[0]), len(knots) - 1.0001)
         size = sizes[int(at)] + (at - int(at)) * (sizes[int(at) + 1] - sizes[int(at)])
