@@ -14,7 +14,7 @@ from motor_identification.climb import Stage, Telling, Way, by_another_way, clim
 from motor_identification.conclusion import concluded
 from motor_identification.diagnosis import Diagnosis
 from motor_identification.fit import SearchReport
-from motor_identification.held_out import Kept, keep_out, spared
+from motor_identification.held_out import HeldOut, Kept, keep_out, spared
 from motor_identification.identify import Request, report_of, searched
 from motor_identification.periodic import add_periodic, without_periodic
 from motor_identification.problem import make_problem
@@ -55,7 +55,13 @@ def diagnose(
     tell("checking", 0.9, "", way.model.held.gap)
     way = needed(without_stand_ins(way), tell)
     diagnosis = concluded(start.model, way, recordings, validation, report)
-    return replace(diagnosis, duration=perf_counter() - begun)
+    before, after = _finished(diagnosis.before), _finished(diagnosis.after)
+    return replace(diagnosis, before=before, after=after, duration=perf_counter() - begun)
+
+
+def _finished(held: HeldOut) -> HeldOut:
+    """For others, in other processes too: there is nothing left to stop."""
+    return replace(held, problem=replace(held.problem, stopped=None))
 
 
 def _first(
