@@ -4,7 +4,18 @@ from dataclasses import replace
 
 from motor_identification.climb import Step, Telling, Way
 from motor_identification.descent import Speeds, descend
-from motor_identification.selection import MARGIN, STANDS_IN, Model, Trial, judged, lacking, size, threshold, tried
+from motor_identification.selection import (
+    MARGIN,
+    STANDS_IN,
+    Model,
+    Trial,
+    as_in_the_table,
+    judged,
+    lacking,
+    size,
+    threshold,
+    tried,
+)
 from motor_identification.unknowns import carried
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -54,9 +65,8 @@ def _checked(way: Way, step: Step, tell: Telling) -> Way:
         if trial.model.likelihood > current.likelihood - grace:
             return _replaced(way, step, replace(step, found=trial, rivals=()), trial.model)
     alike = [trial.effect for trial in trials if trial.model.likelihood > current.likelihood - MARGIN]
-    return _replaced(
-        way, step, replace(step, rivals=tuple(name for name in alike if size(name) <= size(effect))), current
-    )
+    rivals = as_in_the_table(name for name in alike if size(name) <= size(effect))
+    return _replaced(way, step, replace(step, rivals=rivals), current)
 
 
 def _without(way: Way, effect: str) -> Model:

@@ -1,6 +1,6 @@
 """One step of a diagnosis: every effect that a model lacks is tried, and judged on data that no fit has seen."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
@@ -178,8 +178,11 @@ def _visible(trial: Trial) -> bool:
 def rivals(found: Trial, trials: Sequence[Trial]) -> tuple[str, ...]:
     """Effects that explain as much as a finding does, and with no more parameters."""
     least = max(found.evidence - MARGIN, threshold())
-    return tuple(
-        trial.effect
-        for trial in trials
-        if trial.effect != found.effect and trial.evidence > least and size(trial.effect) <= size(found.effect)
-    )
+    alike = [trial.effect for trial in trials if trial.effect != found.effect and trial.evidence > least]
+    return as_in_the_table(name for name in alike if size(name) <= size(found.effect))
+
+
+def as_in_the_table(names: Iterable[str]) -> tuple[str, ...]:
+    """Effects in the table's order: it does not depend on the last digit of a likelihood."""
+    given = set(names)
+    return tuple(name for name in EFFECT_BY_NAME if name in given)
