@@ -124,7 +124,7 @@ def draw_steps(axes: Axes, found: Diagnosis, runs: list[Recording]) -> None:
         for fit, colour in ((found.baseline, BEFORE), (found.model, AFTER)):
             axes.plot(grid, np.degrees(simulated(fit, run, at, grid)), color=colour, lw=1.4)
         axes.annotate(f"{duty:+.0f} %", (0.405, np.degrees(simulated(found.model, run, at, grid)[-1])), fontsize=8)
-    axes.set(title="EV3: dead band, asymmetry, delay", xlabel="time [s]", ylabel="angle [deg]", xlim=(0.0, 0.46))
+    axes.set(title="EV3: dead band and asymmetry", xlabel="time [s]", ylabel="angle [deg]", xlim=(0.0, 0.46))
 
 
 def main() -> int:
