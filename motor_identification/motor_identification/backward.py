@@ -28,7 +28,7 @@ def without_stand_ins(way: Way) -> Way:
     That is every finding that leaves a visible part of what it should explain, and what was found after it; a line in
     the spectrum over the angle is its own evidence.
     """
-    if way.arrived:
+    if way.model.at_floor:
         return way
     for i, step in enumerate(way.steps):
         if step.explains < STANDS_IN and not EFFECT_BY_NAME[step.found.effect].periodic:

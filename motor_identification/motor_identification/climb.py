@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from math import sqrt
 
 from motor_identification.descent import Speeds, descend, typical
@@ -12,7 +11,6 @@ from motor_identification.missed import cleaned, find_miscounted, without_tails
 from motor_identification.problem import Problem
 from motor_identification.recording import Floats
 from motor_identification.selection import (
-    AT_FLOOR,
     STANDS_IN,
     Model,
     Trial,
@@ -64,11 +62,6 @@ class Way:
     kept: Kept
     workers: int
 
-    @cached_property
-    def arrived(self) -> bool:
-        """Whether nothing is left to explain."""
-        return self.model.held.gap <= AT_FLOOR * self.model.floor
-
 
 @dataclass
 class Telling:
@@ -103,7 +96,7 @@ def settled(problem: Problem, place: Floats, kept: Kept) -> tuple[Model, Kept]:
     if most is not None and typical(problem, most[0])[1] * sqrt(len(problem.weight)) < NEAR * model.floor:
         clean, there, _evaluations = cleaned(problem, most[0])
         rest = judged(kept, clean, there)
-        if rest.held.gap <= AT_FLOOR * rest.floor:
+        if rest.at_floor:
             return rest, kept.redirected(clean, there)
     return model, kept
 
@@ -118,7 +111,7 @@ def climbed(way: Way, tell: Telling) -> Way:
         if best is not None:
             way = _taken(way, [Step(way.model, best, tuple(trials), rivals(best, trials), best.explains)])
             continue
-        pair = [] if way.steps or way.arrived else _pair(way, trials, tell)
+        pair = [] if way.steps or way.model.at_floor else _pair(way, trials, tell)
         if not pair:
             return way
         way = _taken(way, pair)
@@ -147,7 +140,7 @@ def _all_tried(way: Way, tell: Telling) -> list[Trial]:
     plain = [] if current.quiet else [effect for effect in left if not _periodic(effect)]
     trials = tried(current, way.kept, plain, way.workers, heard)
     best = accepted(trials)
-    if best is None or best.model.held.gap > AT_FLOOR * best.model.floor:
+    if best is None or best.model.above_floor:
         periodic = [effect for effect in left if _periodic(effect)]
         least = max((trial.evidence for trial in trials), default=0.0)
         trials += tried(current, way.kept, periodic, way.workers, heard, max(least, 0.0))
@@ -163,18 +156,17 @@ def _pair(way: Way, trials: Sequence[Trial], tell: Telling) -> list[Step]:
     current, found = way.model, []
     likely = [trial for trial in trials if trial.evidence > threshold() and not _periodic(trial.effect)]
     for i, first in enumerate(likely[:FIRST_OF_TWO]):
-        share = 0.1 + 0.8 * (1.0 - 0.5 ** len(way.steps)) + 0.8 * 0.5 ** (len(way.steps) + 1)
         left = [effect for effect in lacking(first.model.effects) if not _periodic(effect)]
 
-        def heard(trial: Trial, first: Trial = first, share: float = share) -> None:
-            tell(f"{first.effect} with {trial.effect}", share, trial.effect, trial.model.held.gap)
+        def heard(trial: Trial, first: Trial = first) -> None:
+            tell(f"{first.effect} with {trial.effect}", 0.5, trial.effect, trial.model.held.gap)
 
         seconds = tried(first.model, way.kept, left, way.workers, heard)
         second = accepted(seconds)
         if second is None:
             continue
         together = explained(current.held.gap, second.model.held.gap, second.model.floor)
-        if together > STANDS_IN or second.model.held.gap <= AT_FLOOR * second.model.floor:
+        if together > STANDS_IN or second.model.at_floor:
             steps = [
                 Step(current, first, tuple(trials), (), together),
                 Step(first.model, second, tuple(seconds), rivals(second, seconds), together),
@@ -189,7 +181,7 @@ def by_another_way(way: Way, tell: Telling) -> Way:
     While others are missing too, one effect can do as well as another, and the wrong one blocks the way; not one that
     explains nearly everything.
     """
-    if not way.steps or way.arrived or way.steps[0].explains > STANDS_IN:
+    if not way.steps or way.model.at_floor or way.steps[0].explains > STANDS_IN:
         return way
     first = way.steps[0]
     likely = max(NEARLY * first.found.evidence, threshold())

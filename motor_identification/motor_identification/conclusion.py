@@ -101,7 +101,7 @@ def _missed(model: Model) -> Finding | None:
         slots = np.round(np.abs(increments) / data.slot) * np.sign(increments * data.speed)
         short += float(np.sum(slots[counted & (slots > 0.0)]))
         total += float(np.sum(np.abs(data.edge[counted, 1] - data.edge[counted, 0])))
-    if short < MISSED or held.miscounted < MISSED or held.gap > AT_FLOOR * model.floor:
+    if short < MISSED or held.miscounted < MISSED or model.above_floor:
         return None
     rate = short / (total + short)
     everything = replace(held, scored=tuple(np.ones_like(part) for part in held.scored))
@@ -121,7 +121,7 @@ def _missed(model: Model) -> Finding | None:
 def _verdict(findings: Sequence[Finding], last: Model, hidden: tuple[str, ...]) -> tuple[Verdict, str]:
     """How it ended, and the profile to record next."""
     unclear = next((finding.suggested_experiment for finding in findings if finding.ambiguous_with), "")
-    if last.held.gap > AT_FLOOR * last.floor:
+    if last.above_floor:
         return Verdict.UNEXPLAINED, unclear or ("rich" if hidden else "")
     if unclear:
         return Verdict.UNDECIDED, unclear

@@ -50,8 +50,22 @@ class Model:
     @cached_property
     def quiet(self) -> bool:
         """Whether it leaves nothing that lasts, so that no further effect could be relevant."""
-        lasting = self.held.joined(LASTING)
-        return lasting.gap < QUIET * lasting.floor(self.noise.share)
+        return self.lasting.gap < QUIET * self.lasting.floor(self.noise.share)
+
+    @cached_property
+    def lasting(self) -> HeldOut:
+        """What it leaves in lasting intervals."""
+        return self.held.joined(LASTING)
+
+    @property
+    def at_floor(self) -> bool:
+        """Whether nothing is left to explain."""
+        return self.held.gap <= AT_FLOOR * self.floor
+
+    @property
+    def above_floor(self) -> bool:
+        """Whether something is; neither where there is nothing to judge by, and the gap no number."""
+        return self.held.gap > AT_FLOOR * self.floor
 
 
 @dataclass(frozen=True)
@@ -75,7 +89,7 @@ class Trial:
     @cached_property
     def relevant(self) -> bool:
         """Whether it takes away a good part of what lasts longer than the encoder's noise."""
-        before, after = self.before.held.joined(LASTING), self.model.held.joined(LASTING)
+        before, after = self.before.lasting, self.model.lasting
         floor = after.floor(self.model.noise.share)
         if before.gap < ABOVE * floor:
             return False

@@ -7,16 +7,8 @@ from pathlib import Path
 from motor_control.encoder import MEASURED, OBSERVER, Encoder
 from motor_control.tuning import Tuning, Wish, tune
 from motor_model import model_file
-from motor_model.errors import MotorError
 from motor_model.parameters import Parameters
-
-
-def positive(text: str) -> float:
-    """A number above 0, as an argparse type."""
-    number = float(text)
-    if not 0.0 < number < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
-    return number
+from motor_ros.command import positive, shell
 
 
 def share(text: str) -> float:
@@ -79,13 +71,7 @@ def parser() -> argparse.ArgumentParser:
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_control tune`."""
     options = parser().parse_args(args)
-    try:
-        return _tune(options)
-    except MotorError as error:
-        print(error, file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        return 130
+    return shell(lambda: _tune(options))
 
 
 def _tune(options: argparse.Namespace) -> int:

@@ -2,7 +2,7 @@
 
 import argparse
 
-from motor_identification.cli._shell import positive
+from motor_ros.command import positive
 
 _NAMES = (
     "voltage", "speed", "topic_namespace", "model", "sample_rate", "edges_per_revolution", "edge_resolution",

@@ -4,8 +4,8 @@ import argparse
 import os
 import sys
 
-from motor_identification.cli._shell import shell
 from motor_model.effects import EFFECTS
+from motor_ros.command import shell
 
 
 def parser() -> argparse.ArgumentParser:

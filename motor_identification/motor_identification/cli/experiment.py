@@ -6,9 +6,9 @@ import time
 from typing import TYPE_CHECKING
 
 from motor_identification.cli._plant_options import add_plant_options
-from motor_identification.cli._shell import shell
 from motor_model.excitation import PROFILES, profile
 from motor_model.parameters import paper_motor
+from motor_ros.command import shell
 
 if TYPE_CHECKING:
     from motor_identification.experiment import Plan

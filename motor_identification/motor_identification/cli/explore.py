@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from motor_identification.cli._plant_options import add_plant_options, passed_on
-from motor_identification.cli._shell import shell
 from motor_identification.cli.diagnose import named
 from motor_model.excitation import PROFILES
+from motor_ros.command import shell
 
 if TYPE_CHECKING:
     from motor_identification.cli._diagnosed import Files

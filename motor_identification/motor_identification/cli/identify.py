@@ -8,9 +8,9 @@ from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._shell import shell
 from motor_model.effects import EFFECTS
 from motor_model.errors import MotorError
+from motor_ros.command import shell
 
 if TYPE_CHECKING:
     from motor_identification.fit import Fit

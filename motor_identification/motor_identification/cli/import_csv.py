@@ -5,8 +5,8 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._shell import positive, shell
 from motor_identification.csv_import.form import UNITS, CsvForm, Kind
+from motor_ros.command import positive, shell
 
 if TYPE_CHECKING:
     from motor_identification.bag import BagWriter

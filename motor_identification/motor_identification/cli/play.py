@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._shell import in_place, not_negative, positive, shell
+from motor_ros.command import in_place, not_negative, positive, shell
 
 if TYPE_CHECKING:
     from motor_identification.bag import Contents

@@ -5,7 +5,7 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._shell import in_place, positive, shell
+from motor_ros.command import in_place, positive, shell
 
 if TYPE_CHECKING:
     from motor_identification.bag import BagWriter
