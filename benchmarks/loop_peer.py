@@ -1,12 +1,16 @@
-"""What ROS alone costs a controller: a bare node that answers each sample with the controller's two messages."""
+"""What ROS alone costs a controller: a bare node that answers each sample with the controller's two messages.
+
+With `--quick` on the executor that the controller has, else on the one that rclpy gives everybody.
+"""
 
 import sys
 
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 from motor_msgs.msg import ControlState, MotorSpeed, MotorVoltage
 from motor_ros import qos
-from motor_ros.run import run
+from motor_ros.run import quick_executor, run
 
 
 class Echo(Node):
@@ -24,4 +28,4 @@ class Echo(Node):
 
 
 if __name__ == "__main__":
-    sys.exit(run(Echo, sys.argv))
+    sys.exit(run(Echo, sys.argv, quick_executor if "--quick" in sys.argv else SingleThreadedExecutor))

@@ -20,7 +20,7 @@ from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import info_of, sample_of, voltage_message
 from motor_ros.parameters import declare
-from motor_ros.run import run
+from motor_ros.run import quick_executor, run
 
 WATCH_EVERY = 0.02  # [s]
 FAREWELL = Duration(seconds=0.3)  # what the last 0 V may take to arrive
@@ -116,4 +116,4 @@ class MotorControl(Node):
 
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_control motor_control`."""
-    return run(MotorControl, args)
+    return run(MotorControl, args, quick_executor)

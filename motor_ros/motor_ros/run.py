@@ -8,7 +8,7 @@ from pathlib import Path
 from types import FrameType
 
 import rclpy
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
@@ -45,9 +45,23 @@ class Interrupt:
         return self.received
 
 
-def spin(node: Node, until: Callable[[], bool]) -> None:
+def quick_executor() -> Executor:
+    """One that is told what has come instead of asking each entity every time: at 1 kHz, half the processor.
+
+    For nodes with topics, services and timers that are spun once: it knows neither guard conditions nor coroutines, and
+    a node that it has let go is not served again.
+    """
+    try:
+        from rclpy.experimental import EventsExecutor
+    except ImportError:  # before rclpy 7.1.4
+        return SingleThreadedExecutor()
+    executor: Executor = EventsExecutor()
+    return executor
+
+
+def spin(node: Node, until: Callable[[], bool], executor: Executor | None = None) -> None:
     """Run the node's callbacks until the condition holds or ROS is shut down from outside."""
-    executor = SingleThreadedExecutor()
+    executor = executor or SingleThreadedExecutor()
     executor.add_node(node)
     try:
         while rclpy.ok() and not until():
@@ -58,7 +72,11 @@ def spin(node: Node, until: Callable[[], bool]) -> None:
         executor.shutdown(timeout_sec=0.5)
 
 
-def run(create: Callable[[], Node], args: list[str] | None = None) -> int:
+def run(
+    create: Callable[[], Node],
+    args: list[str] | None = None,
+    executor: Callable[[], Executor] = SingleThreadedExecutor,
+) -> int:
     """Create a node, run it until Ctrl-C, let it `close()`, and return the exit status.
 
     A node that has a `close` method is asked to leave the motor at 0 V while it can still publish.
@@ -68,7 +86,7 @@ def run(create: Callable[[], Node], args: list[str] | None = None) -> int:
     node: Node | None = None
     try:
         node = create()
-        spin(node, lambda: bool(interrupt))
+        spin(node, lambda: bool(interrupt), executor())
     except MotorError as error:
         print(error, file=sys.stderr)
         return 1

@@ -11,7 +11,7 @@ from motor_ros.gate import Gate
 from motor_ros.messages import time_message
 from motor_ros.parameters import Row, declare
 from motor_ros.plant import SHARED_PARAMETERS, Plant, max_voltage_row
-from motor_ros.run import run
+from motor_ros.run import quick_executor, run
 
 PARAMETERS = (
     Row("model", "", "model file (YAML) to simulate; empty: the paper's motor", read_only=True),
@@ -72,4 +72,4 @@ class MotorSim(Node):
 
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_sim motor_sim`."""
-    return run(MotorSim, args)
+    return run(MotorSim, args, quick_executor)
