@@ -1,138 +1,27 @@
-"""Does the diagnosis name what was hidden? A confusion table over random motors, run by the tests' independent plant.
-
-Every row hides something in motors of random gain, time constant, disc (0 to 1 % irregular) and size of the effect; the
-training recording is the plant's `rich`, the validation another start, other random voltages and another load-step
-time. "Exact" is the right names and no other; what is outside the table counts if the verdict is "unexplained" and no
-name is wrong.
-"""
+"""Does the diagnosis name what was hidden? A confusion table over the random motors of `hidden.py`."""
 
 import argparse
-import os
 import sys
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
-from time import perf_counter
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
-
+import hidden
 import numpy as np
+from hidden import BESIDE, OUTSIDE, PAIRS, SIZES, Outcome, right
 from machine import machine
-from plant import profiles, record
-
-from motor_identification.diagnose import diagnose
-from motor_identification.recording import check
-from motor_model.effects import normalised
-from motor_model.parameters import PAPER_KA, PAPER_KV
 
 RESULTS = Path(__file__).with_name("results") / "diagnosis.md"
-# Sizes that are drawn from, in the units of the table.
-SIZES: dict[str, dict[str, tuple[float, float]]] = {
-    "coulomb_friction": {"ks": (0.1, 0.8)},
-    "static_friction": {"ks": (0.2, 0.5), "breakaway_voltage": (0.7, 1.2), "stribeck_speed": (2.0, 8.0)},
-    "quadratic_drag": {"drag": (2e-5, 1e-4)},
-    "load_bias": {"bias_voltage": (0.1, 0.6)},
-    "load_step": {"step_voltage": (0.2, 0.6), "step_time": (8.0, 25.0)},
-    "dead_zone": {"dead_zone_voltage": (0.2, 0.8)},
-    "voltage_limit": {"limit_voltage": (8.0, 11.0)},
-    "direction_asymmetry": {"reverse_gain": (0.88, 0.96)},
-    "coast_drive": {"coast_share": (0.2, 0.8)},
-    "supply_sag": {"sag": (0.04, 0.2)},
-    "armature_inductance": {"electrical_time_constant": (0.001, 0.006)},
-    "transport_delay": {"delay": (0.002, 0.015)},
-    "torque_ripple": {"ripple_voltage": (0.15, 0.4), "ripple_cycles": (3.0, 12.0), "ripple_phase": (-3.0, 3.0)},
-    "encoder_eccentricity": {"eccentricity": (0.01, 0.05), "eccentricity_phase": (-3.0, 3.0)},
-    "backlash": {"backlash_angle": (0.1, 0.5), "load_fraction": (0.3, 0.7)},
-    "warm_up": {"resistance_rise": (0.1, 0.3), "warm_up_time": (6.0, 20.0)},
-    "missed_edges": {"miss_rate": (0.001, 0.01)},
-}
-OUTSIDE: dict[str, dict[str, tuple[float, float]]] = {
-    "angle_friction": {"ks": (0.3, 0.5), "angle_friction": (0.4, 0.8)},
-    "load_friction": {"load_friction": (0.08, 0.15)},
-    "presliding": {"ks": (0.3, 0.6), "presliding_angle": (0.2, 0.5)},
-    "compliance": {
-        "compliance_fraction": (0.3, 0.5),
-        "compliance_stiffness": (1.0, 2.0),
-        "compliance_damping": (0.005, 0.02),
-    },
-    "supply_ripple": {"supply_ripple": (0.04, 0.08), "supply_ripple_frequency": (1.0, 4.0)},
-    "slew_rate": {"slew_rate": (100.0, 250.0)},
-}
-FRICTION = "coulomb_friction"
-PAIRS = [
-    *((FRICTION, other) for other in (
-        "transport_delay", "quadratic_drag", "torque_ripple", "voltage_limit", "load_bias", "direction_asymmetry",
-        "supply_sag", "dead_zone",
-    )),
-    ("dead_zone", "armature_inductance"),
-    ("transport_delay", "quadratic_drag"),
-]  # fmt: skip
-BESIDE = [("transport_delay", "compliance"), ("load_bias", "slew_rate"), ("dead_zone", "supply_ripple")]
+PROMISED = {"nothing": 0.98, "single": 0.97, "pair": 0.9, "outside the table": 0.9}
+HEAD = (
+    "| hidden | right | else named (verdict) | gap after / floor | median error | within 5 % or 3 σ | time |",
+    "|---|---:|---|---:|---:|---:|---:|",
+)
+Row = tuple[str, tuple[str, ...], int]  # group, what is hidden, how many motors
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """One diagnosis of a hidden truth."""
-
-    verdict: str
-    named: tuple[str, ...]
-    errors: tuple[float, ...]  # relative, of named parameters
-    trusted: tuple[bool, ...]  # within 5 % or 3 standard errors
-    gap: float  # after, times the noise floor
-    seconds: float
-
-
-def one(hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None) -> Outcome:
-    """Hide it in a random motor and diagnose; `sizes` are given, all others drawn."""
-    random = np.random.default_rng([seed, len(hidden), *map(ord, "".join(hidden))])
-    values = {"kv": PAPER_KV * random.uniform(0.7, 1.4), "ka": PAPER_KA * random.uniform(0.6, 1.5)}
-    for name in hidden:
-        for parameter, bounds in (SIZES | OUTSIDE)[name].items():
-            values[parameter] = float(random.uniform(*bounds))
-    values |= sizes or {}
-    share, disc = float(random.uniform(0.0, 0.01)), int(random.integers(1000))
-    later = values | ({"step_time": float(random.uniform(3.0, 8.0))} if "step_time" in values else {})
-    drives = profiles.rich(12.0, seed), profiles.random(12.0, 14.0, seed + 500)
-    how = {"irregularity": share, "disc_seed": disc}
-    first, second = (
-        check(record(v, *drive, seed=s, **how)[0])  # type: ignore[arg-type]
-        for v, drive, s in zip((values, later), drives, (seed, seed + 77), strict=True)
-    )
-    begun = perf_counter()
-    found = diagnose([first], [second])
-    seconds = perf_counter() - begun
-    errors, trusted = [], []
-    for finding in found.findings:
-        for parameter, (value, sigma) in finding.parameters.items():
-            if parameter in values and not parameter.endswith(("_phase", "step_time")):
-                errors.append(value / values[parameter] - 1.0)
-                trusted.append(abs(errors[-1]) < 0.05 or abs(value - values[parameter]) < 3.0 * sigma)
-    return Outcome(
-        found.verdict.value,
-        tuple(finding.effect for finding in found.findings),
-        tuple(errors),
-        tuple(trusted),
-        found.gap_after / found.noise_floor if found.noise_floor > 0.0 else float("nan"),
-        seconds,
-    )
-
-
-def right(hidden: tuple[str, ...], outcome: Outcome) -> bool:
-    """Whether an outcome is what the truth deserves."""
-    table = {name for name in hidden if name in SIZES}
-    outside = [name for name in hidden if name in OUTSIDE]
-    expected = set(normalised(tuple(table)))
-    if not outside:
-        return set(outcome.named) == expected and outcome.verdict in ("explained", "nothing_missing")
-    if any("ks" in OUTSIDE[name] for name in outside):
-        expected |= {FRICTION}
-    return outcome.verdict == "unexplained" and set(outcome.named) <= expected
-
-
-def rows(many: int, nothing: int) -> list[tuple[str, tuple[str, ...], int]]:
-    """Group, what is hidden, how many motors."""
+def rows(many: int, nothing: int) -> list[Row]:
+    """The whole table's plan."""
     return [
         ("nothing", (), nothing),
         *(("single", (name,), many) for name in SIZES),
@@ -142,9 +31,63 @@ def rows(many: int, nothing: int) -> list[tuple[str, tuple[str, ...], int]]:
     ]
 
 
+def errors(outcomes: list[Outcome], good: list[bool]) -> list[float]:
+    """Of the parameters of what was named right, relative."""
+    return [abs(e) for outcome, ok in zip(outcomes, good, strict=True) if ok for e in outcome.errors]
+
+
+def line(what: tuple[str, ...], outcomes: list[Outcome], good: list[bool]) -> str:
+    """A row of the table."""
+    both = list(zip(outcomes, good, strict=True))
+    wrong = Counter(f"{' + '.join(outcome.named) or '–'} ({outcome.verdict})" for outcome, ok in both if not ok)
+    sizes, trusted = errors(outcomes, good), [t for outcome, ok in both if ok for t in outcome.trusted]
+    cells = [
+        " + ".join(what) or "nothing",
+        f"{sum(good)} of {len(good)}",
+        "; ".join(f"{n} × {name}" for name, n in wrong.items()),
+        f"{np.median([outcome.gap for outcome in outcomes]):.2f}",
+        *((f"{np.median(sizes):.1e}", f"{np.mean(trusted):.0%}") if sizes else ("–", "–")),
+        f"{np.median([outcome.seconds for outcome in outcomes]):.1f} s",
+    ]
+    return "| " + " | ".join(cells) + " |"
+
+
+def claims(groups: dict[str, list[bool]], sizes: list[float]) -> list[str]:
+    """What the groups show, beside what is promised of them."""
+    lines = []
+    for group, good in groups.items():
+        share = np.mean(good)
+        promise = PROMISED.get(group)
+        holds = "" if promise is None else f" (promised at least {promise:.0%}: {_holds(bool(share >= promise))})"
+        lines.append(f"- {group}: {sum(good)} of {len(good)}, {share:.1%}{holds}")
+    if sizes:
+        lines.append(f"- parameters of what was named: median relative error {np.median(sizes):.1e}")
+    return lines
+
+
+def _holds(does: bool) -> str:
+    return "holds" if does else "does not hold"
+
+
+def table(plan: list[Row], lines: list[str]) -> list[str]:
+    """Run the plan, print and append a line for each row; the claims."""
+    groups: dict[str, list[bool]] = {}
+    sizes: list[float] = []
+    with ProcessPoolExecutor(2) as pool:
+        jobs = [(group, what, [pool.submit(hidden.one, what, seed) for seed in range(n)]) for group, what, n in plan]
+        for group, what, futures in jobs:
+            outcomes = [future.result() for future in futures]
+            good = [right(what, outcome) for outcome in outcomes]
+            groups.setdefault(group, []).extend(good)
+            sizes += errors(outcomes, good)
+            lines.append(line(what, outcomes, good))
+            print(lines[-1], flush=True)
+    return claims(groups, sizes)
+
+
 def main() -> int:
     """Print and write the table."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--motors", type=int, default=5, help="for each row (default 5)")
     parser.add_argument("--nothing", type=int, default=50, help="motors in which nothing is hidden (default 50)")
     parser.add_argument("--only", metavar="A+B", help="one row alone, such as dead_zone; not written")
@@ -152,54 +95,14 @@ def main() -> int:
     plan = rows(options.motors, options.nothing)
     if options.only:
         plan = [row for row in plan if "+".join(row[1]) == options.only]
-    lines = [
-        "# Diagnosis: what was hidden, and what was named",
-        "",
-        f"{machine()}; two diagnoses at a time, one core each; {options.motors} motors a row.",
-        "",
-        "| hidden | right | else named (verdict) | gap after / floor | median error | within 5 % or 3 σ | time |",
-        "|---|---:|---|---:|---:|---:|---:|",
-    ]
+    many = f"{options.motors} motors a row"
+    lines = ["# Diagnosis: what was hidden, and what was named", ""]
+    lines += [f"{machine()}; two diagnoses at a time, one core each; {many}.", "", *HEAD]
     print("\n".join(lines), flush=True)
-    groups: dict[str, list[bool]] = {}
-    errors: list[float] = []
-    with ProcessPoolExecutor(2) as pool:
-        jobs = [(group, hidden, [pool.submit(one, hidden, seed) for seed in range(n)]) for group, hidden, n in plan]
-        for group, hidden, futures in jobs:
-            outcomes = [future.result() for future in futures]
-            good = [right(hidden, outcome) for outcome in outcomes]
-            groups.setdefault(group, []).extend(good)
-            fine = [outcome for outcome, ok in zip(outcomes, good, strict=True) if ok]
-            wrong = Counter(
-                f"{' + '.join(outcome.named) or '–'} ({outcome.verdict})"
-                for outcome, ok in zip(outcomes, good, strict=True)
-                if not ok
-            )
-            sizes = [abs(error) for outcome in fine for error in outcome.errors]
-            errors += sizes
-            trusted = [ok for outcome in fine for ok in outcome.trusted]
-            lines.append(
-                f"| {' + '.join(hidden) or 'nothing'} | {sum(good)} of {len(good)} | "
-                + "; ".join(f"{n} × {what}" for what, n in wrong.items())
-                + f" | {np.median([outcome.gap for outcome in outcomes]):.2f} | "
-                + (f"{np.median(sizes):.1e} | {np.mean(trusted):.0%}" if sizes else "– | –")
-                + f" | {np.median([outcome.seconds for outcome in outcomes]):.1f} s |"
-            )
-            print(lines[-1], flush=True)
-    lines.append("")
-    promised = {"nothing": 0.98, "single": 0.97, "pair": 0.9, "outside the table": 0.9}
-    for group, good in groups.items():
-        share = np.mean(good)
-        word = "" if group not in promised else (
-            f" (promised at least {promised[group]:.0%}: {'holds' if share >= promised[group] else 'does not hold'})"
-        )  # fmt: skip
-        lines.append(f"- {group}: {sum(good)} of {len(good)}, {share:.1%}{word}")
-    if errors:
-        lines.append(f"- parameters of what was named: median relative error {np.median(errors):.1e}")
-    print("\n".join(lines[-len(groups) - 1 :]))
-    if options.only:
-        return 0
-    RESULTS.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    told = table(plan, lines)
+    print("\n".join(told))
+    if not options.only:
+        RESULTS.write_text("\n".join([*lines, "", *told]) + "\n", encoding="utf-8")
     return 0
 
 

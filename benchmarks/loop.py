@@ -155,7 +155,11 @@ def report(found: dict[str, Turns], rate: float) -> list[str]:
             f"| {name} | {1e3 * np.median(spans):.3f} ms | {1e3 * tails[name]:.3f} ms | {np.mean(turns.cpu):.1%} | "
             f"{np.mean(turns.answered):.2%} |"
         )
-    lines += ["", f"p99 is the median of {len(found[ECHO].cpu)} turns'. Promised is at most {PROMISED} times an echo's:", ""]
+    lines += [
+        "",
+        f"p99 is the median of {len(found[ECHO].cpu)} turns'. Promised is at most {PROMISED} times an echo's:",
+        "",
+    ]
     for name in (ECHO, QUICK_ECHO):
         ratio = tails[CONTROLLER] / tails[name]
         lines.append(f"- {name}: {ratio:.2f} times, {'holds' if ratio <= PROMISED else '**does not hold**'}")

@@ -21,6 +21,7 @@ sys.path[:0] = [str(TESTS), str(TESTS / "identification")]
 
 import numpy as np
 from machine import machine
+from paper_case_figure import draw
 from pi_runs import (
     EFFECTS,
     HIDDEN,
@@ -147,45 +148,6 @@ def loops(good: list[tuple[int, Motors]], irregularity: float, lines: list[str])
     return told
 
 
-def draw(motors: Motors, seed: int) -> None:
-    """Measured and simulated, before and after: a reference that can be predicted, and one that cannot."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot as plt
-
-    rows = [("starts 10, 20, 40, 15", 1000.0, (5.1, 6.7)), ("hunting 2 to 30", 1000.0, (9.0, 11.2))]
-    figure, axes = plt.subplots(len(rows), 2, figsize=(11, 6), width_ratios=(2, 1))
-    for (whole, part), (name, rate, window) in zip(axes, rows, strict=True):
-        run = hidden_run(REFERENCES[name], seed, rate, 2)
-        place = standing(run.recording, motors.found, motors.disc)
-        time = run.recording.time
-        motions = {
-            "hidden motor": (run.truth.speed, "black", 2.5),
-            "simulated loop, the paper's model": (simulated(run, motors.base, place), "tab:orange", 1.0),
-            "simulated loop, friction added": (simulated(run, motors.found, place), "tab:blue", 1.0),
-        }
-        for axis in (whole, part):
-            for label, (speed, colour, width) in motions.items():
-                axis.plot(time, speed, color=colour, lw=width, label=label)
-            axis.grid(alpha=0.3)
-            axis.set_xlabel("time [s]")
-        whole.set_title(f"{name} rad/s, {rate:g} Hz", fontsize=10)
-        whole.set_ylabel("shaft speed [rad/s]")
-        part.set_xlim(*window)
-        inside = (time >= window[0]) & (time <= window[1])
-        part.set_ylim(-0.5, 1.1 * max(float(speed[inside].max()) for speed, _, _ in motions.values()))
-    axes[0, 0].legend(fontsize=8)
-    figure.tight_layout()
-    figure.savefig(RESULTS / "paper_case.png", dpi=110)
-
-
-def simulated(run: Run, values: dict[str, float], place: tuple[Disc, float]) -> np.ndarray:
-    """[rad/s] at the samples of the loop closed over a motor of these values."""
-    motion = move(values, run.recording.time, loop_simulated(run, values, *place))
-    return motion.speed[motion.at]
-
-
 LOOPS = [
     "",
     "| rate | reference [rad/s] | stood | true motor | base, recorded voltages | found, recorded voltages | base, loop "
@@ -218,7 +180,8 @@ def main() -> int:
         f"{name}: {sum(ratio < 1.3 for ratio in values)} of {len(values)}" for name, values in told.items()
     )]  # fmt: skip
     print(lines[-1])
-    draw(good[0][1], good[0][0])
+    seed, motors = good[0]
+    draw(motors.base, motors.found, motors.disc, seed)
     (RESULTS / "paper_case.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
     return 0
 

@@ -1,7 +1,7 @@
 """How small may an effect be and still be found? The smallest size that the diagnosis names in 9 motors of 10.
 
 Random motors with a friction, a delay or whatever of a given size hidden in the tests' independent plant, on discs of 0
-to 1 % irregular slots, `rich` training and a random validation recording, as in `diagnosis.py`. Sizes are halved from
+to 1 % irregular slots, `rich` training and a random validation recording, as in `hidden.py`. Sizes are halved from
 the smallest of that table on; the first that is found less often ends the search. What else is named does not count
 against it here; the table of `diagnosis.py` does that.
 """
@@ -11,7 +11,7 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from diagnosis import FRICTION, SIZES, one
+from hidden import FRICTION, SIZES, one
 from machine import machine
 
 from motor_model.effects import SPEC_BY_NAME

@@ -1,6 +1,6 @@
 """Does a diagnosed model, simulated by the independent plant, reproduce the gap that was reported for it?
 
-Random motors of `diagnosis.py`. The model that the diagnosis returns is given to the tests' plant, which shares no
+Random motors of `hidden.py`. The model that the diagnosis returns is given to the tests' plant, which shares no
 formula with the library, under the validation recording's voltages, from rest; what it leaves of the recorded edges is
 scored by the definition of the gap alone (`tests/plant/score.py`). Beside it: the gap of the true motor, the noise
 floor reported, and the one of the disc that was really there.
@@ -15,7 +15,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matric
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
 
 import numpy as np
-from diagnosis import SIZES
+from hidden import SIZES
 from machine import machine
 from plant import profiles, record
 from plant.motor import move

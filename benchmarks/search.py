@@ -8,7 +8,7 @@ the same threads; each gets all places of a generation at once where it takes th
 import argparse
 import os
 import sys
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
@@ -16,8 +16,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matric
 import numpy as np
 import peers
 from machine import machine
-from numpy.typing import NDArray
 from peers import Meter, Peer
+from search_figure import Floats, Run, Table, draw
 
 from motor_identification.descent import Speeds, descend
 from motor_identification.experiment import make_plan, simulate_plan
@@ -40,7 +40,6 @@ OURS, SINGLE, MULTI = "ours", "TRF, one start", "TRF, multi-start"
 SWARMS = {"pymoo PSO": peers.pymoo_pso, "pyswarms global best": peers.pyswarms_pso}
 LIBRARIES = {"CMA-ES (cma)": peers.cma_es, "SciPy differential evolution": peers.scipy_de, **SWARMS}
 TRF = {SINGLE: peers.single_trf, MULTI: peers.multi_start_trf}
-COLORS = ("#c2410c", "#1d4ed8", "#15803d", "#7c3aed", "#0891b2", "#737373")
 RESULTS = Path(__file__).with_name("results")
 STARTS, PEER_STARTS = 100, 20  # a run of a library takes as long as forty of ours
 HEAD = (
@@ -56,22 +55,6 @@ COLUMNS = (
     "| search | reached 1 % | simulations until then: median | 90th percentile | time: median | all it took, median |",
     "|---|---:|---:|---:|---:|---:|",
 )
-Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Run:
-    """One search."""
-
-    reached: bool  # the goal
-    evaluations: int  # until then, else all
-    seconds: float
-    total: int  # evaluations until it stopped
-    duration: float  # [s]
-    improved: list[tuple[int, float]]  # evaluations, best cost
-
-
-Table = dict[str, list[Run]]  # search → its runs
 
 
 def made(values: dict[str, float]) -> tuple[Landscape, float]:
@@ -177,37 +160,6 @@ def claims(table: Table) -> list[str]:
     return [f"- {'holds' if holds else 'DOES NOT HOLD'}: {text}" for holds, text in rows]
 
 
-def draw(tables: dict[str, tuple[Table, float]]) -> None:
-    """Cost over evaluations, medians with the middle 80 %."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    from matplotlib import pyplot as plt
-
-    figure, axes = plt.subplots(
-        1, len(tables), figsize=(6.5 * len(tables), 5), sharey=True, squeeze=False, constrained_layout=True
-    )
-    grid = np.geomspace(10, BUDGET, 200)
-    for axis, (motor, (table, least)) in zip(axes[0], tables.items(), strict=True):
-        for (name, runs), color in zip([item for item in table.items() if item[0] != SINGLE], COLORS, strict=True):
-            excess = np.array([_over(run, grid) for run in runs]) / least - 1.0
-            low, middle, high = (np.maximum(np.quantile(excess, q, axis=0), 1e-4) for q in (0.1, 0.5, 0.9))
-            axis.loglog(grid, middle, color=color, lw=2 if name == OURS else 1.3, label=name)
-            axis.fill_between(grid, low, high, color=color, alpha=0.12, lw=0)
-        axis.axhline(GOAL - 1.0, color="black", lw=0.8, ls="--")
-        axis.set(title=motor, xlabel="simulations of one motor", ylim=(1e-4, None), xlim=(grid[0], grid[-1]))
-        axis.grid(alpha=0.25)
-    axes[0, 0].set_ylabel("cost / least cost − 1 (dashed: the goal, 1 %)")
-    axes[0, -1].legend(fontsize=8, loc="lower left")
-    figure.savefig(RESULTS / "search.png", dpi=120)
-
-
-def _over(run: Run, grid: Floats) -> Floats:
-    """Best cost after so many evaluations."""
-    count, best = np.array(run.improved).T
-    return np.asarray(best[np.maximum(np.searchsorted(count, grid, side="right") - 1, 0)])
-
-
 def main() -> int:
     """Print and write the table and the claims, draw the figure."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -227,7 +179,7 @@ def main() -> int:
     if not quick:
         RESULTS.mkdir(exist_ok=True)
         (RESULTS / "search.md").write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
-        draw(tables)
+        draw(tables, OURS, SINGLE, GOAL, BUDGET, RESULTS / "search.png")
     return 0
 
 

@@ -15,12 +15,13 @@ import pytest
 from diagnosed import diagnosis
 
 from motor_identification.diagnosis import Alternative, Diagnosis, Verdict
+from motor_identification.diagnosis_json import as_json
 from motor_identification.discrepancy import where
 from motor_identification.report import write_report
 from motor_identification.report.onward import commands
 from motor_identification.report.page import rendered
 from motor_identification.report.tables import ladder, lost, parameter_rows
-from motor_identification.words import as_json, as_table, digits, named, quantity, summary, unseen
+from motor_identification.words import as_table, digits, named, quantity, summary, unseen
 from motor_model.effects import EFFECTS
 from motor_model.errors import MotorError
 

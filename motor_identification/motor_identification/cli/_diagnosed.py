@@ -136,7 +136,7 @@ def write_model(diagnosis: "Diagnosis", path: Path) -> None:
 
 def write_json(diagnosis: "Diagnosis", path: Path) -> None:
     """Everything that was found, in the form that the interfaces promise."""
-    from motor_identification.words import as_json
+    from motor_identification.diagnosis_json import as_json
 
     try:
         path.write_text(json.dumps(as_json(diagnosis), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
