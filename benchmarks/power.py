@@ -39,6 +39,14 @@ SIZE = {
     "warm_up": ("resistance_rise", 0.0),
     "missed_edges": ("miss_rate", 0.0),
 }
+HEAD = (
+    "# Diagnosis: the smallest effects that are found",
+    "",
+    f"{machine()}. Found in at least {NEEDED} of {MOTORS} random motors with a 28 s recording; sizes by halves.",
+    "",
+    "| effect | smallest size | |",
+    "|---|---|---|",
+)
 BESIDE = {"torque_ripple": (FRICTION,)}  # without friction a motor swings on its ripple
 
 
@@ -79,34 +87,32 @@ def smallest(effect: str, pool: ProcessPoolExecutor) -> int | None:
 def row(effect: str, halvings: int | None) -> str:
     """A line of the table."""
     name, none = SIZE[effect]
-    unit = SPEC_BY_NAME[name].unit
+    unit = SPEC_BY_NAME[name].unit.strip("–")
     least = sized(effect, halvings or 0)[name]
-    what = f"{name} {abs(least - none):.2g} {unit}" + (f" off {none:g}" if none else "")
+    what = f"{name} {abs(least - none):.2g} {unit}".rstrip() + (f" off {none:g}" if none else "")
     if halvings is None:
         return f"| {effect} | not found in {NEEDED} of {MOTORS} | at {what} |"
     return f"| {effect} | {what} | {'or less' if halvings == HALVINGS else ''} |"
 
 
+def kept() -> dict[str, str]:
+    """The rows that the page has already, by effect."""
+    page = RESULTS.read_text(encoding="utf-8") if RESULTS.exists() else ""
+    return {line.split(" | ")[0].removeprefix("| "): line for line in page.splitlines() if line.startswith("| ")}
+
+
 def main() -> int:
-    """Print and write the table."""
+    """Print the rows as they come, and put them on the page beside those that are not run now."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--effects", nargs="+", choices=list(SIZE), default=list(SIZE), metavar="EFFECT")
     options = parser.parse_args()
-    lines = [
-        "# Diagnosis: the smallest effects that are found",
-        "",
-        f"{machine()}. Found in at least {NEEDED} of {MOTORS} random motors with a 28 s recording; sizes by halves.",
-        "",
-        "| effect | smallest size | |",
-        "|---|---|---|",
-    ]
-    print("\n".join(lines), flush=True)
+    rows = kept()
     with ProcessPoolExecutor(2) as pool:
         for effect in options.effects:
-            lines.append(row(effect, smallest(effect, pool)))
-            print(lines[-1], flush=True)
-    if options.effects == list(SIZE):
-        RESULTS.write_text("\n".join(lines) + "\n", encoding="utf-8")
+            rows[effect] = row(effect, smallest(effect, pool))
+            print(rows[effect], flush=True)
+            table = [rows[name] for name in SIZE if name in rows]
+            RESULTS.write_text("\n".join([*HEAD, *table]) + "\n", encoding="utf-8")
     return 0
 
 
