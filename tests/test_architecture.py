@@ -112,3 +112,11 @@ def test_linted() -> None:
 
 def test_pure_modules_are_typed() -> None:
     run("mypy")
+
+
+def test_what_compares_times_is_run() -> None:
+    last = re.search(r"-m on_time tests/\{([\w,]+)\}", (ROOT / "test.sh").read_text(encoding="utf-8"))
+    assert last is not None
+    marked = re.compile(r"^@pytest\.mark\.on_time$", re.MULTILINE)
+    files = [path for path in (ROOT / "tests").rglob("*.py") if marked.search(path.read_text(encoding="utf-8"))]
+    assert {path.parent.name for path in files} == set(last[1].split(","))

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from bringup.test_parameter_files import reference
 from domains import free_domain
+from patience import PATIENCE
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = sorted(
@@ -67,7 +68,7 @@ def test_every_command_works_as_written(page: str, tmp_path: Path) -> None:
     finally:
         for node in nodes:
             node.send_signal(signal.SIGINT)
-        ended = [node.wait(20.0) for node in nodes]
+        ended = [node.wait(PATIENCE) for node in nodes]
     assert not any(ended)
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from domains import free_domain
+from patience import PATIENCE
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -50,7 +51,7 @@ def assert_the_ladder(printed: str) -> None:
         assert [float(n) for n in theirs.groups()] == pytest.approx([float(n) for n in ours.groups()], rel=0.03)
 
 
-@pytest.mark.timeout(240)
+@pytest.mark.long
 def test_every_command_works_as_written(tmp_path: Path) -> None:
     environment = {**os.environ, "ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     write_log(tmp_path / "log.csv")
@@ -75,7 +76,7 @@ def test_every_command_works_as_written(tmp_path: Path) -> None:
         for node in nodes:
             node.send_signal(signal.SIGINT)
         for node in nodes:
-            assert node.wait(20.0) == 0
+            assert node.wait(PATIENCE) == 0
     assert (tmp_path / "model.yaml").exists() and (tmp_path / "report" / "fit.png").stat().st_size > 20_000
     assert 100_000 < (tmp_path / "diagnosis" / "report.html").stat().st_size < 3_000_000
 

@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import signal
 import sys
 from collections.abc import Callable
 from shutil import get_terminal_size
@@ -11,6 +12,8 @@ from motor_model.errors import MotorError
 
 def shell(work: Callable[[], int]) -> int:
     """Run a command's work and return its exit status: 1 with the sentence of a MotorError, 130 after Ctrl-C."""
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # so a script's `command &` starts; `kill -INT` is meant
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         status = work()
         sys.stdout.flush()

@@ -31,12 +31,16 @@ def start_ros(args: list[str] | None = None) -> None:
 
 
 class Interrupt:
-    """Becomes true at the first SIGINT, SIGTERM or SIGHUP (a terminal that is closed)."""
+    """Becomes true at the first SIGINT, SIGTERM or SIGHUP (a terminal that is closed, unless `nohup` stands before us).
+
+    As in rclpy and rosbag2, SIGINT is heard where a script's `&` has us start with it ignored: `kill -INT` is meant.
+    """
 
     def __init__(self) -> None:
         self.received = False
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number, self._on_signal)
+            if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, self._on_signal)
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         self.received = True

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TypeVar
 
 import pytest
+from patience import PATIENCE
 
 from motor_board.build import FirmwareConfig, chip_library, firmware
 from motor_board.emulator import Emulator
@@ -24,7 +25,6 @@ from motor_model.parameters import Parameters, paper_motor
 F = TypeVar("F", bound=Frame)
 MS = 16_000  # [cycle]
 TICK = 8  # [cycle]
-PATIENCE = 10.0  # [s] for what is expected; a test that passes never waits so long
 
 
 @cache

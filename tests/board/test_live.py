@@ -53,6 +53,7 @@ def test_telemetry_without_a_gap(connect: Connect, period: int) -> None:
     assert client.decode.counters.bad == client.decode.counters.lost == 0
 
 
+@pytest.mark.on_time
 def test_the_motor_turns_when_told_to_and_stops_when_the_driver_dies(connect: Connect, live: LiveBoard) -> None:
     client = connect()
     switch_on(client, 400)

@@ -12,6 +12,7 @@ import pytest
 import yaml
 from bringup.test_sessions import FILES
 from domains import free_domain
+from patience import PATIENCE
 
 from motor_identification.bag import messages, read_recording
 
@@ -84,7 +85,7 @@ def test_ctrl_c_ends_everything_and_the_bag_is_whole(tmp_path: Path) -> None:
         written = messages(tmp_path / "bag", {"/motor/speed"}) if list(tmp_path.glob("bag/*.mcap")) else ()
         samples = sum(1 for _ in written)
     process.send_signal(signal.SIGINT)
-    out, _ = process.communicate(timeout=20.0)
+    out, _ = process.communicate(timeout=PATIENCE)
     assert process.returncode == 0 and out.count("process has finished cleanly") == 3, out
     assert sum(1 for _ in messages(tmp_path / "bag", {"/motor/speed"})) >= samples
     assert (tmp_path / "bag" / "metadata.yaml").is_file()

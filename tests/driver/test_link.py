@@ -11,12 +11,11 @@ from types import SimpleNamespace
 
 import pytest
 import serial
+from patience import PATIENCE
 
 from motor_board.port import Port
 from motor_driver import link
 from motor_driver.link import Closed, Event, Link, Opened, PortError, Received, chosen, open_port
-
-PATIENCE = 10.0  # [s]
 
 
 class Listener:

@@ -16,26 +16,13 @@ from pathlib import Path
 
 import pytest
 import yaml
+from friction import KS
+from patience import PATIENCE
 
 from motor_identification.cli.diagnose import main as diagnose
-from motor_identification.cli.experiment import main as experiment
 from motor_identification.cli.explore import main as explore
 from motor_model.errors import MotorError
-from motor_model.model_file import load, save
-from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
-
-KS = 0.5
-
-
-@pytest.fixture(scope="module")
-def bags(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A directory with `true.yaml`, a motor with friction, and its recordings `staircase` and `coast`."""
-    directory = tmp_path_factory.mktemp("bags")
-    save(directory / "true.yaml", Parameters({"kv": PAPER_KV, "ka": PAPER_KA, "ks": KS}, ("coulomb_friction",)))
-    for profile in ("staircase", "coast"):
-        offline = ["--model", str(directory / "true.yaml"), "--voltage", "10", "--output", str(directory / profile)]
-        assert experiment([profile, *offline]) == 0
-    return directory
+from motor_model.model_file import load
 
 
 def test_names_the_effect_and_writes_what_was_asked_for(
@@ -180,7 +167,7 @@ def test_shows_progress_on_a_terminal_and_ends_at_ctrl_c(bags: Path, number: sig
                 process.send_signal(number)
                 told = True
     os.close(terminal)
-    assert process.communicate(timeout=20.0)[0] == b"" and process.returncode == 130
+    assert process.communicate(timeout=PATIENCE)[0] == b"" and process.returncode == 130
     assert told and b"Traceback" not in shown
 
 

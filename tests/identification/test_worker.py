@@ -9,11 +9,10 @@ from pathlib import Path
 
 import pytest
 import worker_calls as calls
+from patience import PATIENCE
 
 from motor_identification.worker import Call, Worker
 from motor_model.errors import MotorError, RecordingError
-
-PATIENCE = 30.0  # [s]
 
 
 @pytest.fixture(scope="module")

@@ -28,6 +28,7 @@ def sim(start: Start, tmp_path: Path, *arguments: str) -> "Popen[str]":
     return start("motor_sim", "motor_sim", "--ros-args", "-p", model, "-p", "slot_irregularity:=0.01", *arguments)
 
 
+@pytest.mark.on_time
 def test_holds_a_speed_and_changes_it_without_a_limit_cycle(bench: Bench, start: Start, tmp_path: Path) -> None:
     sim(start, tmp_path)
     controller = start("motor_control", "motor_control")
@@ -55,6 +56,7 @@ def test_holds_a_speed_and_changes_it_without_a_limit_cycle(bench: Bench, start:
     bench.wait(lambda: samples[-1].voltage == 0.0, "0 V after the controller has gone")
 
 
+@pytest.mark.on_time
 def test_with_its_model_the_loop_holds_slow_speeds_and_says_when_the_output_is_off(
     bench: Bench, start: Start, tmp_path: Path
 ) -> None:
@@ -124,6 +126,7 @@ def test_experiment_without_a_plant_or_with_a_rival_is_one_sentence(bench: Bench
     assert process.returncode == 1 and "something else sends motor/voltage too" in err and "Traceback" not in err
 
 
+@pytest.mark.on_time
 def test_ctrl_c_in_an_experiment_leaves_zero_volts_and_a_readable_bag(
     bench: Bench, start: Start, tmp_path: Path
 ) -> None:

@@ -11,29 +11,17 @@ from typing import Any
 import pytest
 import workbench
 from action_msgs.msg import GoalStatus
+from friction import KS
 from rclpy.action import ActionClient
 from workbench import Bench, end
 
-from motor_identification.cli.experiment import main as experiment
-from motor_model.model_file import load, save
-from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_model.model_file import load
+from motor_model.parameters import PAPER_KA, PAPER_KV
 from motor_msgs.action import Diagnose
 from motor_msgs.msg import MotorModel
 from motor_ros import qos
 
-KS = 0.45
 PATIENCE = 90.0  # [s]
-
-
-@pytest.fixture(scope="module")
-def bags(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A directory with recordings of a motor with friction, `staircase` and `coast`."""
-    directory = tmp_path_factory.mktemp("bags")
-    save(directory / "true.yaml", Parameters({"kv": PAPER_KV, "ka": PAPER_KA, "ks": KS}, ("coulomb_friction",)))
-    for profile in ("staircase", "coast"):
-        offline = ["--model", str(directory / "true.yaml"), "--voltage", "10", "--output", str(directory / profile)]
-        assert experiment([profile, *offline]) == 0
-    return directory
 
 
 @pytest.fixture(scope="module")

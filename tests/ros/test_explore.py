@@ -41,6 +41,7 @@ def assert_at_rest(bench: Bench, samples: list[MotorSpeed]) -> None:
     bench.wait(lambda: bool(samples) and samples[-1].voltage == 0.0 and samples[-1].speed == 0.0, "a motor at rest")
 
 
+@pytest.mark.long
 def test_names_what_is_missing_after_the_experiments_it_asks_for(
     bench: Bench, samples: list[MotorSpeed], tmp_path: Path
 ) -> None:

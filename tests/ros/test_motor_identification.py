@@ -5,28 +5,17 @@ from pathlib import Path
 from subprocess import Popen
 
 import pytest
+from friction import KS
 from rcl_interfaces.srv import GetParameters
 from workbench import Bench, end
 
-from motor_identification.cli.experiment import main as experiment
-from motor_model.model_file import load, save
-from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_model.model_file import load
+from motor_model.parameters import PAPER_KA, PAPER_KV
 from motor_msgs.msg import MotorModel
 from motor_msgs.srv import Identify
 from motor_ros import qos
 
 Start = Callable[..., "Popen[str]"]
-KS = 0.45
-
-
-@pytest.fixture(scope="module")
-def bags(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A directory with `staircase`, a recorded motor with friction."""
-    directory = tmp_path_factory.mktemp("bags")
-    save(directory / "true.yaml", Parameters({"kv": PAPER_KV, "ka": PAPER_KA, "ks": KS}, ("coulomb_friction",)))
-    offline = ["--model", str(directory / "true.yaml"), "--voltage", "10"]
-    assert experiment(["staircase", "--output", str(directory / "staircase"), *offline]) == 0
-    return directory
 
 
 def serve(start: Start, bags: Path, *arguments: str) -> "Popen[str]":

@@ -46,6 +46,7 @@ def user(bench: Bench) -> User:
     return User(bench)
 
 
+@pytest.mark.on_time
 def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, start: Start, user: User) -> None:
     process = start("motor_sim", "motor_sim", "--ros-args", "-p", "name:=wheel", "-p", "max_voltage:=6.0")
     info = bench.hear(MotorInfo, "motor/info", qos.INFO)
@@ -71,6 +72,7 @@ def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, star
     assert process.returncode == 0
 
 
+@pytest.mark.on_time
 def test_stops_without_commands_and_while_disabled(bench: Bench, start: Start, user: User) -> None:
     start("motor_sim", "motor_sim")
     user.voltage = 5.0

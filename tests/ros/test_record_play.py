@@ -167,6 +167,7 @@ def write(path: Path, count: int, period: int = PERIOD) -> Path:
     return path
 
 
+@pytest.mark.on_time
 def test_a_bag_comes_out_as_it_went_in_and_in_time(bench: Bench, start: Start, tmp_path: Path) -> None:
     heard: list[tuple[float, MotorSpeed]] = []
     bench.node.create_subscription(

@@ -11,6 +11,7 @@ from typing import Any
 import rclpy
 from ament_index_python.packages import get_package_prefix
 from domains import free_domain
+from patience import PATIENCE
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from rclpy.executors import SingleThreadedExecutor
@@ -18,7 +19,6 @@ from rclpy.qos import QoSProfile
 
 from motor_ros import qos
 
-PATIENCE = 20.0  # [s] for what is expected; a test that passes never waits so long
 DOMAIN = str(free_domain())
 ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": DOMAIN, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
 
@@ -76,12 +76,15 @@ class Bench:
         return result.successful, result.reason
 
 
+def program(package: str, command: str) -> str:
+    """The file of one of our programs."""
+    return str(Path(get_package_prefix(package)) / "lib" / package / command)
+
+
 def start(package: str, command: str, *arguments: object) -> "subprocess.Popen[str]":
     """One of our programs as a process; `end` ends it."""
-    program = Path(get_package_prefix(package)) / "lib" / package / command
-    return subprocess.Popen(
-        [program, *map(str, arguments)], env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
+    words = [program(package, command), *map(str, arguments)]
+    return subprocess.Popen(words, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
 def end(process: "subprocess.Popen[str]", number: signal.Signals = signal.SIGINT) -> tuple[str, str]:

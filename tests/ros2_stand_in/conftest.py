@@ -16,10 +16,10 @@ from typing import IO
 
 import pytest
 from domains import free_domain
+from patience import PATIENCE
 
 HERE = Path(__file__).resolve().parent
 LAUNCHER = HERE.parent.parent / "ros2_stand_in" / "ros2"
-LONGEST = 20.0  # [s] for anything that a test waits for
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Process:
     def wait_for(self, start: str, errors: bool = False) -> str:
         """The next line that begins so."""
         lines = self._err if errors else self._out
-        end = time.monotonic() + LONGEST
+        end = time.monotonic() + PATIENCE
         while time.monotonic() < end:
             try:
                 line = lines.next(0.1)
@@ -53,14 +53,14 @@ class Process:
                 continue
             if line.startswith(start):
                 return line
-        raise AssertionError(f"no line {start!r} within {LONGEST} s, but {lines.seen}")
+        raise AssertionError(f"no line {start!r} within {PATIENCE} s, but {lines.seen}")
 
     def end(self, number: int | None = signal.SIGINT) -> tuple[Output, float]:
         """Send a signal, or let it end by itself; all of its output, and the seconds it took to end."""
         started = time.monotonic()
         if number is not None:
             self._popen.send_signal(number)
-        status = self._popen.wait(LONGEST)
+        status = self._popen.wait(PATIENCE)
         return Output(status, self._out.all(), self._err.all()), time.monotonic() - started
 
     def stop(self) -> None:
@@ -87,7 +87,7 @@ class _Lines:
 
     def all(self) -> str:
         """Everything, when the program has ended."""
-        self._reader.join(LONGEST)
+        self._reader.join(PATIENCE)
         while not self._queue.empty():
             self.seen.append(self._queue.get())
         return "".join(self.seen)
@@ -109,7 +109,7 @@ class Ros2:
     def __call__(self, *words: str, status: int = 0, stdin: str = "", **more: str) -> Output:
         """Run to the end; the status is checked, and that no traceback comes."""
         done = subprocess.run(
-            [str(LAUNCHER), *words], env=self.env | more, input=stdin, capture_output=True, text=True, timeout=LONGEST
+            [str(LAUNCHER), *words], env=self.env | more, input=stdin, capture_output=True, text=True, timeout=PATIENCE
         )
         assert "Traceback" not in done.stderr, done.stderr
         assert done.returncode == status, f"{words}: {done.returncode}\n{done.stdout}\n{done.stderr}"

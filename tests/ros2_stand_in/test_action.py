@@ -2,6 +2,8 @@
 
 import re
 
+import pytest
+
 SEND = ("action", "send_goal", "/diagnose", "motor_msgs/action/Diagnose")
 
 
@@ -28,6 +30,7 @@ def test_a_goal_that_did_not_succeed_is_not_status_0(bench):
     assert ros2(*SEND, status=1).out.endswith("\nGoal was rejected.\n")
 
 
+@pytest.mark.on_time
 def test_ctrl_c_cancels_the_goal(bench):
     ros2, node = bench
     goal = ros2.start(*SEND, "{bag_uris: [a], known_effects: [forever]}", "-f")

@@ -51,6 +51,7 @@ def test_it_stays_on_this_machine_unless_told(prefixed):
     )
 
 
+@pytest.mark.on_time
 def test_the_process_becomes_the_executable_and_gets_the_signals(prefixed):
     process = prefixed.start("run", "toy_tools", "wait")
     process.wait_for("waiting")

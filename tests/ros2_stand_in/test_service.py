@@ -22,6 +22,7 @@ def test_call_waits_for_a_service_that_comes_up(ros2):
     call.wait_for("std_srvs.srv.SetBool_Response(success=True, message='off')")
 
 
+@pytest.mark.on_time
 def test_waiting_ends_with_ctrl_c(ros2):
     call = ros2.start("service", "call", "/enable", "std_srvs/srv/SetBool")
     call.wait_for("waiting for service to become available...")

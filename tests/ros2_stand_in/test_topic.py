@@ -34,6 +34,7 @@ def test_qos_asked_for_is_used(bench):
     assert ros2(*echo, *latched, "--once").out == "data: for those who come later\n---\n"
 
 
+@pytest.mark.on_time
 def test_echo_waits_for_its_topic_and_takes_what_is_latched(ros2):
     echo = ros2.start("topic", "echo", "/latched")
     warning = "WARNING: topic [/latched] does not appear to be published yet"
@@ -53,6 +54,7 @@ def test_echo_fits_a_publisher_that_comes_after_its_subscription(ros2):
     echo.wait_for("data: for those who come later")
 
 
+@pytest.mark.on_time
 @pytest.mark.parametrize("words", [("echo", "/fast"), ("pub", "/fast", "std_msgs/msg/Float64")])
 def test_ctrl_c_ends_at_once_without_a_traceback(bench, words):
     ros2, _ = bench
@@ -71,6 +73,7 @@ def test_a_reader_that_goes_ends_it_quietly(bench):
     assert (output.out, output.err) == ("data: 0.5\n141\n", "")
 
 
+@pytest.mark.on_time
 def test_hz_measures_the_rate(bench):
     ros2, _ = bench
     process = ros2.start("topic", "hz", "/fast", "--window", "20")

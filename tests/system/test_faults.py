@@ -45,12 +45,13 @@ def seconds_to_rest(board: LiveBoard) -> float:
     return seconds(board) - begin
 
 
-def test_a_killed_controller(bench: Bench, driver: "Popen[str]", live: LiveBoard, start: Start) -> None:
-    reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+def test_a_killed_controller(driver: "Popen[str]", live: LiveBoard, user: User, start: Start) -> None:
+    user.sending = False  # the controller does
+    reference = user.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
     controller = start("motor_control", "motor_control")
-    bench.heard(reference)
+    user.bench.heard(reference)
     reference.publish(Float64(data=60.0))
-    bench.wait(lambda: live.truth().speed > 50.0, "motion")
+    user.until_on(lambda sample: sample.speed > 50.0, "motion")
     controller.kill()
     assert seconds_to_rest(live) < MOST
 
@@ -73,6 +74,7 @@ def test_a_driver_that_is_ended_leaves_0_volt(driver: "Popen[str]", live: LiveBo
     assert driver.returncode == 0 and "Traceback" not in err
 
 
+@pytest.mark.on_time
 def test_unplugged_and_plugged_in_again(bench: Bench, driver: "Popen[str]", live: LiveBoard, user: User) -> None:
     status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
     user.voltage = 6.0

@@ -26,6 +26,7 @@ def user(bench: Bench) -> User:
     return User(bench)
 
 
+@pytest.mark.on_time
 def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, start_plant: Start, user: User) -> None:
     motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA}, max_voltage=6.0)
     process = start_plant(motor, "name:=wheel", "max_voltage:=6.0")
@@ -55,6 +56,7 @@ def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, star
     assert process.returncode == 0
 
 
+@pytest.mark.on_time
 def test_stops_without_commands_and_while_disabled(bench: Bench, start_plant: Start, user: User) -> None:
     start_plant()
     user.voltage = 4.5
@@ -91,17 +93,29 @@ def test_a_value_out_of_range_is_one_sentence(start_plant: Start) -> None:
     assert "sample_rate" in err and "10 to 1000 Hz" in err and err.count("\n") == 1
 
 
+def recorded(bench: Bench, start: Start, bag: Path, tries: int = 5) -> Path:
+    """A bag of an experiment; a busy machine holds the emulated board up, which is a stop; then he begins anew."""
+    process = start("motor_identification", "experiment", "ramps", "--output", bag)
+    _, err = process.communicate(timeout=60.0)
+    if "switch it on, motor/enable with data: true" in err and tries > 1:
+        assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+        return recorded(bench, start, bag.with_name(f"{bag.name}_again"), tries - 1)
+    assert process.returncode == 0, err
+    return bag
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("start_plant", ["motor_driver"], indirect=True)  # for motor_sim others show it
-def test_experiment_and_identification_find_the_motor(start_plant: Start, start: Start, tmp_path: Path) -> None:
+def test_experiment_and_identification_find_the_motor(
+    bench: Bench, start_plant: Start, start: Start, tmp_path: Path
+) -> None:
     """A motor whose friction nobody told of, on the pins of the emulated board."""
     hidden = {"kv": 0.071, "ka": 0.0052, "ks": 0.4, "breakaway_voltage": 0.7, "stribeck_speed": 8.0}
     start_plant(Parameters(hidden, ("static_friction",)))
-    process = start("motor_identification", "experiment", "ramps", "--output", tmp_path / "bag")
-    out, err = process.communicate(timeout=60.0)
-    assert process.returncode == 0, err
+    bag = recorded(bench, start, tmp_path / "bag")
     process = start(
         "motor_identification",
-        *("identify", tmp_path / "bag", "--effects", "static_friction", "--json", tmp_path / "fit.json"),
+        *("identify", bag, "--effects", "static_friction", "--json", tmp_path / "fit.json"),
     )
     out, err = process.communicate(timeout=60.0)
     assert process.returncode == 0, err
@@ -110,7 +124,7 @@ def test_experiment_and_identification_find_the_motor(start_plant: Start, start:
     for name, share in {"kv": 1e-4, "ka": 1e-3, "ks": 1e-3, "breakaway_voltage": 1e-3}.items():
         assert found[name]["value"] == pytest.approx(hidden[name], rel=share), name
     assert fit["residual_rms"] < 3.0 * fit["noise_floor"]
-    process = start("motor_identification", "diagnose", tmp_path / "bag", "--json", tmp_path / "diagnosis.json")
+    process = start("motor_identification", "diagnose", bag, "--json", tmp_path / "diagnosis.json")
     out, err = process.communicate(timeout=90.0)
     assert process.returncode == 0, err
     diagnosis = json.loads((tmp_path / "diagnosis.json").read_text(encoding="utf-8"))
