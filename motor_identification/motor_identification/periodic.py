@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from motor_identification.descent import Speeds, descend, typical
+from motor_identification.adrift import adrift
+from motor_identification.descent import Speeds, descend
 from motor_identification.direction import redirected
 from motor_identification.problem import Problem
 from motor_identification.recording import Floats
@@ -16,8 +17,6 @@ from motor_model.effects import EFFECT_BY_NAME
 
 ROUNDS = 2  # the second time, the motor that bridges the gaps of the measured angle has the effect already
 ITERATIONS = 25  # of a descent
-RIPPLES = 2  # lines of the spectrum that are tried
-SIZES, PHASES, TURNS = (1.0, 1.3, 1.6), 12, 3  # of a ripple that is followed on the simulated angle
 
 Tracks = tuple[Track, ...]
 Start = tuple[Tracks, Mapping[str, Floats]]  # measured angles, and an effect's values in every recording
@@ -43,66 +42,42 @@ def add_periodic(problem: Problem, place: Floats, effects: tuple[str, ...]) -> t
 def added(bare: Problem, place: Floats, effect: str, least: float = 0.0) -> tuple[Problem, Floats, int] | None:
     """Extend a fit by one periodic effect; None where its spectrum promises less than `least`.
 
-    That is in squared standard deviations.
+    That is in squared standard deviations. It is fitted on measured angles, then on the simulated one, and once more
+    where the spectrum then points elsewhere.
     """
     effects, evaluations = (*bare.unknowns.effects, effect), 0
-    choices: list[tuple[Problem, Floats]] = []
-    full, end = bare.anchored(place, effects), place
+    choices: list[tuple[float, Problem, Floats]] = []
+    tracks = bare.anchored(place, effects).tracks
+    before = np.inf  # number of cycles that was tried
     for _ in range(ROUNDS):
-        ends = []
-        starts = _STARTS[effect](bare, place, full.tracks, least)
-        if not starts:
-            return None
-        if effect == "torque_ripple" and not choices:
-            adrift, there, more = _adrift(bare, place, starts[0][1])
-            choices.append((adrift, there))
-            evaluations += more
-        least = 0.0
-        for tracks, values in starts:
-            trial = replace(full, tracks=tracks)
-            start = carried(bare.unknowns, place, full.unknowns, values)
-            end, more = descend(trial, Speeds(trial), start, iterations=ITERATIONS, tolerance=1e-8)
-            ends.append((float(trial.costs(end[None])[0]), trial, end))
-            evaluations += more
-        _cost, best, end = min(ends, key=lambda row: row[0])
-        best = redirected(best, end)
-        place = carried(best.unknowns, end, bare.unknowns, {})
+        begin = _STARTS[effect](bare, place, tracks, least)
+        if begin is None:
+            break
+        tracks, values = begin
+        cycles = float(values.get("ripple_cycles", np.array(1.0)))
+        if abs(cycles - before) * _turned(tracks) < 1.0:  # the same line again
+            break
+        before = cycles
+        trial, least = replace(bare.with_effects(effects), tracks=tracks), 0.0
+        start = carried(bare.unknowns, place, trial.unknowns, values)
+        end, more = descend(trial, Speeds(trial), start, iterations=ITERATIONS, tolerance=1e-8)
+        mended = carried(bare.unknowns, carried(trial.unknowns, end, bare.unknowns, {}), trial.unknowns, values)
+        held = redirected(trial, end)
+        loose, there, further = adrift(replace(held, tracks=()), effect, (start, mended), _turned(tracks))
+        evaluations += more + further
+        choices += [(float(one.costs(at[None])[0]), one, at) for one, at in ((held, end), (loose, there))]
+        _cost, best, end = min(choices, key=lambda one: one[0])
         bare = replace(bare, intervals=best.intervals, tracks=best.tracks if bare.tracks else ())
-        full = best.anchored(end, effects)
-    free = replace(best, tracks=())  # a complete model does not drift, and then its own angle is the better one
-    onward, more = descend(free, Speeds(free), end, iterations=ITERATIONS, tolerance=1e-10)
-    evaluations += more
-    choices += [(best, end), (free, onward)]
-    best, end = min(choices, key=lambda one: float(one[0].costs(one[1][None])[0]))
+        place, tracks = carried(best.unknowns, end, bare.unknowns, {}), best.anchored(end, effects).tracks
+    if not choices:
+        return None
+    _cost, best, end = min(choices, key=lambda one: one[0])
     return best, end, evaluations
 
 
-def _adrift(bare: Problem, place: Floats, values: Mapping[str, Floats]) -> tuple[Problem, Floats, int]:
-    """A ripple on the simulated angle: what the shaft does where no edge comes, only a simulation of it can follow.
-
-    Such as the swings of a motor without friction at every standstill, or the blocks that are kept out of a fit. Its
-    phase is searched there, and its size anew, whichever way the shaft turned; then directions and fit in turns.
-    """
-    free = bare.with_effects((*bare.unknowns.effects, "torque_ripple"))
-    grid = [
-        carried(bare.unknowns, place, free.unknowns, {**values, "ripple_voltage": size * values["ripple_voltage"],
-                                                      "ripple_phase": 0.0 * values["ripple_phase"] + phase})
-        for size in SIZES
-        for phase in np.linspace(-np.pi, np.pi, PHASES, endpoint=False)
-    ]  # fmt: skip
-    residuals = free.evaluate(np.array(grid))
-    either_way = np.minimum(np.abs(residuals), np.abs(residuals + 2.0 * free.speed))
-    most = 3.0 * float(np.median(np.abs(bare.residuals(place))))
-    there = grid[int(np.argmin(np.minimum(either_way, most) ** 2 @ free.weight))]
-    evaluations = len(grid)
-    for _ in range(TURNS):
-        free = redirected(free, there)
-        most = typical(free, there)[1]
-        there, more = descend(free, Speeds(free), there, most=most, iterations=ITERATIONS, tolerance=1e-6)
-        evaluations += more
-    free = redirected(free, there)
-    there, more = descend(free, Speeds(free), there, iterations=ITERATIONS, tolerance=1e-8)
-    return free, there, evaluations + more
+def _turned(tracks: Tracks) -> float:
+    """[rad] how far the shaft turned."""
+    return max(float(np.ptp(track.angle)) for track in tracks)
 
 
 def phases(bare: Problem, place: Floats, effect: str, cycles: float, tracks: Tracks = ()) -> Start:
@@ -114,11 +89,11 @@ def phases(bare: Problem, place: Floats, effect: str, cycles: float, tracks: Tra
     if effect == "torque_ripple":
         ripple = ripple_of(bare, place, tracks, cycles)
         return ripple.tracks, {"ripple_phase": np.array(ripple.phases)}
-    ((tracks, wave),) = _eccentricities(bare, place, tracks, 0.0)
+    tracks, wave = _eccentricity(bare, place, tracks, 0.0)
     return tracks, {"eccentricity_phase": wave["eccentricity_phase"]}
 
 
-def _eccentricities(problem: Problem, place: Floats, tracks: Tracks, _least: float) -> list[Start]:
+def _eccentricity(problem: Problem, place: Floats, tracks: Tracks, _least: float) -> Start:
     """The first harmonic of what a fit leaves over the angle, by least squares."""
     waves = []
     for data, track, increments in zip(problem.intervals, tracks, problem.increments(place), strict=True):
@@ -130,21 +105,16 @@ def _eccentricities(problem: Problem, place: Floats, tracks: Tracks, _least: flo
         design = (np.column_stack([sine, cosine]) * root[:, None])[moving]
         waves.append(complex(*np.linalg.lstsq(design, -(increments * root)[moving], rcond=None)[0]))
     size = np.full(len(waves), np.mean(np.abs(waves)))
-    return [(tracks, {"eccentricity": size, "eccentricity_phase": np.asarray(np.angle(waves), dtype=np.float64)})]
+    return tracks, {"eccentricity": size, "eccentricity_phase": np.asarray(np.angle(waves), dtype=np.float64)}
 
 
-def _ripples(problem: Problem, place: Floats, tracks: Tracks, least: float) -> list[Start]:
-    return [
-        (
-            ripple.tracks,
-            {
-                "ripple_voltage": np.array(ripple.amplitude),
-                "ripple_cycles": np.array(ripple.cycles),
-                "ripple_phase": np.array(ripple.phases),
-            },
-        )
-        for ripple in ripples(problem, place, tracks, least)[:RIPPLES]
-    ]
+def _ripple(problem: Problem, place: Floats, tracks: Tracks, least: float) -> Start | None:
+    """The best line of the spectrum, if there is one."""
+    lines = ripples(problem, place, tracks, least)
+    if not lines:
+        return None
+    values = {"ripple_voltage": np.array(lines[0].amplitude), "ripple_cycles": np.array(lines[0].cycles)}
+    return lines[0].tracks, {**values, "ripple_phase": np.array(lines[0].phases)}
 
 
-_STARTS = {"encoder_eccentricity": _eccentricities, "torque_ripple": _ripples}
+_STARTS = {"encoder_eccentricity": _eccentricity, "torque_ripple": _ripple}

@@ -22,6 +22,7 @@ from motor_model.simulate import NOWHERE, roll_out
 
 WORTHWHILE = 50_000  # steps of motion (some 3 ms) for which it pays to start threads
 COARSENESS = 4.0  # of the motion while a swarm searches
+STEP = 1e-7  # of the box, for derivatives: 1e-5 of it turns a ripple's phase by 0.3 rad within half a minute
 
 
 @compiled
@@ -197,7 +198,7 @@ class Problem:
 
     def jacobian(self, place: Floats) -> Floats:
         """Derivative of the residuals over the unknowns, central differences, shape (I, D)."""
-        steps = 1e-5 * (self.unknowns.high - self.unknowns.low)
+        steps = STEP * (self.unknowns.high - self.unknowns.low)
         columns = np.empty((len(place), len(self.weight)))
         share = max(self.workers, 1)  # a few unknowns at a time keep all cores busy and an hour's residuals in memory
         for i in range(0, len(place), share):

@@ -4,7 +4,8 @@ A load sin(cθ + φ) of 1 V moves the speed of a fitted motor by a linear respon
 measured angles; the residual's part along it, for any number of cycles c a turn, is a periodogram over the angle (over
 time: N. R. Lomb, Astrophys. Space Sci. 39, 1976). A line is as narrow as the angle range is wide, so that blocks of a
 few turns are searched first, their powers added, and then the whole recording around the best. What each counted run's
-wrong initial speed leaves (the model came to it without the ripple) is projected out before.
+wrong initial speed leaves (the model came to it without the ripple) is projected out before. Near a standstill, where
+the shaft swings on its ripple rather than turns over it, nothing is taken.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,9 +24,10 @@ from motor_model.effects import SPEC_BY_NAME
 
 BLOCK = 8.0  # turns
 FINENESS = 4.0  # grid points to the width of a line
-CANDIDATES = 4
+CANDIDATES, REACH = 3, 2.0  # peaks of the rough spectrum, and how many of its grid points around each are searched
+SLOW = 0.03  # of the largest speed: below that a ripple holds or turns back the shaft, no linear response
 KNOTS = 16  # grid points
-CHANCE, BASE = 8.0, 12  # of the sum of white squares, for each counted run and so many more: slips explain by chance
+CHANCE, BASE = 4.0, 12  # of the sum of white squares, for each counted run and so many more: slips explain by chance
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,7 @@ def ripples(problem: Problem, place: Floats, tracks: Sequence[Track], least: flo
     found = []
     for peak in _peaks(spectrum, CANDIDATES):
         problem.go_on()
-        fine = rough[peak] + np.arange(-width, width, 1.0 / (FINENESS * max(turns, 1.0)))
+        fine = rough[peak] + np.arange(-REACH * width, REACH * width, 1.0 / (FINENESS * max(turns, 1.0)))
         lines = [_line(runs, tracks, cycles, rate, inertia, problem) for cycles in fine]
         found.append(max(lines, key=lambda line: line.explained))
     chance = CHANCE * sum(int(run.stretch.max()) + BASE for run in runs) if least > 0.0 else 0.0
@@ -126,6 +128,7 @@ def _line(
 
 
 def _runs(problem: Problem, place: Floats, tracks: Sequence[Track]) -> list[_Run]:
+    problem = problem.without(tuple(np.abs(data.speed) < SLOW * np.abs(data.speed).max() for data in problem.intervals))
     values = problem.unknowns.parameters(place, "").values
     rate = values["kv"] / values["ka"]
     runs = []

@@ -10,12 +10,14 @@ from motor_model.parameters import paper_motor
 
 
 def main() -> None:
-    """Fit a simulated step once, as small as it gets."""
+    """Fit a simulated step, as small as it gets; with a ripple, whose spectrum a diagnosis looks at too."""
     warm_up.main()
     motor, config = paper_motor(), BoardConfig()
     plan = make_plan(profile("step"), 10.0, motor.max_voltage, 1.0 / config.sample_rate)
     samples = [sample for _, sample in simulate_plan(plan, motor, config)]
-    identify([recording_of(samples, config.info(motor), "warm-up")], Request(particles=4, epochs=1))
+    recordings = [recording_of(samples, config.info(motor), "warm-up")]
+    for effects in ((), ("torque_ripple",)):
+        identify(recordings, Request(effects, particles=4, epochs=1))
 
 
 if __name__ == "__main__":

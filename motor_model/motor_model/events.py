@@ -25,7 +25,7 @@ def solve(p: Floats, c: Coefficients, s: State, h: float) -> tuple[float, float,
 
 
 @compiled
-def _time_of_rest(p: Floats, c: Coefficients, s: State, h: float) -> float:
+def time_of_rest(p: Floats, c: Coefficients, s: State, h: float) -> float:
     """[s] until the speed reaches zero, known to happen within h."""
     if p[LAG] == 0.0 and c.gradient == 0.0:
         total = c.source - c.torque + c.slope * s.speed
@@ -104,7 +104,7 @@ def until_event(p: Floats, c: Coefficients, s: State, h: float) -> tuple[State, 
     if s.speed == 0.0 and speed * s.direction <= 0.0:  # what let it start is gone before it has moved
         return State(s.angle, 0.0, drive, s.play, s.direction, s.turned), h
     if speed * s.direction <= 0.0:
-        event, h = 1, _time_of_rest(p, c, s, h)
+        event, h = 1, time_of_rest(p, c, s, h)
         speed, drive, travel = solve(p, c, s, h)
     play = s.play
     if play > 0.0:

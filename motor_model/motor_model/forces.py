@@ -1,6 +1,6 @@
 """The terms of the motor's equation, in V: what drives it, what friction takes, what loads it. See `motor.py`."""
 
-from math import exp, expm1, sin
+from math import cos, exp, expm1, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +37,14 @@ def loads_at(p: Floats, angle: float, t: float) -> float:
     if p[RIPPLE] != 0.0:
         load += p[RIPPLE] * sin(p[CYCLES] * angle + p[PHASE])
     return load
+
+
+@compiled
+def load_slope_at(p: Floats, angle: float) -> float:
+    """The slope of the loads over the angle [rad], in V/rad, cold."""
+    if p[RIPPLE] == 0.0:
+        return 0.0
+    return p[RIPPLE] * p[CYCLES] * cos(p[CYCLES] * angle + p[PHASE])
 
 
 @compiled

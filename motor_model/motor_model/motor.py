@@ -14,14 +14,12 @@ fraction) until the play is taken up; the speed has no jump there. u_eff is the 
 and asymmetry (`bridge.py`).
 
 Between events (a zero of the speed, the end of the play, the load step) the equation is linear but for Stribeck
-friction, drag, ripple and warm-up. A piece is solved in closed form (`linear.py`): exact for everything linear. Of the
-others, friction becomes its secant through the speeds at the two Gauss nodes of the piece, and loads the line through
-theirs, so that what the lines leave out integrates to zero up to the fourth order in the piece's length; the nodes are
-found by the exponential Rosenbrock-Euler method (Hochbruck & Ostermann, Acta Numerica 19, 2010). Pieces are as long as
-that allows, and `coarseness` times as long where a search wants to be quick.
+friction, drag, ripple and warm-up. A piece is solved in closed form (`linear.py`): exact for everything linear; lines
+stand for the others (`pieces.py`). Pieces are as long as that allows, and `coarseness` times as long where a search
+wants to be quick.
 """
 
-from math import copysign, exp, inf, log1p, sqrt
+from math import copysign, exp, inf, log1p
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,29 +27,21 @@ from numpy.typing import NDArray
 from motor_model.bridge import effective_voltage
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
-from motor_model.events import solve, until_event
-from motor_model.forces import drive_of, friction_at, friction_slope_at, loads_at, warmth
+from motor_model.events import until_event
+from motor_model.forces import drive_of, friction_at, friction_slope_at, load_slope_at, loads_at, warmth
 from motor_model.linear import Coefficients
+from motor_model.pieces import is_bent, lines, longest_piece
 from motor_model.state import State
 
 Floats = NDArray[np.float64]
 
-KV, KA = INDEX["kv"], INDEX["ka"]
-KS, BREAKAWAY, STRIBECK = INDEX["ks"], INDEX["breakaway_voltage"], INDEX["stribeck_speed"]
+KA, KS, BREAKAWAY = INDEX["ka"], INDEX["ks"], INDEX["breakaway_voltage"]
 DRAG, LAG = INDEX["drag"], INDEX["electrical_time_constant"]
 STEP, STEP_TIME = INDEX["step_voltage"], INDEX["step_time"]
-RIPPLE, CYCLES, RISE, WARM_UP = (
-    INDEX["ripple_voltage"],
-    INDEX["ripple_cycles"],
-    INDEX["resistance_rise"],
-    INDEX["warm_up_time"],
-)
+RIPPLE, RISE = INDEX["ripple_voltage"], INDEX["resistance_rise"]
 PLAY, LOAD_FRACTION = INDEX["backlash_angle"], INDEX["load_fraction"]
-COARSENESS = INDEX["coarseness"]
 
 MAX_PIECES = 100_000  # between two outputs; a guard against endless chatter, never reached in a physical case
-STRIBECK_PIECE, RUNAWAY, DRAG_PIECE, RIPPLE_PIECE = 0.25, 0.5, 1e-3, 0.4
-EARLY, LATE = 0.5 - sqrt(1 / 12), 0.5 + sqrt(1 / 12)  # Gauss nodes of a piece
 
 
 @compiled
@@ -66,30 +56,6 @@ def straight(p: Floats, u: float, direction: float) -> Coefficients:
     """The linear equation of a motor for which `is_straight` holds, at an effective voltage u [V]."""
     source, back_emf = drive_of(p, u)
     return Coefficients(p[KA], friction_at(p, 0.0, direction) + loads_at(p, 0.0, 0.0), 0.0, source, back_emf, 0.0)
-
-
-@compiled
-def _longest_piece(p: Floats, s: State, acceleration: float, inertia: float) -> float:
-    """[s] for which a piece's lines hold: unlimited for a linear motor (a quarter period if it oscillates)."""
-    longest = inf
-    if 4.0 * p[KV] * p[LAG] > inertia:
-        longest = 1.5 * sqrt(inertia * p[LAG] / p[KV])
-    if p[BREAKAWAY] > p[KS]:
-        above = abs(s.speed) - 4.0 * p[STRIBECK]  # up there Stribeck friction is gone
-        # A speed that runs away from Stribeck friction must not do so in one piece; its steepest slope is √(2/e).
-        steepest = 0.858 * (p[BREAKAWAY] - p[KS]) / p[STRIBECK]
-        swift = abs(acceleration) + 1e-9
-        near = min(max(STRIBECK_PIECE * p[STRIBECK] / swift, 1e-6), RUNAWAY * inertia / steepest)
-        longest = min(longest, max(above / swift, near))
-    squared = acceleration * acceleration + 1e-9
-    if p[DRAG] != 0.0:
-        longest = min(longest, (DRAG_PIECE * inertia / (p[KV] * p[DRAG] * squared)) ** (1.0 / 3.0))
-    if p[RIPPLE] != 0.0:
-        turn = RIPPLE_PIECE / p[CYCLES]  # [rad] of the shaft
-        longest = min(longest, turn / (abs(s.speed) + 1e-9), sqrt(turn / (sqrt(squared) + p[RIPPLE] / inertia)))
-    if p[RISE] != 0.0:
-        longest = min(longest, 0.01 * p[WARM_UP])
-    return longest * p[COARSENESS]
 
 
 @compiled
@@ -109,29 +75,6 @@ def _hold(p: Floats, s: State, source: float, load: float, level: float, h: floa
         if released < h:
             return released, limit + load + copysign(1e-12 + 2e-12 * level, final), copysign(1.0, final)
     return h, source + (s.drive - source) * exp(-h / tau), 0.0
-
-
-@compiled
-def _lines(p: Floats, c: Coefficients, s: State, t: float, h: float) -> Coefficients:
-    """A piece's coefficients with friction and loads as the lines through their values at the Gauss nodes.
-
-    c: the linearisation at the start, by which the nodes are found; t: time [s] of the start.
-    """
-    early, _drive, travel = solve(p, c, s, EARLY * h)
-    late, _drive, further = solve(p, c, s, LATE * h)
-    early, late = s.direction * max(early * s.direction, 0.0), s.direction * max(late * s.direction, 0.0)
-    middle = warmth(p, t + 0.5 * h)
-    first, second = friction_at(p, early, s.direction), friction_at(p, late, s.direction)
-    if abs(late - early) > 1e-6 * abs(late + early):
-        slope = (second - first) / (late - early)
-    else:
-        slope = friction_slope_at(p, 0.5 * (early + late))
-    angle = s.angle + s.turned
-    load, after = loads_at(p, angle + travel, t), loads_at(p, angle + further, t)
-    gradient = (after - load) / ((LATE - EARLY) * h)
-    torque = 0.5 * (first + second) + slope * (s.speed - 0.5 * (early + late)) + 0.5 * (load + after - gradient * h)
-    inertia = c.inertia / warmth(p, t) * middle
-    return Coefficients(inertia, middle * torque, middle * slope, c.source, c.back_emf, middle * gradient)
 
 
 @compiled
@@ -162,12 +105,12 @@ def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, flo
     inertia = p[KA] * w * (1.0 - (p[LOAD_FRACTION] if play > 0.0 else 0.0))
     torque = w * (friction_at(p, s.speed, direction) + loads_at(p, s.angle + s.turned, t))
     slope = w * friction_slope_at(p, s.speed)
-    c = Coefficients(inertia, torque, slope, source, back_emf, 0.0)
+    c = Coefficients(inertia, torque, slope, source, back_emf, w * load_slope_at(p, s.angle + s.turned) * s.speed)
     acceleration = (s.drive - torque) / inertia
     settled = (source - back_emf * s.speed - torque) / inertia  # the acceleration once the current has followed
-    h = min(h, _longest_piece(p, s, max(abs(acceleration), abs(settled)), inertia))
-    if p[BREAKAWAY] > p[KS] or p[DRAG] != 0.0 or p[RISE] != 0.0 or p[RIPPLE] != 0.0:
-        c = _lines(p, c, s, t, h)
+    h = min(h, longest_piece(p, s, max(abs(acceleration), abs(settled)), inertia))
+    if is_bent(p):
+        c, h = lines(p, c, s, t, h)
     return until_event(p, c, s, h)
 
 

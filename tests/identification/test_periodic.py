@@ -6,9 +6,13 @@ from plant import profiles, record
 from recorded import as_speed
 
 from motor_identification.alignment import align
+from motor_identification.descent import Speeds, descend
+from motor_identification.direction import redirected
 from motor_identification.identify import Request, identify
+from motor_identification.periodic import added
 from motor_identification.problem import make_problem
 from motor_identification.recording import Recording, check
+from motor_identification.ripple import ripples
 from motor_identification.track import make_track
 from motor_identification.unknowns import carried, unknowns_of
 from motor_model.effects import INDEX
@@ -45,6 +49,37 @@ def test_a_ripple_in_two_recordings_with_a_phase_each() -> None:
     assert 0.8 < fit.residual_rms / fit.noise_floor < 1.5
     without = identify(recordings, Request(("coulomb_friction",), particles=20, epochs=60))
     assert without.residual_rms > 1.3 * fit.residual_rms
+
+
+SWINGING = {"kv": 0.071, "ka": 0.0056, "ripple_voltage": 0.39, "ripple_cycles": 10.866, "ripple_phase": 0.4}
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.4], ids=["swings on its ripple", "with friction"])
+def test_a_ripple_is_followed_through_every_standstill(friction: float) -> None:
+    """Without friction the shaft swings where it should stand, no edge says which way, and a fit takes it for noise."""
+    effects = ("coulomb_friction",) if friction else ()
+    values = SWINGING | ({"ks": friction} if friction else {})
+    recording = check(record(values, *profiles.rich(12.0, 3), seed=3, irregularity=0.005)[0])
+    bare = make_problem([recording], effects)
+    guess = np.array([np.log(values["kv"]), np.log(values["ka"]), friction])[: len(bare.unknowns.low)]
+    place, _evaluations = descend(bare, Speeds(bare), guess)
+    bare = redirected(bare, place)
+    place, _evaluations = descend(bare, Speeds(bare), place)
+    line = ripples(bare, place, bare.anchored(place, effects).tracks)[0]
+    assert abs(line.cycles - 10.866) < 0.01
+    assert 0.8 * 0.39 < line.amplitude < 1.1 * 0.39
+
+    found = added(bare, place, "torque_ripple", 4.0)
+    assert found is not None
+    problem, place, _evaluations = found
+    fitted = problem.unknowns.parameters(place, "").values
+    assert 1e-9 < abs(fitted["ripple_cycles"] - 10.866) < 1e-3
+    assert abs(fitted["ripple_voltage"] / 0.39 - 1.0) < 0.01
+    assert abs(fitted.get("ks", 0.0) - friction) < 1e-4
+    truth = carried(bare.unknowns, guess, problem.unknowns, {name: np.array(values[name]) for name in (
+        "ripple_voltage", "ripple_cycles", "ripple_phase")})  # fmt: skip
+    ended, best = (float(problem.costs(one[None])[0]) for one in (place, truth))
+    assert 0.99 * best < ended < 1.02 * best < 0.5 * float(bare.costs(guess[None])[0])
 
 
 def test_an_eccentric_disc() -> None:
