@@ -69,11 +69,12 @@ def worst_error(loop: Loop, speed: float) -> tuple[float, float]:
     return max(float(np.abs(one).max()) for one in late), max(abs(float(one.mean())) for one in late)
 
 
-def load_step(loop: Loop, speed: float) -> tuple[float, float]:
-    """[s] until back in the band after 0.5 V more or less, and the largest deviation [rad/s]."""
+def load_step(loop: Loop, speed: float) -> tuple[float, float, float]:
+    """[s] until back in the band after 0.5 V more or less, the largest deviation [rad/s], and the median of the [s]."""
     runs = [(seed, loop.run(speed, 1.2, seed, load)) for seed in range(DISCS) for load in (0.5, -0.5)]
-    back = max(settled(run, speed, 0.6 + 0.0013 * seed) for seed, run in runs)
-    return back, max(float(np.abs(run.speed - speed)[run.time >= 0.6].max()) for _, run in runs)
+    back = [settled(run, speed, 0.6 + 0.0013 * seed) for seed, run in runs]
+    furthest = max(float(np.abs(run.speed - speed)[run.time >= 0.6].max()) for _, run in runs)
+    return max(back), furthest, float(np.median(back))
 
 
 def through_zero(loop: Loop, slope: float) -> tuple[float, float, Rehearsal]:
@@ -118,7 +119,7 @@ def speed_table(loops: list[Loop]) -> tuple[list[str], dict[tuple[str, float], t
 
 
 def claims(
-    loop: Loop, one: Step, slow: float, loads: dict[tuple[str, float], tuple[float, float]], jump: float
+    loop: Loop, one: Step, slow: float, loads: dict[tuple[str, float], tuple[float, float, float]], jump: float
 ) -> list[str]:
     """What is promised of a loop; slow: largest error at 3 rad/s, jump [V] through zero."""
     rows = [
@@ -132,9 +133,9 @@ def claims(
             jump <= 2.2 * BREAKAWAY,
         ),
     ]
-    for speed in (100.0, 40.0):
+    for speed in (100.0, 40.0, 10.0):
         back = loads[loop.name, speed][0]
-        rows.append((f"{speed:g} rad/s back after a load in {3e3 * TAU:.0f} ms", milliseconds(back), back <= 3.0 * TAU))
+        rows.append((f"{speed:g} rad/s back after a load in {3e3 * TAU:.0f} ms", f"{1e3 * back:.1f} ms", back <= 3.0 * TAU))
     verdict = {True: "holds", False: "**does not hold**"}
     return [f"| {loop.name}: {claim} | {number} | {verdict[bool(true)]} |" for claim, number, true in rows]
 
@@ -152,8 +153,10 @@ def main() -> int:
     )
     lines += ["", f"The paper's best pair here, by the time into ±2 %, then the swing: {best.name}.", ""]
     lines += [*step_table(steps), *speeds, "", "## A load of ±0.5 V", ""]
-    lines += ["| controller | at | largest deviation | back into ±2 % |", "|---|---:|---:|---:|"]
-    lines += [f"| {n} | {s:g} rad/s | {loads[n, s][1]:.2f} rad/s | {milliseconds(loads[n, s][0])} |" for n, s in loads]
+    lines += ["| controller | at | largest deviation | back into ±2 % | median |", "|---|---:|---:|---:|---:|"]
+    for (name, speed), (back, furthest, median) in loads.items():
+        cells = f"{furthest:.2f} rad/s | {milliseconds(back)} | {milliseconds(median)}"
+        lines.append(f"| {name} | {speed:g} rad/s | {cells} |")
     lines += ["", "## The reference through zero", "", "| controller | ramp | largest voltage jump | RMS error |"]
     lines += ["|---|---:|---:|---:|"]
     lines += [f"| {n} | {a:g} rad/s² | {zeros[n, a][0]:.2f} V | {zeros[n, a][1]:.2f} rad/s |" for n, a in zeros]

@@ -10,7 +10,7 @@ from motor_control.rehearsal import Rehearsal, rehearse
 from motor_model.board import BoardConfig
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 
-TAU = 0.015  # [s] closed-loop time constant
+TAU = 0.02  # [s] closed-loop time constant: what `tune` gives at 200 Hz
 BREAKAWAY = 0.9  # [V]
 FRICTION = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.4, "breakaway_voltage": BREAKAWAY, "stribeck_speed": 4.0}
 MOTOR = Parameters(FRICTION, ("static_friction",), name="the paper's motor with friction")

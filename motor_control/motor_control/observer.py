@@ -5,6 +5,7 @@ joins the two (Anderson & Moore, "Optimal Filtering", 1979; what is special to a
 
     mean        every effect of the model, delay and inductance included, by the model's own compiled step
     covariance  by the line through it; the load is a random walk, so no unknown load leaves a lasting error
+    jump        where edges show that the load has jumped, it is taken up at once (`kalman.jump`)
     edges       at their own times, between two samples; what their number leaves open, the motion tells
     silence     no edge: the shaft is still within a slot; a motor that friction holds has the speed 0
 

@@ -43,6 +43,7 @@ class Trail(NamedTuple):
     doubt: float  # [s] for which the other direction would have needed the smaller load
     innovation: float  # [rad] angle at the latest edge less its prediction
     load: float  # [V] as it was believed to be at the latest edge
+    level: float  # mean square of the last innovations, in their standard deviations; 1 where the model is right
 
 
 class Belief(NamedTuple):
@@ -94,5 +95,5 @@ def mirrored(b: Belief, load: float) -> Belief:
     """The same edges passed the other way, under a load [V]."""
     s, c, t = b.motor, b.spread, b.trail
     spread = Spread(c.aa, c.as_, -c.al, c.ss, -c.sl, c.ll)
-    trail = Trail(-t.side, t.since, t.overdue, t.still, 0.0, 0.0, t.missed, 0.0, t.innovation, load)
+    trail = Trail(-t.side, t.since, t.overdue, t.still, 0.0, 0.0, t.missed, 0.0, t.innovation, load, t.level)
     return Belief(moved(s, -s.angle, -s.speed, -s.direction), load, spread, trail, b.elapsed)

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_control.kalman.belief import Belief, Noise, Spread, Trail, corrected, moved, widened
+from motor_control.kalman.jump import UNEARNED, explained, forgotten, levelled
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
 from motor_model.forces import drive_of
@@ -21,6 +22,7 @@ MEMORY = 0.8  # of the sum of innovations; its standard deviation is then 1/sqrt
 ALARM = 4.0 / sqrt(1.0 - MEMORY * MEMORY)  # of that sum: the load has changed, or the speed
 JUMP = 0.5  # [V] by which the load may have changed then
 SHOCK = 6.0  # standard deviations of a single innovation: the speed itself has jumped
+FAR = 0.25  # of a slot: an edge is missed then rather than a load changed
 FORGIVEN = 0.05  # of the edges may be missed in the long run; more is another speed
 SLOW = 0.05  # [s] for a slot: the speed assumed where an edge comes and nothing explains it
 
@@ -97,7 +99,9 @@ def _alarmed(p: Floats, b: Belief, shift: float, variance: float, drift: float, 
 
 
 @compiled
-def edge_passed(p: Floats, noise: Noise, b: Belief, u: float, steps: float) -> tuple[Belief, float, float]:
+def edge_passed(
+    p: Floats, noise: Noise, b: Belief, jumps: Floats, u: float, steps: float
+) -> tuple[Belief, float, float]:
     """The belief once an edge has come, `steps` after the last one that was used; u: effective voltage [V].
 
     A second channel gives steps a sign; 0 of them is there and back. Beside the belief: the edge's log-likelihood, and
@@ -105,8 +109,9 @@ def edge_passed(p: Floats, noise: Noise, b: Belief, u: float, steps: float) -> t
     """
     t = b.trail
     if b.motor.speed == 0.0:
-        b = _started(p, noise, b, u, steps)
-        trail = Trail(b.motor.direction, 0.0, 0.0, False, 0.0, 0.0, 0.0, 0.0, 0.0, b.load)
+        b, level = _started(p, noise, b, u, steps), max(t.level, UNEARNED)
+        forgotten(jumps)
+        trail = Trail(b.motor.direction, 0.0, 0.0, False, 0.0, 0.0, 0.0, 0.0, 0.0, b.load, level)
         return Belief(b.motor, b.load, b.spread, trail, b.elapsed), 0.0, inf
     told = steps if steps != 0.0 and not noise.single else b.motor.speed
     side, choice = copysign(1.0, told), inf
@@ -129,8 +134,16 @@ def edge_passed(p: Floats, noise: Noise, b: Belief, u: float, steps: float) -> t
     drift = MEMORY * t.drift + score
     if may_turn and (abs(drift) > ALARM or abs(score) > SHOCK):
         choice = 0.0
-    b, drift = _alarmed(p, b, shift, variance, drift, memory)
-    b = corrected(b, shift, b.spread.aa + variance, 1.0)
-    trail = Trail(side, 0.0, 0.0, False, drift, memory, missed, t.doubt, shift, b.load)
+    jumped = explained(p, b, jumps, shift, total, carry_on and abs(shift) < FAR * noise.slot)
+    if jumped.load == b.load:
+        before = b
+        b, drift = _alarmed(p, b, shift, variance, drift, memory)
+        if b.spread.aa != before.spread.aa:
+            forgotten(jumps)
+        b = corrected(b, shift, b.spread.aa + variance, 1.0)
+    else:
+        b, drift = jumped, 0.0
+    level = levelled(t.level, score, carry_on)
+    trail = Trail(side, 0.0, 0.0, False, drift, memory, missed, t.doubt, shift, b.load, level)
     b = Belief(b.motor, b.load, b.spread, trail, b.elapsed)
     return _anchored(noise, b, where, side, carry_on), -0.5 * (score * score + log(total)), choice

@@ -54,7 +54,9 @@ def _held(p: Floats, noise: Noise, b: Belief, command: float, dt: float) -> Beli
     """The belief after dt [s] of one command [V] that has passed the delay; p[BIAS] already holds the load."""
     t, s, c = b.trail, b.motor, b.spread
     since = 0.0 if s.speed == 0.0 and not t.still else t.since + dt
-    trail = Trail(t.side, since, t.overdue, t.still, t.drift, t.memory, t.missed, t.doubt, t.innovation, t.load)
+    trail = Trail(
+        t.side, since, t.overdue, t.still, t.drift, t.memory, t.missed, t.doubt, t.innovation, t.load, t.level
+    )
     if t.still:
         spread = Spread(c.aa, 0.0, c.al, 0.0, 0.0, c.ll + noise.walk * dt)
         return Belief(s, b.load, spread, trail, b.elapsed + dt)

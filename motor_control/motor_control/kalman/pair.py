@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from motor_control.kalman.belief import Belief, Noise, mirrored
 from motor_control.kalman.edge import edge_passed
+from motor_control.kalman.jump import forgotten, led_on
 from motor_control.kalman.motion import acting, carried
 from motor_control.kalman.silence import bounded, nothing_seen, turned_round
 from motor_model.compiled import compiled
@@ -32,20 +33,25 @@ class Pair(NamedTuple):
     likely: Belief
     other: Belief
     lead: float
+    jumps: Floats  # of the likely belief's load; see `jump`
 
 
 @compiled
-def _settled(likely: Belief, other: Belief, lead: float, choice: float) -> Pair:
+def _settled(likely: Belief, other: Belief, lead: float, jumps: Floats, choice: float) -> Pair:
     """The pair after an edge whose direction was chosen with this much more likelihood."""
     if lead == inf:
         if choice < OPEN:
-            return Pair(likely, mirrored(likely, likely.load), min(choice, HEAD_START))
-        return Pair(likely, other, inf)
+            return Pair(likely, mirrored(likely, likely.load), min(choice, HEAD_START), jumps)
+        return Pair(likely, other, inf, jumps)
     if likely.motor.speed * other.motor.speed > 0.0:  # they agree by now
-        return Pair(likely if lead >= -OVERTAKEN else other, other, inf)
+        if lead < -OVERTAKEN:
+            likely = other
+            forgotten(jumps)
+        return Pair(likely, other, inf, jumps)
     if lead < -OVERTAKEN:
         likely, other, lead = other, likely, -lead
-    return Pair(likely, other, inf if lead > SETTLED else lead)
+        forgotten(jumps)
+    return Pair(likely, other, inf if lead > SETTLED else lead, jumps)
 
 
 @compiled
@@ -53,13 +59,16 @@ def followed(
     p: Floats, noise: Noise, pair: Pair, latched: Floats, start: float, stop: float, edge: bool, steps: float
 ) -> Pair:
     """The pair from start to stop [s], where an edge passes or not, `steps` after the one before."""
-    likely, other, lead, choice = pair.likely, pair.other, pair.lead, inf
+    likely, other, lead, choice, jumps = pair.likely, pair.other, pair.lead, inf, pair.jumps
+    led_on(p, jumps, acting(p, latched, stop), likely.motor.speed, stop - start)
     for which in range(2):
         if which == 1 and lead == inf:
             break
         b = carried(p, noise, likely if which == 0 else other, latched, start, stop)
         if edge:
-            b, score, doubt = edge_passed(p, noise, b, acting(p, latched, stop), steps)
+            b, score, doubt = edge_passed(
+                p, noise, b, jumps if which == 0 else jumps[:0], acting(p, latched, stop), steps
+            )
             lead += score if which == 0 else -score
             choice = doubt if which == 0 else choice
             b = bounded(p, noise, b)
@@ -67,7 +76,7 @@ def followed(
             likely = b
         else:
             other = b
-    return _settled(likely, other, lead, choice) if edge else Pair(likely, other, lead)
+    return _settled(likely, other, lead, jumps, choice) if edge else Pair(likely, other, lead, jumps)
 
 
 @compiled
@@ -76,4 +85,7 @@ def at_sample(p: Floats, noise: Noise, pair: Pair, u: float, dt: float, seen: bo
     likely, other = pair.likely, pair.other
     if not seen:
         likely, other = nothing_seen(noise, likely, dt), nothing_seen(noise, other, dt)
-    return Pair(bounded(p, noise, turned_round(p, noise, likely, u, dt)), bounded(p, noise, other), pair.lead)
+    after = turned_round(p, noise, likely, u, dt)
+    if after.motor.speed * likely.motor.speed < 0.0:
+        forgotten(pair.jumps)
+    return Pair(bounded(p, noise, after), bounded(p, noise, other), pair.lead, pair.jumps)

@@ -49,7 +49,7 @@ def nothing_seen(noise: Noise, b: Belief, dt: float) -> Belief:
     speed, load, still = min(max(s.speed, -most), most), b.load, overdue > STANDS
     if still:
         speed, load = 0.0, t.load
-    trail = Trail(t.side, t.since, overdue, still, t.drift, t.memory, t.missed, t.doubt, t.innovation, t.load)
+    trail = Trail(t.side, t.since, overdue, still, t.drift, t.memory, t.missed, t.doubt, t.innovation, t.load, t.level)
     return Belief(moved(s, s.angle, speed, s.direction), load, b.spread, trail, b.elapsed)
 
 
@@ -65,7 +65,9 @@ def turned_round(p: Floats, noise: Noise, b: Belief, u: float, dt: float) -> Bel
     other = 2.0 * (u - p[BIAS]) - b.load
     doubt = t.doubt + dt if abs(b.load) > abs(other) + PREFERENCE else 0.0
     if doubt <= CERTAINTY:
-        trail = Trail(t.side, t.since, t.overdue, t.still, t.drift, t.memory, t.missed, doubt, t.innovation, t.load)
+        trail = Trail(
+            t.side, t.since, t.overdue, t.still, t.drift, t.memory, t.missed, doubt, t.innovation, t.load, t.level
+        )
         return Belief(s, b.load, c, trail, b.elapsed)
     b = mirrored(b, other)
     c = b.spread

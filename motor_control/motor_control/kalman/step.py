@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_control.kalman.belief import Belief, Noise, Spread, Trail
+from motor_control.kalman.jump import SHAPE, UNEARNED
 from motor_control.kalman.motion import acting, carried
 from motor_control.kalman.pair import Pair, at_sample, followed
 from motor_model.compiled import compiled
@@ -32,8 +33,8 @@ def first_pair(noise: Noise, speed: float, direction: float) -> Pair:
     """A motor of which only a reported speed [rad/s] is known, as good as a period of irregular slots."""
     spread = Spread(noise.slot * noise.slot, 0.0, 0.0, 0.01 * speed * speed, 0.0, 0.01)
     motor = State(0.0, speed, 0.0, 0.0, direction, 0.0)
-    belief = Belief(motor, 0.0, spread, Trail(0.0, 0.0, 0.0, False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0)
-    return Pair(belief, belief, inf)
+    belief = Belief(motor, 0.0, spread, Trail(0.0, 0.0, 0.0, False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, UNEARNED), 0.0)
+    return Pair(belief, belief, inf, np.zeros(SHAPE))
 
 
 @compiled
@@ -55,6 +56,7 @@ def read(
     """
     p = p.copy()
     t, seen = 0.0, False
+    pair = Pair(pair.likely, pair.other, pair.lead, pair.jumps.copy())  # the rest is written to it
     for at, steps, edge in ((*earlier, True), (*latest, True), (dt, 0.0, False)):
         if not isnan(at):
             stop = min(max(at, t), dt)
