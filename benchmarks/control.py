@@ -135,7 +135,9 @@ def claims(
     ]
     for speed in (100.0, 40.0, 10.0):
         back = loads[loop.name, speed][0]
-        rows.append((f"{speed:g} rad/s back after a load in {3e3 * TAU:.0f} ms", f"{1e3 * back:.1f} ms", back <= 3.0 * TAU))
+        rows.append(
+            (f"{speed:g} rad/s back after a load in {3e3 * TAU:.0f} ms", f"{1e3 * back:.1f} ms", back <= 3.0 * TAU)
+        )
     verdict = {True: "holds", False: "**does not hold**"}
     return [f"| {loop.name}: {claim} | {number} | {verdict[bool(true)]} |" for claim, number, true in rows]
 
