@@ -32,6 +32,7 @@ from motor_ros.run import stay_on_this_machine
 RESULTS = Path(__file__).with_name("results")
 BARE = Path(__file__).with_name("loop_peer.py")
 CONTROLLER, ECHO, QUICK_ECHO = "motor_control", "bare echo", "bare echo on the controller's executor"
+FETCH_EVERY = 0.02  # [s]
 SETTLING, PATIENCE = 3.0, 30.0  # [s] before anything is measured; for the first voltage
 PROMISED = 1.5  # times the echo's latency
 MOTOR = Parameters(
@@ -42,28 +43,38 @@ soak_process.DOMAIN = "81"  # of this benchmark alone
 
 
 class Listener(Node):
-    """Notes when each sample and each voltage was published [ns], by the sample's stamp."""
+    """Notes when each sample and each voltage was published [ns], by the sample's stamp.
+
+    It fetches what has come every 20 ms, so that the machine is left to those that are measured.
+    """
 
     def __init__(self) -> None:
         super().__init__("listener")
         self.samples: dict[tuple[int, int], int] = {}
         self.voltages: dict[tuple[int, int], int] = {}
-        for kind, topic, profile, times in (
-            (MotorSpeed, "motor/speed", qos.SPEED, self.samples),
-            (MotorVoltage, "motor/voltage", qos.SPEED, self.voltages),  # deep: none is lost here
-        ):
-            self.create_subscription(kind, topic, self._note(times), profile, raw=True)
+        self._heard = [
+            (self.create_subscription(kind, topic, lambda _: None, qos.SPEED, raw=True), kind, times)  # deep
+            for kind, topic, times in (
+                (MotorSpeed, "motor/speed", self.samples),
+                (MotorVoltage, "motor/voltage", self.voltages),
+            )
+        ]
         self._reference = self.create_publisher(Float64, "motor/reference", qos.REFERENCE)
 
     def refer(self) -> None:
         """Ask for 100 rad/s."""
         self._reference.publish(Float64(data=100.0))
 
-    def _note(self, times: dict[tuple[int, int], int]):  # type: ignore[no-untyped-def]
-        def note(message: bytes, info: dict[str, int]) -> None:
-            times[struct.unpack_from("<iI", message, 4)] = info["source_timestamp"]  # the header's stamp comes first
-
-        return note
+    def hear(self, seconds: float) -> None:
+        """Fetch messages for so long."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            time.sleep(FETCH_EVERY)
+            for subscription, kind, times in self._heard:
+                with subscription.handle:
+                    while (taken := subscription.handle.take_message(kind, True)) is not None:
+                        message, info = taken
+                        times[struct.unpack_from("<iI", message, 4)] = info["source_timestamp"]  # the stamp comes first
 
     def latencies(self) -> np.ndarray:
         """[s] from each answered sample to its voltage, and forget them."""
@@ -83,13 +94,6 @@ class Turns:
     answered: list[float] = field(default_factory=list)  # share of the samples
 
 
-def spin(listener: Listener, seconds: float) -> None:
-    """Hear messages for so long."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        rclpy.spin_once(listener, timeout_sec=0.1)
-
-
 def turn(listener: Listener, process: Process, seconds: float, turns: Turns) -> None:
     """Measure one process for so long, and end it."""
     try:
@@ -98,18 +102,18 @@ def turn(listener: Listener, process: Process, seconds: float, turns: Turns) -> 
             if time.monotonic() > patience:
                 raise MotorError("no voltage comes: see what the processes say above.")
             listener.refer()
-            spin(listener, 0.2)
-        spin(listener, SETTLING)
+            listener.hear(0.2)
+        listener.hear(SETTLING)
         listener.latencies()
         before, begun = process.cpu(), time.monotonic()
-        spin(listener, seconds)
+        listener.hear(seconds)
         turns.cpu.append((process.cpu() - before) / (time.monotonic() - begun))
         samples = len(listener.samples)
         turns.latencies.append(listener.latencies())
         turns.answered.append(len(turns.latencies[-1]) / max(samples, 1))
     finally:
         process.end()
-        spin(listener, 0.5)
+        listener.hear(0.5)
         listener.latencies()
 
 
