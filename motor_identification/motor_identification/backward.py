@@ -37,8 +37,11 @@ def without_stand_ins(way: Way) -> Way:
 
 
 def needed(way: Way, tell: Telling) -> Way:
-    """The findings that are needed beside the later ones, or what does better in their place; and their rivals now."""
-    for step in way.steps[:-1]:
+    """The findings that are needed beside all others, or what does better in their place; and their rivals now.
+
+    The last one too: fitted once more, the model may come to the same motion without it.
+    """
+    for step in way.steps:
         if any(one is step for one in way.steps):
             tell(f"checking {step.found.effect}", 0.9, step.found.effect, way.model.held.gap)
             way = _checked(way, step, tell)
@@ -51,6 +54,8 @@ def _checked(way: Way, step: Step, tell: Telling) -> Way:
     without = _without(way, effect)
     if without.likelihood > current.likelihood - threshold():
         return _replaced(way, step, None, without)
+    if step is way.steps[-1]:  # what could be in its place was tried beside it
+        return way
     likely = [trial.effect for trial in step.trials if trial.effect != effect and trial.evidence > threshold()]
     others = [name for name in likely if name in lacking(without.effects) and name not in current.effects][:RIVALS]
     if not others:

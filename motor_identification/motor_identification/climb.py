@@ -101,8 +101,8 @@ def settled(problem: Problem, place: Floats, kept: Kept) -> tuple[Model, Kept]:
     return model, kept
 
 
-def climbed(way: Way, tell: Telling) -> Way:
-    """Effects added as long as one is found."""
+def climbed(way: Way, tell: Telling, pairs: bool = True) -> Way:
+    """Effects added as long as one is found; where none is and a gap is left, two at once if there are `pairs`."""
     while True:
         trials = _all_tried(way, tell)
         best = accepted(trials)
@@ -111,10 +111,13 @@ def climbed(way: Way, tell: Telling) -> Way:
         if best is not None:
             way = _taken(way, [Step(way.model, best, tuple(trials), rivals(best, trials), best.explains)])
             continue
-        pair = [] if way.steps or way.model.at_floor else _pair(way, trials, tell)
+        pair = _pair(way, trials, tell) if pairs and not way.model.at_floor else []
         if not pair:
             return way
-        way = _taken(way, pair)
+        further = climbed(_taken(way, pair), tell, pairs=False)
+        if not further.model.at_floor and pair[-1].explains <= STANDS_IN:
+            return way
+        way = further
 
 
 def _taken(way: Way, steps: Sequence[Step]) -> Way:
@@ -152,7 +155,7 @@ def _periodic(effect: str) -> bool:
 
 
 def _pair(way: Way, trials: Sequence[Trial], tell: Telling) -> list[Step]:
-    """Two effects that explain together what neither does alone, as two steps; none if there are no such two."""
+    """The two effects that explain most together where neither does alone, as two steps; none if there are no such."""
     current, found = way.model, []
     likely = [trial for trial in trials if trial.evidence > threshold() and not _periodic(trial.effect)]
     for i, first in enumerate(likely[:FIRST_OF_TWO]):
@@ -166,12 +169,11 @@ def _pair(way: Way, trials: Sequence[Trial], tell: Telling) -> list[Step]:
         if second is None:
             continue
         together = explained(current.held.gap, second.model.held.gap, second.model.floor)
-        if together > STANDS_IN or second.model.at_floor:
-            steps = [
-                Step(current, first, tuple(trials), (), together),
-                Step(first.model, second, tuple(seconds), rivals(second, seconds), together),
-            ]
-            found.append((second.model.likelihood, -i, steps))
+        steps = [
+            Step(current, first, tuple(trials), (), together),
+            Step(first.model, second, tuple(seconds), rivals(second, seconds), together),
+        ]
+        found.append((second.model.likelihood, -i, steps))
     return max(found)[2] if found else []
 
 
