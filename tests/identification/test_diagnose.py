@@ -9,14 +9,17 @@ from plant import profiles, record
 from motor_identification.diagnose import Stage, Stopped, diagnose
 from motor_identification.diagnosis import Diagnosis, Verdict
 from motor_identification.evidence import Noise, likely_noise, log_likelihood
+from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.held_out import keep_out
 from motor_identification.intervals import intervals_of
 from motor_identification.problem import make_problem
-from motor_identification.recording import Recording, check
+from motor_identification.recording import Recording, check, recording_of
 from motor_identification.selection import FALSE_ALARMS, judged, threshold
+from motor_model.board import BoardConfig
 from motor_model.effects import EFFECTS
 from motor_model.errors import ModelError, RecordingError
-from motor_model.parameters import PAPER_KA, PAPER_KV
+from motor_model.excitation import profile
+from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 
 BASE = {"kv": 0.9 * PAPER_KV, "ka": 1.2 * PAPER_KA}
 
@@ -75,6 +78,34 @@ def test_two_at_once_and_what_first_stood_in_for_both_is_replaced() -> None:
     assert {one.effect for one in found.findings} == {"coulomb_friction", "load_bias"}
     assert found.model.parameters.value("bias_voltage") == pytest.approx(0.3, rel=1e-3)
     assert 0.8 < found.gap_after / found.noise_floor < 1.15
+
+
+def simulated(motor: Parameters, name: str, irregularity: float) -> Recording:
+    """One of our own profiles, as `experiment --model` records it."""
+    config = BoardConfig(slot_irregularity=irregularity)
+    plan = make_plan(profile(name), 10.0 if irregularity == 0.0 else None, 12.0, 1.0 / config.sample_rate)
+    samples = [sample for _, sample in simulate_plan(plan, motor, config)]
+    return check(recording_of(samples, config.info(motor), name))
+
+
+def test_two_that_hide_each_other_are_found_beside_a_third() -> None:
+    """Friction lifts a static curve at its beginning, drag at its end: a line with another gain is near to both."""
+    hidden = {"ks": 0.3, "breakaway_voltage": 0.8, "stribeck_speed": 4.0, "drag": 5e-5, "delay": 0.006}
+    names = {"coulomb_friction", "static_friction", "quadratic_drag", "transport_delay"}
+    motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA} | hidden, tuple(sorted(names - {"coulomb_friction"})))
+    found = diagnose([simulated(motor, "rich", 0.005)], workers=2)
+    assert {one.effect for one in found.findings} == names and found.verdict is Verdict.EXPLAINED
+    for name, value in hidden.items():
+        assert found.model.parameters.value(name) == pytest.approx(value, rel=1e-3)
+    assert 5.0 < found.gap_before / found.gap_after < 50.0
+
+
+def test_a_friction_that_is_a_hair_off_is_no_second_effect() -> None:
+    """A fit just below the true friction creeps where the motor was held, and what stops it there is not missing."""
+    motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.45}, ("coulomb_friction",))
+    found = diagnose([simulated(motor, name, 0.0) for name in ("step", "ramps")])
+    assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED
+    assert found.model.parameters.value("ks") == pytest.approx(0.45, rel=1e-4)
 
 
 def test_nothing_hidden_nothing_named() -> None:
