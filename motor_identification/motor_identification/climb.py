@@ -27,7 +27,8 @@ from motor_model.effects import EFFECT_BY_NAME
 
 MOST = 6  # findings
 NEAR = 3.0  # times the floor: where most intervals may only be spoilt by a few
-FIRST_OF_TWO = 3  # effects that are tried together with any other where none alone is a finding
+FIRST_OF_TWO = 3  # effects that are tried together with any other where none alone is a finding,
+BESIDE = 2  # and fewer than so many findings are there already: what is not in the table would cost minutes
 OTHER_WAYS = 2  # to begin
 NEARLY = 0.75  # of the evidence of the first finding: another way to begin
 
@@ -111,7 +112,8 @@ def climbed(way: Way, tell: Telling, pairs: bool = True) -> Way:
         if best is not None:
             way = _taken(way, [Step(way.model, best, tuple(trials), rivals(best, trials), best.explains)])
             continue
-        pair = _pair(way, trials, tell) if pairs and not way.model.at_floor else []
+        hopeful = pairs and len(way.steps) < BESIDE and not way.model.at_floor
+        pair = _pair(way, trials, tell) if hopeful else []
         if not pair:
             return way
         further = climbed(_taken(way, pair), tell, pairs=False)
@@ -192,7 +194,7 @@ def by_another_way(way: Way, tell: Telling) -> Way:
         left = tuple(name for name in first.rivals if name != trial.effect)
         begun = Step(first.before, trial, first.trials, left, trial.explains)
         start = Way((begun,), *settled(trial.model.problem, trial.model.place, way.kept), way.workers)
-        other = climbed(start, tell)
+        other = climbed(start, tell, pairs=False)
         if other.model.held.gap < way.model.held.gap:
             way = other
         else:
