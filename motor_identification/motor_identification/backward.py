@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from motor_identification.climb import Step, Telling, Way
+from motor_identification.climb import Step, Way
 from motor_identification.descent import Speeds, descend
 from motor_identification.selection import (
     MARGIN,
@@ -16,6 +16,7 @@ from motor_identification.selection import (
     threshold,
     tried,
 )
+from motor_identification.telling import Telling
 from motor_identification.unknowns import carried
 from motor_model.effects import EFFECT_BY_NAME
 

@@ -1,6 +1,6 @@
 """The way up: effects join a model one after the other, each taken because held-out motion speaks for it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import sqrt
 
@@ -22,7 +22,7 @@ from motor_identification.selection import (
     threshold,
     tried,
 )
-from motor_identification.stopping import Stopped
+from motor_identification.telling import Telling
 from motor_model.effects import EFFECT_BY_NAME
 
 MOST = 6  # findings
@@ -31,16 +31,6 @@ FIRST_OF_TWO = 3  # effects that are tried together with any other where none al
 BESIDE = 2  # and fewer than so many findings are there already: what is not in the table would cost minutes
 OTHER_WAYS = 2  # to begin
 NEARLY = 0.75  # of the evidence of the first finding: another way to begin
-
-
-@dataclass(frozen=True)
-class Stage:
-    """How far a diagnosis is."""
-
-    text: str
-    share: float  # done, 0 to 1
-    best_effect: str
-    gap: float  # [rad/s] of the best model so far
 
 
 @dataclass(frozen=True)
@@ -62,24 +52,6 @@ class Way:
     model: Model
     kept: Kept
     workers: int
-
-
-@dataclass
-class Telling:
-    """Progress out, stop in."""
-
-    progress: Callable[[Stage], None]
-    stopped: Callable[[], bool]
-
-    def __call__(self, text: str, share: float, best_effect: str, gap: float) -> None:
-        """Say how far it is.
-
-        Raises:
-            Stopped: so that was what the caller wanted.
-        """
-        if self.stopped():
-            raise Stopped("the diagnosis was stopped.")
-        self.progress(Stage(text, share, best_effect, gap))
 
 
 def settled(problem: Problem, place: Floats, kept: Kept) -> tuple[Model, Kept]:

@@ -10,7 +10,7 @@ from dataclasses import replace
 from time import perf_counter
 
 from motor_identification.backward import needed, without_stand_ins
-from motor_identification.climb import Stage, Telling, Way, by_another_way, climbed, settled
+from motor_identification.climb import Way, by_another_way, climbed, settled
 from motor_identification.conclusion import concluded
 from motor_identification.diagnosis import Diagnosis
 from motor_identification.fit import SearchReport
@@ -21,6 +21,7 @@ from motor_identification.problem import make_problem
 from motor_identification.recording import Recording
 from motor_identification.refusals import refuse_nonsense
 from motor_identification.stopping import Stopped
+from motor_identification.telling import Stage, Telling
 from motor_model.effects import normalised
 from motor_model.errors import RecordingError
 

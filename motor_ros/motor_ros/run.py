@@ -63,9 +63,9 @@ def quick_executor() -> Executor:
     return executor
 
 
-def spin(node: Node, until: Callable[[], bool], executor: Executor | None = None) -> None:
+def spin(node: Node, until: Callable[[], bool], make_executor: Callable[[], Executor] = SingleThreadedExecutor) -> None:
     """Run the node's callbacks until the condition holds or ROS is shut down from outside."""
-    executor = executor or SingleThreadedExecutor()
+    executor = make_executor()
     executor.add_node(node)
     try:
         while rclpy.ok() and not until():
@@ -79,7 +79,7 @@ def spin(node: Node, until: Callable[[], bool], executor: Executor | None = None
 def run(
     create: Callable[[], Node],
     args: list[str] | None = None,
-    executor: Callable[[], Executor] = SingleThreadedExecutor,
+    make_executor: Callable[[], Executor] = SingleThreadedExecutor,
 ) -> int:
     """Create a node, run it until Ctrl-C, let it `close()`, and return the exit status.
 
@@ -90,7 +90,7 @@ def run(
     node: Node | None = None
     try:
         node = create()
-        spin(node, lambda: bool(interrupt), executor())
+        spin(node, lambda: bool(interrupt), make_executor)
     except MotorError as error:
         print(error, file=sys.stderr)
         return 1

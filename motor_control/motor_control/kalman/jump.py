@@ -13,15 +13,15 @@ S is scaled by the innovations' own mean square: a disc or a model worse than to
 after every start and turn, because friction is what a model knows least.
 """
 
-from math import exp, expm1, log, sqrt
+from math import exp, log, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motor_control.kalman.belief import Belief, Spread, corrected, moved, widened
+from motor_control.kalman.transition import transition
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
-from motor_model.forces import drive_of, friction_slope_at
 
 KA = INDEX["ka"]
 ANGLE, SPEED, LOAD, TOLD, KNOWN, SPAN = range(6)  # [rad/V], [rad/s/V], [V/V], [1/V] l, [1/V²] I - 1/J², [s] or 0: none
@@ -41,17 +41,13 @@ Floats = NDArray[np.float64]
 
 @compiled
 def led_on(p: Floats, jumps: Floats, u: float, speed: float, dt: float) -> None:
-    """The signatures dt [s] later, at an effective voltage u [V] and about this speed [rad/s]; see `motion`."""
+    """The signatures dt [s] later, at an effective voltage u [V] and about this speed [rad/s]."""
     if dt <= 0.0:
         return
-    _source, back_emf = drive_of(p, u)
-    a, b = -(back_emf + friction_slope_at(p, speed)) / p[KA], -1.0 / p[KA]
-    z = a * dt
-    reach = dt * (1.0 + 0.5 * z) if abs(z) < 1e-4 else expm1(z) / a
-    pull = b * (0.5 * dt * dt if abs(z) < 1e-4 else (reach - dt) / a)
+    gain, reach, push, pull = transition(p, u, speed, dt)
     for j in jumps:
         j[ANGLE] += reach * j[SPEED] + pull * j[LOAD]
-        j[SPEED] = (1.0 + expm1(z)) * j[SPEED] + b * reach * j[LOAD]
+        j[SPEED] = gain * j[SPEED] + push * j[LOAD]
 
 
 @compiled

@@ -1,20 +1,16 @@
-"""Prediction: the mean by the motor model's own step, the covariance by the line through it.
+"""Prediction: the mean by the motor model's own step, the covariance by the line through it (`transition.py`).
 
-With the friction's slope f' at the mean speed, the load's random walk q and the torque noise n, all in volts:
-
-    d(δω)/dt = −(kv + f')/ka·δω − (δd + n)/ka,   d(δθ)/dt = δω,   d(δd)/dt = q
+To what that makes of it, the load's random walk q and the torque noise n add, in volts: d(δd)/dt = q, d(δω)/dt = −n/ka.
 """
-
-from math import expm1
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motor_control.kalman.belief import Belief, Noise, Spread, Trail
+from motor_control.kalman.transition import transition
 from motor_model.bridge import effective_voltage
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
-from motor_model.forces import drive_of, friction_slope_at
 from motor_model.motor import advance
 
 KA, BIAS, DELAY = INDEX["ka"], INDEX["bias_voltage"], INDEX["delay"]
@@ -25,14 +21,8 @@ Floats = NDArray[np.float64]
 @compiled
 def _spread(p: Floats, noise: Noise, c: Spread, u: float, speed: float, dt: float) -> Spread:
     """The covariance after dt [s] at an effective voltage u [V] and about this speed [rad/s]."""
-    _source, back_emf = drive_of(p, u)
-    a, b = -(back_emf + friction_slope_at(p, speed)) / p[KA], -1.0 / p[KA]
-    z = a * dt
-    gain = 1.0 + expm1(z)
-    reach = dt * (1.0 + 0.5 * z) if abs(z) < 1e-4 else expm1(z) / a
-    push = b * reach
-    pull = b * (0.5 * dt * dt if abs(z) < 1e-4 else (reach - dt) / a)
-    # x' = F x with F = [[1, reach, pull], [0, gain, push], [0, 0, 1]]
+    gain, reach, push, pull = transition(p, u, speed, dt)
+    b = -1.0 / p[KA]
     as1 = c.as_ + reach * c.ss + pull * c.sl
     al1 = c.al + reach * c.sl + pull * c.ll
     aa1 = c.aa + reach * c.as_ + pull * c.al + reach * as1 + pull * al1

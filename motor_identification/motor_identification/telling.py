@@ -1,0 +1,34 @@
+"""How a diagnosis and whoever waits for it talk: progress out, stop in."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from motor_identification.stopping import Stopped
+
+
+@dataclass(frozen=True)
+class Stage:
+    """How far a diagnosis is."""
+
+    text: str
+    share: float  # done, 0 to 1
+    best_effect: str
+    gap: float  # [rad/s] of the best model so far
+
+
+@dataclass
+class Telling:
+    """Progress out, stop in."""
+
+    progress: Callable[[Stage], None]
+    stopped: Callable[[], bool]
+
+    def __call__(self, text: str, share: float, best_effect: str, gap: float) -> None:
+        """Say how far it is.
+
+        Raises:
+            Stopped: so that was what the caller wanted.
+        """
+        if self.stopped():
+            raise Stopped("the diagnosis was stopped.")
+        self.progress(Stage(text, share, best_effect, gap))
