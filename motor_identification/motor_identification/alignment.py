@@ -8,12 +8,13 @@ programming (A. Viterbi, IEEE Trans. Inf. Theory 13(2), 1967), and ripple and pa
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motor_identification.recording import Floats, Integers
 from motor_model.compiled import compiled
 
 FINENESS = 4  # steps to a slot
-MOST = 6 * FINENESS  # steps of slip from one run to the next
+FARTHEST = 12 * FINENESS  # steps of slip
 PRICE = 10.0 / FINENESS  # of a slip by one step, in halves of a squared standard deviation
 ROUNDS = 4
 
@@ -33,27 +34,26 @@ def align(sums: Floats, turn: float) -> Aligned:
     sums: for every run ss, sc, cc, sw, cw with s and c the responses to sine and cosine, w the residual; shape (B, 5).
     """
     step = turn / FINENESS
-    weight = _best(sums[[int(np.argmax([_alone(row) for row in sums]))]])
-    slips = np.zeros(len(sums), dtype=np.int64)
+    alone = _best(sums)
+    weight = alone[int(np.argmax(alone.real * sums[:, 3] + alone.imag * sums[:, 4]))]
+    slips, before = np.zeros(len(sums), dtype=np.int64), np.zeros(0, dtype=np.int64)
     explained = 0.0
     for _ in range(ROUNDS):
         explained = float(_viterbi(sums, weight.real, weight.imag, step, slips))
-        weight = _best(_turned(sums, np.asarray(slips * step)))
-    return Aligned(weight, slips / FINENESS, explained)
+        weight = _best(_turned(sums, np.asarray(slips * step)).sum(axis=0))
+        if np.array_equal(slips, before):
+            break
+        before = slips.copy()
+    return Aligned(complex(weight), slips / FINENESS, explained)
 
 
-def _alone(row: Floats) -> float:
-    weight = _best(row[None])
-    return weight.real * float(row[3]) + weight.imag * float(row[4])
-
-
-def _best(sums: Floats) -> complex:
-    """A + ib of the wave a·sin + b·cos that explains most of all runs together."""
-    ss, sc, cc, sw, cw = sums.sum(axis=0)
+def _best(sums: Floats) -> NDArray[np.complex128]:
+    """A + ib of the wave a·sin + b·cos that explains most, (…, 5) → (…); 0 where nothing tells."""
+    ss, sc, cc, sw, cw = np.moveaxis(sums, -1, 0)
     determinant = ss * cc - sc * sc
-    if determinant <= 1e-9 * ss * cc:
-        return 0j
-    return complex((cc * sw - sc * cw) / determinant, (ss * cw - sc * sw) / determinant)
+    told = determinant > 1e-9 * ss * cc
+    wave = (cc * sw - sc * cw) + 1j * (ss * cw - sc * sw)
+    return np.asarray(np.where(told, wave / np.where(told, determinant, 1.0), 0.0))
 
 
 def _turned(sums: Floats, angle: Floats) -> Floats:
@@ -73,26 +73,31 @@ def _turned(sums: Floats, angle: Floats) -> Floats:
 
 @compiled
 def _viterbi(sums: Floats, real: float, imag: float, step: float, slips: Integers) -> float:
-    """Fill the most likely slips of all runs under one wave; returns what they explain."""
-    width = 4 * MOST + 1
-    score, origin = np.full((len(sums), width), -np.inf), np.zeros((len(sums), width), dtype=np.int64)
+    """Fill the most likely slips of all runs under one wave; returns what they explain.
+
+    A slip's price grows by the step: the best way to every slip takes one look from either side.
+    """
+    width = 2 * FARTHEST + 1
+    origin = np.zeros((len(sums), width), dtype=np.int64)
+    score = -PRICE * np.abs(np.arange(width) - FARTHEST)
     for b in range(len(sums)):
         ss, sc, cc, sw, cw = sums[b]
+        if b > 0:
+            origin[b] = np.arange(width)
+            for k in range(1, width):
+                if score[k - 1] - PRICE > score[k]:
+                    score[k], origin[b, k] = score[k - 1] - PRICE, origin[b, k - 1]
+            for k in range(width - 2, -1, -1):
+                if score[k + 1] - PRICE > score[k]:
+                    score[k], origin[b, k] = score[k + 1] - PRICE, origin[b, k + 1]
         for k in range(width):
-            angle = step * (k - 2 * MOST)
+            angle = step * (k - FARTHEST)
             x = real * np.cos(angle) - imag * np.sin(angle)
             y = real * np.sin(angle) + imag * np.cos(angle)
-            gain = 2.0 * (x * sw + y * cw) - (x * x * ss + 2.0 * x * y * sc + y * y * cc)
-            if b == 0:
-                score[b, k] = gain - PRICE * abs(k - 2 * MOST)
-                continue
-            for j in range(max(k - MOST, 0), min(k + MOST + 1, width)):
-                total = score[b - 1, j] - PRICE * abs(k - j) + gain
-                if total > score[b, k]:
-                    score[b, k], origin[b, k] = total, j
-    k = int(np.argmax(score[-1]))
-    best = float(score[-1, k])
+            score[k] += 2.0 * (x * sw + y * cw) - (x * x * ss + 2.0 * x * y * sc + y * y * cc)
+    k = int(np.argmax(score))
+    best = float(score[k])
     for b in range(len(sums) - 1, -1, -1):
-        slips[b] = k - 2 * MOST
+        slips[b] = k - FARTHEST
         k = origin[b, k]
     return best

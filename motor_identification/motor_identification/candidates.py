@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 
 from motor_identification import periodic
-from motor_identification.descent import Speeds, descend
+from motor_identification.descent import LEAST_GAIN, Speeds, descend, gains
 from motor_identification.problem import Problem
 from motor_identification.recording import Floats
 from motor_identification.unknowns import carried
@@ -17,7 +17,6 @@ from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME, normalised
 
 QUICK = 0.02  # [s] intervals of the quick look
 LOOK = 10  # iterations of it
-LEAST_GAIN = 4.0  # of a sum of squared standard deviations, for a closer look
 
 # Shares of the largest voltage, speed or duration for what is scaled by these; plain values for the others.
 VALUES: dict[str, Sequence[float]] = {
@@ -60,7 +59,7 @@ def extended(problem: Problem, place: Floats, effect: str, least: float = 0.0) -
         if cost < best:
             best, start = cost, there
     before = float(bare.costs(place[None])[0])
-    if (before - best) * len(bare.weight) < LEAST_GAIN * best:
+    if not gains(before, best, len(bare.weight)):
         return None
     end, more = descend(larger, Speeds(larger), start, iterations=20, tolerance=1e-8)
     return larger, end, evaluations + more

@@ -19,6 +19,7 @@ from motor_identification.selection import (
     judged,
     lacking,
     rivals,
+    size,
     threshold,
     tried,
 )
@@ -118,9 +119,9 @@ def _all_tried(way: Way, tell: Telling) -> list[Trial]:
     trials = tried(current, way.kept, plain, way.workers, heard)
     best = accepted(trials)
     if best is None or best.model.above_floor:
-        periodic = [effect for effect in left if _periodic(effect)]
-        least = max((trial.evidence for trial in trials), default=0.0)
-        trials += tried(current, way.kept, periodic, way.workers, heard, max(least, 0.0))
+        for effect in sorted(filter(_periodic, left), key=size):  # an eccentricity is a line in a ripple's spectrum too
+            least = max((trial.evidence for trial in trials), default=0.0)
+            trials += tried(current, way.kept, [effect], way.workers, heard, max(least, 0.0))
     return sorted(trials, key=lambda trial: -trial.evidence)
 
 

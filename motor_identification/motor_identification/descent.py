@@ -9,6 +9,8 @@ from scipy.optimize import least_squares
 from motor_identification.problem import Problem
 from motor_identification.recording import Floats
 
+LEAST_GAIN = 4.0  # of a sum of squared standard deviations, for a closer look
+
 
 class Residuals(Protocol):
     """Something least squares can minimise."""
@@ -66,6 +68,11 @@ def descend(
     evaluations = int(solution.nfev + 2 * len(place) * (solution.njev or 0)) + 1
     better = robust or 2.0 * solution.cost <= float(np.sum(target.residuals(place) ** 2))
     return np.asarray(solution.x if better else place), evaluations
+
+
+def gains(before: float, after: float, count: int) -> bool:
+    """Whether a cost fell by more than LEAST_GAIN squared standard deviations of so many residuals."""
+    return (before - after) * count >= LEAST_GAIN * after
 
 
 def typical(problem: Problem, place: Floats) -> tuple[float, float]:

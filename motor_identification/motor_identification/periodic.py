@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from motor_identification.adrift import adrift
-from motor_identification.descent import Speeds, descend
+from motor_identification.descent import Speeds, descend, gains
 from motor_identification.direction import redirected
 from motor_identification.problem import Problem
 from motor_identification.recording import Floats
@@ -40,39 +40,47 @@ def add_periodic(problem: Problem, place: Floats, effects: tuple[str, ...]) -> t
 
 
 def added(bare: Problem, place: Floats, effect: str, least: float = 0.0) -> tuple[Problem, Floats, int] | None:
-    """Extend a fit by one periodic effect; None where its spectrum promises less than `least`.
+    """Extend a fit by one periodic effect; with `least`, None where nothing speaks for it.
 
-    That is in squared standard deviations. It is fitted on measured angles, then on the simulated one, and once more
-    where the spectrum then points elsewhere.
+    That is where its spectrum promises less than `least` squared standard deviations, or a fit on measured angles gains
+    nothing. From there it is fitted on the simulated angle, and once more where the spectrum then points elsewhere.
     """
     effects, evaluations = (*bare.unknowns.effects, effect), 0
     choices: list[tuple[float, Problem, Floats]] = []
     tracks = bare.anchored(place, effects).tracks
-    before = np.inf  # number of cycles that was tried
+    before, without = np.inf, _cost(bare, place)  # number of cycles that was tried; cost without the effect
+    promise = least
     for _ in range(ROUNDS):
-        begin = _STARTS[effect](bare, place, tracks, least)
+        begin = _STARTS[effect](bare, place, tracks, promise)
         if begin is None:
             break
         tracks, values = begin
         cycles = float(values.get("ripple_cycles", np.array(1.0)))
         if abs(cycles - before) * _turned(tracks) < 1.0:  # the same line again
             break
-        before = cycles
-        trial, least = replace(bare.with_effects(effects), tracks=tracks), 0.0
+        before, promise = cycles, 0.0
+        trial = replace(bare.with_effects(effects), tracks=tracks)
         start = carried(bare.unknowns, place, trial.unknowns, values)
         end, more = descend(trial, Speeds(trial), start, iterations=ITERATIONS, tolerance=1e-8)
+        evaluations += more
+        if least > 0.0 and not gains(without, _cost(trial, end), len(trial.weight)):
+            break
         mended = carried(bare.unknowns, carried(trial.unknowns, end, bare.unknowns, {}), trial.unknowns, values)
         held = redirected(trial, end)
-        loose, there, further = adrift(replace(held, tracks=()), effect, (start, mended), _turned(tracks))
-        evaluations += more + further
-        choices += [(float(one.costs(at[None])[0]), one, at) for one, at in ((held, end), (loose, there))]
-        _cost, best, end = min(choices, key=lambda one: one[0])
+        loose, there, more = adrift(replace(held, tracks=()), effect, (start, mended), _turned(tracks))
+        evaluations += more
+        choices += [(_cost(one, at), one, at) for one, at in ((held, end), (loose, there))]
+        _least, best, end = min(choices, key=lambda one: one[0])
         bare = replace(bare, intervals=best.intervals, tracks=best.tracks if bare.tracks else ())
         place, tracks = carried(best.unknowns, end, bare.unknowns, {}), best.anchored(end, effects).tracks
     if not choices:
         return None
-    _cost, best, end = min(choices, key=lambda one: one[0])
+    _least, best, end = min(choices, key=lambda one: one[0])
     return best, end, evaluations
+
+
+def _cost(problem: Problem, place: Floats) -> float:
+    return float(problem.costs(place[None])[0])
 
 
 def _turned(tracks: Tracks) -> float:

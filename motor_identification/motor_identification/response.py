@@ -1,0 +1,141 @@
+"""The linear response of a motor to a load that repeats with the angle, over angles that were measured.
+
+A load of 1 V, e^(i·c·θ) for c cycles a turn, moves the speed by x with dx/dt = −rate·x − e^(i·c·θ)/inertia. Within an
+interval between two measured angles the shaft turns evenly, and the response is had in closed form.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.recording import Bools, Floats, Integers
+from motor_model.compiled import compiled
+
+Complexes = NDArray[np.complex128]
+
+TOGETHER = 32  # numbers of cycles: phasors are turned from one to the next so often before they are had anew
+
+
+@dataclass(frozen=True)
+class Course:
+    """The measured motion of one recording, and the motor that made it; arrays of shape (I,)."""
+
+    order: Integers  # of the intervals in time
+    run: Integers  # the counted run that an interval is in, see `Track`
+    start: Floats  # [rad]
+    end: Floats  # [rad]
+    duration: Floats  # [s]
+    moving: Bools
+    rate: float  # [1/s] at which a motor forgets its speed, kv/ka
+    inertia: float  # [V·s²/rad] ka
+
+    def response(self, cycles: float) -> tuple[Floats, Floats]:
+        """Increments [rad] that loads of sin(cycles·θ) and of cos(cycles·θ), 1 V each, make, (I,) each."""
+        travel = np.zeros(len(self.start), dtype=np.complex128)
+        _fill_response(self.order, self.start, self.end, self.duration, self.moving, cycles, self.rate, travel)
+        travel /= self.rate * self.inertia
+        return travel.imag, travel.real
+
+    def products(self, pull: Floats, cycles: Floats, block: Integers) -> Iterator[tuple[Floats, Floats]]:
+        """Products of `pull` (I,) with the responses to evenly spaced `cycles` (C,), summed over every block (B,).
+
+        A few numbers of cycles at a time: with sines and with cosines, (few, B) each.
+        """
+        width = float(cycles[1] - cycles[0]) if len(cycles) > 1 else 0.0
+        for i in range(0, len(cycles), TOGETHER):
+            count = min(TOGETHER, len(cycles) - i)
+            sums = np.zeros((int(block.max()) + 1, count), dtype=np.complex128)
+            _add_products(
+                self.order, self.start, self.end, self.duration, self.moving, float(cycles[i]), width, self.rate, pull,
+                block, sums,
+            )  # fmt: skip
+            sums /= self.rate * self.inertia
+            yield sums.imag.T, sums.real.T
+
+    def transient(self) -> Floats:
+        """Increments [rad] that a speed of 1 rad/s at the beginning of every counted run makes, (I,)."""
+        travel = np.zeros(len(self.start))
+        _fill_transient(self.order, self.run, self.duration, self.moving, self.rate, travel)
+        return travel
+
+
+@compiled
+def _passed(
+    speed: complex, here: complex, there: complex, turn: float, h: float, fade: float, rate: float
+) -> tuple[complex, complex]:
+    """Travel, times rate, in h s in which the load turns from `here` to `there`, by `turn` rad; and the speed then.
+
+    Of a motor of inertia 1. Real numbers are kept apart from complex ones: times faster.
+    """
+    frequency = turn / h
+    share = 1.0 / (rate * rate + frequency * frequency)
+    lag = complex(rate * share, -frequency * share)  # 1/(rate + i·frequency)
+    left = complex(fade * speed.real, fade * speed.imag)
+    then = left - (there - complex(fade * here.real, fade * here.imag)) * lag
+    change = there - here
+    if abs(turn) > 1e-6:
+        load = complex(change.imag / frequency, -change.real / frequency)
+    else:
+        load = complex(here.real * h, here.imag * h)
+    return speed - then - load, then
+
+
+@compiled
+def _phasor(angle: float) -> complex:
+    return complex(np.cos(angle), np.sin(angle))
+
+
+@compiled
+def _fill_response(
+    order: Integers, start: Floats, end: Floats, duration: Floats, moving: Bools,
+    cycles: float, rate: float, travel: Complexes,
+) -> None:  # fmt: skip
+    speed = complex(0.0, 0.0)
+    for i in order:
+        h = duration[i]
+        if not moving[i] or h <= 0.0:
+            speed = complex(0.0, 0.0)
+            continue
+        here, there = _phasor(cycles * start[i]), _phasor(cycles * end[i])
+        turn, fade = cycles * (end[i] - start[i]), np.exp(-rate * h)
+        travel[i], speed = _passed(speed, here, there, turn, h, fade, rate)
+
+
+@compiled
+def _add_products(
+    order: Integers, start: Floats, end: Floats, duration: Floats, moving: Bools,
+    cycles: float, width: float, rate: float, pull: Floats, block: Integers, sums: Complexes,
+) -> None:  # fmt: skip
+    """All numbers of cycles in one pass: from one to the next, every angle's phasor turns by the same angle."""
+    count = sums.shape[1]
+    speed = np.zeros(count, dtype=np.complex128)
+    for i in order:
+        h = duration[i]
+        if not moving[i] or h <= 0.0:
+            speed[:] = 0.0
+            continue
+        here, there = _phasor(cycles * start[i]), _phasor(cycles * end[i])
+        here_on, there_on = _phasor(width * start[i]), _phasor(width * end[i])
+        fade, row, along = np.exp(-rate * h), sums[block[i]], pull[i]
+        for k in range(count):
+            turn = (cycles + k * width) * (end[i] - start[i])
+            travel, speed[k] = _passed(speed[k], here, there, turn, h, fade, rate)
+            row[k] += complex(along * travel.real, along * travel.imag)
+            here, there = here * here_on, there * there_on
+
+
+@compiled
+def _fill_transient(
+    order: Integers, run: Integers, duration: Floats, moving: Bools, rate: float, travel: Floats
+) -> None:
+    """Increments of dx/dt = −rate·x in every run that begins with x = 1 rad/s."""
+    speed, number = 0.0, -1
+    for i in order:
+        if run[i] != number or not moving[i]:
+            speed, number = 1.0, run[i]
+        if moving[i]:
+            fade = np.exp(-rate * duration[i])
+            travel[i] = speed * (1.0 - fade) / rate
+            speed *= fade
