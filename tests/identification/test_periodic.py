@@ -92,6 +92,20 @@ def test_an_eccentric_disc() -> None:
     assert 0.8 < fit.residual_rms / fit.noise_floor < 1.5
 
 
+@pytest.mark.parametrize("size", [0.0, 0.002])
+def test_an_eccentricity_is_followed_where_a_fit_gains_by_it(size: float) -> None:
+    recording = made({"eccentricity": size, "eccentricity_phase": 0.7}, profiles.staircase(10.0, 3, 0.3), seed=2)
+    bare = make_problem([recording], ())
+    place, _evaluations = descend(bare, Speeds(bare), np.log([PAPER_KV, PAPER_KA]))
+    bare = redirected(bare, place)
+    asked = added(bare, place, "encoder_eccentricity")
+    assert asked is not None
+    found = added(bare, place, "encoder_eccentricity", 4.0)
+    assert (found is None) == (size == 0.0)
+    for problem, there, _evaluations in filter(None, (asked, found)):
+        assert abs(problem.unknowns.parameters(there, "").values["eccentricity"] - size) < 3e-4
+
+
 def test_every_recording_has_its_own_phase_and_load_step() -> None:
     recordings = [made({"ks": 0.3}, profiles.step(8.0, 0.4), seed) for seed in range(3)]
     unknowns = unknowns_of(recordings, ("coulomb_friction", "load_step", "torque_ripple"))
