@@ -7,16 +7,14 @@ from motor_identification.descent import Speeds, descend
 from motor_identification.selection import (
     MARGIN,
     STANDS_IN,
-    Model,
-    Trial,
     as_in_the_table,
-    judged,
     lacking,
     size,
     threshold,
     tried,
 )
 from motor_identification.telling import Telling
+from motor_identification.trial import Model, Trial, judged
 from motor_identification.unknowns import carried
 from motor_model.effects import EFFECT_BY_NAME
 

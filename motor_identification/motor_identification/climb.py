@@ -12,11 +12,7 @@ from motor_identification.problem import Problem
 from motor_identification.recording import Floats
 from motor_identification.selection import (
     STANDS_IN,
-    Model,
-    Trial,
     accepted,
-    explained,
-    judged,
     lacking,
     rivals,
     size,
@@ -24,6 +20,7 @@ from motor_identification.selection import (
     tried,
 )
 from motor_identification.telling import Telling
+from motor_identification.trial import Model, Trial, explained, judged
 from motor_model.effects import EFFECT_BY_NAME
 
 MOST = 6  # findings

@@ -13,7 +13,7 @@ from motor_identification.fit import Fit, SearchReport, judge
 from motor_identification.identifiability import telling_apart
 from motor_identification.recording import Recording
 from motor_identification.refine import refine
-from motor_identification.selection import AT_FLOOR, LASTING, Model
+from motor_identification.trial import AT_FLOOR, LASTING, Model
 from motor_model.effects import EFFECT_BY_NAME
 
 MISSED = 5  # miscounted intervals from which on edges are missing

@@ -5,7 +5,8 @@ import numpy as np
 from motor_identification.candidates import noticeable
 from motor_identification.evidence import log_likelihood
 from motor_identification.recording import Floats
-from motor_identification.selection import Model, lacking, threshold
+from motor_identification.selection import lacking, threshold
+from motor_identification.trial import Model
 from motor_model.effects import EFFECT_BY_NAME
 
 

@@ -1,50 +1,25 @@
 """A fitting problem: recordings and a set of unknowns, as a cost for a swarm and residuals for least squares."""
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from motor_identification.intervals import Intervals, intervals_of, joined, without
-from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.refusals import refuse_nonsense
-from motor_identification.residual import fill_residuals
+from motor_identification.residual import of_swarm
 from motor_identification.stopping import Stopped
 from motor_identification.track import Track, make_track
 from motor_identification.unknowns import Unknowns, unknowns_of
-from motor_model.compiled import compiled
 from motor_model.effects import INDEX
 from motor_model.encoder import show
 from motor_model.errors import RecordingError
 from motor_model.simulate import NOWHERE, roll_out
 
-WORTHWHILE = 50_000  # steps of motion (some 3 ms) for which it pays to start threads
 COARSENESS = 4.0  # of the motion while a swarm searches
 STEP = 1e-7  # of the box, for derivatives: 1e-5 of it turns a ripple's phase by 0.3 rad within half a minute
-
-
-@compiled
-def fill_swarm(
-    vectors: Floats,
-    starts: Floats,
-    command_time: Floats,
-    command: Floats,
-    time: Floats,
-    anchor: Floats,
-    first: Integers,
-    last: Integers,
-    speed: Floats,
-    slack: Floats,
-    residuals: Floats,
-) -> None:
-    """Residuals (S, I) of a swarm of motors over one recording; see `Intervals` for the data."""
-    angle, shaft = np.empty(len(time)), np.empty(len(time))
-    for s in range(len(vectors)):
-        roll_out(vectors[s], starts[s], command_time, command, time, anchor, angle, shaft)
-        show(vectors[s], angle, anchor)
-        fill_residuals(angle, time, first, last, speed, slack, residuals[s])
 
 
 @dataclass(frozen=True)
@@ -140,33 +115,7 @@ class Problem:
         """The same for parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
         self.go_on()
         vectors[:, :, INDEX["coarseness"]] = self.coarseness
-        residuals = np.empty((len(vectors), len(self.weight)))
-        steps = len(vectors) * sum(
-            len(data.time) + len(time) for data, (time, _) in zip(self.intervals, self.commands, strict=True)
-        )
-        workers = max(self.workers, 1) if steps > WORTHWHILE else 1
-        share = -(-len(vectors) // workers)
-        parts = [slice(i, i + share) for i in range(0, len(vectors), share)]
-
-        def work(part: slice) -> None:
-            column = 0
-            for r, ((time, voltage), data) in enumerate(zip(self.commands, self.intervals, strict=True)):
-                alone = len(self.intervals) == 1  # an hour's residuals are not there twice
-                out = residuals[part] if alone else np.empty((len(vectors[part]), len(data.first)))
-                fill_swarm(
-                    np.ascontiguousarray(vectors[part, r]), np.ascontiguousarray(starts[part, r]), time, voltage,
-                    data.time, self.anchors[r], data.first, data.last, data.speed, data.slack, out,
-                )  # fmt: skip
-                if not alone:
-                    residuals[part, column : column + len(data.first)] = out
-                column += len(data.first)
-
-        if len(parts) == 1:
-            work(parts[0])
-        else:
-            with ThreadPoolExecutor(len(parts)) as pool:
-                list(pool.map(work, parts))
-        return residuals
+        return of_swarm(vectors, starts, self.commands, self.anchors, self.intervals, self.workers)
 
     def go_on(self) -> None:
         """Nothing, unless the computation was told to stop.

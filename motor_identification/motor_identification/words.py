@@ -5,8 +5,8 @@ from math import inf, isnan, log10
 from motor_identification.diagnosis import Diagnosis, Finding, Verdict
 from motor_identification.discrepancy import shape_left, where
 from motor_identification.fit import Fit
-from motor_identification.selection import AT_FLOOR, LASTING
 from motor_identification.shape import shape_in_words
+from motor_identification.trial import AT_FLOOR, LASTING
 from motor_model.effects import SPEC_BY_NAME
 
 TOO_SHORT = "The recording is too short to keep any of its motion out of the fits: nothing can be judged by it."

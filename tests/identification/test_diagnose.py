@@ -14,7 +14,8 @@ from motor_identification.held_out import keep_out
 from motor_identification.intervals import intervals_of
 from motor_identification.problem import make_problem
 from motor_identification.recording import Recording, check, recording_of
-from motor_identification.selection import FALSE_ALARMS, judged, threshold
+from motor_identification.selection import FALSE_ALARMS, threshold
+from motor_identification.trial import judged
 from motor_model.board import BoardConfig
 from motor_model.effects import EFFECTS
 from motor_model.errors import ModelError, RecordingError

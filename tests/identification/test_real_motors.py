@@ -16,7 +16,7 @@ from motor_identification.identify import Request, identify
 from motor_identification.problem import make_problem
 from motor_identification.recording import Recording, check, recording_of
 from motor_identification.refine import Refined, learn
-from motor_identification.selection import LASTING
+from motor_identification.trial import LASTING
 from motor_model.simulate import simulate
 
 DATA = Path(__file__).resolve().parents[3] / "shared/data"

@@ -53,7 +53,7 @@ def test_an_edit_of_any_source_is_another_cache(copy: Path) -> None:
 
 
 def test_an_edit_of_what_calls_the_model_is_another_cache_for_that_only(copy: Path) -> None:
-    """`fill_swarm` calls functions of a neighbouring file; Numba itself would look at its own file only."""
+    """A compiled function may call one of a neighbouring file; Numba itself would look at its own file only."""
     model, identification = caches(copy)
     with (copy / "motor_identification" / "residual.py").open("a", encoding="utf-8") as source:
         source.write("# edited\n")
