@@ -10,8 +10,9 @@ import numpy as np
 
 from motor_identification.counts import changes_of, in_runs
 from motor_identification.edges import edges_of
-from motor_identification.intervals import Intervals, intervals_between, intervals_of_changes
+from motor_identification.intervals import Intervals
 from motor_identification.problem import Problem
+from motor_identification.reading import intervals_between, intervals_of_changes
 from motor_identification.recording import Floats, Integers, Recording
 from motor_model.sample import Measurement
 from motor_model.simulate import NOWHERE, roll_out

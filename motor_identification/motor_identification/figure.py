@@ -8,7 +8,8 @@ import numpy as np
 
 from motor_identification.findings import as_table
 from motor_identification.fit import Fit
-from motor_identification.intervals import Intervals, intervals_of
+from motor_identification.intervals import Intervals
+from motor_identification.reading import intervals_of
 from motor_identification.recording import Recording
 from motor_identification.residual import residuals
 from motor_model.errors import MotorError

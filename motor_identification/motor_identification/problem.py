@@ -6,7 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from motor_identification.intervals import Intervals, intervals_of, joined, without
+from motor_identification.intervals import Intervals, joined, without
+from motor_identification.reading import intervals_of
 from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.refusals import refuse_nonsense
 from motor_identification.residual import of_swarm

@@ -10,7 +10,7 @@ import pytest
 from motor_identification.bag import read_recording
 from motor_identification.cli.import_csv import main
 from motor_identification.csv_import import CsvForm, Kind, Log, read_log
-from motor_identification.intervals import intervals_of
+from motor_identification.reading import intervals_of
 from motor_identification.recording import check, recording_of
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement

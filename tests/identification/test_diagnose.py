@@ -11,8 +11,8 @@ from motor_identification.diagnosis import Diagnosis, Verdict
 from motor_identification.evidence import Noise, likely_noise, log_likelihood
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.held_out import keep_out
-from motor_identification.intervals import intervals_of
 from motor_identification.problem import make_problem
+from motor_identification.reading import intervals_of
 from motor_identification.recording import Recording, check, recording_of
 from motor_identification.selection import FALSE_ALARMS, threshold
 from motor_identification.trial import judged

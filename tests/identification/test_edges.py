@@ -10,7 +10,8 @@ from plant import Truth, profiles, record
 from recorded import as_counts, as_speed
 
 from motor_identification.edges import Edges, edges_of
-from motor_identification.intervals import Intervals, intervals_of
+from motor_identification.intervals import Intervals
+from motor_identification.reading import intervals_of
 from motor_identification.recording import Floats, Recording
 from motor_identification.residual import residuals
 from motor_model.errors import RecordingError

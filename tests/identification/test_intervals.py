@@ -10,7 +10,7 @@ from recorded import as_counts
 
 from motor_identification.counts import STANDARD, Fixes, changes_of, fixes_of, stamp_jitter
 from motor_identification.identify import Request, identify
-from motor_identification.intervals import intervals_of
+from motor_identification.reading import intervals_of
 from motor_identification.recording import Floats, Recording, check
 from motor_model.parameters import PAPER_KA, PAPER_KV
 

@@ -10,8 +10,8 @@ from recorded import as_counts
 
 from motor_identification.edges import edges_of
 from motor_identification.identify import Request, identify
-from motor_identification.intervals import intervals_of
 from motor_identification.plausible import jump_of, speed_over_count
+from motor_identification.reading import intervals_of
 from motor_identification.recording import Recording, check
 from motor_model.errors import RecordingError
 from motor_model.parameters import PAPER_KA, PAPER_KV
