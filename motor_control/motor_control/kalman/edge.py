@@ -99,6 +99,30 @@ def _alarmed(p: Floats, b: Belief, shift: float, variance: float, drift: float, 
 
 
 @compiled
+def _side(p: Floats, noise: Noise, b: Belief, u: float, steps: float) -> tuple[float, float, bool]:
+    """Which way the shaft turned, how much more likely than the other way, and whether that was open."""
+    told = steps if steps != 0.0 and not noise.single else b.motor.speed
+    if noise.single and (u - p[BIAS]) * b.trail.side < 0.0:  # a motor that is driven on does not turn round
+        choice = _flank(noise, b, 1.0, steps)[2] - _flank(noise, b, -1.0, steps)[2]
+        return copysign(1.0, choice), abs(choice), True
+    if noise.single and b.trail.side != 0.0:
+        told = b.trail.side
+    return copysign(1.0, told), inf, False
+
+
+@compiled
+def _caught_up(
+    noise: Noise, b: Belief, where: float, variance: float, side: float, missed: float
+) -> tuple[float, float]:
+    """The angle [rad] of a flank, and how many edges were missed, if the motion should have shown some more."""
+    lacking = floor(side * (b.motor.angle - where) / noise.slot + 0.5)
+    there = where + side * lacking * noise.slot
+    if 0.5 < lacking < 2.5 and abs(there - b.motor.angle) < 3.0 * sqrt(b.spread.aa + variance):
+        return there, missed + lacking
+    return where, missed
+
+
+@compiled
 def edge_passed(
     p: Floats, noise: Noise, b: Belief, jumps: Floats, u: float, steps: float
 ) -> tuple[Belief, float, float]:
@@ -113,37 +137,26 @@ def edge_passed(
         forgotten(jumps)
         trail = Trail(b.motor.direction, 0.0, 0.0, False, 0.0, 0.0, 0.0, 0.0, 0.0, b.load, level)
         return Belief(b.motor, b.load, b.spread, trail, b.elapsed), 0.0, inf
-    told = steps if steps != 0.0 and not noise.single else b.motor.speed
-    side, choice = copysign(1.0, told), inf
-    may_turn = noise.single and (u - p[BIAS]) * t.side < 0.0  # a motor that is driven on does not turn round
-    if may_turn:
-        choice = _flank(noise, b, 1.0, steps)[2] - _flank(noise, b, -1.0, steps)[2]
-        side, choice = copysign(1.0, choice), abs(choice)
-    elif noise.single and t.side != 0.0:
-        side = t.side
+    side, choice, is_open = _side(p, noise, b, u, steps)
     carry_on = side == t.side and steps != 0.0
     where, variance, _likelihood = _flank(noise, b, side, abs(steps))
-    total, shift = b.spread.aa + variance, where - b.motor.angle
     missed = max(t.missed - FORGIVEN * abs(steps), 0.0)
     if noise.missing and carry_on and missed < 1.0:
-        lacking = floor(side * (b.motor.angle - where) / noise.slot + 0.5)  # edges that the motion should have shown
-        if 0.5 < lacking < 2.5 and abs(shift + side * lacking * noise.slot) < 3.0 * sqrt(total):
-            where += side * lacking * noise.slot
-            shift, missed = where - b.motor.angle, missed + lacking
+        where, missed = _caught_up(noise, b, where, variance, side, missed)
+    shift, total = where - b.motor.angle, b.spread.aa + variance
     score, memory = shift / sqrt(total), MEMORY * t.memory + t.since
     drift = MEMORY * t.drift + score
-    if may_turn and (abs(drift) > ALARM or abs(score) > SHOCK):
+    if is_open and (abs(drift) > ALARM or abs(score) > SHOCK):
         choice = 0.0
-    jumped = explained(p, b, jumps, shift, total, carry_on and abs(shift) < FAR * noise.slot)
-    if jumped.load == b.load:
-        before = b
-        b, drift = _alarmed(p, b, shift, variance, drift, memory)
-        if b.spread.aa != before.spread.aa:
-            forgotten(jumps)
-        b = corrected(b, shift, b.spread.aa + variance, 1.0)
+    after, jumped = explained(p, b, jumps, shift, total, carry_on and abs(shift) < FAR * noise.slot)
+    if jumped:
+        drift = 0.0
     else:
-        b, drift = jumped, 0.0
+        after, drift = _alarmed(p, b, shift, variance, drift, memory)
+        if after.spread.aa != b.spread.aa:
+            forgotten(jumps)
+        after = corrected(after, shift, after.spread.aa + variance, 1.0)
     level = levelled(t.level, score, carry_on)
-    trail = Trail(side, 0.0, 0.0, False, drift, memory, missed, t.doubt, shift, b.load, level)
-    b = Belief(b.motor, b.load, b.spread, trail, b.elapsed)
-    return _anchored(noise, b, where, side, carry_on), -0.5 * (score * score + log(total)), choice
+    trail = Trail(side, 0.0, 0.0, False, drift, memory, missed, t.doubt, shift, after.load, level)
+    after = Belief(after.motor, after.load, after.spread, trail, after.elapsed)
+    return _anchored(noise, after, where, side, carry_on), -0.5 * (score * score + log(total)), choice

@@ -126,21 +126,22 @@ def _taken_up(b: Belief, jumps: Floats) -> Belief:
 
 
 @compiled
-def explained(p: Floats, b: Belief, jumps: Floats, shift: float, variance: float, known: bool) -> Belief:
-    """The belief corrected by an innovation [rad] of a variance [rad²] and a jump of the load; as it was without one.
+def explained(p: Floats, b: Belief, jumps: Floats, shift: float, variance: float, known: bool) -> tuple[Belief, bool]:
+    """The belief corrected by an innovation [rad] of a variance [rad²] and a jump of the load; and whether it is one.
 
     known: the flank is one that follows the last one.
     """
     c, t = b.spread, b.trail
     if not known or t.since > LONGEST:
         forgotten(jumps)
-        return b
+        return b, False
     if len(jumps) == 0:
-        return b
+        return b, False
     _added(p, jumps, t.since)
     _judged(jumps, c, shift, variance, max(t.level, 1.0))
     after = _taken_up(corrected(b, shift, variance, 1.0), jumps)
-    return after if jumps[0, SPAN] == 0.0 else b
+    jumped = jumps[0, SPAN] == 0.0
+    return (after if jumped else b), jumped
 
 
 @compiled
