@@ -18,11 +18,31 @@ from motor_model.sample import Measurement
 from motor_model.simulate import NOWHERE, roll_out
 
 SURELY = 4.0  # times the fit's residual that the simulated speed must have for its sign to count
+LESS, ROUNDS = 0.5, 4  # of the residual: where it falls below that, directions are judged once more
 
 
 def redirected(problem: Problem, place: Floats) -> Problem:
-    """The same problem with every edge's direction judged by the motion at a fitted place (D,)."""
-    rms = float(np.sqrt(problem.costs(place[None])[0]))
+    """The same problem with every edge's direction judged by the motion at a fitted place (D,).
+
+    As long as stretches are read the wrong way, the residual is theirs, and much is left open; once they are out of it,
+    the rest is judged by what it really is.
+    """
+    rms = _rms(problem, place)
+    for _ in range(ROUNDS):
+        problem = _read_again(problem, place, SURELY * rms)
+        before, rms = rms, _rms(problem, place)
+        if not rms < LESS * before:
+            break
+    return problem
+
+
+def _rms(problem: Problem, place: Floats) -> float:
+    """[rad/s] of the residuals at a place (D,)."""
+    return float(np.sqrt(problem.costs(place[None])[0]))
+
+
+def _read_again(problem: Problem, place: Floats, surely: float) -> Problem:
+    """The same problem with the sign of the simulated speed wherever it exceeds `surely` [rad/s]."""
     vectors, starts = problem.unknowns.decode(place[None])
     intervals = []
     for r, (recording, data) in enumerate(zip(problem.recordings, problem.intervals, strict=True)):
@@ -31,7 +51,7 @@ def redirected(problem: Problem, place: Floats) -> Problem:
             intervals.append(data)
             continue
         motion = _Motion(vectors[0, r], float(starts[0, r]), problem.commands[r])
-        intervals.append(reader(recording, motion, SURELY * rms))
+        intervals.append(reader(recording, motion, surely))
     return problem.read_again(tuple(intervals))
 
 
