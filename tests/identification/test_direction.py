@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from plant import record
+from plant import profiles, record
 
 from motor_identification.direction import judged, redirected
 from motor_identification.identify import Request, identify
@@ -47,3 +47,17 @@ def test_no_wrong_direction_is_kept_and_the_motor_is_found(case: str) -> None:
     assert not any("whole slots" in note for note in fit.notes)
     for name, true in values.items():
         assert fit.parameters.value(name) == pytest.approx(true, rel=5e-4)
+
+
+def test_a_long_stretch_read_the_wrong_way_is_read_again_and_not_left_out() -> None:
+    """Without friction the shaft swings through its stops: for 1.5 s the reported sign is the other one here."""
+    values = {"kv": 0.0789817, "ka": 0.00463544}
+    recording, truth = record(values, *profiles.random(12.0, 14.0, 500), seed=77, irregularity=0.006, disc_seed=640)
+    whole = make_problem([check(recording)], ())
+    place = np.log([values["kv"], values["ka"]])
+    assert np.sqrt(whole.costs(place[None])[0]) > 20.0  # [rad/s]
+    again = redirected(whole, place)
+    (data,) = again.intervals
+    reversals = np.count_nonzero((truth.reversal_time > 0.0) & (truth.reversal_time < 14.0))
+    assert 0 < data.left_out < 3 * reversals
+    assert 0.1 < np.sqrt(again.costs(place[None])[0]) < 0.4  # the disc
