@@ -15,7 +15,7 @@ from motor_identification.cli._recorder import message_type
 from motor_model.errors import RecordingError
 from motor_msgs.msg import MotorVoltage
 
-_SETTLED, _PATIENCE = 0.5, 3.0  # [s] without a new subscriber, or without any, until playing starts
+_SETTLED, _PATIENCE = 1.0, 3.0  # [s] without a new subscriber, or without any, until playing starts
 _ARRIVAL = 0.5  # [s] for the last messages to arrive
 
 
