@@ -14,7 +14,7 @@ from rclpy.duration import Duration
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Float64
-from workbench import PATIENCE, Bench, end
+from workbench import ENVIRONMENT, PATIENCE, Bench, end
 
 from motor_identification.bag import BagWriter, messages, read_recording, topics
 from motor_identification.cli._offered import offered
@@ -26,10 +26,18 @@ from motor_ros.messages import info_message, speed_message, time_message, voltag
 
 PERIOD = 5_000_000  # [ns]
 DEEP = QoSProfile(depth=1000)  # loses nothing, however busy the machine is
+
+
 INFO = Info(name="wheel", max_voltage=9.0)
 
 
 Start = Callable[..., "subprocess.Popen[str]"]
+
+
+@pytest.fixture(autouse=True)
+def over_udp(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What a killed process leaves in shared memory can hold up how the next one is found; a bag does not wait."""
+    monkeypatch.setitem(ENVIRONMENT, "FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")
 
 
 def written(bench: Bench, bag: Path, count: int) -> None:
