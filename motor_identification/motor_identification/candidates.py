@@ -55,10 +55,10 @@ def extended(problem: Problem, place: Floats, effect: str, least: float = 0.0) -
     for begin in _starts(problem, place, larger):
         there, more = descend(quick, Speeds(quick), begin, iterations=LOOK, tolerance=1e-4)
         evaluations += more
-        cost = float(quick.costs(there[None])[0])
+        cost = quick.cost(there)
         if cost < best:
             best, start = cost, there
-    before = float(bare.costs(place[None])[0])
+    before = bare.cost(place)
     if not gains(before, best, len(bare.weight)):
         return None
     end, more = descend(larger, Speeds(larger), start, iterations=20, tolerance=1e-8)

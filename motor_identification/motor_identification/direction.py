@@ -5,6 +5,7 @@ model knows better wherever it is surely moving.
 """
 
 from dataclasses import dataclass, replace
+from math import sqrt
 
 import numpy as np
 
@@ -27,18 +28,13 @@ def redirected(problem: Problem, place: Floats) -> Problem:
     As long as stretches are read the wrong way, the residual is theirs, and much is left open; once they are out of it,
     the rest is judged by what it really is.
     """
-    rms = _rms(problem, place)
+    rms = sqrt(problem.cost(place))
     for _ in range(ROUNDS):
         problem = _read_again(problem, place, SURELY * rms)
-        before, rms = rms, _rms(problem, place)
+        before, rms = rms, sqrt(problem.cost(place))
         if not rms < LESS * before:
             break
     return problem
-
-
-def _rms(problem: Problem, place: Floats) -> float:
-    """[rad/s] of the residuals at a place (D,)."""
-    return float(np.sqrt(problem.costs(place[None])[0]))
 
 
 def _read_again(problem: Problem, place: Floats, surely: float) -> Problem:

@@ -58,7 +58,7 @@ def judge(refined: Refined, place: Floats, search: SearchReport, evaluations: in
     jacobian = refined.jacobian(place)
     sure = certainty(refined, place, jacobian)
     alike = not_told_apart(refined, place, jacobian, sure.errors, sure.not_identifiable)
-    cost = float(problem.costs(place[None])[0])
+    cost = problem.cost(place)
     span = unknowns.high - unknowns.low
     at_wall = (place - unknowns.low < ON_BOUND * span) | (unknowns.high - place < ON_BOUND * span)
     bounds = {name: bool(at_wall[i]) and _is_a_wall(name, at_low=place[i] < 0.5 * (unknowns.low + unknowns.high)[i])

@@ -48,7 +48,7 @@ def added(bare: Problem, place: Floats, effect: str, least: float = 0.0) -> tupl
     effects, evaluations = (*bare.unknowns.effects, effect), 0
     choices: list[tuple[float, Problem, Floats]] = []
     tracks = bare.anchored(place, effects).tracks
-    before, without = np.inf, _cost(bare, place)  # number of cycles that was tried; cost without the effect
+    before, without = np.inf, bare.cost(place)  # number of cycles that was tried; cost without the effect
     promise = least
     for _ in range(ROUNDS):
         begin = _STARTS[effect](bare, place, tracks, promise)
@@ -63,24 +63,20 @@ def added(bare: Problem, place: Floats, effect: str, least: float = 0.0) -> tupl
         start = carried(bare.unknowns, place, trial.unknowns, values)
         end, more = descend(trial, Speeds(trial), start, iterations=ITERATIONS, tolerance=1e-8)
         evaluations += more
-        if least > 0.0 and not gains(without, _cost(trial, end), len(trial.weight)):
+        if least > 0.0 and not gains(without, trial.cost(end), len(trial.weight)):
             break
         mended = carried(bare.unknowns, carried(trial.unknowns, end, bare.unknowns, {}), trial.unknowns, values)
         held = redirected(trial, end)
         loose, there, more = adrift(replace(held, tracks=()), effect, (start, mended), _turned(tracks))
         evaluations += more
-        choices += [(_cost(one, at), one, at) for one, at in ((held, end), (loose, there))]
-        _least, best, end = min(choices, key=lambda one: one[0])
+        choices += [(one.cost(at), one, at) for one, at in ((held, end), (loose, there))]
+        _cost, best, end = min(choices, key=lambda one: one[0])
         bare = replace(bare, intervals=best.intervals, tracks=best.tracks if bare.tracks else ())
         place, tracks = carried(best.unknowns, end, bare.unknowns, {}), best.anchored(end, effects).tracks
     if not choices:
         return None
-    _least, best, end = min(choices, key=lambda one: one[0])
+    _cost, best, end = min(choices, key=lambda one: one[0])
     return best, end, evaluations
-
-
-def _cost(problem: Problem, place: Floats) -> float:
-    return float(problem.costs(place[None])[0])
 
 
 def _turned(tracks: Tracks) -> float:

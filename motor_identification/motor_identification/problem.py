@@ -131,6 +131,10 @@ class Problem:
         """The swarm's cost: places (S, D) → time-weighted mean squares (S,) [rad²/s²]."""
         return np.asarray(self.evaluate(places) ** 2 @ self.weight)
 
+    def cost(self, place: Floats) -> float:
+        """[rad²/s²] of one place (D,)."""
+        return float(self.costs(place[None])[0])
+
     def residuals(self, place: Floats) -> Floats:
         """[rad/s] of one place (D,), shape (I,)."""
         return np.asarray(self.evaluate(place[None])[0])

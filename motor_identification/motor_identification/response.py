@@ -44,9 +44,9 @@ class Course:
         A few numbers of cycles at a time: with sines and with cosines, (few, B) each.
         """
         width = float(cycles[1] - cycles[0]) if len(cycles) > 1 else 0.0
+        blocks = int(block.max()) + 1
         for i in range(0, len(cycles), TOGETHER):
-            count = min(TOGETHER, len(cycles) - i)
-            sums = np.zeros((int(block.max()) + 1, count), dtype=np.complex128)
+            sums = np.zeros((blocks, min(TOGETHER, len(cycles) - i)), dtype=np.complex128)
             _add_products(
                 self.order, self.start, self.end, self.duration, self.moving, float(cycles[i]), width, self.rate, pull,
                 block, sums,
