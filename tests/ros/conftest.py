@@ -16,7 +16,7 @@ def bench() -> Iterator[workbench.Bench]:
 
 @pytest.fixture
 def start() -> Iterator[Callable[..., "subprocess.Popen[str]"]]:
-    """Starts a program of a package; whatever still runs at the end of the test is killed."""
+    """Starts a program of a package; whatever still runs at the end of the test is ended."""
     running: list[subprocess.Popen[str]] = []
 
     def start(package: str, command: str, *arguments: object) -> "subprocess.Popen[str]":
@@ -24,6 +24,4 @@ def start() -> Iterator[Callable[..., "subprocess.Popen[str]"]]:
         return running[-1]
 
     yield start
-    for process in running:
-        process.kill()
-        process.wait()
+    workbench.quit_all(running)

@@ -4,6 +4,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -14,7 +15,7 @@ from rclpy.duration import Duration
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Float64
-from workbench import ENVIRONMENT, PATIENCE, Bench, end
+from workbench import ENVIRONMENT, MANNERS, PATIENCE, Bench, end
 
 from motor_identification.bag import BagWriter, messages, read_recording, topics
 from motor_identification.cli._offered import offered
@@ -32,12 +33,6 @@ INFO = Info(name="wheel", max_voltage=9.0)
 
 
 Start = Callable[..., "subprocess.Popen[str]"]
-
-
-@pytest.fixture(autouse=True)
-def over_udp(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What a killed process leaves in shared memory can hold up how the next one is found; a bag does not wait."""
-    monkeypatch.setitem(ENVIRONMENT, "FASTDDS_BUILTIN_TRANSPORTS", "UDPv4")
 
 
 def written(bench: Bench, bag: Path, count: int) -> None:
@@ -246,6 +241,37 @@ def test_a_part_is_played_beside_a_plant_under_another_name(bench: Bench, start:
     assert err.startswith("bench publishes /motor/speed too, and listeners cannot tell the two apart: leave it out")
     assert "--remap /motor/speed:=/recorded/motor/speed." in err and err.count("\n") == 1
     assert live.get_subscription_count() == 1
+
+
+PLAIN = """
+import rclpy
+from std_msgs.msg import Float64
+rclpy.init()
+node = rclpy.create_node("plain")
+heard = []
+node.create_subscription(Float64, "/x", lambda message: heard.append(message.data), 1000)
+print("listening", flush=True)
+while len(heard) < 3:
+    rclpy.spin_once(node)
+print(heard)
+"""
+
+
+def test_a_listener_that_tells_of_itself_as_seldom_as_ros_2_does_hears_all_of_it(start: Start, tmp_path: Path) -> None:
+    with BagWriter(tmp_path / "bag") as writer:
+        channel = writer.topic("/x", "std_msgs/msg/Float64", offered(DEEP))
+        for k in range(3):
+            writer.write(channel, 10**18 + k * PERIOD, serialize_message(Float64(data=float(k))))
+    plain = {name: value for name, value in ENVIRONMENT.items() if name != "FASTRTPS_DEFAULT_PROFILES_FILE"}
+    with subprocess.Popen([sys.executable, "-c", PLAIN], env=plain, stdout=subprocess.PIPE, text=True) as listener:
+        assert listener.stdout is not None and listener.stdout.readline() == "listening\n"
+        play = start("motor_identification", "play", tmp_path / "bag")  # it asks when the first news are over
+        out, _ = play.communicate(timeout=PATIENCE)
+        try:
+            heard, _ = listener.communicate(timeout=MANNERS)
+        finally:
+            listener.kill()
+    assert "3 messages played" in out and heard == "[0.0, 1.0, 2.0]\n"
 
 
 @pytest.mark.parametrize("last", [4.0, 0.0])

@@ -4,7 +4,7 @@ import os
 import signal
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,8 +18,10 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile
 
 from motor_ros import qos
+from motor_ros.run import stay_on_this_machine
 
 DOMAIN = str(free_domain())
+MANNERS = 5.0  # [s] for a process to end after its signal, once a test is over
 ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": DOMAIN, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
 
 
@@ -28,6 +30,7 @@ class Bench:
 
     def __init__(self, namespace: str = "") -> None:
         os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+        stay_on_this_machine()
         self._context = rclpy.Context()
         rclpy.init(context=self._context, domain_id=int(DOMAIN))
         self.node = rclpy.create_node("bench", context=self._context, namespace=namespace or None)
@@ -85,6 +88,19 @@ def start(package: str, command: str, *arguments: object) -> "subprocess.Popen[s
     """One of our programs as a process; `end` ends it."""
     words = [program(package, command), *map(str, arguments)]
     return subprocess.Popen(words, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def quit_all(processes: "Sequence[subprocess.Popen[str]]") -> None:
+    """End them by a signal, so that none leaves its shared memory behind; kill what does not answer."""
+    for process in processes:
+        process.send_signal(signal.SIGTERM)
+    deadline = time.monotonic() + MANNERS
+    for process in processes:
+        try:
+            process.wait(max(0.0, deadline - time.monotonic()))
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
 
 
 def end(process: "subprocess.Popen[str]", number: signal.Signals = signal.SIGINT) -> tuple[str, str]:

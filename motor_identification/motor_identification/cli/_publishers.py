@@ -15,8 +15,9 @@ from motor_identification.cli._recorder import message_type
 from motor_model.errors import RecordingError
 from motor_msgs.msg import MotorVoltage
 
-_SETTLED, _PATIENCE = 1.0, 3.0  # [s] without a new subscriber, or without any, until playing starts
-_ARRIVAL = 0.5  # [s] for the last messages to arrive
+_SETTLED = 0.5  # [s] without a new subscriber until playing starts
+_PATIENCE = 4.0  # [s] without any subscriber until it does: one that tells of itself every 3 s, as ROS 2 does, is found
+_ARRIVAL = 2.0  # [s] for the last messages to arrive
 
 
 class Publishers:
