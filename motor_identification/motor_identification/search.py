@@ -15,6 +15,7 @@ from scipy.optimize import least_squares
 
 from motor_identification.landscape import Landscape
 from motor_identification.swarm import SwarmConfig, SwarmResult, minimise
+from motor_identification.valleys import Descent, agreed, alike
 from motor_model.errors import MotorError
 
 Floats = NDArray[np.float64]
@@ -23,8 +24,6 @@ Progress = Callable[[float], None]  # share of the evaluations that may be spent
 FIRST = 10  # particles of the first swarm, for one epoch; both double from swarm to swarm up to what they may be
 FEW = 3  # descents after each swarm at most
 APART = 0.1  # of the box: places closer than this in every unknown are one place to descend from
-AGREE = 0.01  # of the cost
-UNSEEN = 0.05  # share of the descents that would end in a valley not seen yet, at which the search is over
 ENOUGH, PATIENCE = 1e-3, 25  # a swarm ends after so many epochs without a relative improvement by this
 STEP = 1e-6  # of the box: forward differences
 ITERATIONS = 60  # of a descent at most
@@ -42,16 +41,6 @@ class SearchConfig:
     def budget(self) -> int:
         """Evaluations after which nothing more is begun."""
         return self.particles * (self.epochs + 1)
-
-
-@dataclass(frozen=True)
-class Descent:
-    """Where least squares ended."""
-
-    place: Floats  # (D,)
-    cost: float
-    evaluations: int
-    swarm: int  # number of the swarm from whose places it began
 
 
 @dataclass(frozen=True)
@@ -88,7 +77,7 @@ def search(landscape: Landscape, config: SearchConfig, progress: Progress | None
         for start in _distinct(swarm, landscape.high - landscape.low):
             log.add_descent(_descend(landscape, start, number))
             tell(min(log.evaluations / config.budget, 1.0))
-            if _agreed(log.descents, landscape):
+            if agreed(log.descents, landscape):
                 return log.found(landscape, number + 1, agreed=True)
             if log.evaluations >= config.budget:
                 break
@@ -150,30 +139,6 @@ def _descend(landscape: Landscape, start: Floats, swarm: int) -> Descent:
     return Descent(place, float(2.0 * end.cost), evaluations, swarm)
 
 
-def _alike(descents: list[Descent], landscape: Landscape) -> list[Descent]:
-    """Those that ended at the least cost."""
-    limit = (1.0 + AGREE) * min(descent.cost for descent in descents) + landscape.nothing
-    return [descent for descent in descents if descent.cost <= limit]
-
-
-def _agreed(descents: list[Descent], landscape: Landscape) -> bool:
-    """Whether more descents would hardly find a lower cost.
-
-    Where noise explains the best cost, there is no lower one: two descents are enough. Elsewhere, of n descents that
-    ended in w valleys, a share of w(w + 1)/(n(n − 1)) more would be expected to end in valleys not seen yet
-    (C. Boender, A. Rinnooy Kan, Mathematical Programming 37, 1987).
-    """
-    alike = _alike(descents, landscape)
-    if min(descent.cost for descent in descents) <= max(landscape.explained, landscape.nothing):
-        return len(alike) >= 2
-    rest, valleys = sorted(descent.cost for descent in descents), 0
-    while rest:
-        limit = (1.0 + AGREE) * rest[0] + landscape.nothing
-        rest, valleys = [cost for cost in rest if cost > limit], valleys + 1
-    count = len(descents)
-    return len(alike) >= 2 and valleys * (valleys + 1) <= UNSEEN * count * (count - 1)
-
-
 @dataclass
 class _Log:
     """What a search has seen so far."""
@@ -200,8 +165,8 @@ class _Log:
 
     def found(self, landscape: Landscape, swarms: int, agreed: bool) -> Found:
         best = sorted(self.descents, key=lambda descent: descent.cost)
-        alike = _alike(best, landscape)
-        places = np.array([descent.place for descent in alike])
+        best_ones = alike(best, landscape)
+        places = np.array([descent.place for descent in best_ones])
         return Found(
             place=best[0].place,
             cost=best[0].cost,
@@ -209,7 +174,7 @@ class _Log:
             trace=np.array(self.trace),
             spent=np.array(self.spent),
             descents=tuple(best),
-            agreeing=len(alike),
+            agreeing=len(best_ones),
             swarms=swarms,
             agreed=agreed,
             spread=np.ptp(places, axis=0) / (landscape.high - landscape.low),
