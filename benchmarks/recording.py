@@ -7,25 +7,20 @@ by their time on the plant's clock, so that every one that the bag lacks is seen
 
 import argparse
 import os
-import re
-import struct
-import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass
 from math import sin
 from pathlib import Path
 
-import numpy as np
 import rclpy
-from ament_index_python.packages import get_package_prefix
 from machine import machine
 from rclpy.node import Node
+from recording_run import Run, executable, looked_at
 from soak import holds, spin
 from soak_process import DOMAIN, Process, program
 
-from motor_identification.bag import contents, messages, read_recording
+from motor_identification.bag import contents
 from motor_model.errors import MotorError
 from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
@@ -38,8 +33,6 @@ PATIENCE = 30.0  # [s] for the first samples
 SETTLING = 3.0  # [s] before processor time is measured
 COMMANDS = 50.0  # [Hz]
 MOST = 0.4  # of one core, for the recorder at 1 kHz
-PLAYED = 60.0  # [s] at most, of the recording's end, for the spacing of `play`
-LATE = re.compile(r"(\d+) messages played, 99 % of them within ([\d.]+) ms")
 
 
 class User(Node):
@@ -58,29 +51,6 @@ class User(Node):
     def _drive(self) -> None:
         volts = 8.0 * sin(1.7 * time.monotonic()) + 2.0 * sin(11.0 * time.monotonic())
         self._voltage.publish(voltage_message(volts, time_message(time.time_ns()), "user"))
-
-
-@dataclass(frozen=True)
-class Run:
-    """What one recording came to."""
-
-    rate: int
-    samples: int  # on motor/speed, in the bag
-    missing: int  # between the first and the last of them
-    messages: int  # on all topics
-    unlike: int  # samples whose joint state is missing
-    seconds: float
-    size: int  # [bytes] of the bag
-    shares: dict[str, float]  # of one core, by process
-    grown: int  # [KiB] of the recorder's own memory
-    played: int
-    late: float  # [ms] 99 % of the played messages
-    load: float
-
-
-def executable(name: str) -> Path:
-    """One of motor_identification's commands."""
-    return Path(get_package_prefix("motor_identification")) / "lib/motor_identification" / name
 
 
 def measure(rate: int, seconds: float) -> Run:
@@ -107,7 +77,7 @@ def measure(rate: int, seconds: float) -> Run:
                 process.end()
             user.destroy_node()
             rclpy.try_shutdown()
-        return _looked_at(rate, bag, shares, grown, load)
+        return looked_at(rate, bag, shares, grown, load)
 
 
 def _wait(user: User, bag: Path) -> None:
@@ -116,38 +86,6 @@ def _wait(user: User, bag: Path) -> None:
         if time.monotonic() > patience:
             raise MotorError("plant or recorder are not heard: see what they say above.")
         spin(user, 0.2)  # type: ignore[arg-type]
-
-
-def _looked_at(rate: int, bag: Path, shares: dict[str, float], grown: int, load: float) -> Run:
-    recording, inside = read_recording(bag), contents(bag)
-    stamps: dict[str, list[int]] = {"/motor/speed": [], "/joint_states": []}
-    for topic, _, _, data in messages(bag, stamps):
-        seconds, nanoseconds = struct.unpack_from("<iI", data, 4)  # the header's, which the two share
-        stamps[topic].append(seconds * 10**9 + nanoseconds)
-    joints = stamps["/joint_states"]
-    between = {stamp for stamp in stamps["/motor/speed"] if joints[0] <= stamp <= joints[-1]}
-    steps = np.rint(np.diff(recording.sample_time) * (rate * 1e-9))
-    offset = max(inside.duration - PLAYED, 0.0)
-    command = [executable("play"), bag, "--start-offset", f"{offset:.3f}", "--topics", "motor/speed"]
-    environment = {**os.environ, "ROS_DOMAIN_ID": DOMAIN}
-    said = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
-    played = LATE.search(said)
-    if played is None:
-        raise MotorError(f"play said something else: {said}")
-    return Run(
-        rate=rate,
-        samples=len(recording),
-        missing=int(np.sum(steps - 1)),
-        messages=inside.message_count,
-        unlike=len(between - set(joints)),
-        seconds=inside.duration,
-        size=sum(file.stat().st_size for file in bag.iterdir()),
-        shares=shares,
-        grown=grown,
-        played=int(played[1]),
-        late=float(played[2]),
-        load=load,
-    )
 
 
 def report(run: Run) -> list[str]:
