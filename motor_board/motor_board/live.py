@@ -29,6 +29,19 @@ class Truth:
     held_up: int  # times that the emulator did not keep up
     busy: float  # share of the time spent emulating
 
+    def named(self, to_ros: int) -> dict[str, float]:
+        """For people, with units; `to_ros` [ns] turns CLOCK_MONOTONIC into ROS time."""
+        return {
+            "board clock zero [ns, ROS time]": self.start + to_ros + round(self.clock_zero / self.rate),
+            "clock rate": self.rate / 16e-3,
+            "true speed [rad/s]": self.speed,
+            "true angle [rad]": self.angle,
+            "voltage at the pins [V]": self.voltage,
+            "resets": self.resets,
+            "held up": self.held_up,
+            "busy": round(self.busy, 3),
+        }
+
 
 class LiveBoard:
     """Runs an emulator in a thread of its own, with a port and faults."""

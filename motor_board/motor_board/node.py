@@ -91,17 +91,7 @@ class BoardEmulator(Node):
         if self._board.error is not None:
             raise self._board.error
         truth = self._board.truth()
-        to_ros = time.time_ns() - time.monotonic_ns()
-        values = {
-            "board clock zero [ns, ROS time]": truth.start + to_ros + round(truth.clock_zero / truth.rate),
-            "clock rate": truth.rate / 16e-3,
-            "true speed [rad/s]": truth.speed,
-            "true angle [rad]": truth.angle,
-            "voltage at the pins [V]": truth.voltage,
-            "resets": truth.resets,
-            "held up": truth.held_up,
-            "busy": round(truth.busy, 3),
-        }
+        values = truth.named(time.time_ns() - time.monotonic_ns())
         status = DiagnosticStatus(
             name=f"{self.get_fully_qualified_name()}: truth",
             message=f"held up {truth.held_up} times: the machine is too busy" if truth.held_up else "",
