@@ -48,16 +48,6 @@ def parser() -> argparse.ArgumentParser:
         metavar="RAD_S",
         help="the slowest reference of interest [rad/s] (default 10)",
     )
-    parser.add_argument("--sample-rate", type=positive, default=200.0, metavar="HZ", help="of the plant (default 200)")
-    parser.add_argument(
-        "--edges-per-revolution", type=int, default=96, metavar="N", help="of one polarity (default 96)"
-    )
-    parser.add_argument(
-        "--slot-irregularity", type=share, default=0.01, metavar="SHARE", help="of a slot, 1 sigma (default 0.01)"
-    )
-    parser.add_argument(
-        "--edge-resolution", type=positive, default=4e-6, metavar="S", help="of the edges' timer [s] (default 4e-6)"
-    )
     parser.add_argument(
         "--oscillation",
         type=positive,
@@ -65,7 +55,16 @@ def parser() -> argparse.ArgumentParser:
         metavar="SHARE",
         help="of the speed, peak to peak, that an irregular disc may cause (default 0.02)",
     )
+    _add_encoder(parser)
     return parser
+
+
+def _add_encoder(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument_group("how the plant measures").add_argument
+    add("--sample-rate", type=positive, default=200.0, metavar="HZ", help="of the plant (default 200)")
+    add("--edges-per-revolution", type=int, default=96, metavar="N", help="of one polarity (default 96)")
+    add("--slot-irregularity", type=share, default=0.01, metavar="SHARE", help="of a slot, 1 sigma (default 0.01)")
+    add("--edge-resolution", type=positive, default=4e-6, metavar="S", help="of the edges' timer [s] (default 4e-6)")
 
 
 def main(args: list[str] | None = None) -> int:

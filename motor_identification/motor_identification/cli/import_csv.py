@@ -53,8 +53,20 @@ def _parser() -> argparse.ArgumentParser:
     kind.add_argument("--speed", metavar="COL", help="column of speeds")
     kind.add_argument("--position", metavar="COL", help="column of positions, which do not wrap after a turn")
     kind.add_argument("--count", metavar="COL", help="column of encoder counts, with a sign")
+    add(
+        "--split",
+        metavar="COL",
+        help="a bag BAG_VALUE for every run of one value of this column; time may start again there",
+    )
+    add("--name", default="motor", help="the motor's name in the bag (default: motor)")
+    _add_meaning(parser)
+    return parser
+
+
+def _add_meaning(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument_group("what the columns mean").add_argument
     units = sorted({unit for units in UNITS.values() for unit in units})
-    add("--unit", choices=units, help="of that column (default: rad/s for --speed, rad for --position)")
+    add("--unit", choices=units, help="of speeds or positions (default: rad/s for --speed, rad for --position)")
     add(
         "--voltage-scale", type=float, default=1.0, metavar="V", help="volts per unit of the voltage column (default 1)"
     )
@@ -75,19 +87,12 @@ def _parser() -> argparse.ArgumentParser:
         help="[s] age of that window's middle at the row's time (default: half of it)",
     )
     add(
-        "--split",
-        metavar="COL",
-        help="a bag BAG_VALUE for every run of one value of this column; time may start again there",
-    )
-    add(
         "--rest-until",
         type=float,
         metavar="S",
         help="the motor stood until this time [s] of the column, when the first row's voltage came (such as 0, where "
         "the rows begin a little later)",
     )
-    add("--name", default="motor", help="the motor's name in the bag (default: motor)")
-    return parser
 
 
 def _form(parser: argparse.ArgumentParser, options: argparse.Namespace) -> CsvForm:
