@@ -90,8 +90,7 @@ def record(
     period = round(1e9 / sample_rate)
     last = times[-1] if duration is None else duration
     samples = np.arange(int(np.floor(last * 1e9 / period + 1e-6)) + 1, dtype=np.int64) * period
-    due = np.searchsorted(np.round(times * 1e9), samples, side="right") - 1
-    latched = np.clip(np.where(due >= 0, volts[np.maximum(due, 0)], 0.0), -p["max_voltage"], p["max_voltage"])
+    latched = _latched(times, volts, samples, p["max_voltage"])
     sample_times: Floats = np.asarray(samples * 1e-9, dtype=np.float64)
     motion = move(parameters, sample_times, latched, start_speed=start_speed, step=step)
 
@@ -117,6 +116,12 @@ def record(
     )
     recording = _recording(name, info, samples + start_time, latched, board)
     return recording, _truth(parameters, sample_times, motion, counted, every.time[lost], board, start_angle, disc)
+
+
+def _latched(times: Floats, volts: Floats, samples: Integers, limit: float) -> Floats:
+    """[V] the command that is due at each sample [ns]."""
+    due = np.searchsorted(np.round(times * 1e9), samples, side="right") - 1
+    return np.clip(np.where(due >= 0, volts[np.maximum(due, 0)], 0.0), -limit, limit)
 
 
 def _stamps(time: Floats, start: int, tick: float) -> Integers:
