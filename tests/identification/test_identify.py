@@ -1,47 +1,18 @@
 """Known motors, run by the independent plant, are found again: how closely, how surely, and what is said besides."""
 
-import json
 from dataclasses import replace
-from math import isnan
-from pathlib import Path
 
 import numpy as np
 import pytest
+from fits import BASE, how_sure, made, off, quick
 from plant import profiles, record
 from recorded import as_counts, as_speed
 
-from motor_identification.findings import as_json, as_table, cautions, save_model, sentence
+from motor_identification.findings import cautions
 from motor_identification.fit import Fit
 from motor_identification.identify import Request, identify
-from motor_identification.recording import Recording, check
-from motor_model.errors import ModelError, MotorError, RecordingError
+from motor_identification.recording import check
 from motor_model.excitation import PROFILES
-from motor_model.model_file import load
-from motor_model.parameters import PAPER_KA, PAPER_KV
-
-BASE = {"kv": PAPER_KV, "ka": PAPER_KA}
-Values = dict[str, float]
-
-
-def made(values: Values, drive: profiles.Profile, **how: float) -> Recording:
-    """A checked recording of the plant."""
-    return check(record(BASE | values, *drive, **how)[0])  # type: ignore[arg-type]
-
-
-def off(fit: Fit, values: Values) -> Values:
-    """Relative errors of the parameters."""
-    truth = BASE | values
-    return {name: value / truth[name] - 1.0 for name, value in fit.parameters.values.items()}
-
-
-def how_sure(fit: Fit, values: Values) -> list[float]:
-    """Errors over standard errors, in the order of the parameters."""
-    truth = BASE | values
-    return [(value - truth[name]) / fit.standard_errors[name] for name, value in fit.parameters.values.items()]
-
-
-def quick(*effects: str, seed: int = 0) -> Request:
-    return Request(effects, particles=30, epochs=60, seed=seed)
 
 
 @pytest.fixture(scope="module")
@@ -188,132 +159,7 @@ def test_a_handful_of_edges_is_not_called_precise() -> None:
     assert max(map(abs, how_sure(fit, {}))) < 5.0
 
 
-def test_one_level_does_not_tell_friction_from_gain_and_says_so() -> None:
-    fit = identify([made({"ks": 0.5}, profiles.step(10.0, 1.0), seed=1)], quick("coulomb_friction"))
-    assert set(fit.not_identifiable) >= {"kv", "ks"}
-    assert isnan(fit.standard_errors["kv"]) and isnan(fit.standard_errors["ks"])
-    assert fit.suggested_experiment == "ramps"
-    text = sentence(fit)
-    assert "(not identifiable)" in text and "cannot be told apart in this recording" in text
-    assert "The profile 'ramps' would show it." in text
-    assert "not identifiable" in as_table(fit)
-    content = as_json(fit)
-    assert content["model"]["parameters"]["ks"]["standard_error"] is None
-    assert "NaN" not in json.dumps(content, allow_nan=False)
-
-
-def test_one_way_does_not_tell_friction_from_a_load_and_says_so() -> None:
-    random = np.random.default_rng(1)
-    drive = profiles.pieces(np.where(random.random(60) < 0.5, 4.0, 9.0), 0.05)
-    fit = identify([made({"ks": 0.5, "delay": 0.005}, drive, seed=1)], quick("coulomb_friction", "transport_delay"))
-    assert set(fit.not_told_apart["coulomb_friction"]) >= {"load_bias", "dead_zone"}
-    assert "transport_delay" not in fit.not_told_apart
-    assert max(map(abs, off(fit, {"ks": 0.5, "delay": 0.005}).values())) < 1e-3
-    (said, *_) = cautions(fit)
-    assert said.startswith("The friction level (ks) cannot be told from a constant load (load_bias) or a dead zone")
-    assert as_json(fit)["not_told_apart"]["coulomb_friction"][:2] == ["load_bias", "dead_zone"]
-    both_ways = identify([made({"ks": 0.5}, profiles.staircase(12.0, 4, 0.25), seed=1)], quick("coulomb_friction"))
-    assert both_ways.not_told_apart == {} and cautions(both_ways) == ()
-
-
-def test_a_parameter_on_the_edge_of_its_box_is_said() -> None:
-    """A motor whose friction takes more than the box has."""
-    fit = identify([made({"delay": 0.13}, profiles.step(10.0, 1.0), seed=0)], quick("transport_delay"))
-    assert fit.on_bound["delay"] and fit.parameters.values["delay"] == pytest.approx(0.1, rel=1e-3)
-    assert any(said == "delay ended on the edge of the search box: do not trust the value." for said in cautions(fit))
-    assert "on bound" in as_table(fit) and "delay" in as_json(fit)["on_bound"]
-    absent = identify([made({}, profiles.staircase(12.0, 2, 0.2), seed=0)], quick("coulomb_friction"))
-    assert not absent.on_bound["ks"] and absent.parameters.values["ks"] < 1e-3  # no friction is an answer
-
-
-def test_constant_speed_says_nothing_of_inertia_and_has_no_r_squared() -> None:
-    steady = made({}, profiles.step(10.0, 3.0), seed=0).between(2.0, 3.0)
-    fit = identify([check(steady)], quick())
-    assert off(fit, {})["kv"] == pytest.approx(0.0, abs=1e-4)
-    assert "ka" in fit.not_identifiable or fit.on_bound["ka"]
-    level = as_speed(steady)
-    flat = identify([check(replace(level, speed=np.full(len(level), 5.0)))], quick())
-    assert isnan(flat.r_squared) and as_json(flat)["r_squared"] is None
-    assert "ka" in flat.not_identifiable and "kv" not in flat.not_identifiable
-    json.dumps(as_json(flat), allow_nan=False)
-
-
 def test_a_false_edge_does_not_move_the_search_box() -> None:
     recording = made({}, profiles.step(10.0, 1.0), seed=0)
     glitch = replace(recording, speed=np.where(np.arange(len(recording)) == 50, 1e5, recording.speed))
     assert abs(off(identify([check(glitch)], quick()), {})["kv"]) < 1e-5
-
-
-def test_notes_and_names_come_through(tmp_path: Path) -> None:
-    recording = replace(made({}, profiles.step(10.0, 0.5), seed=0, name="bag"), notes=("bag was cut off.",))
-    stages: list[tuple[str, float]] = []
-    fit = identify([recording], quick(), lambda stage, share: stages.append((stage, share)))
-    assert fit.notes == ("bag was cut off.",) and sentence(fit).endswith(" bag was cut off.")
-    shares = [share for _, share in stages]
-    assert shares == sorted(shares) and 0.0 < shares[0] < 0.1 and stages[-1] == ("done", 1.0)
-    save_model(tmp_path / "model.yaml", fit, "2026-01-01T00:00:00+00:00")
-    assert load(tmp_path / "model.yaml") == fit.parameters
-
-
-REFUSED = {
-    "no voltage": (lambda r: replace(r, voltage=0.0 * r.voltage), "has no voltage other than 0"),
-    "one sample": (lambda r: r._select(np.arange(len(r)) < 1), "holds 1 samples; record at least a second"),
-    "no motion": (lambda r: r._select(np.arange(len(r)) < 2), "the motor never moves"),
-    "a voltage that is no number": (
-        lambda r: replace(r, voltage=np.where(np.arange(len(r)) == 20, np.nan, r.voltage)),
-        r"has 1 voltage values that are not numbers \(the first at 0.100 s\)",
-    ),
-    "a speed that is no number": (lambda r: replace(r, speed=r.speed + np.inf), "speed values that are not numbers"),
-    "a clock that stands": (
-        lambda r: replace(r, sample_time=np.maximum(r.sample_time, r.sample_time[9])),
-        "the plant's clock stands still or steps back after 0.000 s",
-    ),
-    "no edges on the disc": (
-        lambda r: replace(r, info=replace(r.info, edges_per_revolution=0)),
-        "motor/info says 0 edges per revolution",
-    ),
-    "a count that wraps": (lambda r: replace(r, edge_count=r.edge_count % 64), "edge_count falls after 0.*one channel"),
-    "a plant that restarts": (
-        lambda r: replace(r, sample_time=r.sample_time % 500_000_000, edge_count=r.edge_count % 64),
-        "clock stands still or steps back",
-    ),
-    "hardly any motion": (
-        lambda r: replace(r, edge_count=np.minimum(r.edge_count, 2)),
-        "shows only . stretches of motion: record longer",
-    ),
-}
-
-
-@pytest.mark.parametrize("case", REFUSED)
-def test_recordings_that_cannot_answer_are_refused_in_a_sentence(case: str) -> None:
-    change, said = REFUSED[case]
-    recording = made({}, profiles.step(10.0, 1.0), seed=0)
-    with pytest.raises(RecordingError, match=said) as caught:
-        identify([check(change(recording))], quick())
-    assert str(caught.value).startswith("plant") and str(caught.value).endswith(".")
-    assert "\n" not in str(caught.value)
-
-
-def test_windows_outside_the_recording_are_refused() -> None:
-    recording = made({}, profiles.step(10.0, 1.0), seed=0)
-    assert recording.between(0.0, 0.0) is recording
-    assert recording.between(0.2, 0.0).duration == pytest.approx(0.8, abs=1e-9)
-    assert len(recording.between(0.2, 0.4)) == 41
-    for start, stop in ((0.5, 0.2), (-0.1, 0.5), (0.0, -1.0), (0.2, -1.0), (0.0, np.nan), (np.nan, 0.5), (0.3, 0.3)):
-        with pytest.raises(RecordingError, match=r"--start .* must be before --stop"):
-            recording.between(start, stop)
-    with pytest.raises(RecordingError, match="has no samples from 1.5 to 2 s: it is 1 s long"):
-        recording.between(1.5, 2.0)
-
-
-def test_requests_that_cannot_be_met_are_refused() -> None:
-    recording = made({}, profiles.step(10.0, 0.5), seed=0)
-    with pytest.raises(ModelError, match="'gravity' is not an effect"):
-        identify([recording], quick("gravity"))
-    with pytest.raises(RecordingError, match="there is no recording to fit"):
-        identify([], quick())
-    for wrong in ({"particles": 1}, {"epochs": 0}, {"seed": -1}):
-        with pytest.raises(
-            MotorError, match="particles must be at least 2, epochs at least 1, and the seed not negative"
-        ):
-            Request(**wrong)

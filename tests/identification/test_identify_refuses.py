@@ -1,0 +1,75 @@
+"""Recordings and requests that cannot answer are refused in a sentence."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from fits import made, quick
+from plant import profiles
+
+from motor_identification.identify import Request, identify
+from motor_identification.recording import check
+from motor_model.errors import ModelError, MotorError, RecordingError
+
+REFUSED = {
+    "no voltage": (lambda r: replace(r, voltage=0.0 * r.voltage), "has no voltage other than 0"),
+    "one sample": (lambda r: r._select(np.arange(len(r)) < 1), "holds 1 samples; record at least a second"),
+    "no motion": (lambda r: r._select(np.arange(len(r)) < 2), "the motor never moves"),
+    "a voltage that is no number": (
+        lambda r: replace(r, voltage=np.where(np.arange(len(r)) == 20, np.nan, r.voltage)),
+        r"has 1 voltage values that are not numbers \(the first at 0.100 s\)",
+    ),
+    "a speed that is no number": (lambda r: replace(r, speed=r.speed + np.inf), "speed values that are not numbers"),
+    "a clock that stands": (
+        lambda r: replace(r, sample_time=np.maximum(r.sample_time, r.sample_time[9])),
+        "the plant's clock stands still or steps back after 0.000 s",
+    ),
+    "no edges on the disc": (
+        lambda r: replace(r, info=replace(r.info, edges_per_revolution=0)),
+        "motor/info says 0 edges per revolution",
+    ),
+    "a count that wraps": (lambda r: replace(r, edge_count=r.edge_count % 64), "edge_count falls after 0.*one channel"),
+    "a plant that restarts": (
+        lambda r: replace(r, sample_time=r.sample_time % 500_000_000, edge_count=r.edge_count % 64),
+        "clock stands still or steps back",
+    ),
+    "hardly any motion": (
+        lambda r: replace(r, edge_count=np.minimum(r.edge_count, 2)),
+        "shows only . stretches of motion: record longer",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_recordings_that_cannot_answer_are_refused_in_a_sentence(case: str) -> None:
+    change, said = REFUSED[case]
+    recording = made({}, profiles.step(10.0, 1.0), seed=0)
+    with pytest.raises(RecordingError, match=said) as caught:
+        identify([check(change(recording))], quick())
+    assert str(caught.value).startswith("plant") and str(caught.value).endswith(".")
+    assert "\n" not in str(caught.value)
+
+
+def test_windows_outside_the_recording_are_refused() -> None:
+    recording = made({}, profiles.step(10.0, 1.0), seed=0)
+    assert recording.between(0.0, 0.0) is recording
+    assert recording.between(0.2, 0.0).duration == pytest.approx(0.8, abs=1e-9)
+    assert len(recording.between(0.2, 0.4)) == 41
+    for start, stop in ((0.5, 0.2), (-0.1, 0.5), (0.0, -1.0), (0.2, -1.0), (0.0, np.nan), (np.nan, 0.5), (0.3, 0.3)):
+        with pytest.raises(RecordingError, match=r"--start .* must be before --stop"):
+            recording.between(start, stop)
+    with pytest.raises(RecordingError, match="has no samples from 1.5 to 2 s: it is 1 s long"):
+        recording.between(1.5, 2.0)
+
+
+def test_requests_that_cannot_be_met_are_refused() -> None:
+    recording = made({}, profiles.step(10.0, 0.5), seed=0)
+    with pytest.raises(ModelError, match="'gravity' is not an effect"):
+        identify([recording], quick("gravity"))
+    with pytest.raises(RecordingError, match="there is no recording to fit"):
+        identify([], quick())
+    for wrong in ({"particles": 1}, {"epochs": 0}, {"seed": -1}):
+        with pytest.raises(
+            MotorError, match="particles must be at least 2, epochs at least 1, and the seed not negative"
+        ):
+            Request(**wrong)
