@@ -3,9 +3,9 @@
 A load sin(cθ + φ) of 1 V moves the speed of a fitted motor by a linear response that is had in closed form between two
 measured angles; the residual's part along it, for any number of cycles c a turn, is a periodogram over the angle (over
 time: N. R. Lomb, Astrophys. Space Sci. 39, 1976). A line is as narrow as the angle range is wide, so that blocks of a
-few turns are searched first, their powers added, and then the whole recording around the best. What each counted run's
-wrong initial speed leaves (the model came to it without the ripple) is projected out before. Near a standstill, where
-the shaft swings on its ripple rather than turns over it, nothing is taken.
+few turns are searched first, their powers added, then counted runs around the best, then the whole recording around the
+best of those. What each counted run's wrong initial speed leaves (the model came to it without the ripple) is projected
+out before. Near a standstill, where the shaft swings on its ripple rather than turns over it, nothing is taken.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,7 +25,8 @@ from motor_model.effects import SPEC_BY_NAME
 
 BLOCK = 8.0  # turns
 FINENESS = 4.0  # grid points to the width of a line
-CANDIDATES, REACH = 3, 2.0  # peaks of the rough spectrum, and how many of its grid points around each are searched
+PEAKS, REACH = 32, 2.0  # of the rough spectrum, and how many of its grid points around each are searched
+CANDIDATES = 3  # of those, which are searched in the whole recording
 SLOW = 0.03  # of the largest speed: below that a ripple holds or turns back the shaft, no linear response
 KNOTS = 16  # grid points
 CHANCE, BASE = 4.0, 12  # of the sum of white squares, for each counted run and so many more: slips explain by chance
@@ -62,29 +63,34 @@ def ripples(problem: Problem, place: Floats, tracks: Sequence[Track], least: flo
     turns = max(np.ptp(np.concatenate([run.course.start, run.course.end])) for run in runs) / tau
     width = 1.0 / (FINENESS * min(BLOCK, max(turns, 1.0)))
     rough = np.arange(spec.low, spec.high, width)
-    spectra = [_spectrum(run, rough, problem.go_on) for run in runs]
-    spectrum = np.sum([powers for powers, _blocks in spectra], axis=0)
-    if spectrum.max() - 2.0 * sum(blocks for _powers, blocks in spectra) < least:
+    blocks = [_blocks(run) for run in runs]
+    spectrum = _spectrum(runs, rough, blocks, problem.go_on)
+    if spectrum.max() - 2.0 * sum(int(block.max()) + 1 for block in blocks) < least:
         return []
+    around = np.arange(-REACH * width, REACH * width, 1.0 / (FINENESS * max(turns, 1.0)))
+    likely = [rough[peak] + around for peak in _peaks(spectrum, PEAKS)]
+    counted = [run.course.run for run in runs]
+    likely.sort(key=lambda fine: -_spectrum(runs, fine, counted, problem.go_on).max())
     found = []
-    for peak in _peaks(spectrum, CANDIDATES):
+    for fine in likely[:CANDIDATES]:
         problem.go_on()
-        fine = rough[peak] + np.arange(-REACH * width, REACH * width, 1.0 / (FINENESS * max(turns, 1.0)))
         lines = [_line(runs, tracks, cycles, problem) for cycles in fine]
         found.append(max(lines, key=lambda line: line.explained))
     chance = CHANCE * sum(int(run.course.run.max()) + BASE for run in runs) if least > 0.0 else 0.0
-    likely = [line for line in found if line.explained > max(least, chance)]
-    return sorted(likely, key=lambda line: -line.explained)
+    return sorted((line for line in found if line.explained > max(least, chance)), key=lambda line: -line.explained)
 
 
-def _spectrum(run: _Run, cycles: Floats, go_on: Callable[[], None]) -> tuple[Floats, int]:
-    """How much a ripple of each number of cycles explains, each block of a few turns on its own; and how many blocks.
+def _spectrum(runs: Sequence[_Run], cycles: Floats, blocks: Sequence[Integers], go_on: Callable[[], None]) -> Floats:
+    """How much a ripple of each number of cycles explains, each block of every recording on its own."""
+    return np.asarray(np.sum([_powers(run, cycles, block, go_on) for run, block in zip(runs, blocks, strict=True)], 0))
+
+
+def _powers(run: _Run, cycles: Floats, block: Integers, go_on: Callable[[], None]) -> Floats:
+    """The same in one recording.
 
     The products with the residual are exact; those of the responses among themselves change slowly with the cycles, and
     are had at every KNOTS-th only.
     """
-    block = _blocks(run)
-    blocks = int(block.max()) + 1
     shapes = np.array([_sums(run, knot, block) for knot in cycles[::KNOTS]])
     knots = 0.5 * (shapes[:, :, 0] + shapes[:, :, 2])  # sine and cosine are as good as independent in every block
     at = np.arange(len(cycles)) / KNOTS
@@ -94,7 +100,7 @@ def _spectrum(run: _Run, cycles: Floats, go_on: Callable[[], None]) -> tuple[Flo
         go_on()
         squares.append(along**2 + across**2)
     parts = np.concatenate(squares)
-    return np.divide(parts, sizes, where=sizes > 0.0, out=np.zeros_like(parts)).sum(axis=1), blocks
+    return np.asarray(np.divide(parts, sizes, where=sizes > 0.0, out=np.zeros_like(parts)).sum(axis=1))
 
 
 def ripple_of(problem: Problem, place: Floats, tracks: Sequence[Track], cycles: float) -> Ripple:
