@@ -1,8 +1,8 @@
 """Slips of the measured angle: a motor that swings about a standstill turns by an angle that no one channel tells.
 
 The angle between two counted runs is then off by some slots, and the phase of a fast ripple is lost from one to the
-next. Given the ripple, each run says how far; the most likely path of slips through all runs is found by dynamic
-programming (A. Viterbi, IEEE Trans. Inf. Theory 13(2), 1967), and ripple and path in turns.
+next. Given the ripple, each run says how far; the most likely path of slips through all runs and the ripple are found
+in turns.
 """
 
 from dataclasses import dataclass
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.recording import Floats, Integers
+from motor_identification.slip_path import spread, trace
 from motor_model.compiled import compiled
 
 FINENESS = 4  # steps to a slot
@@ -73,31 +74,20 @@ def _turned(sums: Floats, angle: Floats) -> Floats:
 
 @compiled
 def _viterbi(sums: Floats, real: float, imag: float, step: float, slips: Integers) -> float:
-    """Fill the most likely slips of all runs under one wave; returns what they explain.
-
-    A slip's price grows by the step: the best way to every slip takes one look from either side.
-    """
+    """Fill the most likely slips of all runs under one wave; returns what they explain."""
     width = 2 * FARTHEST + 1
     origin = np.zeros((len(sums), width), dtype=np.int64)
     score = -PRICE * np.abs(np.arange(width) - FARTHEST)
     for b in range(len(sums)):
         ss, sc, cc, sw, cw = sums[b]
         if b > 0:
-            origin[b] = np.arange(width)
-            for k in range(1, width):
-                if score[k - 1] - PRICE > score[k]:
-                    score[k], origin[b, k] = score[k - 1] - PRICE, origin[b, k - 1]
-            for k in range(width - 2, -1, -1):
-                if score[k + 1] - PRICE > score[k]:
-                    score[k], origin[b, k] = score[k + 1] - PRICE, origin[b, k + 1]
+            spread(score, origin[b], PRICE)
         for k in range(width):
             angle = step * (k - FARTHEST)
             x = real * np.cos(angle) - imag * np.sin(angle)
             y = real * np.sin(angle) + imag * np.cos(angle)
             score[k] += 2.0 * (x * sw + y * cw) - (x * x * ss + 2.0 * x * y * sc + y * y * cc)
-    k = int(np.argmax(score))
-    best = float(score[k])
-    for b in range(len(sums) - 1, -1, -1):
-        slips[b] = k - FARTHEST
-        k = origin[b, k]
-    return best
+    last = int(np.argmax(score))
+    trace(origin, last, slips)
+    slips -= FARTHEST
+    return float(score[last])

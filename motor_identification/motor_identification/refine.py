@@ -16,12 +16,14 @@ from motor_identification.intervals import Intervals
 from motor_identification.noise import AngleNoise, Whitening, adjoint, likely_growth, make_whitening, whiten
 from motor_identification.problem import Problem
 from motor_identification.recording import Bools, Floats
+from motor_identification.slot_slips import aligned
 from motor_identification.slots import Projection, SlotTable, likely_variance, slot_index
 
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
 LEAST_SHARE = 1e-4  # of a slot: irregularity to begin with at least
 MOST = 0.05  # of a slot: more irregular than this is no disc
 ROUNDS = 40  # of expectation maximisation
+LEARNING = 4  # times at most that table, places on the disc and drift are learned from each other
 OUTLIER = 8.0  # standard deviations
 FEW = 0.005  # share of the intervals
 LEAST_BLUR = 1e-3  # of the typical increment, where the encoder says nothing of its own accuracy
@@ -70,13 +72,17 @@ def _learn_one(data: Intervals, increments: Floats, angle: Floats, first_harmoni
     guess = likely_noise([(data, increments)])
     variance, growth = (max(guess.share, LEAST_SHARE) * data.slot) ** 2, guess.growth
     table = SlotTable(make_whitening(noise, growth), index, first_harmonic)
-    for _ in range(2):
+    for learned in range(1, LEARNING + 1):
         white = whiten(table.whitening, increments)
         variance = likely_variance(table, white, variance, (MOST * data.slot) ** 2, ROUNDS)
-        explained = index.increments(Projection(table, variance).best(white))
-        before, growth = growth, likely_growth(noise, increments - explained)
-        if growth != before:  # else the table's modes are those that are known
+        offsets = Projection(table, variance).best(white)
+        index = aligned(table, white, offsets)
+        moved = index is not table.index
+        before, growth = growth, likely_growth(noise, increments - index.increments(offsets))
+        if growth != before or moved:  # else the table's modes are those that are known
             table = SlotTable(make_whitening(noise, growth), index, first_harmonic)
+        if learned >= 2 and not moved:
+            break
     return Encoder(table.whitening, Projection(table, variance), data.slot, float(np.sqrt(variance)), growth)
 
 
