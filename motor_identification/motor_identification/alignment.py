@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.recording import Floats, Integers
-from motor_identification.slip_path import spread, trace
+from motor_identification.recording import Floats
+from motor_identification.slip_path import fill_path
 from motor_model.compiled import compiled
 
 FINENESS = 4  # steps to a slot
@@ -38,9 +38,10 @@ def align(sums: Floats, turn: float) -> Aligned:
     alone = _best(sums)
     weight = alone[int(np.argmax(alone.real * sums[:, 3] + alone.imag * sums[:, 4]))]
     slips, before = np.zeros(len(sums), dtype=np.int64), np.zeros(0, dtype=np.int64)
-    explained = 0.0
+    scores, explained = np.empty((len(sums), 2 * FARTHEST + 1)), 0.0
     for _ in range(ROUNDS):
-        explained = float(_viterbi(sums, weight.real, weight.imag, step, slips))
+        _fill_scores(sums, weight.real, weight.imag, step, scores)
+        explained = fill_path(scores, PRICE, slips)
         weight = _best(_turned(sums, np.asarray(slips * step)).sum(axis=0))
         if np.array_equal(slips, before):
             break
@@ -73,21 +74,12 @@ def _turned(sums: Floats, angle: Floats) -> Floats:
 
 
 @compiled
-def _viterbi(sums: Floats, real: float, imag: float, step: float, slips: Integers) -> float:
-    """Fill the most likely slips of all runs under one wave; returns what they explain."""
-    width = 2 * FARTHEST + 1
-    origin = np.zeros((len(sums), width), dtype=np.int64)
-    score = -PRICE * np.abs(np.arange(width) - FARTHEST)
+def _fill_scores(sums: Floats, real: float, imag: float, step: float, scores: Floats) -> None:
+    """Fill what one wave explains of every run at every slip, (B, W)."""
     for b in range(len(sums)):
         ss, sc, cc, sw, cw = sums[b]
-        if b > 0:
-            spread(score, origin[b], PRICE)
-        for k in range(width):
+        for k in range(scores.shape[1]):
             angle = step * (k - FARTHEST)
             x = real * np.cos(angle) - imag * np.sin(angle)
             y = real * np.sin(angle) + imag * np.cos(angle)
-            score[k] += 2.0 * (x * sw + y * cw) - (x * x * ss + 2.0 * x * y * sc + y * y * cc)
-    last = int(np.argmax(score))
-    trace(origin, last, slips)
-    slips -= FARTHEST
-    return float(score[last])
+            scores[b, k] = 2.0 * (x * sw + y * cw) - (x * x * ss + 2.0 * x * y * sc + y * y * cc)

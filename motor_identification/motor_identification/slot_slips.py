@@ -7,10 +7,9 @@ in turns.
 
 import numpy as np
 
-from motor_identification.recording import Bools, Floats, Integers
-from motor_identification.slip_path import spread, trace
+from motor_identification.recording import Floats, Integers
+from motor_identification.slip_path import fill_path
 from motor_identification.slots import SlotIndex, SlotTable
-from motor_model.compiled import compiled
 
 FARTHEST = 16  # slots
 PRICE = 5.0  # of a slip by one slot from one run to the next, in natural logarithms of likelihood
@@ -18,19 +17,17 @@ PRICE = 5.0  # of a slip by one slot from one run to the next, in natural logari
 
 def aligned(table: SlotTable, white: Floats, offsets: Floats) -> SlotIndex:
     """Where every run most likely was under a table's offsets [rad] (2N,), from whitened residuals (I,)."""
-    index, whitening = table.index, table.whitening
+    index = table.index
     n = index.size // 2
     farthest = min(FARTHEST, (n - 1) // 2)
-    run = np.cumsum(whitening.fresh) - 1
-    scores = np.zeros((run[-1] + 1, 2 * farthest + 1))
+    run = np.cumsum(table.whitening.fresh) - 1
+    scores = np.empty((run[-1] + 1, 2 * farthest + 1))
     for k, slip in enumerate(range(-farthest, farthest + 1)):
-        moved = np.append(np.roll(offsets.reshape(2, n), -slip, axis=1), 0.0)
-        _fill_scores(
-            whitening.fresh, whitening.gain, whitening.scale, index.first, index.last, moved, white, run, scores[:, k]
-        )
+        moved = np.roll(offsets.reshape(2, n), -slip, axis=1).ravel()
+        scores[:, k] = -0.5 * np.bincount(run, table.left(white, moved) ** 2)
     slips = np.zeros(len(scores), dtype=np.int64)
-    _fill_path(scores, slips)
-    return _moved(index, (slips - farthest)[run]) if np.any(slips != farthest) else index
+    fill_path(scores, PRICE, slips)
+    return _moved(index, slips[run]) if np.any(slips) else index
 
 
 def _moved(index: SlotIndex, slip: Integers) -> SlotIndex:
@@ -42,28 +39,3 @@ def _moved(index: SlotIndex, slip: Integers) -> SlotIndex:
         return np.asarray(np.where(entry >= 0, there, entry))
 
     return SlotIndex(on(index.first), on(index.last), index.size)
-
-
-@compiled
-def _fill_scores(
-    fresh: Bools, gain: Floats, scale: Floats, first: Integers, last: Integers, table: Floats, white: Floats,
-    run: Integers, scores: Floats,
-) -> None:  # fmt: skip
-    """Add the logarithmic likelihood of every run under a table of shape (2N + 1,) that ends on 0."""
-    carried = 0.0
-    for k in range(len(fresh)):
-        innovation = table[last[k]] - table[first[k]] + (0.0 if fresh[k] else carried)
-        scores[run[k]] -= 0.5 * (white[k] - innovation * scale[k]) ** 2
-        carried = (1.0 - gain[k]) * innovation
-
-
-@compiled
-def _fill_path(scores: Floats, slips: Integers) -> None:
-    """Fill the most likely column of every row, each slip from one row to the next at its price."""
-    rows, width = scores.shape
-    origin = np.zeros((rows, width), dtype=np.int64)
-    best = scores[0] - PRICE * np.abs(np.arange(width) - width // 2)
-    for r in range(1, rows):
-        spread(best, origin[r], PRICE)
-        best += scores[r]
-    trace(origin, int(np.argmax(best)), slips)

@@ -1,4 +1,4 @@
-"""Known motors, run by the independent plant, are found again: how closely, how surely, and what is said besides."""
+"""Known motors, run by the independent plant, are found again: how closely, and how surely."""
 
 from dataclasses import replace
 

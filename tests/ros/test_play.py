@@ -124,10 +124,10 @@ def test_a_listener_that_tells_of_itself_as_seldom_as_ros_2_does_hears_all_of_it
             writer.write(channel, 10**18 + k * PERIOD, serialize_message(Float64(data=float(k))))
     plain = {name: value for name, value in ENVIRONMENT.items() if name != "FASTRTPS_DEFAULT_PROFILES_FILE"}
     with subprocess.Popen([sys.executable, "-c", PLAIN], env=plain, stdout=subprocess.PIPE, text=True) as listener:
-        assert listener.stdout is not None and listener.stdout.readline() == "listening\n"
-        play = start("motor_identification", "play", tmp_path / "bag")  # it asks when the first news are over
-        out, _ = play.communicate(timeout=PATIENCE)
         try:
+            assert listener.stdout is not None and listener.stdout.readline() == "listening\n"
+            play = start("motor_identification", "play", tmp_path / "bag")  # it asks when the first news are over
+            out, _ = play.communicate(timeout=PATIENCE)
             heard, _ = listener.communicate(timeout=MANNERS)
         finally:
             listener.kill()
