@@ -160,7 +160,7 @@ say "compiling the motor (Numba caches)"
 set +u
 source env.sh
 set -u
-quietly "compiling the motor" "$venv/bin/python" -m motor_identification.warm_up
+quietly "compiling the motor" "$venv/bin/python" -m motor_identification.service.warm_up
 quietly "compiling the observer" "$venv/bin/python" -m motor_control.warm_up
 
 fingerprint >"$stamp"

@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from regression import regress
 from scipy.optimize import least_squares
 
+from motor_identification.estimation.problem import make_problem
 from motor_identification.identify import Request, identify
-from motor_identification.problem import make_problem
+from motor_identification.noise.slot_table import slot_index
 from motor_identification.recording import Recording, check, recording_of
-from motor_identification.slots import slot_index
-from motor_model.board import BoardConfig, SimulatedBoard
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters, paper_motor
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_model.simulate import simulate
 
 EDGES = (6, 24, 48, 96, 200, 500, 1000)

@@ -17,7 +17,7 @@ from control_figure import draw
 from control_loop import BREAKAWAY, FAST, MOTOR, PAPERS, PERIOD, SLOW, TAU, Loop
 from machine import machine
 
-from motor_control.rehearsal import Rehearsal
+from motor_control.tuning.simulated_loop import Rehearsal
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 RESULTS = Path(__file__).with_name("results")

@@ -10,7 +10,7 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot
 
-from motor_control.rehearsal import Rehearsal
+from motor_control.tuning.simulated_loop import Rehearsal
 
 if TYPE_CHECKING:
     from control_loop import Loop

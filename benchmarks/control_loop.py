@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from paper_loop import COUNT, PAIRS
 
 from motor_control.parameters import ROWS, config_of
-from motor_control.rehearsal import Rehearsal, rehearse
-from motor_model.board import BoardConfig
+from motor_control.tuning.simulated_loop import Rehearsal, rehearse
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_model.sensing.board import BoardConfig
 
 TAU = 0.02  # [s] closed-loop time constant: what `tune` gives at 200 Hz
 BREAKAWAY = 0.9  # [V]

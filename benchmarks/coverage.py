@@ -24,9 +24,9 @@ from numpy.typing import NDArray
 
 from motor_identification.identify import Request, identify
 from motor_identification.recording import check, recording_of
-from motor_model.board import BoardConfig, SimulatedBoard
 from motor_model.excitation import profile
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
 EFFECTS = ("coulomb_friction", "transport_delay")
 TRUE = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.4, "delay": 0.0043}

@@ -53,8 +53,8 @@ def make(folder: Path) -> dict[str, object]:
     """Write all bags from one run of the simulated board."""
     from recordings import write_bags
 
-    from motor_model.board import BoardConfig
     from motor_model.parameters import Parameters
+    from motor_model.sensing.board import BoardConfig
 
     bags = {folder / str(minutes): round(60 * minutes * RATE) for minutes in MINUTES}
     config = BoardConfig(sample_rate=RATE, slot_irregularity=0.01, seed=1)
@@ -85,7 +85,7 @@ def read(bag: Path) -> dict[str, object]:
 def fit(bag: Path) -> dict[str, object]:
     """What `identify BAG --effects coulomb_friction` does; the time is that of reading and fitting."""
     from motor_identification.identify import Request
-    from motor_identification.job import Job, run_job
+    from motor_identification.service.job import Job, run_job
 
     stages: list[tuple[str, float]] = []
     begin = time.perf_counter()

@@ -16,8 +16,8 @@ from pathlib import Path
 from time import perf_counter
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
-TESTS = Path(__file__).resolve().parents[1] / "tests"
-sys.path[:0] = [str(TESTS), str(TESTS / "identification")]
+TESTS = Path(__file__).resolve().parents[1] / "tests" / "support"
+sys.path.insert(0, str(TESTS))
 
 import numpy as np
 from machine import machine
@@ -41,7 +41,7 @@ from plant.encoder import Disc
 from plant.motor import move
 
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis import Diagnosis
+from motor_identification.diagnosis.result import Diagnosis
 
 RESULTS = Path(__file__).with_name("results")
 RATES = (200.0, 1000.0)  # [Hz]

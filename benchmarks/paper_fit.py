@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 from paper_loop import FREE, HARDWARE, Bench
 
+from motor_identification.estimation.swarm import SwarmConfig, minimise
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.identify import Request, identify
 from motor_identification.recording import Recording, check, recording_of
-from motor_identification.swarm import SwarmConfig, minimise
-from motor_model.board import BoardConfig, SimulatedBoard
 from motor_model.excitation import profile
 from motor_model.parameters import Parameters
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_model.simulate import simulate
 
 Floats = NDArray[np.float64]

@@ -6,10 +6,10 @@ from dataclasses import astuple, dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_control import controller, pi
-from motor_model.board import BoardConfig, SimulatedBoard
+from motor_control.controller import controller, pi
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.sample import Sample
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
 Floats = NDArray[np.float64]
 PAIRS = ((10.0, 1.0), (10.0, 10.0), (100.0, 1.0), (100.0, 10.0))

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import differential_evolution, least_squares
 
-from motor_identification.landscape import Landscape
+from motor_identification.estimation.objective import Landscape
 
 Floats = NDArray[np.float64]
 

@@ -21,12 +21,12 @@ import numpy as np
 from machine import machine
 from matplotlib.axes import Axes
 
-from motor_identification.csv_import import CsvForm, Kind, read_log
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis import Diagnosis
-from motor_identification.fit import Fit
+from motor_identification.diagnosis.result import Diagnosis
+from motor_identification.logs import CsvForm, Kind, read_log
 from motor_identification.recording import Floats, Recording, check, recording_of
-from motor_identification.words import as_table, summary
+from motor_identification.reporting.diagnosis_text import as_table, summary
+from motor_identification.uncertainty.result import Fit
 from motor_model.simulate import simulate
 
 RESULTS = Path(__file__).with_name("results")

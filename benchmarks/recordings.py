@@ -7,8 +7,8 @@ from pathlib import Path
 from rclpy.serialization import serialize_message
 
 from motor_identification.bag import BagWriter
-from motor_model.board import BoardConfig, SimulatedBoard
 from motor_model.parameters import Parameters
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_ros.messages import info_message, speed_message, time_message
 
 SPEED, INFO = "/motor/speed", "/motor/info"

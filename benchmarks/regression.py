@@ -84,8 +84,8 @@ def make(folder: Path, excitation: str, edges: int, seed: int) -> Path:
     """A bag with about half a minute of a simulated motor with friction and 1 % irregular slots."""
     from recordings import write_bags
 
-    from motor_model.board import BoardConfig
     from motor_model.parameters import Parameters
+    from motor_model.sensing.board import BoardConfig
 
     bag = folder / f"{list(EXCITATIONS).index(excitation)}_{edges}_{seed}"
     commands = [float(command) for command in EXCITATIONS[excitation]()]

@@ -19,16 +19,16 @@ from machine import machine
 from peers import Meter, Peer
 from search_figure import Floats, Run, Table, draw
 
-from motor_identification.descent import Speeds, descend
+from motor_identification.estimation.least_squares import Speeds, descend
+from motor_identification.estimation.multistart import SearchConfig, search
+from motor_identification.estimation.objective import Landscape, landscape_of
+from motor_identification.estimation.problem import make_problem
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.identify import COARSE
-from motor_identification.landscape import Landscape, landscape_of
-from motor_identification.problem import make_problem
 from motor_identification.recording import check, recording_of
-from motor_identification.search import SearchConfig, search
-from motor_model.board import BoardConfig
 from motor_model.excitation import profile
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_model.sensing.board import BoardConfig
 
 EFFECTS = ("static_friction", "transport_delay", "dead_zone")
 LIGHT = {"ks": 0.4, "breakaway_voltage": 0.9, "stribeck_speed": 6.0, "delay": 0.006, "dead_zone_voltage": 0.6}

@@ -15,8 +15,8 @@ from rclpy.qos import QoSProfile
 from soak_peer import PEER
 from std_srvs.srv import SetBool
 
-from motor_driver.board_clock import POWER_UP
-from motor_driver.clock_fit import WINDOW
+from motor_driver.clock.board_clock import POWER_UP
+from motor_driver.clock.clock_fit import WINDOW
 from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import time_message, voltage_message

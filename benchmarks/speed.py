@@ -20,13 +20,13 @@ import numpy as np
 from machine import machine
 from scipy.signal import lsim
 
+from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.swarm import SwarmConfig, minimise
 from motor_identification.identify import COARSE
-from motor_identification.problem import make_problem
 from motor_identification.recording import check, recording_of
-from motor_identification.swarm import SwarmConfig, minimise
-from motor_model.board import BoardConfig, SimulatedBoard
 from motor_model.model_file import save
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters, paper_motor
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
 RESULTS = Path(__file__).with_name("results") / "speed.md"
 PARTICLES, EPOCHS, RATE = 50, 200, 1000

@@ -6,9 +6,9 @@ import matplotlib
 import numpy as np
 
 from motor_identification.bag import read_recording
-from motor_identification.figure import REFERENCE, draw_overlay
-from motor_identification.reading import intervals_of
-from motor_identification.residual import residuals
+from motor_identification.estimation.residual import residuals
+from motor_identification.measurement.build_intervals import intervals_of
+from motor_identification.reporting.fit_figure import REFERENCE, draw_overlay
 from motor_model.parameters import Parameters
 from motor_model.simulate import simulate
 

@@ -30,7 +30,7 @@ setup(
     zip_safe=False,
     entry_points={
         "console_scripts": [
-            "motor_identification = motor_identification.node:main",
+            "motor_identification = motor_identification.service.node:main",
             "identify = motor_identification.cli.identify:main",
             "diagnose = motor_identification.cli.diagnose:main",
             "explore = motor_identification.cli.explore:main",

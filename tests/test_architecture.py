@@ -27,9 +27,23 @@ ROS = {"rclpy", "motor_msgs", "motor_ros", "std_msgs", "std_srvs", "sensor_msgs"
 ROS |= {"builtin_interfaces"}
 # Where ROS may be imported: node files, command files, and the modules that turn messages into plain values.
 SHELLS = re.compile(
-    r"(/node\.py|/messages\.py|/diagnose_action\.py|/cli/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(control|driver)/parameters\.py)$"
+    r"(/node\.py|/messages\.py|/diagnose_action\.py|/cli/\w+\.py|/live/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(control|driver)/parameters\.py)$"
 )
 BAGS = re.compile(r"motor_identification/bag/\w+\.py$")
+
+
+# Inside a package too: its rooms (folders, or files beside them) from the ground up; each may import those before it.
+ROOMS = {
+    "motor_model": (
+        "compiled errors effect effects sample parameters model_file excitation dynamics sensing simulate warm_up"
+    ),
+    "motor_control": ("checks filter controller tuning parameters warm_up preparation settings messages node cli"),
+    "motor_identification": (
+        "recording progress experiment bag measurement noise estimation periodic uncertainty validation discrepancy "
+        "diagnosis identify diagnose reporting service live logs cli"
+    ),
+}
+MOST_MODULES = 15  # in one folder of a package
 
 
 def sources() -> Iterator[tuple[str, Path, set[str]]]:
@@ -59,6 +73,42 @@ def test_imports_only_what_is_below(package: str) -> None:
         if owner == package:
             ours = names & set(PACKAGES) - {package}
             assert ours <= BELOW[package], f"{path.relative_to(ROOT)} imports {ours - BELOW[package]}"
+
+
+def imports_within(package: str) -> Iterator[tuple[Path, str, str]]:
+    """Every import between rooms of a package: the file, its room, the room it needs."""
+    root = ROOT / package / package
+    for path in sorted(root.rglob("*.py")):
+        here = path.relative_to(root).parts[0].removesuffix(".py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not (isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == package):
+                continue
+            inside = node.module.split(".")[1:]
+            for there in [inside[0]] if inside else [alias.name for alias in node.names]:
+                if there != here:
+                    yield path, here, there
+
+
+@pytest.mark.parametrize("package", sorted(ROOMS))
+def test_rooms_import_only_what_is_below(package: str) -> None:
+    rooms = ROOMS[package].split()
+    root = ROOT / package / package
+    there = {path.relative_to(root).parts[0].removesuffix(".py") for path in root.rglob("*.py")} - {"__init__"}
+    assert there == set(rooms), "a room is new or gone: put it in its place in ROOMS"
+    for path, here, needed in imports_within(package):
+        assert rooms.index(needed) < rooms.index(here), f"{path.relative_to(ROOT)} ({here}) imports {needed}"
+
+
+def test_no_folder_holds_more_than_fifteen_modules() -> None:
+    for folder in {path.parent for _, path, _ in MODULES}:
+        modules = [path for path in folder.glob("*.py") if path.name != "__init__.py"]
+        assert len(modules) <= MOST_MODULES, f"{folder.relative_to(ROOT)} holds {len(modules)} modules: group them"
+
+
+def test_every_folder_says_what_it_is_for() -> None:
+    for folder in {path.parent for _, path, _ in MODULES}:
+        said = ast.get_docstring(ast.parse((folder / "__init__.py").read_text(encoding="utf-8")))
+        assert said and len(said) > 40, f"{folder.relative_to(ROOT)}/__init__.py does not say what it is for"
 
 
 def test_ros_stays_in_the_shells() -> None:

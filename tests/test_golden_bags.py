@@ -8,7 +8,7 @@ import pytest
 
 from motor_identification.bag import contents, read_recording
 from motor_identification.identify import Request
-from motor_identification.job import DiagnosisJob, Job, run_diagnosis, run_job
+from motor_identification.service.job import DiagnosisJob, Job, run_diagnosis, run_job
 from motor_model.model_file import load
 
 BAGS = Path(__file__).resolve().parents[1] / "bags"

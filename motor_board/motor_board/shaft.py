@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_board.chip import FREQUENCY
-from motor_model.bridge import effective_voltage
+from motor_model.dynamics.bridge import effective_voltage
+from motor_model.dynamics.state import State, at_rest
 from motor_model.effects import INDEX
-from motor_model.encoder import make_disc, turn
 from motor_model.parameters import Parameters
-from motor_model.state import State, at_rest
+from motor_model.sensing.encoder import make_disc, turn
 
 DELAY, MISS_RATE = INDEX["delay"], INDEX["miss_rate"]
 MOST_EDGES = 2048  # in one step

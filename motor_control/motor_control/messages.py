@@ -3,7 +3,7 @@
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from std_msgs.msg import Header
 
-from motor_control.controller import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Config, Output
+from motor_control.controller.controller import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Config, Output
 from motor_msgs.msg import ControlState
 
 LEVELS = {

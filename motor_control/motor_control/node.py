@@ -11,7 +11,7 @@ from rclpy.parameter import Parameter
 from std_msgs.msg import Float64, Header
 from std_srvs.srv import Trigger
 
-from motor_control import controller
+from motor_control.controller import controller
 from motor_control.messages import control_state_message, diagnostics_message
 from motor_control.parameters import ROWS
 from motor_control.settings import Settings

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from motor_control import controller, faults, pi
+from motor_control.controller import controller, faults, pi
 from motor_model.errors import MotorError
 from motor_model.model_file import load
 from motor_model.parameters import Parameters
@@ -107,8 +107,8 @@ def _with_model(
     config: controller.Config, values: Mapping[str, Value], info: Info | None, motor: Parameters
 ) -> controller.Config:
     """The configuration with what a model makes possible; imported here, because it compiles."""
-    from motor_control.feedforward import FeedForward
-    from motor_control.observer import Observer
+    from motor_control.controller.feedforward import FeedForward
+    from motor_control.controller.observer import Observer
 
     if info is not None:
         motor = replace(motor, max_voltage=info.max_voltage)

@@ -1,7 +1,7 @@
 """`python -m motor_control.warm_up`: compile observer and feed-forward ahead of time, so that no running loop waits."""
 
-from motor_control.feedforward import FeedForward
-from motor_control.observer import Observer
+from motor_control.controller.feedforward import FeedForward
+from motor_control.controller.observer import Observer
 from motor_model.parameters import paper_motor
 from motor_model.sample import Info, Sample
 

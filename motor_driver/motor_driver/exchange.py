@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from motor_driver.board_clock import BoardClock
-from motor_driver.clock_fit import ClockFit
+from motor_driver.clock.board_clock import BoardClock
+from motor_driver.clock.clock_fit import ClockFit
 from motor_driver.frames import Frame, Ping, Pong, Telemetry
 from motor_driver.protocol import LEAST
 

@@ -2,11 +2,11 @@
 
 from math import nan
 
-from motor_driver.board_clock import BoardClock
+from motor_driver.clock.board_clock import BoardClock
 from motor_driver.config import Config
 from motor_driver.frames import NOT_MEASURED, Flag, Hello, Telemetry
 from motor_model.sample import Sample
-from motor_model.speed_rule import SpeedState, revolution_share, single_channel_speed, speed_magnitude
+from motor_model.sensing.speed_rule import SpeedState, revolution_share, single_channel_speed, speed_magnitude
 
 HALF, WRAP = 1 << 31, 1 << 32
 

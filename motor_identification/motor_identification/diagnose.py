@@ -9,19 +9,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from time import perf_counter
 
-from motor_identification.backward import needed, without_stand_ins
-from motor_identification.climb import Way, by_another_way, climbed, settled
-from motor_identification.conclusion import concluded
-from motor_identification.diagnosis import Diagnosis
-from motor_identification.fit import SearchReport
-from motor_identification.held_out import HeldOut, Kept, keep_out, spared
+from motor_identification.diagnosis.backward_elimination import needed, without_stand_ins
+from motor_identification.diagnosis.forward_selection import Way, by_another_way, climbed, settled
+from motor_identification.diagnosis.result import Diagnosis
+from motor_identification.diagnosis.verdict import concluded
+from motor_identification.estimation.problem import make_problem
 from motor_identification.identify import Request, report_of, searched
-from motor_identification.periodic import add_periodic, without_periodic
-from motor_identification.problem import make_problem
+from motor_identification.measurement.request_checks import refuse_nonsense
+from motor_identification.periodic.periodic_fit import add_periodic, without_periodic
+from motor_identification.progress import Stage, Stopped, Telling
 from motor_identification.recording import Recording
-from motor_identification.refusals import refuse_nonsense
-from motor_identification.stopping import Stopped
-from motor_identification.telling import Stage, Telling
+from motor_identification.uncertainty.result import SearchReport
+from motor_identification.validation.held_out import HeldOut, Kept, keep_out, spared
 from motor_model.effects import normalised
 from motor_model.errors import RecordingError
 

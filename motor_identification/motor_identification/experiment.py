@@ -8,11 +8,11 @@ from math import floor
 import numpy as np
 
 from motor_identification.recording import Floats
-from motor_model.board import BoardConfig, SimulatedBoard
 from motor_model.errors import MotorError
 from motor_model.excitation import Profile
 from motor_model.parameters import Parameters
 from motor_model.sample import Sample
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_model.simulate import simulate
 
 LEAD = 0.1  # [s] at 0 V before the profile: a recording that starts at rest needs no initial speed

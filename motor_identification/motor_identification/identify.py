@@ -6,18 +6,18 @@ from time import perf_counter
 
 import numpy as np
 
-from motor_identification.descent import Speeds, descend
-from motor_identification.direction import redirected
-from motor_identification.excerpt import excerpt
-from motor_identification.fit import Fit, SearchReport, judge
-from motor_identification.landscape import landscape_of
-from motor_identification.missed import cleaned
-from motor_identification.periodic import add_periodic, without_periodic
-from motor_identification.problem import Problem, make_problem
+from motor_identification.estimation.direction_correction import redirected
+from motor_identification.estimation.excerpt import excerpt
+from motor_identification.estimation.least_squares import Speeds, descend
+from motor_identification.estimation.miscounts import cleaned
+from motor_identification.estimation.multistart import Found, SearchConfig, search
+from motor_identification.estimation.objective import landscape_of
+from motor_identification.estimation.problem import Problem, make_problem
+from motor_identification.estimation.whitened_fit import refine
+from motor_identification.measurement.request_checks import refuse_nonsense
+from motor_identification.periodic.periodic_fit import add_periodic, without_periodic
 from motor_identification.recording import Floats, Recording
-from motor_identification.refine import refine
-from motor_identification.refusals import refuse_nonsense
-from motor_identification.search import Found, SearchConfig, search
+from motor_identification.uncertainty.result import Fit, SearchReport, judge
 from motor_model.effects import normalised
 from motor_model.errors import MotorError, RecordingError
 

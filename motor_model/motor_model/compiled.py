@@ -1,48 +1,122 @@
-"""How this project compiles: Numba with a disk cache that never serves machine code of an older equation.
+"""Compile with Numba, and keep machine code on disk for exactly as long as what it was made of stays the same.
 
-Numba's own cache looks at the file a function stands in, not at the functions it calls. Here the cache directory is
-named after the sources of the whole model, and below it after those of the package that a compiled function stands in
-where that is another one, so that an edit to any of them is an edit to all.
+Numba's own cache looks at the file a function stands in, not at the functions it calls, which are inlined here. So the
+cache directory of a module is named after a digest of all that its machine code depends on: its compiled functions and
+constants, those of every module whose compiled functions they call, and the values that they import. What machine code
+does not contain (docstrings, messages, plain Python functions) is not part of it: a sentence may change without a
+kernel being compiled again. (Numba itself compiles a file's own kernels again whenever that file was written.)
 """
 
+import ast
 import hashlib
 import inspect
-from collections.abc import Callable
+import shutil
+import sys
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numba
+import numpy as np
 from numba import njit
 
 F = TypeVar("F", bound=Callable[..., object])
 
-_HERE = Path(__file__).resolve().parent
-
-
-@cache
-def _digest(folder: Path) -> str:
-    """Changes with any source in a folder."""
-    digest = hashlib.sha256()
-    for source in sorted(folder.glob("*.py")):
-        digest.update(source.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-CACHE = _HERE / "__pycache__" / f"numba-{_digest(_HERE)}"
-
-
-def _cache_of(folder: Path) -> Path:
-    """Where the machine code of functions from a package's folder is kept."""
-    return CACHE if folder == _HERE else CACHE / f"{folder.name}-{_digest(folder)}"
+_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "forceinline": True}
+_PLAIN = (bool, int, float, complex, str, bytes, tuple, dict, frozenset, type(None))
+_IN_USE: set[Path] = set()
 
 
 def compiled(function: F) -> F:
     """Compile on first call, keep the machine code on disk, let other threads run meanwhile."""
+    module = inspect.getmodule(function)
+    assert module is not None, "a compiled function stands in a module"
+    folder = cache_of(module.__name__)
+    _IN_USE.add(folder)
     before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = str(_cache_of(Path(inspect.getfile(function)).resolve().parent))
+    numba.config.CACHE_DIR = str(folder)
     try:
-        decorated: F = njit(cache=True, nogil=True, error_model="numpy", forceinline=True)(function)
+        decorated: F = njit(cache=True, **_OPTIONS)(function)
     finally:
         numba.config.CACHE_DIR = before
     return decorated
+
+
+def cache_of(module: str) -> Path:
+    """Name the directory of an imported module's machine code: another one after any edit that could change it."""
+    source = _source(module)
+    return source.parent / "__pycache__" / f"numba-{source.stem}-{_digest(module)}"
+
+
+def drop_stale() -> None:
+    """Remove machine code of older sources, of every module that has been imported."""
+    for folder in _IN_USE:
+        stem = folder.name.rpartition("-")[0]
+        for old in folder.parent.glob(f"{stem}-*"):
+            if old != folder and old.name.rpartition("-")[0] == stem:
+                shutil.rmtree(old, ignore_errors=True)  # another process may be at it too
+
+
+def _source(module: str) -> Path:
+    file = sys.modules[module].__file__
+    assert file is not None
+    return Path(file).resolve()
+
+
+@cache
+def _digest(module: str) -> str:
+    """Digest all that the machine code of an imported module depends on; its own imports have been executed."""
+    tree = ast.parse(_source(module).read_bytes())
+    digest = hashlib.sha256(repr((sorted(_OPTIONS.items()), numba.__version__)).encode())
+    for node in _relevant(tree):
+        digest.update(ast.dump(_without_docstring(node)).encode())
+    for name, origin, value in _imported(tree):
+        if isinstance(value, numba.core.dispatcher.Dispatcher):
+            digest.update(f"{name}:{_digest(value.py_func.__module__)}".encode())
+        elif hasattr(value, "_fields"):  # a named tuple's layout is compiled into whatever takes it
+            digest.update(f"{name}:{_digest(value.__module__)}".encode())
+        elif isinstance(value, np.ndarray):
+            digest.update(name.encode() + value.tobytes())
+        elif isinstance(value, _PLAIN):
+            digest.update(f"{name}={value!r}".encode())
+        elif name in _called_by_constants(tree):
+            digest.update(_source(origin).read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _relevant(tree: ast.Module) -> Iterator[ast.stmt]:
+    """Find what can be part of machine code: compiled functions, constants and what computes them, named tuples."""
+    computing = _called_by_constants(tree)
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef):
+            if node.name in computing or any("compiled" in ast.dump(one) for one in node.decorator_list):
+                yield node
+        elif isinstance(node, ast.ClassDef):
+            if any("NamedTuple" in ast.dump(base) for base in node.bases):
+                yield node
+        elif isinstance(node, ast.Assign | ast.AnnAssign | ast.If | ast.For):
+            yield node
+
+
+def _called_by_constants(tree: ast.Module) -> set[str]:
+    """Find the functions that assignments at the top of a module call."""
+    assigned = (node.value for node in tree.body if isinstance(node, ast.Assign | ast.AnnAssign) and node.value)
+    calls = (node.func for value in assigned for node in ast.walk(value) if isinstance(node, ast.Call))
+    return {call.id for call in calls if isinstance(call, ast.Name)}
+
+
+def _imported(tree: ast.Module) -> Iterator[tuple[str, str, Any]]:
+    """List each name that a module imports from a module: the name, where from, its value."""
+    for node in tree.body:
+        if isinstance(node, ast.ImportFrom) and node.module and node.level == 0 and node.module in sys.modules:
+            for alias in node.names:
+                yield alias.name, node.module, getattr(sys.modules[node.module], alias.name, None)
+
+
+def _without_docstring(node: ast.stmt) -> ast.stmt:
+    """Drop the docstrings of a function or class, in place."""
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.FunctionDef | ast.ClassDef) and ast.get_docstring(inner, clean=False) is not None:
+            inner.body = inner.body[1:]
+    return node

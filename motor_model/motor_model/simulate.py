@@ -7,15 +7,15 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_model.bridge import effective_voltage
 from motor_model.compiled import compiled
+from motor_model.dynamics.bridge import effective_voltage
+from motor_model.dynamics.linear import Coefficients, relaxed
+from motor_model.dynamics.motor import advance, is_straight, straight
+from motor_model.dynamics.state import State, at_rest, turning
 from motor_model.effects import INDEX
-from motor_model.encoder import shaft_angle_at
 from motor_model.errors import ModelError
-from motor_model.linear import Coefficients, relaxed
-from motor_model.motor import advance, is_straight, straight
 from motor_model.parameters import Parameters
-from motor_model.state import State, at_rest, turning
+from motor_model.sensing.encoder import shaft_angle_at
 
 DELAY = INDEX["delay"]
 

@@ -1,20 +1,16 @@
 """`python -m motor_model.warm_up`: compile the motor ahead of time, so that nobody waits at the first start."""
 
-import shutil
-
 import numpy as np
 
-from motor_model.board import BoardConfig, SimulatedBoard
-from motor_model.compiled import CACHE
+from motor_model.compiled import drop_stale
 from motor_model.parameters import paper_motor
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_model.simulate import simulate
 
 
 def main() -> None:
     """Drop machine code of older sources and run every compiled function once."""
-    for old in CACHE.parent.glob("numba-*"):
-        if old != CACHE:
-            shutil.rmtree(old, ignore_errors=True)  # another process may be at it too
+    drop_stale()
     board = SimulatedBoard(paper_motor(), BoardConfig())
     for _ in range(20):
         board.sample(12.0)

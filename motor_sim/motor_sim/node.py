@@ -4,9 +4,9 @@ from dataclasses import replace
 
 from rclpy.node import Node
 
-from motor_model.board import BoardConfig, SimulatedBoard
 from motor_model.model_file import load
 from motor_model.parameters import paper_motor
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_ros.gate import Gate
 from motor_ros.messages import time_message
 from motor_ros.parameters import Row, declare

@@ -11,7 +11,7 @@ import yaml
 from motor_board.node import FAULTS, SET_UP
 from motor_control.parameters import ROWS as CONTROL
 from motor_driver.parameters import ROWS as DRIVER
-from motor_identification.node import PARAMETERS as IDENTIFICATION
+from motor_identification.service.node import PARAMETERS as IDENTIFICATION
 from motor_ros.parameters import Row
 from motor_ros.plant import SHARED_PARAMETERS, max_voltage_row
 from motor_sim.node import PARAMETERS as SIM

@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from motor_driver.board_clock import POWER_UP, WRAP, BoardClock
+from motor_driver.clock.board_clock import POWER_UP, WRAP, BoardClock
 
 TICK = 500
 HOST = 10**15

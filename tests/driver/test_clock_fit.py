@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from motor_driver.clock_fit import ClockFit
+from motor_driver.clock.clock_fit import ClockFit
 
 SECOND = 1e9
 ZERO = 3_600_000_000_000  # [ns] the board's clock where the host's is HOST

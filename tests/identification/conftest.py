@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from diagnosed import diagnosis
 
-from motor_identification.diagnosis import Diagnosis, Verdict
+from motor_identification.diagnosis.result import Diagnosis, Verdict
 
 
 @pytest.fixture(scope="module")

@@ -7,20 +7,20 @@ import pytest
 from plant import profiles, record
 
 from motor_identification.diagnose import Stage, Stopped, diagnose
-from motor_identification.diagnosis import Diagnosis, Verdict
-from motor_identification.evidence import Noise, likely_noise, log_likelihood
+from motor_identification.diagnosis.candidate_model import judged
+from motor_identification.diagnosis.effect_test import FALSE_ALARMS, threshold
+from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.estimation.problem import make_problem
 from motor_identification.experiment import make_plan, simulate_plan
-from motor_identification.held_out import keep_out
-from motor_identification.problem import make_problem
-from motor_identification.reading import intervals_of
+from motor_identification.measurement.build_intervals import intervals_of
+from motor_identification.noise.likelihood import Noise, likely_noise, log_likelihood
 from motor_identification.recording import Recording, check, recording_of
-from motor_identification.selection import FALSE_ALARMS, threshold
-from motor_identification.trial import judged
-from motor_model.board import BoardConfig
+from motor_identification.validation.held_out import keep_out
 from motor_model.effects import EFFECTS
 from motor_model.errors import ModelError, RecordingError
 from motor_model.excitation import profile
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+from motor_model.sensing.board import BoardConfig
 
 BASE = {"kv": 0.9 * PAPER_KV, "ka": 1.2 * PAPER_KA}
 

@@ -8,11 +8,11 @@ import pytest
 from motor_identification.bag import contents, read_recording
 from motor_identification.cli import experiment
 from motor_identification.experiment import LEAD, make_plan, simulate_plan, slowed
-from motor_model.board import BoardConfig
 from motor_model.errors import MotorError
 from motor_model.excitation import PROFILES
 from motor_model.model_file import save
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters, paper_motor
+from motor_model.sensing.board import BoardConfig
 
 
 @pytest.mark.parametrize("rate", [50.0, 100.0, 150.0, 200.0, 333.0, 700.0, 1000.0])

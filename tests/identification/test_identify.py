@@ -8,10 +8,10 @@ from fits import BASE, how_sure, made, off, quick
 from plant import profiles, record
 from recorded import as_counts, as_speed
 
-from motor_identification.findings import cautions
-from motor_identification.fit import Fit
 from motor_identification.identify import Request, identify
 from motor_identification.recording import check
+from motor_identification.reporting.fit_text import cautions
+from motor_identification.uncertainty.result import Fit
 from motor_model.excitation import PROFILES
 
 

@@ -20,7 +20,7 @@ from pi_runs import (
 from plant.loop import close_loop
 
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis import Verdict
+from motor_identification.diagnosis.result import Verdict
 from motor_identification.recording import Floats
 from motor_model.errors import ModelError
 

@@ -6,17 +6,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motor_identification.agreement import dissents, sentence_of
-from motor_identification.csv_import import CsvForm, Kind, read_log
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis import Diagnosis, Verdict
-from motor_identification.findings import sentence
-from motor_identification.fit import Fit
+from motor_identification.diagnosis.candidate_model import LASTING
+from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.whitened_fit import Refined, learn
 from motor_identification.identify import Request, identify
-from motor_identification.problem import make_problem
+from motor_identification.logs import CsvForm, Kind, read_log
 from motor_identification.recording import Recording, check, recording_of
-from motor_identification.refine import Refined, learn
-from motor_identification.trial import LASTING
+from motor_identification.reporting.fit_text import sentence
+from motor_identification.uncertainty.recording_consistency import dissents, sentence_of
+from motor_identification.uncertainty.result import Fit
 from motor_model.simulate import simulate
 
 DATA = Path(__file__).resolve().parents[3] / "shared/data"

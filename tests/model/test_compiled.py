@@ -1,4 +1,4 @@
-"""Machine code never outlives the source it was made of: the cache is named after everything it depends on."""
+"""Machine code never outlives what it was made of, and a sentence that changes compiles nothing again."""
 
 import shutil
 import subprocess
@@ -9,58 +9,110 @@ import pytest
 
 import motor_identification
 import motor_model
-from motor_model.compiled import CACHE
+from motor_model.compiled import cache_of
 
-SOURCES = Path(motor_model.__file__).resolve().parent
-IDENTIFICATION = Path(motor_identification.__file__).resolve().parent
+PACKAGES = [Path(package.__file__ or "").resolve().parent for package in (motor_model, motor_identification)]
+MODULES = {
+    "motor": "motor_model.dynamics.motor",
+    "bridge": "motor_model.dynamics.bridge",
+    "roll_out": "motor_model.simulate",
+    "residual": "motor_identification.estimation.residual",
+    "viterbi": "motor_identification.noise.viterbi",
+}
+
+ALL_THAT_MOVES = set(MODULES) - {"viterbi"}
 
 ASK = """
 import sys
 sys.path.insert(0, sys.argv[1])
-import motor_model.compiled as c, motor_model
-from pathlib import Path
-assert motor_model.__file__.startswith(sys.argv[1]), motor_model.__file__
-print(c.CACHE)
-print(c._cache_of(Path(sys.argv[1]) / "motor_identification"))
+from importlib import import_module
+from motor_model.compiled import cache_of
+for name in sys.argv[2:]:
+    module = import_module(name)
+    assert module.__file__.startswith(sys.argv[1]), module.__file__
+    print(cache_of(name))
 """
 
 
 @pytest.fixture
 def copy(tmp_path: Path) -> Path:
     """Sources of the model and of what stands on it, without caches."""
-    for folder in (SOURCES, IDENTIFICATION):
+    for folder in PACKAGES:
         shutil.copytree(folder, tmp_path / folder.name, ignore=shutil.ignore_patterns("__pycache__"))
     return tmp_path
 
 
-def caches(root: Path) -> tuple[str, str]:
-    """Where a process that starts now would keep the model's machine code, and that of identification."""
-    done = subprocess.run([sys.executable, "-c", ASK, str(root)], capture_output=True, text=True, check=True)
-    model, identification = done.stdout.split()
-    assert Path(model).parent == root / "motor_model" / "__pycache__"
-    return model, identification
+def caches(root: Path) -> dict[str, str]:
+    """Where a process that starts now would keep the machine code of each of MODULES."""
+    command = [sys.executable, "-c", ASK, str(root), *MODULES.values()]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    found = dict(zip(MODULES, done.stdout.split(), strict=True))
+    assert Path(found["bridge"]).parent == root / "motor_model" / "dynamics" / "__pycache__"
+    return found
 
 
-def test_an_edit_of_any_source_is_another_cache(copy: Path) -> None:
-    seen = {caches(copy)}
-    assert caches(copy) in seen
-    for name in ("forces.py", "bridge.py", "effects.py"):
-        with (copy / "motor_model" / name).open("a", encoding="utf-8") as source:
-            source.write("# edited\n")
-        now = caches(copy)
-        assert all(now[0] != model and now[1] != identification for model, identification in seen)
-        seen.add(now)
+def edit(root: Path, module: str, old: str, new: str) -> None:
+    path = root / Path(*module.split(".")).with_suffix(".py")
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
 
 
-def test_an_edit_of_what_calls_the_model_is_another_cache_for_that_only(copy: Path) -> None:
-    """A compiled function may call one of a neighbouring file; Numba itself would look at its own file only."""
-    model, identification = caches(copy)
-    with (copy / "motor_identification" / "residual.py").open("a", encoding="utf-8") as source:
-        source.write("# edited\n")
-    model_then, identification_then = caches(copy)
-    assert model_then == model and identification_then != identification
+def changed(before: dict[str, str], after: dict[str, str]) -> set[str]:
+    return {name for name in before if before[name] != after[name]}
 
 
-def test_the_cache_in_use_is_that_of_the_present_sources() -> None:
-    assert CACHE.parent == SOURCES / "__pycache__"
-    assert CACHE.is_dir() and any(CACHE.rglob("*.nbi"))
+@pytest.mark.parametrize(
+    ("module", "old", "new", "recompiled"),
+    [
+        # a term of the equation: all that integrates it, however far up
+        ("motor_model.dynamics.bridge", "return u - dead", "return u - 2.0 * dead", ALL_THAT_MOVES),
+        # a constant that is imported by value
+        (
+            "motor_model.dynamics.pieces",
+            "\n@compiled",
+            "\nLONGER = 2.0\n\n\n@compiled",
+            {"motor", "roll_out", "residual"},
+        ),
+        # another place in the parameter vector
+        (
+            "motor_model.effects",
+            '"max_voltage", "coarseness"',
+            '"coarseness", "max_voltage"',
+            ALL_THAT_MOVES,
+        ),
+        ("motor_identification.noise.viterbi", "-price", "-2.0 * price", {"viterbi"}),
+    ],
+)
+def test_an_edit_recompiles_all_that_depends_on_it(
+    copy: Path, module: str, old: str, new: str, recompiled: set[str]
+) -> None:
+    before = caches(copy)
+    assert caches(copy) == before
+    edit(copy, module, old, new)
+    assert changed(before, caches(copy)) == recompiled
+
+
+@pytest.mark.parametrize(
+    ("module", "old", "new"),
+    [
+        (
+            "motor_model.effects",
+            "more friction at low speed",
+            "greater friction at low speed",
+        ),  # what the table says to people
+        ("motor_model.dynamics.bridge", "The H-bridge", "The bridge of transistors"),  # a docstring beside a kernel
+        ("motor_identification.recording", "the motor never moves", "the motor never turns"),
+        ("motor_identification.reporting.fit_text", "residual", "rest"),
+    ],
+)
+def test_an_edited_sentence_recompiles_nothing(copy: Path, module: str, old: str, new: str) -> None:
+    before = caches(copy)
+    edit(copy, module, old, new)
+    assert changed(before, caches(copy)) == set()
+
+
+def test_the_caches_in_use_are_those_of_the_present_sources() -> None:
+    for name in MODULES.values():
+        __import__(name)
+    assert any(cache_of("motor_model.dynamics.motor").rglob("*.nbi"))

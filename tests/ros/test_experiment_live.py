@@ -12,8 +12,8 @@ from workbench import DOMAIN, Bench
 
 from motor_identification.bag import BagWriter, contents, read_recording
 from motor_identification.cli import _probe
-from motor_identification.cli._drive import drive
-from motor_identification.cli._driver import Driver
+from motor_identification.live.experiment_node import Driver
+from motor_identification.live.run_plan import drive
 from motor_model.errors import MotorError
 from motor_model.excitation import profile
 from motor_model.parameters import PAPER_KV

@@ -13,7 +13,7 @@ from std_msgs.msg import Float64
 from workbench import ENVIRONMENT, MANNERS, PATIENCE, Bench, end
 
 from motor_identification.bag import BagWriter
-from motor_identification.cli._offered import offered
+from motor_identification.live.qos_profiles import offered
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import info_message, speed_message, time_message, voltage_message

@@ -14,7 +14,7 @@ from std_msgs.msg import Float64
 from workbench import PATIENCE, Bench, end
 
 from motor_identification.bag import BagWriter, messages, read_recording, topics
-from motor_identification.cli._recorder import Recorder
+from motor_identification.live.recorder import Recorder
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.messages import info_message, speed_message, time_message

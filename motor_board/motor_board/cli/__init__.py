@@ -1,1 +1,1 @@
-"""Commands: each parses its arguments and calls one function."""
+"""Parse the command line of `flash`, call the library, print what it says; nothing is computed here."""

@@ -4,8 +4,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from motor_control.encoder import MEASURED, OBSERVER, Encoder
-from motor_control.tuning import Tuning, Wish, tune
+from motor_control.tuning.design import Tuning, Wish, tune
+from motor_control.tuning.speed_feedback import MEASURED, OBSERVER, Encoder
 from motor_model import model_file
 from motor_model.parameters import Parameters
 from motor_ros.command import positive, shell
@@ -74,8 +74,8 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _tune(options: argparse.Namespace) -> int:
-    from motor_control.gain_file import save_gains
-    from motor_control.tuning_table import as_table, cautions
+    from motor_control.tuning.gain_file import save_gains
+    from motor_control.tuning.table import as_table, cautions
 
     parameters = model_file.load(options.model)
     encoder = Encoder(options.edges_per_revolution, options.slot_irregularity, options.edge_resolution)
@@ -102,9 +102,9 @@ def _tune(options: argparse.Namespace) -> int:
 def _draw(options: argparse.Namespace, tuning: Tuning, parameters: Parameters) -> None:
     """Rehearse the large step with the controller as its node would be set up, and draw it."""
     from motor_control.parameters import ROWS, config_of
-    from motor_control.rehearsal import rehearse
-    from motor_control.tuning_figure import draw_tuning
-    from motor_model.board import BoardConfig
+    from motor_control.tuning.figure import draw_tuning
+    from motor_control.tuning.simulated_loop import rehearse
+    from motor_model.sensing.board import BoardConfig
 
     board = BoardConfig(
         name=parameters.name,

@@ -1,1 +1,1 @@
-"""The commands of this package: arguments in, one sentence or a table out."""
+"""Parse command lines, call the library, print what it says: one file a command; nothing is computed here."""

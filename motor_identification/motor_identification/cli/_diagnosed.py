@@ -17,8 +17,8 @@ from motor_model.errors import MotorError
 
 if TYPE_CHECKING:
     from motor_identification.diagnose import Stage
-    from motor_identification.diagnosis import Diagnosis
-    from motor_identification.job import DiagnosisJob
+    from motor_identification.diagnosis.result import Diagnosis
+    from motor_identification.service.job import DiagnosisJob
 
 BAR = "{desc} {bar} {percentage:3.0f} %"
 
@@ -32,7 +32,7 @@ def diagnosed(job: "DiagnosisJob", files: "Files") -> "Diagnosis":
     """
     from tqdm import tqdm
 
-    from motor_identification.job import run_diagnosis
+    from motor_identification.service.job import run_diagnosis
 
     speaking = threading.Lock()  # stages come from any thread
     with _interruptible() as stopped, tqdm(total=100, delay=2.0, disable=None, bar_format=BAR) as bar:
@@ -52,8 +52,8 @@ def diagnosed(job: "DiagnosisJob", files: "Files") -> "Diagnosis":
 
 def as_text(diagnosis: "Diagnosis") -> str:
     """What a terminal shows."""
-    from motor_identification.job import notes_of
-    from motor_identification.words import as_table, summary
+    from motor_identification.reporting.diagnosis_text import as_table, summary
+    from motor_identification.service.job import notes_of
 
     return "\n".join([as_table(diagnosis), "", summary(diagnosis), *notes_of(diagnosis)])
 
@@ -129,14 +129,14 @@ class Files:
 
 def write_model(diagnosis: "Diagnosis", path: Path) -> None:
     """The model with the effects that were found, as a model file."""
-    from motor_identification.findings import save_model
+    from motor_identification.reporting.fit_text import save_model
 
     save_model(path, diagnosis.model, datetime.now(timezone.utc).isoformat(timespec="seconds"))
 
 
 def write_json(diagnosis: "Diagnosis", path: Path) -> None:
     """Everything that was found, in the form that the interfaces promise."""
-    from motor_identification.diagnosis_json import as_json
+    from motor_identification.reporting.diagnosis_json import as_json
 
     try:
         path.write_text(json.dumps(as_json(diagnosis), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
@@ -146,6 +146,6 @@ def write_json(diagnosis: "Diagnosis", path: Path) -> None:
 
 def write_report(diagnosis: "Diagnosis", path: Path) -> None:
     """The report, with pictures, in one file."""
-    from motor_identification import report
+    from motor_identification.reporting import html as report
 
     report.write_report(diagnosis, path)

@@ -41,7 +41,7 @@ def main(args: list[str] | None = None) -> int:
 
 def _diagnose(options: argparse.Namespace) -> int:
     from motor_identification.cli._diagnosed import Files, diagnosed
-    from motor_identification.job import DiagnosisJob
+    from motor_identification.service.job import DiagnosisJob
 
     files = Files(options.output, options.json, options.report)
     files.check()

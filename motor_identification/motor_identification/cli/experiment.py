@@ -12,8 +12,8 @@ from motor_ros.command import shell
 
 if TYPE_CHECKING:
     from motor_identification.experiment import Plan
-    from motor_model.board import BoardConfig
     from motor_model.parameters import Parameters
+    from motor_model.sensing.board import BoardConfig
 
 
 def parser() -> argparse.ArgumentParser:
@@ -41,8 +41,8 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _live(options: argparse.Namespace) -> int:
-    from motor_identification.cli._drive import drive
-    from motor_identification.cli._driver import Driver
+    from motor_identification.live.experiment_node import Driver
+    from motor_identification.live.run_plan import drive
     from motor_ros.run import Interrupt, start_ros
 
     interrupt = Interrupt()
@@ -53,8 +53,8 @@ def _live(options: argparse.Namespace) -> int:
 
 def _offline(options: argparse.Namespace) -> int:
     from motor_identification.experiment import make_plan, slowed
-    from motor_model.board import BoardConfig
     from motor_model.model_file import load
+    from motor_model.sensing.board import BoardConfig
 
     model = load(options.model) if options.model else paper_motor()
     plan = make_plan(profile(options.profile), options.voltage, model.max_voltage, 1.0 / options.sample_rate)
@@ -82,8 +82,8 @@ def _write(path: str, plan: "Plan", model: "Parameters", config: "BoardConfig") 
     from tqdm import tqdm
 
     from motor_identification.bag import BagWriter
-    from motor_identification.cli._offered import offered
     from motor_identification.experiment import simulate_plan
+    from motor_identification.live.qos_profiles import offered
     from motor_ros import qos
     from motor_ros.messages import info_message, speed_message, time_message, voltage_message
 

@@ -14,7 +14,7 @@ from motor_ros.command import shell
 
 if TYPE_CHECKING:
     from motor_identification.cli._diagnosed import Files
-    from motor_identification.diagnosis import Diagnosis
+    from motor_identification.diagnosis.result import Diagnosis
 
 
 def parser() -> argparse.ArgumentParser:
@@ -85,7 +85,7 @@ def _recorded(profile: str, bag: str, options: argparse.Namespace) -> int:
 
 def _diagnosed(bags: list[str], options: argparse.Namespace, files: "Files") -> "Diagnosis":
     from motor_identification.cli._diagnosed import diagnosed
-    from motor_identification.job import DiagnosisJob
+    from motor_identification.service.job import DiagnosisJob
 
     namespace = "" if options.model is not None else options.topic_namespace  # offline there is none
     known = named(options.known_effects)

@@ -13,7 +13,7 @@ from motor_model.errors import MotorError
 from motor_ros.command import shell
 
 if TYPE_CHECKING:
-    from motor_identification.fit import Fit
+    from motor_identification.uncertainty.result import Fit
 
 
 def parser() -> argparse.ArgumentParser:
@@ -51,7 +51,7 @@ def _identify(options: argparse.Namespace) -> int:
     from tqdm import tqdm
 
     from motor_identification.identify import Request
-    from motor_identification.job import Job, run_job
+    from motor_identification.service.job import Job, run_job
 
     effects = tuple(name.strip() for name in options.effects.split(",") if name.strip())
     request = Request(effects, options.particles, options.epochs, options.seed, os.cpu_count() or 1)
@@ -67,7 +67,7 @@ def _identify(options: argparse.Namespace) -> int:
 
 
 def _present(options: argparse.Namespace, fit: "Fit") -> int:
-    from motor_identification.findings import as_json, as_table, cautions, save_model
+    from motor_identification.reporting.fit_text import as_json, as_table, cautions, save_model
 
     print(as_table(fit))
     floor = f", noise floor {fit.noise_floor:.3g}" if fit.noise_floor > 0.0 else ""
@@ -96,8 +96,8 @@ def _write_json(path: Path, content: dict[str, object]) -> None:
 def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: str) -> Path:
     """Picture, JSON and model file side by side; returns the picture."""
     from motor_identification.bag import read_recording
-    from motor_identification.figure import draw_fit
-    from motor_identification.findings import as_json, save_model
+    from motor_identification.reporting.fit_figure import draw_fit
+    from motor_identification.reporting.fit_text import as_json, save_model
 
     try:
         directory.mkdir(parents=True, exist_ok=True)

@@ -5,12 +5,12 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.csv_import.form import UNITS, CsvForm, Kind
+from motor_identification.logs.csv_form import UNITS, CsvForm, Kind
 from motor_ros.command import positive, shell
 
 if TYPE_CHECKING:
     from motor_identification.bag import BagWriter
-    from motor_identification.csv_import import Run
+    from motor_identification.logs import Run
     from motor_model.sample import Info
 
 EXAMPLES = """\
@@ -136,7 +136,7 @@ def _form(parser: argparse.ArgumentParser, options: argparse.Namespace) -> CsvFo
 
 
 def _import(file: Path, form: CsvForm, output: Path) -> int:
-    from motor_identification.csv_import import read_log
+    from motor_identification.logs import read_log
 
     log = read_log(file, form)  # all of it, before anything is written
     paths = [output.with_name(f"{output.name}_{run.label}") if form.split else output for run in log.runs]
@@ -176,7 +176,7 @@ def _offset(file: Path, first: "Run") -> int:
 def _write(writer: "BagWriter", run: "Run", info: "Info", offset: int) -> None:
     from rclpy.serialization import serialize_message
 
-    from motor_identification.cli._offered import offered
+    from motor_identification.live.qos_profiles import offered
     from motor_ros import qos
     from motor_ros.messages import info_message, speed_message, time_message, voltage_message
 

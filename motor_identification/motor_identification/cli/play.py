@@ -10,8 +10,8 @@ from motor_ros.command import in_place, not_negative, positive, shell
 
 if TYPE_CHECKING:
     from motor_identification.bag import Contents
-    from motor_identification.cli._publishers import Publishers
-    from motor_identification.cli._schedule import Schedule
+    from motor_identification.live.playback_schedule import Schedule
+    from motor_identification.live.publishers import Publishers
 
 _EXAMPLE = """\
 a recording beside a motor, by eye: let the motor (motor_sim with the model that identify found, or the real one) run
@@ -66,8 +66,8 @@ def _play(options: argparse.Namespace) -> int:
     import rclpy
 
     from motor_identification.bag import absolute_name
-    from motor_identification.cli._publishers import Publishers
-    from motor_identification.cli._schedule import Schedule
+    from motor_identification.live.playback_schedule import Schedule
+    from motor_identification.live.publishers import Publishers
     from motor_ros.run import Interrupt, start_ros
 
     interrupt = Interrupt()

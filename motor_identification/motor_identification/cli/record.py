@@ -9,7 +9,7 @@ from motor_ros.command import in_place, positive, shell
 
 if TYPE_CHECKING:
     from motor_identification.bag import BagWriter
-    from motor_identification.cli._recorder import Recorder
+    from motor_identification.live.recorder import Recorder
 
 # The topics of one motor, relative to its namespace.
 TOPICS = (
@@ -71,7 +71,7 @@ def _listen(writer: "BagWriter", topics: list[str] | None, interrupt: object, du
     """Record until the interrupt or for the duration [s]; returns notes about what could not be recorded."""
     import rclpy
 
-    from motor_identification.cli._recorder import Recorder
+    from motor_identification.live.recorder import Recorder
     from motor_ros.run import spin, start_ros
 
     start_ros([])

@@ -1,6 +1,0 @@
-"""Imports other people's logs: CSV in, a motor's samples and what they are exact about out; no ROS, no bags."""
-
-from motor_identification.csv_import.form import UNITS, CsvForm, Kind
-from motor_identification.csv_import.log import Log, Run, read_log
-
-__all__ = ["UNITS", "CsvForm", "Kind", "Log", "Run", "read_log"]

@@ -1,0 +1,65 @@
+"""What a diagnosis returns: which effects were missing, what each of them explains, and what is left."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+from motor_identification.recording import Floats
+from motor_identification.uncertainty.result import Fit
+from motor_identification.validation.held_out import HeldOut
+
+
+class Verdict(str, Enum):
+    """How a diagnosis ended."""
+
+    EXPLAINED = "explained"  # effects were found and the gap is at the noise floor
+    NOTHING_MISSING = "nothing_missing"
+    UNEXPLAINED = "unexplained"  # something is missing that is not in the table
+    UNDECIDED = "undecided"  # something is or may be missing, and this recording cannot tell which
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """Another effect that was tried where a finding was made."""
+
+    effect: str
+    gap_after: float  # [rad/s]
+    evidence: float  # logarithm of the likelihood ratio to the model without it, on held-out data
+
+
+@dataclass(frozen=True)
+class Finding:
+    """An effect that was missing."""
+
+    effect: str
+    gap_before: float  # [rad/s] on held-out data
+    gap_after: float
+    evidence: float
+    where: str  # a sentence: where the model without it was wrong
+    parameters: dict[str, tuple[float, float]]  # value and standard error, in the final model
+    alternatives: tuple[Alternative, ...]  # best first
+    ambiguous_with: tuple[str, ...]  # effects that explain as much in this recording
+    suggested_experiment: str  # a profile that would tell them apart; empty if none is needed
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """Verdict, findings, and the model with them; gaps in rad/s on held-out data."""
+
+    verdict: Verdict
+    findings: tuple[Finding, ...]
+    baseline: Fit  # with the effects that were known before
+    model: Fit
+    gap_before: float
+    gap_after: float
+    noise_floor: float
+    undetectable: tuple[str, ...]  # effects that this recording could not have shown
+    suggested_experiment: str
+    before: HeldOut  # the baseline on held-out data; gives `problem`, `place`, `residuals`, what counts
+    after: HeldOut
+    slot_share: float  # irregularity of the slots behind the noise floor, as a share of a slot
+    bags: tuple[str, ...]
+    validation: tuple[str, ...]
+    miscounted: int  # intervals that were left out because edges were missed
+    left_out: int  # intervals with a reversal
+    trace: Floats  # [rad/s] the gap after each step, the first entry before any
+    duration: float  # [s]

@@ -1,0 +1,82 @@
+"""Repeats: does what is left come back with every turn of the shaft, and how often in a turn?"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from motor_identification.discrepancy.operating_conditions import Situations, situations
+from motor_identification.recording import Floats, Integers
+from motor_identification.validation.held_out import HeldOut
+
+BLOCK = 0.3  # [s] learnt from and judged by, in turns
+MOST_CYCLES = 24  # a turn: from there on it is the slots themselves that repeat
+PLAIN = 2.0  # times the floor, below which it is not worth asking
+CLEARER = 3.0  # times what waves between the lines explain
+CHANCE = 0.004  # of the excess: what they explain by chance
+FEWEST = 100  # intervals of a run from which on it is worth asking
+MOST_RUNS = 40
+
+
+@dataclass(frozen=True)
+class Repeat:
+    """A line at so many cycles a turn, in every run of the measured angle with a phase of its own."""
+
+    cycles: int
+    share: float  # of the excess (in squares); learnt on every other block of time, counted on the rest
+
+
+def repeat_of(held: HeldOut, share: float) -> Repeat | None:
+    """The strongest line; None where there is none. `share`: irregularity behind the floor, of a slot.
+
+    What moves slowly can be imitated by any wave; so a line has to explain more than waves that fall between the lines.
+    """
+    seen = situations(held)
+    squares = seen.duration * (held.residuals**2 - held.floors(share) ** 2)
+    chosen = _longest_runs(seen)
+    if not chosen or held.gap < PLAIN * held.floor(share):
+        return None
+    lines = np.arange(1, MOST_CYCLES + 1)
+    explained = [_share(held, seen, squares, chosen, float(cycles)) for cycles in lines]
+    imitated = max(_share(held, seen, squares, chosen, cycles - 0.5) for cycles in lines)
+    best = int(np.argmax(explained))
+    return (
+        Repeat(int(lines[best]), min(explained[best], 1.0))
+        if explained[best] > CLEARER * max(imitated, CHANCE)
+        else None
+    )
+
+
+def _longest_runs(seen: Situations) -> list[Integers]:
+    """Which intervals belong to each of the longest runs of the measured angle: from one to the next it may slip."""
+    numbers, sizes = np.unique(seen.run, return_counts=True)
+    longest = numbers[np.argsort(-sizes, kind="stable")[:MOST_RUNS]]
+    order = np.argsort(seen.run, kind="stable")
+    bounds = np.searchsorted(seen.run[order], np.column_stack([longest, longest + 1]))
+    return [order[low:high] for low, high in bounds if high - low >= FEWEST]
+
+
+def _share(held: HeldOut, seen: Situations, squares: Floats, runs: list[Integers], cycles: float) -> float:
+    """Of the excess, what waves of so many cycles a turn explain in blocks of time that they were not learnt on."""
+    size = np.abs(seen.speed) / max(float(np.abs(seen.speed).max(initial=0.0)), 1e-9)
+    waves = np.column_stack([np.sin(cycles * seen.angle), np.cos(cycles * seen.angle)])
+    # A disc's error grows with speed, a torque's falls.
+    return max(_of_one_law(held, seen, squares, runs, waves * law[:, None]) for law in (size, 0.05 / (size + 0.05)))
+
+
+def _of_one_law(held: HeldOut, seen: Situations, squares: Floats, runs: list[Integers], waves: Floats) -> float:
+    explained = total = 0.0
+    for run in runs:
+        first = np.floor(seen.time[run] / BLOCK) % 2 == 0
+        learnt, judged = run[first], run[~first]
+        if min(len(learnt), len(judged)) > FEWEST // 4:
+            explained += _explained(waves, held.residuals, seen.duration, learnt, judged)
+            total += float(squares[judged].sum())
+    return explained / total if total > 0.0 else 0.0
+
+
+def _explained(columns: Floats, left: Floats, duration: Floats, learnt: Integers, judged: Integers) -> float:
+    """[rad²/s] by how much the line learnt in some intervals lowers the squares of others."""
+    root = np.sqrt(duration)
+    line = np.linalg.lstsq(columns[learnt] * root[learnt, None], left[learnt] * root[learnt], rcond=1e-10)[0]
+    rest = left[judged] - columns[judged] @ line
+    return float(duration[judged] @ (left[judged] ** 2 - rest**2))

@@ -1,0 +1,194 @@
+"""Regions: where most of the gap is, in words that a person would use, and the intervals they stand for."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from motor_identification.discrepancy.angle_harmonics import Repeat, repeat_of
+from motor_identification.discrepancy.operating_conditions import Situations, situations
+from motor_identification.recording import Bools, Floats
+from motor_identification.validation.held_out import HeldOut
+
+AT_FLOOR = 1.1  # times the floor: nothing to find
+EVERYWHERE = 0.05  # [nat] of contrast below which no region is worse than the rest
+SECOND = 0.1  # [nat] that a second condition must add
+UNPHYSICAL = 0.5  # [nat] by which "in this recording" has to be better than what a motor does
+TELLING = 0.3  # share of the excess that has to repeat with the angle, to be worth saying before anything else
+SHARES = (0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9)  # of the largest: thresholds that are tried
+MOMENTS = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)  # [s]
+STEADY = 0.02  # of the largest acceleration
+
+
+@dataclass(frozen=True)
+class Region:
+    """Some of the intervals that count, and what is left there."""
+
+    words: str
+    inside: Bools  # (I,) which of `HeldOut.residuals`
+    gap: float  # [rad/s]
+    floor: float  # [rad/s]
+    excess: float  # share of what the gap has above the floor (in squares)
+    time: float  # share of the time
+    bias: float  # [rad/s] simulated − measured along the motion, time-weighted: positive is too fast
+    offset: float  # [rad/s] the same whichever way it turns: positive is too far forward
+
+
+@dataclass(frozen=True)
+class _Condition:
+    axis: str
+    words: str
+    inside: Bools
+
+
+def where(held: HeldOut, share: float) -> str:
+    """The worst region in words; `share` is the irregularity of the slots behind the floor, as a share of a slot."""
+    if not held.counted.any():
+        return "nowhere: no motion is held out"
+    floor = held.floor(share)
+    if held.gap <= AT_FLOOR * floor:
+        return f"at the floor everywhere ({held.gap:.3g} rad/s, {_times(held.gap, floor)})"
+    repeat = repeat_of(held, share)
+    if repeat is not None and repeat.share > TELLING:
+        return _repeated(repeat, held.gap, floor)
+    said = sentence(worst(held, share, 1)[0])
+    return said if repeat is None else f"{said}; part of it comes {_often(repeat)} in every turn of the shaft"
+
+
+def sentence(region: Region) -> str:
+    """A region as `where` says it."""
+    text = f"{region.words}, {_times(region.gap, region.floor)} ({region.gap:.3g} rad/s"
+    if region.time < 1.0:
+        text += f"; {100 * region.excess:.0f} % of the excess in {100 * region.time:.2g} % of the time"
+    if abs(region.bias) > 0.5 * region.gap:
+        text += f"; the simulation is {abs(region.bias):.2g} rad/s too {'fast' if region.bias > 0.0 else 'slow'}"
+    elif abs(region.offset) > 0.5 * region.gap:
+        way, other = ("forward", "backward") if region.offset > 0.0 else ("backward", "forward")
+        text += f"; the simulation is {abs(region.offset):.2g} rad/s too fast {way} and too slow {other}"
+    return text + ")"
+
+
+def _times(gap: float, floor: float) -> str:
+    if floor <= 0.0:
+        return "where the floor is 0"
+    ratio = gap / floor
+    return f"{ratio:.2g} × the floor" if ratio < 100.0 else f"{ratio:.0f} × the floor"
+
+
+def _often(repeat: Repeat) -> str:
+    return "once" if repeat.cycles == 1 else f"{repeat.cycles} times"
+
+
+def _repeated(repeat: Repeat, gap: float, floor: float) -> str:
+    share = f"about {100 * repeat.share:.0f} % of the excess repeats with the angle"
+    return f"{_often(repeat)} in every turn of the shaft, {_times(gap, floor)} ({gap:.3g} rad/s; {share})"
+
+
+def worst(held: HeldOut, share: float, count: int = 3) -> tuple[Region, ...]:
+    """The worst regions that do not overlap, the worst first; none only where no motion is held out."""
+    if not held.counted.any():
+        return ()
+    seen = situations(held)
+    squares = held.weight * (held.residuals**2 - held.floors(share) ** 2)
+    conditions = list(_conditions(held, seen))
+    open_, found = np.ones(len(squares), dtype=bool), list[Region]()
+    while len(found) < count:
+        region = _worst_of(held, share, seen, squares, conditions, open_)
+        if found and (region.excess < 0.1 or region.time == 1.0 or region.gap < 2.0 * region.floor):
+            break
+        found.append(region)
+        open_ &= ~region.inside
+        if region.time == 1.0:
+            break
+    return tuple(found)
+
+
+def _worst_of(
+    held: HeldOut, share: float, seen: Situations, squares: Floats, conditions: list[_Condition], open_: Bools
+) -> Region:
+    """The condition, or two on different axes, whose share of the excess is most above its share of the time."""
+    inside = np.array([one.inside & open_ for one in conditions], dtype=np.float64)
+    excess = (inside * squares) @ inside.T / max(float(squares @ open_), 1e-300)
+    time = (inside * held.weight) @ inside.T / max(float(held.weight @ open_), 1e-300)
+    contrast = contrasts(np.clip(excess, 0.0, 1.0), time)
+    axes = np.array([one.axis for one in conditions])
+    of_recording = (axes[:, None] == "recording") | (axes[None, :] == "recording")
+    contrast = np.where(of_recording, contrast - UNPHYSICAL, contrast)
+    alone = np.diag(contrast)
+    pairs = np.where(axes[:, None] == axes[None, :], 0.0, contrast)
+    i, j = np.unravel_index(int(np.argmax(pairs)), pairs.shape)
+    single = int(np.argmax(alone))
+    chosen = [conditions[single]]
+    if pairs[i, j] > alone[single] + SECOND:
+        chosen = [conditions[min(i, j)], conditions[max(i, j)]]
+    elif alone[single] < EVERYWHERE:
+        chosen = [_Condition("", "everywhere", np.ones(len(squares), dtype=bool))]
+    return _region(held, share, seen, squares, chosen, open_)
+
+
+def contrasts(excess: Floats, time: Floats) -> Floats:
+    """[nat] Kullback-Leibler divergence of where the excess is from where the time is; 0 where there is less of it."""
+    tiny = 1e-12
+    inner = excess * np.log((excess + tiny) / (time + tiny))
+    outer = (1.0 - excess) * np.log((1.0 - excess + tiny) / (1.0 - time + tiny))
+    return np.asarray(np.where(excess > time, inner + outer, 0.0))
+
+
+def _region(
+    held: HeldOut, share: float, seen: Situations, squares: Floats, chosen: list[_Condition], open_: Bools
+) -> Region:
+    inside = np.all([one.inside for one in chosen], axis=0) & open_
+    weight = held.weight[inside]
+    left, still = held.residuals[inside], seen.still[inside]
+    bias = np.where(still, np.abs(left), left * np.sign(seen.speed[inside]))
+    total = max(float(weight.sum()), 1e-300)
+    everything = bool(inside.all())
+    return Region(
+        words=("" if bool(open_.all()) else "elsewhere ") + " ".join(one.words for one in chosen),
+        inside=inside,
+        gap=float(np.sqrt(weight @ left**2 / total)),
+        floor=float(np.sqrt(weight @ held.floors(share)[inside] ** 2 / total)),
+        excess=1.0 if everything else float(np.clip(squares[inside].sum() / max(squares.sum(), 1e-300), 0.0, 1.0)),
+        time=1.0 if everything else float(weight.sum()),
+        bias=float(weight @ bias / total),
+        offset=float(weight @ left / total),
+    )
+
+
+def _conditions(held: HeldOut, seen: Situations) -> Iterator[_Condition]:
+    """Everything that a region may be said to be, in the order in which two of them are said."""
+    size, moving = np.abs(seen.speed), ~seen.still
+    yield _Condition("speed", "at a standstill", seen.still)
+    for limit in thresholds(size):
+        yield _Condition("speed", f"below {limit:g} rad/s", moving & (size < limit))
+        yield _Condition("speed", f"above {limit:g} rad/s", size > limit)
+    yield _Condition("direction", "turning forward", seen.speed > 0.0)
+    yield _Condition("direction", "turning backward", seen.speed < 0.0)
+    limit = STEADY * float(np.abs(seen.acceleration[moving]).max(initial=0.0))
+    yield _Condition("acceleration", "while speeding up", moving & (seen.acceleration > limit))
+    yield _Condition("acceleration", "while slowing down", moving & (seen.acceleration < -limit))
+    yield _Condition("acceleration", "at steady speed", moving & (np.abs(seen.acceleration) <= limit))
+    yield from _driven(seen, moving)
+    for limit in MOMENTS:
+        yield _Condition("since", f"within {limit:g} s after a standstill or reversal", moving & (seen.since < limit))
+    for limit in thresholds(seen.time):
+        yield _Condition("time", f"later than {limit:g} s into the recording", seen.time > limit)
+        yield _Condition("time", f"earlier than {limit:g} s into the recording", seen.time < limit)
+    if len(held.problem.recordings) > 1:
+        for number, recording in enumerate(held.problem.recordings):
+            yield _Condition("recording", f"in {recording.uri}", seen.recording == number)
+
+
+def _driven(seen: Situations, moving: Bools) -> Iterator[_Condition]:
+    size = np.abs(seen.voltage)
+    yield _Condition("voltage", "at 0 V", moving & (size == 0.0))
+    yield _Condition("voltage", "with the voltage against the motion", seen.voltage * seen.speed < 0.0)
+    for limit in thresholds(size):
+        yield _Condition("voltage", f"with less than {limit:g} V", moving & (size < limit))
+        yield _Condition("voltage", f"with more than {limit:g} V", moving & (size > limit))
+
+
+def thresholds(values: Floats) -> list[float]:
+    """Shares of the largest value, rounded to two digits."""
+    top = float(values.max(initial=0.0))
+    return sorted({float(f"{share * top:.2g}") for share in SHARES if share * top > 0.0})

@@ -1,0 +1,114 @@
+"""Excerpts: the pieces of long recordings that a search looks at, so that an hour is searched as quickly as a minute.
+
+Where the valley is, a minute of motion says as well as an hour; what the hour adds is for least squares. Pieces begin
+at a standstill (or with the recording), so that they need no initial speed of their own, and are spread over the
+recording: half of them where the voltage changes most, which shows the dynamics, half where it spreads widest, which
+shows the static curve.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from motor_identification.estimation.problem import Problem
+from motor_identification.measurement.intervals import Intervals
+from motor_identification.recording import Floats, Integers, Recording
+from motor_model.effects import EFFECTS
+
+LONG = 60.0  # [s] of all recordings together above which excerpts are searched
+PIECES = 4
+STILL = 0.1  # [s] without any speed before a motor counts as standing
+# Effects of something that happens once, or slowly, can be anywhere; phases count from a recording's beginning.
+WHOLE = frozenset({"load_step", "warm_up"})
+BEGINNING = frozenset(effect.name for effect in EFFECTS if effect.periodic)
+
+
+def excerpt(problem: Problem, longest: float = LONG) -> Problem:
+    """A problem with the same unknowns and at most so many seconds of motion; the same one if it is short enough.
+
+    Join intervals before (`Problem.coarse`), not after: joining starts at the recording's beginning again. Each piece
+    counts as a recording: `commands` and `intervals` have as many entries as there are pieces.
+    """
+    effects = set(problem.unknowns.effects)
+    total = sum(recording.duration for recording in problem.recordings)
+    if total <= longest or effects & WHOLE:
+        return problem
+    recordings, intervals, turning = [], [], []
+    for recording, data, moving in zip(problem.recordings, problem.intervals, problem.unknowns.turning, strict=True):
+        length = recording.duration * longest / total
+        starts = [0.0] if moving or effects & BEGINNING else _starts(recording, length / PIECES)
+        for start in starts:
+            piece = _piece(data, start, start + length / len(starts))
+            if len(piece.first) > 0:
+                recordings.append(recording)
+                intervals.append(piece)
+                turning.append(bool(moving))
+    return replace(
+        problem,
+        recordings=tuple(recordings),
+        intervals=tuple(intervals),
+        unknowns=replace(problem.unknowns, turning=np.array(turning)),
+    )
+
+
+def _starts(recording: Recording, length: float) -> list[float]:
+    """Where pieces of so many seconds begin: in each of equal parts of the recording, the one that shows most."""
+    time = recording.time
+    candidates = _standing(recording)
+    candidates = candidates[time[candidates] <= max(time[-1] - length, 0.0)]
+    ends = np.searchsorted(time, time[candidates] + length)
+    part = np.minimum(time[candidates] / time[-1] * PIECES, PIECES - 1).astype(np.int64)
+    starts = []
+    for number in np.unique(part):
+        here = part == number
+        shown = _SHOWN[number % len(_SHOWN)](recording.voltage, candidates[here], ends[here])
+        starts.append(float(time[candidates[here][np.argmax(shown)]]))
+    return starts
+
+
+def _standing(recording: Recording) -> Integers:
+    """Samples at which the motor stands: the first one, and the middle of every standstill.
+
+    Towards the end of a standstill the motor may be moving already: it has a slot to go before an edge shows it.
+    """
+    time, still = recording.time, recording.speed == 0.0
+    began = np.flatnonzero(still & ~np.append(False, still[:-1]))
+    ended = np.flatnonzero(still & ~np.append(still[1:], False))
+    long = time[ended] - time[began] >= STILL
+    return np.asarray(np.unique(np.append(0, (began[long] + ended[long]) // 2)), dtype=np.int64)
+
+
+def _changes(voltage: Floats, begin: Integers, end: Integers) -> Floats:
+    """[V] how far the voltage travels in each piece."""
+    travelled = np.append(0.0, np.cumsum(np.abs(np.diff(voltage, append=voltage[-1]))))
+    return np.asarray(travelled[end] - travelled[begin])
+
+
+def _spread(voltage: Floats, begin: Integers, end: Integers) -> Floats:
+    """[V²] the voltage's variance in each piece."""
+    sums, squares = (np.append(0.0, np.cumsum(voltage**power)) for power in (1, 2))
+    count = np.maximum(end - begin, 1)
+    return np.asarray((squares[end] - squares[begin]) / count - ((sums[end] - sums[begin]) / count) ** 2)
+
+
+_SHOWN: tuple[Callable[[Floats, Integers, Integers], Floats], ...] = (_changes, _spread)
+
+
+def _piece(data: Intervals, start: float, stop: float) -> Intervals:
+    """The intervals between two times [s]; the motion starts at the first one."""
+    inside = (data.time[data.first] >= start) & (data.time[data.last] <= stop)
+    first, last = data.first[inside], data.last[inside]
+    used, index = np.unique(np.concatenate([first, last]), return_inverse=True)
+    shift = 0 if len(used) and data.time[used[0]] == start else 1  # the start is a time of its own
+    time = data.time[used] if shift == 0 else np.append(start, data.time[used])
+    return replace(
+        data,
+        time=time,
+        first=(index[: len(first)] + shift).astype(np.int64),
+        last=(index[len(first) :] + shift).astype(np.int64),
+        speed=data.speed[inside],
+        slack=data.slack[inside],
+        blur=data.blur[inside],
+        edge=data.edge[inside],
+    )

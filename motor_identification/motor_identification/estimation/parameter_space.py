@@ -1,0 +1,146 @@
+"""The unknowns of a fit: where a search looks, and how a place in that box becomes a motor and its initial state."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.measurement.initial_speed import initial_speed
+from motor_identification.recording import Floats, Recording
+from motor_model.effect import ParameterSpec
+from motor_model.effects import INDEX, normalised, specs_of
+from motor_model.parameters import Parameters, neutral
+
+BREAKAWAY, KS = INDEX["breakaway_voltage"], INDEX["ks"]
+
+
+@dataclass(frozen=True)
+class Extent:
+    """How far recordings reach: what the search box is scaled by."""
+
+    voltage: float  # [V]
+    speed: float  # [rad/s]
+    duration: float  # [s]
+
+    def of(self, spec: ParameterSpec) -> float:
+        """The size of a parameter's scale here."""
+        return spec.scale.of(self.voltage, self.speed, self.duration)
+
+
+@dataclass(frozen=True)
+class Unknowns:
+    """The searched parameters, some by their logarithm, then what belongs to one recording only.
+
+    That is, of every recording but the first, its own values of what is `of_recording`; then the initial speeds of
+    those that start turning.
+    """
+
+    effects: tuple[str, ...]
+    specs: tuple[ParameterSpec, ...]
+    low: Floats  # (D,) of the box, logarithms where the parameter is searched by it
+    high: Floats  # (D,)
+    extent: Extent
+    max_voltage: float
+    turning: NDArray[np.bool_]  # (R,) which recordings start on a moving motor
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the physical parameters, in the order of a place; initial speeds come after them."""
+        return tuple(spec.name for spec in self.specs)
+
+    @cached_property
+    def columns(self) -> NDArray[np.int64]:
+        """Where in a place each recording has each parameter, shape (R, number of parameters)."""
+        columns = np.tile(np.arange(len(self.specs)), (len(self.turning), 1))
+        own = np.flatnonzero([spec.of_recording for spec in self.specs])
+        more = len(self.turning) - 1
+        columns[1:, own] = len(self.specs) + np.arange(more * len(own)).reshape(more, len(own))
+        return columns
+
+    @cached_property
+    def logarithmic(self) -> NDArray[np.bool_]:
+        """Which of the D unknowns are searched by their logarithm."""
+        flags = np.zeros(len(self.low), dtype=bool)
+        flags[: len(self.specs)] = [spec.logarithmic for spec in self.specs]
+        return flags
+
+    def decode(self, places: Floats) -> tuple[Floats, Floats]:
+        """Places (S, D) → parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
+        values = np.where(self.logarithmic, np.exp(np.where(self.logarithmic, places, 0.0)), places)
+        vectors = np.tile(neutral(self.max_voltage), (len(places), len(self.turning), 1))
+        vectors[:, :, [INDEX[name] for name in self.names]] = values[:, self.columns]
+        if "static_friction" in self.effects:  # a motor does not hold less than it slides
+            vectors[:, :, BREAKAWAY] = np.maximum(vectors[:, :, BREAKAWAY], vectors[:, :, KS])
+        starts = np.zeros((len(places), len(self.turning)))
+        starts[:, self.turning] = values[:, len(self.low) - int(self.turning.sum()) :]
+        return vectors, starts
+
+    def parameters(self, place: Floats, name: str) -> Parameters:
+        """The motor at one place (D,), as the first recording has it."""
+        vector = self.decode(place[None])[0][0, 0]
+        values = {spec: float(vector[INDEX[spec]]) for spec in self.names}
+        return Parameters(values, self.effects, self.max_voltage, name)
+
+    def value_errors(self, place: Floats, place_errors: Floats) -> dict[str, float]:
+        """Standard errors of the parameters from those of the place: a logarithm's is a relative one."""
+        values = np.exp(np.where(self.logarithmic, place, 0.0))
+        scaled = np.where(self.logarithmic, values * place_errors, place_errors)
+        return {name: float(scaled[i]) for i, name in enumerate(self.names)}
+
+
+def carried(old: Unknowns, place: Floats, new: Unknowns, values: Mapping[str, Floats]) -> Floats:
+    """A place (D,) among other unknowns of the same recordings; `values` has what only these have, per recording."""
+    moved = np.zeros(len(new.low))
+    for i, name in enumerate(new.names):
+        if name in old.names:
+            moved[new.columns[:, i]] = place[old.columns[:, old.names.index(name)]]
+        else:
+            moved[new.columns[:, i]] = np.log(values[name]) if new.specs[i].logarithmic else values[name]
+    starts = int(new.turning.sum())
+    moved[len(moved) - starts :] = place[len(place) - starts :]
+    return np.clip(moved, new.low, new.high)
+
+
+def _reach(speed: Floats) -> float:
+    """[rad/s] largest speed that two samples in a row report, so that one false edge does not move the search box."""
+    size = np.abs(speed)
+    return float(np.minimum(size[1:], size[:-1]).max()) or float(size.max())
+
+
+def _turning_speeds(recordings: Sequence[Recording]) -> Floats:
+    """[rad/s] at the first sample of recordings that begin on a moving motor, 0 of the others, shape (R,)."""
+    return np.array([initial_speed(recording) for recording in recordings])
+
+
+def unknowns_of(recordings: Sequence[Recording], effects: tuple[str, ...]) -> Unknowns:
+    """The unknowns of these effects, in a box scaled by the largest voltage, the largest speed and the duration.
+
+    The initial speed of a motor that already turns at the first sample is searched around what it shows there.
+
+    Raises:
+        ModelError: an effect is not in the table.
+    """
+    extent = Extent(
+        max(float(np.abs(recording.voltage).max()) for recording in recordings),
+        max(_reach(recording.speed) for recording in recordings),
+        max(recording.duration for recording in recordings),
+    )
+    specs = specs_of(effects)
+    low, high = [], []
+    for spec in specs:
+        bounds = np.array([spec.low, spec.high]) * extent.of(spec)
+        low.append(float(np.log(bounds[0]) if spec.logarithmic else bounds[0]))
+        high.append(float(np.log(bounds[1]) if spec.logarithmic else bounds[1]))
+    for _ in recordings[1:]:
+        own = [i for i, spec in enumerate(specs) if spec.of_recording]
+        low += [low[i] for i in own]
+        high += [high[i] for i in own]
+    starts = _turning_speeds(recordings)
+    for start in starts[starts != 0.0]:
+        margin = 0.5 * abs(start) + 0.02 * extent.speed
+        low.append(float(start - margin))
+        high.append(float(start + margin))
+    most = max(extent.voltage, *(recording.info.max_voltage for recording in recordings))
+    return Unknowns(normalised(effects), specs, np.array(low), np.array(high), extent, most, starts != 0.0)

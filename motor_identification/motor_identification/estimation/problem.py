@@ -1,0 +1,185 @@
+"""A fitting problem: recordings and a set of unknowns, as a cost for a swarm and residuals for least squares."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from motor_identification.estimation.parameter_space import Unknowns, unknowns_of
+from motor_identification.estimation.residual import of_swarm
+from motor_identification.measurement.build_intervals import intervals_of
+from motor_identification.measurement.intervals import Intervals, joined, without
+from motor_identification.measurement.measured_angle import Track, make_track
+from motor_identification.measurement.request_checks import refuse_nonsense
+from motor_identification.progress import Stopped
+from motor_identification.recording import Bools, Floats, Recording
+from motor_model.effects import INDEX
+from motor_model.errors import RecordingError
+from motor_model.sensing.encoder import show
+from motor_model.simulate import NOWHERE, roll_out
+
+COARSENESS = 4.0  # of the motion while a swarm searches
+STEP = 1e-7  # of the box, for derivatives: 1e-5 of it turns a ripple's phase by 0.3 rad within half a minute
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is minimised: the time-weighted mean square of (simulated − measured) mean speed over all intervals.
+
+    Several recordings of one motor share its parameters; each has an initial speed of its own. Arrays over I intervals
+    have the recordings one after the other.
+    """
+
+    recordings: tuple[Recording, ...]
+    intervals: tuple[Intervals, ...]
+    unknowns: Unknowns
+    workers: int = 1
+    coarseness: float = 1.0  # of the simulation, see `motor.py`
+    tracks: tuple[Track, ...] = ()  # the measured angle of every recording, for what is periodic in it
+    spared: Callable[[Intervals], Bools] | None = None  # marks intervals of a recording that no fit may see
+    stopped: Callable[[], bool] | None = None  # asked before every simulation
+
+    @cached_property
+    def commands(self) -> tuple[tuple[Floats, Floats], ...]:
+        """Times [s] and voltages [V] at which each recording's command changes: a held one needs no step."""
+        changes = []
+        for recording in self.recordings:
+            kept = np.diff(recording.voltage, prepend=np.nan) != 0.0
+            changes.append((recording.time[kept], recording.voltage[kept]))
+        return tuple(changes)
+
+    @cached_property
+    def anchors(self) -> tuple[Floats, ...]:
+        """[rad] the measured angle at the times of every recording's intervals; empty where it is not needed."""
+        if not self.tracks:
+            return (NOWHERE,) * len(self.recordings)
+        return tuple(track.at(data.time) for track, data in zip(self.tracks, self.intervals, strict=True))
+
+    def with_effects(self, effects: tuple[str, ...]) -> "Problem":
+        """The problem with other unknowns."""
+        return replace(self, unknowns=unknowns_of(self.recordings, effects))
+
+    def anchored(self, place: Floats, effects: tuple[str, ...]) -> "Problem":
+        """The problem with other effects, on the measured angle; a fitted place (D,) bridges its gaps."""
+        rows = zip(self.intervals, self.angles(place), strict=True)
+        tracks = tuple(make_track(data, angle) for data, angle in rows)
+        return replace(self.with_effects(effects), tracks=tracks)
+
+    def coarse(self, duration: float) -> "Problem":
+        """The same problem with intervals joined to this length [s] where they follow each other: quicker to search."""
+        return replace(self, intervals=tuple(joined(data, duration) for data in self.intervals), coarseness=COARSENESS)
+
+    def without(self, bad: tuple[Bools, ...]) -> "Problem":
+        """The same problem without the marked intervals of every recording."""
+        kept = tuple(without(data, marks) for data, marks in zip(self.intervals, bad, strict=True))
+        return replace(self, intervals=kept)
+
+    def sparing(self, spared: Callable[[Intervals], Bools]) -> "Problem":
+        """The same problem without the intervals that this marks, now and whenever its intervals are read again."""
+        return replace(self.without(tuple(spared(data) for data in self.intervals)), spared=spared)
+
+    def read_again(self, intervals: tuple[Intervals, ...]) -> "Problem":
+        """The same problem with its recordings' intervals read in another way."""
+        again = replace(self, intervals=intervals)
+        return again if self.spared is None else again.sparing(self.spared)
+
+    def split(self, rows: Floats) -> list[Floats]:
+        """What is for all intervals, shape (I, …), recording by recording."""
+        ends = np.cumsum([len(data.first) for data in self.intervals])
+        return np.split(rows, ends[:-1])
+
+    def travelled(self, speeds: Floats) -> tuple[Floats, ...]:
+        """[rad] of every recording, from mean speeds [rad/s] in all intervals, shape (I,)."""
+        return tuple(part * data.duration for part, data in zip(self.split(speeds), self.intervals, strict=True))
+
+    def increments(self, place: Floats) -> tuple[Floats, ...]:
+        """Simulated minus measured travel [rad] in the intervals of every recording, at one place (D,)."""
+        return self.travelled(self.residuals(place))
+
+    @cached_property
+    def weight(self) -> Floats:
+        """Share of the observed time, shape (I,), sum 1."""
+        duration = np.concatenate([data.duration for data in self.intervals])
+        return np.asarray(duration / duration.sum())
+
+    @cached_property
+    def speed(self) -> Floats:
+        """[rad/s] measured mean speeds, shape (I,)."""
+        return np.concatenate([data.speed for data in self.intervals])
+
+    def evaluate(self, places: Floats) -> Floats:
+        """Residuals (S, I) [rad/s] at places (S, D)."""
+        return self.evaluate_vectors(*self.unknowns.decode(places))
+
+    def evaluate_vectors(self, vectors: Floats, starts: Floats) -> Floats:
+        """The same for parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
+        self.go_on()
+        vectors[:, :, INDEX["coarseness"]] = self.coarseness
+        return of_swarm(vectors, starts, self.commands, self.anchors, self.intervals, self.workers)
+
+    def go_on(self) -> None:
+        """Nothing, unless the computation was told to stop.
+
+        Raises:
+            Stopped: so it was.
+        """
+        if self.stopped is not None and self.stopped():
+            raise Stopped("the diagnosis was stopped.")
+
+    def costs(self, places: Floats) -> Floats:
+        """The swarm's cost: places (S, D) → time-weighted mean squares (S,) [rad²/s²]."""
+        return np.asarray(self.evaluate(places) ** 2 @ self.weight)
+
+    def cost(self, place: Floats) -> float:
+        """[rad²/s²] of one place (D,)."""
+        return float(self.costs(place[None])[0])
+
+    def residuals(self, place: Floats) -> Floats:
+        """[rad/s] of one place (D,), shape (I,)."""
+        return np.asarray(self.evaluate(place[None])[0])
+
+    def angles(self, place: Floats) -> tuple[Floats, ...]:
+        """[rad] what the disc shows at the times of every recording's intervals, simulated at one place (D,)."""
+        vectors, starts = self.unknowns.decode(place[None])
+        angles = []
+        for r, ((time, voltage), data) in enumerate(zip(self.commands, self.intervals, strict=True)):
+            angle, speed = np.empty(len(data.time)), np.empty(len(data.time))
+            roll_out(vectors[0, r], float(starts[0, r]), time, voltage, data.time, self.anchors[r], angle, speed)
+            show(vectors[0, r], angle, self.anchors[r])
+            angles.append(angle)
+        return tuple(angles)
+
+    def jacobian(self, place: Floats) -> Floats:
+        """Derivative of the residuals over the unknowns, central differences, shape (I, D)."""
+        steps = STEP * (self.unknowns.high - self.unknowns.low)
+        columns = np.empty((len(place), len(self.weight)))
+        share = max(self.workers, 1)  # a few unknowns at a time keep all cores busy and an hour's residuals in memory
+        for i in range(0, len(place), share):
+            some = np.diag(steps)[i : i + share]
+            residuals = self.evaluate(np.concatenate([place + some, place - some]))
+            np.subtract(residuals[: len(some)], residuals[len(some) :], out=columns[i : i + share])
+            columns[i : i + share] /= (2.0 * steps[i : i + share])[:, None]
+        return columns.T
+
+
+def make_problem(recordings: Sequence[Recording], effects: tuple[str, ...], workers: int = 1) -> Problem:
+    """The problem of fitting kv, ka and these effects to recordings of one motor.
+
+    Raises:
+        ModelError: an effect is not in the table, or is none that can be fitted.
+        RecordingError: a recording has no usable motion, or the motor moves without any voltage.
+    """
+    refuse_nonsense(recordings, effects)
+    for recording in recordings:
+        if not np.any(recording.voltage):
+            raise RecordingError(f"{recording.uri} has no voltage other than 0 in it: record with the motor driven.")
+    intervals = tuple(intervals_of(recording) for recording in recordings)
+    unknowns = unknowns_of(recordings, effects)
+    count = sum(len(data.first) for data in intervals)
+    if count <= len(unknowns.low):
+        raise RecordingError(
+            f"{len(unknowns.low)} unknowns cannot be fitted to {count} stretches of motion: record longer, or ask for "
+            "fewer effects."
+        )
+    return Problem(tuple(recordings), intervals, unknowns, workers)

@@ -1,0 +1,116 @@
+"""Publishers for the topics of a bag: which, under which names, for whom, and what they leave behind."""
+
+import sys
+import time
+from collections.abc import Callable, Mapping
+
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.serialization import deserialize_message
+
+from motor_identification.bag import Contents, Topic
+from motor_identification.live.qos_profiles import to_play
+from motor_identification.live.recorder import message_type
+from motor_model.errors import RecordingError
+from motor_msgs.msg import MotorVoltage
+
+_SETTLED = 0.5  # [s] without a new subscriber until playing starts
+_PATIENCE = 4.0  # [s] without any subscriber until it does: one that tells of itself every 3 s, as ROS 2 does, is found
+_ARRIVAL = 2.0  # [s] for the last messages to arrive
+
+
+class Publishers:
+    """One for each topic that is wanted and whose type is installed.
+
+    Args:
+        node: that publishes.
+        uri: of the bag.
+        bag: what is in it.
+        chosen: absolute names of topics; None is all.
+        names: new absolute names by those in the bag.
+
+    Raises:
+        RecordingError: a topic that is chosen or renamed has no messages, or no type is installed.
+    """
+
+    def __init__(self, node: Node, uri: str, bag: Contents, chosen: list[str] | None, names: Mapping[str, str]) -> None:
+        there = {topic.name: topic for topic in bag.topics if topic.message_count}
+        _check(uri, there, [*(chosen or []), *names])
+        self._node = node
+        self._names = {name: names.get(name, name) for name in chosen or there}
+        self._last_voltage: dict[str, bytes] = {}
+        self._by_topic: dict[str, Publisher] = {}  # by the name in the bag
+        for name in self._names:
+            self._open(there[name])
+        if not self._by_topic:
+            raise RecordingError(
+                f"{uri} has no topic whose type is installed here: install its messages and source them."
+            )
+
+    def __contains__(self, topic: object) -> bool:
+        return topic in self._by_topic
+
+    def __str__(self) -> str:
+        played = [(name, self._names[name]) for name in self._by_topic]
+        return ", ".join(old if old == new else f"{old} as {new}" for old, new in played)
+
+    def publish(self, topic: str, data: bytes) -> None:
+        """Send a serialised message."""
+        publisher = self._by_topic[topic]
+        publisher.publish(data)
+        if publisher.msg_type is MotorVoltage:
+            self._last_voltage[topic] = data
+
+    def wait_for_subscribers(self, interrupted: Callable[[], bool]) -> None:
+        """Let those connect who listen already, so that they get the first message too; finding them takes a while."""
+        started = changed = time.monotonic()
+        before: list[int] = []
+        while (now := time.monotonic()) - started < _PATIENCE and not interrupted():
+            connected = [publisher.get_subscription_count() for publisher in self._by_topic.values()]
+            known = [self._node.count_subscribers(self._names[name]) for name in self._by_topic]
+            if connected != before:
+                before, changed = connected, now
+            if any(connected) and connected == known and now - changed >= _SETTLED:
+                return
+            time.sleep(0.02)
+
+    def warn_of_others(self) -> None:
+        """Say where somebody else publishes too: who listens cannot tell the two apart."""
+        for topic in self._by_topic:
+            name = self._names[topic]
+            infos = self._node.get_publishers_info_by_topic(name)
+            others = sorted({info.node_name for info in infos} - {self._node.get_name()})
+            if others:
+                print(
+                    f"{', '.join(others)} publishes {name} too, and listeners cannot tell the two apart: leave it out "
+                    f"with --topics, or give it another name, --remap {topic}:=/recorded{topic}.",
+                    file=sys.stderr,
+                )
+
+    def close(self) -> None:
+        """Leave no motor under a voltage, and wait until the last messages have arrived."""
+        for topic, data in self._last_voltage.items():
+            last = deserialize_message(data, MotorVoltage)
+            if last.voltage != 0.0:
+                last.voltage = 0.0
+                self._by_topic[topic].publish(last)
+        for publisher in self._by_topic.values():  # a publisher that goes takes what has not arrived with it
+            publisher.wait_for_all_acked(Duration(seconds=_ARRIVAL))
+
+    def _open(self, topic: Topic) -> None:
+        message_class = message_type(topic.type_name)
+        if message_class is None:
+            print(f"{topic.name} is not played: its type {topic.type_name} is not installed here.", file=sys.stderr)
+        else:
+            name, profile = self._names[topic.name], to_play(topic.qos)
+            self._by_topic[topic.name] = self._node.create_publisher(message_class, name, profile)
+
+
+def _check(uri: str, there: Mapping[str, Topic], wanted: list[str]) -> None:
+    if not there:
+        raise RecordingError(f"{uri} has no messages: choose another bag.")
+    unknown = [name for name in wanted if name not in there]
+    if unknown:
+        what = f"has no messages on {', '.join(unknown)}; it has {', '.join(sorted(there))}"
+        raise RecordingError(f"{uri} {what}: choose another bag or other topics.")

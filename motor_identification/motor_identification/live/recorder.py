@@ -1,0 +1,152 @@
+"""Records topics as they are, inside any node: finds publishers, fits their QoS, writes serialised messages."""
+
+import time
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from importlib import import_module
+from operator import itemgetter
+from typing import Any
+
+from rclpy.callback_groups import CallbackGroup
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
+
+from motor_identification.bag import FLUSH_EVERY, BagWriter
+from motor_identification.live.qos_profiles import DEPTH, offered, to_hear
+from motor_model.errors import RecordingError
+
+LOOK_EVERY = 0.2  # [s] how long a topic that appears later may go unheard
+DRAIN_EVERY = 0.02  # [s] how long a message waits in DDS, which stamps it and has room for a thousand
+
+
+class _NotWaitedFor(CallbackGroup):
+    """Subscriptions that do not wake the executor: to wake it for a message costs more than to take the message."""
+
+    def can_execute(self, entity: object) -> bool:
+        return False
+
+
+def _not_called(data: bytes) -> None:
+    """What a subscription wants to have, and nobody calls."""
+
+
+class Recorder:
+    """Writes every message on the topics to the bag from now until `close`; runs on the node's own executor.
+
+    Topics need not exist yet. `topics` are absolute names; None is every topic that is not hidden. `counts` has the
+    messages by topic, `notes` sentences about topics that cannot be recorded. When the bag can no longer be written,
+    `refusal` says why and nothing more is recorded: whoever runs the node decides what to stop first.
+    """
+
+    def __init__(self, node: Node, writer: BagWriter, topics: Sequence[str] | None) -> None:
+        self.notes: list[str] = []
+        self.refusal: RecordingError | None = None
+        self._node = node
+        self._writer = writer
+        self._wanted = None if topics is None else frozenset(topics)
+        self._subscriptions: dict[str, Subscription] = {}
+        self._channels: dict[str, int] = {}
+        self._group = _NotWaitedFor()
+        self._asked: dict[str, QoSProfile] = {}
+        self._unusable: set[str] = set()
+        rows = ((DRAIN_EVERY, self.drain), (LOOK_EVERY, self.look), (FLUSH_EVERY, self._flush))
+        self._timers = [node.create_timer(period, callback) for period, callback in rows]
+        self.look()
+
+    @property
+    def counts(self) -> Counter[str]:
+        """Messages by topic."""
+        return self._writer.counts
+
+    @property
+    def heard(self) -> frozenset[str]:
+        """The topics that are subscribed to."""
+        return frozenset(self._subscriptions)
+
+    def look(self) -> None:
+        """Subscribe to topics that have appeared, and again to those whose new publishers offer less."""
+        for topic, types in self._node.get_topic_names_and_types():
+            if self._is_wanted(topic) and topic not in self._unusable:
+                publishers = self._node.get_publishers_info_by_topic(topic)
+                if publishers:
+                    self._hear(topic, types[0], [publisher.qos_profile for publisher in publishers])
+
+    def drain(self) -> None:
+        """Write what has arrived, in the order in which it did."""
+        arrived: list[tuple[int, int, int, bytes]] = []  # received, channel, sent, data
+        for topic, subscription in self._subscriptions.items():
+            channel, room = self._channels[topic], DEPTH  # at most: who sends faster than we take must not hold us up
+            with subscription.handle:
+                while room > 0 and (taken := subscription.handle.take_message(subscription.msg_type, True)):
+                    data, info = taken
+                    # When DDS received it: waiting in this process does not count. Some middleware does not say.
+                    received = info.get("received_timestamp") or time.time_ns()
+                    arrived.append((received, channel, info.get("source_timestamp") or received, data))
+                    room -= 1
+        arrived.sort(key=itemgetter(0))
+        with self._noticing():
+            for received, channel, sent, data in arrived:
+                self._writer.write(channel, received, data, sent)
+
+    def close(self) -> None:
+        """Write what has arrived and has not been taken yet, and stop."""
+        for timer in self._timers:
+            self._node.destroy_timer(timer)
+        self.drain()
+        for subscription in self._subscriptions.values():
+            self._node.destroy_subscription(subscription)
+        self._subscriptions.clear()
+
+    def _is_wanted(self, topic: str) -> bool:
+        if self._wanted is not None:
+            return topic in self._wanted
+        return not any(part.startswith("_") for part in topic.split("/"))  # hidden: actions and services use them
+
+    def _hear(self, topic: str, type_name: str, publishers: list[QoSProfile]) -> None:
+        asked = self._asked.get(topic)
+        fitting = to_hear(
+            [*publishers, *([asked] if asked else [])]
+        )  # never more than before: that would repeat latched
+        if fitting == asked:
+            return
+        message_class = message_type(type_name)
+        if message_class is None:
+            self._unusable.add(topic)
+            self.notes.append(f"{topic} is not recorded: its type {type_name} is not installed here.")
+            return
+        try:
+            channel = self._writer.topic(topic, type_name, offered(*publishers))
+        except RecordingError as error:
+            self.refusal = error
+            return
+        self.drain()
+        before = self._subscriptions.pop(topic, None)
+        if before is not None:
+            self._node.destroy_subscription(before)
+        self._channels[topic] = channel
+        self._subscriptions[topic] = self._node.create_subscription(
+            message_class, topic, _not_called, fitting, raw=True, callback_group=self._group
+        )
+        self._asked[topic] = fitting
+
+    def _flush(self) -> None:
+        with self._noticing():
+            self._writer.flush()
+
+    @contextmanager
+    def _noticing(self) -> Iterator[None]:
+        try:
+            yield
+        except RecordingError as error:
+            self.refusal = error
+
+
+def message_type(type_name: str) -> Any:
+    """The class of `package/msg/Name`; None where it is not installed."""
+    package, kind, name = type_name.split("/") if type_name.count("/") == 2 else ("", "", "")
+    try:
+        return getattr(import_module(f"{package}.{kind}"), name, None)
+    except (ImportError, ValueError, TypeError):
+        return None

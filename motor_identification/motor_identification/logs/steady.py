@@ -1,0 +1,72 @@
+"""Steady states, a voltage and the speed it leads to in every row, as the staircase that would have shown them.
+
+A static curve has no time, but it says what no dynamic recording says as well: how friction and gain share the voltage.
+Each row becomes a stair so long that any motor has settled, and its speed the mean over the stair's end. How the motor
+got there is not compared with anything.
+"""
+
+from dataclasses import dataclass, replace
+from math import tau
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.csv_form import UNITS, CsvForm, Kind
+from motor_model.errors import RecordingError
+from motor_model.sample import Info, Measurement, Sample
+
+Floats = NDArray[np.float64]
+
+HOLD = 20.0  # [s] so long that any motor but the slowest has settled, so short that drag is still quick to simulate
+LONGEST = 5.0  # [s] that a speed may be the mean over
+WINDOW = 1.0  # [s] that it is taken to be
+
+
+@dataclass(frozen=True)
+class Steady:
+    """The samples of every run, with the info that says how to read them."""
+
+    samples: tuple[tuple[Sample, ...], ...]
+    info: Info
+    findings: tuple[str, ...]
+
+
+def read_steady(form: CsvForm, info: Info, voltage: Floats, speed: Floats, runs: list[slice]) -> Steady:
+    """What rows of `voltage` [V] and `speed` (in the form's unit), each of shape (K,), say.
+
+    Raises:
+        RecordingError: the speeds are means over more time than a state is held for.
+    """
+    window = form.speed_window or WINDOW
+    if window > LONGEST:
+        raise RecordingError(f"Steady speeds are means over at most {LONGEST:g} s here: correct --speed-window.")
+    unit = UNITS[Kind.SPEED][form.unit] or 1.0
+    info = replace(
+        info,
+        measurement=Measurement.SPEED,
+        sample_period=HOLD,
+        speed_window=window,
+        speed_lag=0.5 * window,
+        edges_per_revolution=form.edges_per_revolution or _edges(form, window * unit),
+    )
+    assumed = "" if form.speed_window else " (assumed; else say --speed-window)"
+    findings = (
+        f"Steady states in the order of the rows, a stair of {HOLD:g} s each; a speed is a mean over {window:g} s"
+        f"{assumed}.",
+        "They tell friction from gain, but nothing of inertia or delay: identify them together with the same motor in "
+        "motion.",
+    )
+    return Steady(tuple(_stairs(voltage[run], speed[run] * unit) for run in runs), info, findings)
+
+
+def _edges(form: CsvForm, turn: float) -> int:
+    return round(tau / (form.count_quantum * turn)) if form.count_quantum else 0
+
+
+def _stairs(voltage: Floats, speed: Floats) -> tuple[Sample, ...]:
+    """A sample at every step: the mean speed of the voltage before, and the voltage that comes now."""
+    period = round(HOLD * 1e9)
+    reported = np.concatenate([[0.0], speed])
+    applied = np.append(voltage, voltage[-1])
+    rows = zip(reported.tolist(), applied.tolist(), strict=True)
+    return tuple(Sample(period * k, omega, volts) for k, (omega, volts) in enumerate(rows))

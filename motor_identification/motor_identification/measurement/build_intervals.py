@@ -1,0 +1,95 @@
+"""Reading: every kind of recording becomes intervals with a measured mean speed.
+
+An edge is an exact angle at a time known to the timer's tick, so that between two reported edges the mean speed is
+Δcount·(2π/N)/Δt. A count that is read at the samples fixes the angle where it changes; a logged speed is a mean over a
+window.
+"""
+
+from math import sqrt, tau
+
+import numpy as np
+
+from motor_identification.measurement.edges import Edges, edges_of, turned_one_way
+from motor_identification.measurement.intervals import Intervals, indexed, with_still
+from motor_identification.measurement.sampled_counts import Changes, changes_of, fixes_of
+from motor_identification.measurement.sanity_checks import check_counts
+from motor_identification.measurement.standstill import standing_at_edges, standing_at_turns
+from motor_identification.recording import Recording
+from motor_model.errors import RecordingError
+from motor_model.sample import Measurement
+
+
+def intervals_of(recording: Recording) -> Intervals:
+    """What the recording says about the motion.
+
+    Raises:
+        RecordingError: there is less than three intervals of motion in it, or its numbers are those of no motor.
+    """
+    if recording.info.measurement is not Measurement.SPEED:
+        check_counts(recording)
+    intervals = _READERS[recording.info.measurement](recording)
+    if len(intervals.first) < 3:
+        raise RecordingError(
+            f"{recording.uri} shows only {len(intervals.first)} stretches of motion: record longer, or with more "
+            "voltage."
+        )
+    return intervals
+
+
+def _from_edges(recording: Recording) -> Intervals:
+    return intervals_between(recording, edges_of(recording))
+
+
+def intervals_between(recording: Recording, edges: Edges) -> Intervals:
+    """What stamped edges with known directions say about the motion."""
+    slot = tau / recording.info.edges_per_revolution
+    good = turned_one_way(edges)
+    first, last = edges.only(np.flatnonzero(good)), edges.only(np.flatnonzero(good) + 1)
+    speed = last.direction * np.abs(last.count - first.count) * slot / (last.time - first.time)
+    # A stamp is uniform over a tick τ: its standard deviation is τ/√12, and that of the angle ω times as much.
+    blur = np.abs(speed) * recording.info.edge_resolution / sqrt(12.0)
+    moving = indexed(
+        first.time,
+        last.time,
+        speed,
+        blur,
+        edge=np.column_stack([first.count, last.count]),
+        slot=slot,
+        left_out=int(np.count_nonzero(~good)),
+    )
+    return with_still(moving, standing_at_edges(recording, edges, ~good), slot)
+
+
+def _from_counts(recording: Recording) -> Intervals:
+    return intervals_of_changes(recording, changes_of(recording))
+
+
+def intervals_of_changes(recording: Recording, changes: Changes) -> Intervals:
+    """What counts read at the samples say, as mean speeds between the instants at which they fix the angle."""
+    slot = tau / recording.info.edges_per_revolution
+    fixes = fixes_of(recording, changes)
+    good = (np.diff(fixes.run) == 0) & (fixes.way[1:] != 0) & (np.diff(fixes.time) > 0.0)
+    begin, end = np.flatnonzero(good), np.flatnonzero(good) + 1
+    start, stop = fixes.time[begin], fixes.time[end]
+    speed = fixes.way[end] * (fixes.place[end] - fixes.place[begin]) * slot / (stop - start)
+    # An interval's end is the next one's start; where a run begins, both ends have the larger blur.
+    fresh = np.diff(begin, prepend=-2) != 1
+    blur = slot * np.where(fresh, np.maximum(fixes.blur[begin], fixes.blur[end]), fixes.blur[end])
+    moving = indexed(start, stop, speed, blur, left_out=int(np.count_nonzero(~good)))
+    return with_still(moving, standing_at_turns(recording, changes), slot)
+
+
+def _from_speed(recording: Recording) -> Intervals:
+    """A logged speed is a mean over the source's window."""
+    info = recording.info
+    window = info.speed_window if info.speed_window > 0.0 else 1e-6
+    middle = recording.time - info.speed_lag
+    start, end = middle - 0.5 * window, middle + 0.5 * window
+    inside = start >= -1e-9
+    # Where it is a mean of counts, the angle at either end of the window is truncated to one.
+    count = tau / info.edges_per_revolution if info.edges_per_revolution and info.speed_window else 0.0
+    start, end = np.round(np.maximum(start[inside], 0.0), 9), np.round(end[inside], 9)
+    return indexed(start, end, speed=recording.speed[inside], blur=np.full(len(start), count / sqrt(12.0)))
+
+
+_READERS = {Measurement.EDGES: _from_edges, Measurement.COUNTS: _from_counts, Measurement.SPEED: _from_speed}

@@ -1,0 +1,99 @@
+"""The edges that samples report: which edge, when, and which way the disc turned."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from motor_identification.measurement.timestamp_checks import possible, smooth
+from motor_identification.recording import Bools, Floats, Integers, Recording
+
+
+@dataclass(frozen=True)
+class Edges:
+    """Reported edges in order of time; arrays of shape (E,).
+
+    A sample reports its latest edge and, through `edge_period`, the one before it; the edges in between are only
+    counted. `direction` is 0 where a single channel leaves it open.
+    """
+
+    time: Floats  # [s] since the first sample
+    count: Integers  # edges passed since the first sample, always growing for a single channel
+    direction: Integers  # −1, 0, +1
+
+    def only(self, which: Integers | Bools) -> "Edges":
+        """The chosen edges, in the order of `which`."""
+        return Edges(self.time[which], self.count[which], self.direction[which])
+
+
+def edges_of(recording: Recording) -> Edges:
+    """All edges since the first sample that a recording reports, but for those whose stamps are wrong.
+
+    A stamp is the timer's last tick before the edge, so that half a tick is added.
+    """
+    info, count, stamp = recording.info, recording.edge_count, recording.edge_time
+    fresh = np.flatnonzero(np.diff(count, prepend=count[0]) != 0)
+    steps = np.diff(count[fresh], prepend=count[0])
+    latest = (stamp[fresh] - recording.sample_time[0]) * 1e-9 + 0.5 * info.edge_resolution
+    period = recording.edge_period[fresh]
+    direction = reported_directions(recording.speed[fresh])
+    right = possible(recording, fresh, latest)
+    right[right] = smooth(latest[right], _passed(count[fresh][right] - count[0]))
+    second = right & (np.abs(steps) >= 2) & (period > 0.0) & (latest - period > 0.0)
+    second[second] = possible(recording, fresh[second], (latest - period)[second])
+    time = np.concatenate([(latest - period)[second], latest[right]])
+    numbers = np.concatenate([(count[fresh] - np.sign(steps))[second], count[fresh][right]]) - count[0]
+    edges = Edges(time, numbers, np.concatenate([direction[second], direction[right]]))
+    edges = edges.only(np.argsort(time, kind="stable"))
+    edges = edges.only(smooth(edges.time, _passed(edges.count)))
+    return turned_at_the_slowest(edges, recording) if info.single_channel else edges
+
+
+def _passed(count: Integers) -> Integers:
+    """Edges passed either way, from counts (E,) that two channels also count down."""
+    return np.asarray(np.abs(np.diff(count, prepend=0)).cumsum())
+
+
+def reported_directions(speed: Floats) -> Integers:
+    """The reported signs at samples with a fresh edge; the first edge ever has none and takes the next one's."""
+    sign = np.sign(speed).astype(np.int64)
+    return np.where(sign == 0, np.append(sign[1:], 0), sign)
+
+
+def turned_at_the_slowest(edges: Edges, recording: Recording) -> Edges:
+    """Move each change of sign back to where the motor really turned: its slowest interval.
+
+    A single channel's reported sign changes only after the speed has visibly risen again, a few edges late. The motor
+    may also have turned in the interval beside the slowest, so the direction of the two edges around it stays open.
+    """
+    direction = edges.direction.copy()
+    changes = np.flatnonzero(direction[1:] * direction[:-1] < 0) + 1
+    with np.errstate(divide="ignore"):
+        speed = np.abs(np.diff(edges.count)) / np.diff(edges.time)
+    opposed = _opposed_since(recording, edges.time[changes], direction[changes])
+    begin = np.searchsorted(edges.time, opposed, side="left") - 1
+    for change, first in zip(changes, begin, strict=True):
+        new = direction[change]
+        first = max(min(int(first), change - 1), 0)
+        slowest = first + int(np.argmin(speed[first:change]))
+        direction[slowest + 1 : change] = new
+        direction[slowest : slowest + 2] = 0
+    return Edges(edges.time, edges.count, direction)
+
+
+def _opposed_since(recording: Recording, time: Floats, new_direction: Integers) -> Floats:
+    """[s] when the voltage last began to drive the way the motor turned before each `time`; 0 if it never did."""
+    clock = recording.time
+    latest = np.searchsorted(clock, time, side="right") - 1
+    opposed = np.zeros(len(time))
+    for way in (-1, 1):
+        here = np.flatnonzero(new_direction == way)
+        against = np.where(recording.voltage * way < 0.0, np.arange(len(clock)), -1)
+        last = np.maximum.accumulate(against)[latest[here]]
+        opposed[here] = np.where(last >= 0, clock[np.maximum(last, 0)], 0.0)
+    return opposed
+
+
+def turned_one_way(edges: Edges) -> Bools:
+    """Between which successive edges, shape (E − 1,), the disc is known to have turned one way."""
+    here, there = edges.direction[:-1], edges.direction[1:]
+    return np.asarray((here == there) & (here != 0) & (np.diff(edges.time) > 0.0))

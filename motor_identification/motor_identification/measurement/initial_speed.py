@@ -1,0 +1,73 @@
+"""Whether a motor turned already when its recording began, and how fast: what its first edges say of that.
+
+A motor that stood needs a voltage and time to gain speed, so that its first edges, followed back along a parabola to
+the moment when a voltage first could act, come from no speed. A motor that turned came from one. The reported speed of
+the first sample does not tell: a board that was just switched on has seen no edge yet, and reports none.
+"""
+
+import numpy as np
+
+from motor_identification.measurement.edges import edges_of, reported_directions
+from motor_identification.measurement.sampled_counts import changes_of, fixes_of
+from motor_identification.recording import Floats, Recording
+from motor_model.sample import Measurement
+
+HEAD = 400  # samples in which the beginning shows
+POINTS = 6  # edges that are followed back
+SHARE = 0.5  # of their mean speed that must be left at the beginning: at rest it is none, or a quarter after one τ
+NEAR = 0.75  # slots that the parabola may lead beside the middle of the slot in which the disc was
+BENT = 0.05  # of the slots up to the last of those edges: as much beside, since no motion is a parabola
+
+
+def initial_speed(recording: Recording) -> float:
+    """[rad/s] of a motor that already turned at the first sample; 0 for one that stood, or may have."""
+    info, reported = recording.info, float(recording.speed[0])
+    if info.measurement is Measurement.SPEED:
+        return reported
+    if reported != 0.0 and not (info.source == "import" and info.measurement is Measurement.COUNTS):
+        return reported
+    head = recording.between(0.0, float(recording.time[min(HEAD, len(recording) - 1)]))
+    time, place = _passed(head)
+    speed = _followed_back(time, place, _first_voltage(head)) if len(time) > 3 else 0.0
+    return speed * _way(head) * 2.0 * np.pi / info.edges_per_revolution
+
+
+def _passed(recording: Recording) -> tuple[Floats, Floats]:
+    """When [s] the disc was where [slots], at the first edges or changes of the count."""
+    if recording.info.measurement is Measurement.EDGES:
+        edges = edges_of(recording)
+        time, place = edges.time, np.abs(edges.count).astype(np.float64)
+    else:
+        fixes = fixes_of(recording, changes_of(recording))
+        time, place = fixes.time[fixes.time > 0.0], fixes.place[fixes.time > 0.0]
+    return time[:POINTS], place[:POINTS]
+
+
+def _followed_back(time: Floats, place: Floats, begin: float) -> float:
+    """[slots/s] at the beginning, where a parabola through the first edges says that there was speed; else 0.
+
+    Edges before `begin` [s], the first voltage, need no parabola. It must also lead back to the slot in which the disc
+    was: a motor that stood and has long gained its speed shows its edges later than one that had it already.
+    """
+    if np.count_nonzero(time <= begin) >= 2:
+        free = time <= begin
+        return float((place[free][-1] - place[free][0]) / (time[free][-1] - time[free][0]))
+    mean = (place[-1] - place[0]) / (time[-1] - time[0])
+    _, slope, was = np.polyfit(time - begin, place, 2)
+    near = abs(was - 0.5) <= max(NEAR, BENT * place[-1])
+    return float(slope) if slope > SHARE * mean and near else 0.0
+
+
+def _first_voltage(recording: Recording) -> float:
+    """[s] when there was one; the end of the recording where there was none."""
+    driven = np.flatnonzero(recording.voltage)
+    return float(recording.time[driven[0]] if len(driven) else recording.time[-1])
+
+
+def _way(recording: Recording) -> int:
+    """Which way the disc first turned."""
+    if not recording.info.single_channel:
+        steps = np.diff(recording.edge_count)
+        return int(np.sign(steps[np.flatnonzero(steps)[0]])) if np.any(steps) else 0
+    signs = reported_directions(recording.speed)
+    return int(signs[np.flatnonzero(signs)[0]]) if np.any(signs) else 0

@@ -1,0 +1,171 @@
+"""Counts read at samples, without stamps: when the disc was where, and how surely.
+
+A count c says that c flanks have passed and the next has not: the angle is anywhere in one slot, (c + ½) slots with a
+standard deviation of 1/√12 slots. But a slow motor shows more. Where it takes several samples for a slot, the sample at
+which the count changes and the one before it enclose the flank: in the middle between them the angle is the flank's,
+to within half the travel of one sample. So with v the travel between two samples in slots:
+
+    v ≥ 1   every sample is a fix of (c + ½) slots with σ = 1/√12, whether its count changed or not
+    v < 1   every change is a fix of half way from c₋ + ½ to c + ½, in the middle between both samples, with σ = v/√12
+
+The two agree at v = 1, and neither favours samples for what they show, which would bias them by up to half a slot.
+Stamps of samples that jitter by σ_t blur every fix by ω·σ_t more.
+"""
+
+from dataclasses import dataclass, replace
+from math import sqrt
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from motor_identification.measurement.edges import Edges, reported_directions, turned_at_the_slowest
+from motor_identification.recording import Bools, Floats, Integers, Recording
+
+STANDARD = 1.0 / sqrt(12.0)  # standard deviation of what is uniform over 1
+NEIGHBOURS = 3  # changes on either side that tell how fast the disc turns
+WINDOW = 7  # fixes that a parabola is laid through, to see how far stamps jitter
+MEDIAN_SHARE = 0.839  # median over mean of χ² with WINDOW − 3 degrees of freedom
+JITTERY = 1.8  # times the variance that counting leaves, from which on stamps are said to jitter
+
+
+@dataclass(frozen=True)
+class Fixes:
+    """Where the disc was, in order of time; arrays of shape (F,).
+
+    Within a run the disc turns one way. Runs share no scale: after a reversal an encoder may count the other flank.
+    """
+
+    time: Floats  # [s] since the first sample
+    place: Floats  # [slots] turned the run's way
+    blur: Floats  # [slots] standard deviation of the place
+    run: Integers
+    way: Integers  # −1, +1; 0 where a single channel leaves it open
+    rate: Floats  # [slots/s] how fast the disc turned there
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+@dataclass(frozen=True)
+class Changes:
+    """The samples whose count is another than before; arrays of shape (C,)."""
+
+    sample: Integers  # index into the recording
+    way: Integers  # −1, 0, +1 as in `Fixes`
+    run: Integers
+
+    def __len__(self) -> int:
+        return len(self.sample)
+
+
+def changes_of(recording: Recording) -> Changes:
+    """All changes of the count, in runs of one direction."""
+    steps = np.diff(recording.edge_count)
+    sample = np.flatnonzero(steps) + 1
+    way = np.sign(steps[sample - 1])
+    if recording.info.single_channel:
+        middle = 0.5 * (recording.time[sample] + recording.time[sample - 1])
+        edges = Edges(middle, recording.edge_count[sample], reported_directions(recording.speed[sample]))
+        way = turned_at_the_slowest(edges, recording).direction
+    return in_runs(sample, way)
+
+
+def in_runs(sample: Integers, way: Integers) -> Changes:
+    """Changes at these samples (C,) in these directions (C,), numbered by runs of one direction."""
+    return Changes(sample, way, np.cumsum(np.diff(way, prepend=way[:1]) != 0))
+
+
+def fixes_of(recording: Recording, changes: Changes) -> Fixes:
+    """Every instant at which the counts say where the disc was; `changes` are those of the recording."""
+    time = recording.time
+    if not len(changes):
+        return Fixes(time[:0], time[:0], time[:0], changes.run, changes.way, time[:0])
+    turned = np.abs(np.diff(recording.edge_count, prepend=recording.edge_count[0])).cumsum()
+    follows = np.minimum(np.searchsorted(changes.sample, np.arange(len(time))), len(changes) - 1)
+    step, rates = np.diff(time, prepend=time[0]), _rates(time, turned, changes)
+    rate = np.interp(time, time[changes.sample], rates.rate)
+    travel = rate * step
+    changed = np.isin(np.arange(len(time)), changes.sample)
+    point = (travel >= 1.0) & (changed | _within(changes, follows, len(time)))
+    point[[0, -1]] = True  # the motor stands there, or is seen at an instant that it did not choose
+    k, c = np.flatnonzero(point), np.flatnonzero(changed & ~(travel >= 1.0))
+    gap = turned[c] - turned[c - 1]
+    at = np.concatenate([time[k], 0.5 * (time[c] + time[c - 1])])
+    # The flank lies half way between the angles at both samples, which is not where the disc is in the middle of a time
+    # in which it gains speed.
+    bend = np.interp(time[c], time[changes.sample], rates.growth) * step[c] ** 2 / 8.0
+    place = np.concatenate([turned[k] + 0.5, 0.5 * (turned[c] + turned[c - 1] + 1.0) - np.clip(bend, -0.25, 0.25)])
+    sharp = np.maximum(travel[c], np.minimum(gap - 1.0, 1.0))
+    blur = STANDARD * np.concatenate([np.ones(len(k)), sharp])
+    order, which = np.argsort(at, kind="stable"), np.concatenate([k, c])
+    run, way = changes.run[follows[which]], changes.way[follows[which]]
+    fixes = Fixes(at[order], place[order], blur[order], run[order], way[order], rate[which][order])
+    return replace(fixes, blur=np.hypot(fixes.blur, stamp_jitter(fixes) * fixes.rate))
+
+
+def _within(changes: Changes, follows: Integers, samples: int) -> Bools:
+    """Which samples lie between two changes of one run, shape (K,); `follows` numbers the change after each."""
+    before = np.maximum(follows - 1, 0)
+    between = (np.arange(samples) > changes.sample[0]) & (np.arange(samples) < changes.sample[-1])
+    return np.asarray(between & (changes.run[before] == changes.run[follows]))
+
+
+@dataclass(frozen=True)
+class Rates:
+    """How fast the disc turns at every change of the count; arrays of shape (C,)."""
+
+    rate: Floats  # [slots/s]
+    growth: Floats  # [slots/s²] acceleration
+
+
+def _rates(time: Floats, turned: Integers, changes: Changes) -> Rates:
+    """From a few changes on either side within the run, and the middles of the samples that enclose them.
+
+    Near the ends of a run both are those of the nearest place with neighbours on both sides, carried on from there.
+    """
+    middle = 0.5 * (time[changes.sample] + time[changes.sample - 1])
+    there = 0.5 * (turned[changes.sample] + turned[changes.sample - 1])
+    first = np.searchsorted(changes.run, changes.run, side="left")
+    last = np.searchsorted(changes.run, changes.run, side="right") - 1
+    reach = np.minimum((last - first) // 2, NEIGHBOURS)
+    here = np.arange(len(middle))
+    centre = np.clip(here, first + reach, last - reach)
+    before, after = centre - reach, centre + reach
+
+    def over(begin: Integers, end: Integers) -> Floats:
+        apart = middle[end] - middle[begin]
+        return np.divide(there[end] - there[begin], apart, out=np.zeros(len(apart)), where=apart > 0.0)
+
+    mean = np.where(reach > 0, 0.5 * (over(before, centre) + over(centre, after)), over(first, last))
+    mean = np.where(mean > 0.0, mean, 1.0 / (time[changes.sample] - time[changes.sample - 1]))  # a change on its own
+    apart = 0.5 * (middle[after] - middle[before])
+    gain = over(centre, after) - over(before, centre)
+    growth = np.divide(gain, apart, out=np.zeros(len(middle)), where=apart > 0.0)
+    carried = mean + growth * (middle - middle[centre])
+    return Rates(np.clip(carried, 0.25 * mean, 4.0 * mean), growth)
+
+
+def stamp_jitter(fixes: Fixes) -> float:
+    """[s] standard deviation of the samples' stamps, from how far fixes lie beside a parabola through their neighbours.
+
+    0 where that is no more than counting itself leaves. It takes a dozen windows of a motor fast enough to tell.
+    """
+    if len(fixes) < 2 * WINDOW:
+        return 0.0
+    time, place = (sliding_window_view(column, WINDOW) for column in (fixes.time, fixes.place))
+    scaled = (time - time.mean(axis=1, keepdims=True)) / np.ptp(time, axis=1)[:, None]
+    powers = scaled[:, :, None] ** np.arange(3)
+    basis = np.linalg.qr(powers)[0]
+    left = place - np.einsum("wik,wjk,wj->wi", basis, basis, place)
+    scatter = np.sum(left**2, axis=1) / (WINDOW - 3)
+    middle = slice(WINDOW // 2, WINDOW // 2 + len(scatter))
+    rate, counting = fixes.rate[middle], fixes.blur[middle] ** 2
+    run = sliding_window_view(fixes.run, WINDOW)
+    fast = (rate >= np.quantile(rate, 0.5)) & (fixes.blur[middle] > 0.99 * STANDARD)
+    told = (run[:, 0] == run[:, -1]) & fast
+    if np.count_nonzero(told) < 12:
+        return 0.0
+    size = float(np.median(scatter[told] / counting[told])) / MEDIAN_SHARE
+    if size < JITTERY:
+        return 0.0
+    return sqrt(max(float(np.median((scatter[told] / MEDIAN_SHARE - counting[told]) / rate[told] ** 2)), 0.0))

@@ -1,0 +1,92 @@
+"""Counts and speeds that no motor makes: counters that wrap or are reset, speeds in another unit than the count's."""
+
+from math import tau
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from motor_identification.measurement.timestamp_checks import possible
+from motor_identification.recording import Floats, Integers, Recording
+from motor_model.errors import RecordingError
+from motor_model.sample import Measurement
+
+SUDDEN = 2.0  # times the rate around it by which a count's rate must not differ from that
+ALLOWED = 10.0  # counts by which it may differ besides
+STEADY = 0.2  # of the largest voltage: where it changes by more, even one sample's motion can be real
+CHUNK = 20  # samples over which speed and count are compared
+TELLING = 5  # counts in a chunk from which on it tells the unit
+STRANGE = 0.6  # share of stamps that cannot be right, from which on all of them are those of another clock
+AGREE = 3.0  # factor between speed and count beyond which they do not mean the same; 2π, 9.5 and 57.3 are beyond
+
+
+def jump_of(time: Floats, count: Integers, voltage: Floats) -> int | None:
+    """The first sample whose count has jumped while the voltage did not; None without one. Arrays of shape (K,).
+
+    A wrap, a reset or a misread count is off for one sample, or for a sample and back. A motor that starts or turns
+    moves on afterwards, so that it is like two of the four samples around.
+    """
+    if len(count) < 6:
+        return None
+    step = np.diff(time)
+    rate = np.diff(count) / step
+    around = sliding_window_view(np.pad(rate, 2, mode="edge"), 5)
+    usual = np.median(around[:, (0, 1, 3, 4)], axis=1)
+    off = np.abs(rate - usual) * step > SUDDEN * np.abs(usual) * step + ALLOWED
+    volts = sliding_window_view(np.pad(voltage, 3, mode="edge"), 7)
+    steady = np.ptp(volts, axis=1)[1:] <= STEADY * np.abs(voltage).max()
+    jumps = np.flatnonzero(off & steady)
+    return int(jumps[0]) + 1 if len(jumps) else None
+
+
+def speed_over_count(recording: Recording) -> float | None:
+    """How many times the speed is what the count says, in the middle of the recording's moving parts; None if unknown.
+
+    Both are without sign, so that a single channel's doubt about it does not matter.
+    """
+    steps = np.abs(np.diff(recording.edge_count))
+    travel = np.abs(recording.speed[1:]) * np.diff(recording.time)
+    whole = len(steps) // CHUNK * CHUNK
+    counted = steps[:whole].reshape(-1, CHUNK).sum(axis=1)
+    travelled = travel[:whole].reshape(-1, CHUNK).sum(axis=1)
+    telling = counted >= TELLING
+    if np.count_nonzero(telling) < 3:
+        return None
+    slot = tau / recording.info.edges_per_revolution
+    return float(np.median(travelled[telling] / counted[telling])) / slot
+
+
+def check_counts(recording: Recording) -> Recording:
+    """Return a recording with an encoder if its counts and speeds can be those of one motor.
+
+    Raises:
+        RecordingError: the count jumps, edges are stamped by another clock than samples, or speed and count disagree
+            by more than any error of measurement.
+    """
+    time, sampled = recording.time, recording.info.measurement is Measurement.COUNTS
+    jump = jump_of(time, recording.edge_count, recording.voltage) if sampled else None
+    if jump is not None:
+        before, here = (int(recording.edge_count[k]) for k in (jump - 1, jump))
+        raise RecordingError(
+            f"{recording.uri}: edge_count jumps from {before} to {here} at {time[jump]:.3f} s, which no motor does: "
+            "the counter wraps or was reset; unwrap it where it is recorded, or use a part without (--start, --stop)."
+        )
+    if not sampled:
+        _check_stamps(recording)
+    ratio = speed_over_count(recording)
+    if ratio is not None and not 1.0 / AGREE < ratio < AGREE:
+        said = f"{ratio:.3g} times" if ratio > 1.0 else f"1/{1.0 / max(ratio, 1e-9):.3g} of"
+        raise RecordingError(
+            f"{recording.uri}: speed is {said} what edge_count says: report speed in rad/s, and set "
+            "edges_per_revolution to the counts of one turn."
+        )
+    return recording
+
+
+def _check_stamps(recording: Recording) -> None:
+    fresh = np.flatnonzero(np.diff(recording.edge_count)) + 1
+    strange = ~possible(recording, fresh, (recording.edge_time[fresh] - recording.sample_time[0]) * 1e-9)
+    if np.count_nonzero(strange) > STRANGE * len(fresh):
+        raise RecordingError(
+            f"{recording.uri}: {np.count_nonzero(strange)} of {len(fresh)} edge_time values lie outside the sample "
+            "that counted the edge: stamp edges with the clock of sample_time, or set measurement to counts."
+        )

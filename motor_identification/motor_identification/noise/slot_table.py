@@ -1,0 +1,174 @@
+"""Irregular slots: the same error every turn, so that many turns know it; estimated jointly with the motor.
+
+The disc's flanks are off by a table a of 2N offsets [rad]: N seen turning forward, N (the other flanks) backward. An
+interval's increment is off by a[last] − a[first]. The table enters linearly, so that for any motor the best one, and
+with it the residual that no table explains, is had in closed form (variable projection; Golub & Pereyra, SIAM J. Numer.
+Anal. 10, 1973), under a Gaussian prior of variance σ² that makes unseen slots no special case.
+
+Per direction the table has no mean, which is the starting angle. Its first harmonic is eccentricity: where that is
+fitted as an effect of its own, the table may not take it too. The linear algebra is in `slot_modes.py`.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from motor_identification.measurement.intervals import Intervals
+from motor_identification.noise.angle_noise import Whitening
+from motor_identification.noise.slot_eigenmodes import Modes, modes_of
+from motor_identification.noise.slot_normal_equations import fill_explained, fill_gram, fill_scores
+from motor_identification.recording import Bools, Floats, Integers
+from motor_model.compiled import compiled
+
+
+@dataclass(frozen=True)
+class SlotIndex:
+    """Which entry of the table each interval's ends are, shape (I,); −1 where an end is no edge."""
+
+    first: Integers
+    last: Integers
+    size: int  # 2N
+
+    def increments(self, table: Floats) -> Floats:
+        """What a table (2N,) adds to the increments [rad], shape (I,)."""
+        with_blank = np.append(table, 0.0)
+        return np.asarray(with_blank[self.last] - with_blank[self.first])
+
+
+def slot_index(intervals: Intervals, angle: Floats) -> SlotIndex:
+    """Follow the disc through a recording; where runs are broken, the simulated angle [rad] bridges the gap."""
+    n = round(2.0 * np.pi / intervals.slot)
+    known = intervals.edge[:, 0] >= 0
+    direction = np.sign(intervals.speed).astype(np.int64)
+    turns = angle / intervals.slot
+    first, last = np.full(len(known), -1), np.full(len(known), -1)
+    _follow(
+        intervals.fresh, known, direction, intervals.edge, turns[intervals.first], turns[intervals.last],
+        _flank_offset(intervals, known, direction, turns), n, first, last,
+    )  # fmt: skip
+    return SlotIndex(first, last, 2 * n)
+
+
+def _flank_offset(intervals: Intervals, known: Bools, direction: Integers, turns: Floats) -> float:
+    """How far the backward flanks lie after the forward ones, as a share of a slot: a circular mean over reversals."""
+    starts = np.flatnonzero(intervals.fresh & known)
+    ends = np.append(starts[1:], known.sum()) - 1
+    before, after = ends[:-1], starts[1:]
+    turned = direction[before] != direction[after]
+    travel = turns[intervals.first[after]] - turns[intervals.last[before]]
+    phases = 2.0 * np.pi * travel[turned] * direction[before][turned]
+    return float(np.angle(np.exp(1j * phases).sum()) / (2.0 * np.pi)) if len(phases) else 0.5
+
+
+@compiled
+def _follow(
+    fresh: Bools,
+    known: Bools,
+    direction: Integers,
+    edge: Integers,
+    start: Floats,
+    end: Floats,
+    offset: float,
+    n: int,
+    first: Integers,
+    last: Integers,
+) -> None:
+    """Number the flanks: within a run by counting, from run to run by the simulated travel in slots."""
+    place, at, way, begun = 0, 0.0, 0, False
+    for k in range(len(known)):
+        if not known[k]:
+            continue
+        if fresh[k] and begun:
+            shift = 0.0
+            if direction[k] == -way:
+                shift = -offset if way > 0 else offset
+            place += int(round(start[k] - at + shift))
+        begun, way = True, direction[k] if direction[k] != 0 else way
+        base = 0 if way > 0 else n
+        first[k] = base + place % n
+        place += way * (edge[k, 1] - edge[k, 0])
+        last[k] = base + place % n
+        at = end[k]
+
+
+@dataclass(frozen=True)
+class SlotTable:
+    """The table's part in whitened residuals, for one whitening."""
+
+    whitening: Whitening
+    index: SlotIndex
+    first_harmonic: bool  # whether the table may have one
+
+    @cached_property
+    def gram(self) -> Floats:
+        """AᵀA of the whitened table, shape (2N, 2N)."""
+        half = np.zeros((self.index.size + 1, self.index.size + 1))
+        fill_gram(*self._filter, half)
+        return np.asarray((half + half.T)[:-1, :-1])
+
+    @property
+    def _filter(self) -> tuple[Bools, Floats, Floats, Integers, Integers]:
+        return self.whitening.fresh, self.whitening.gain, self.whitening.scale, self.index.first, self.index.last
+
+    @cached_property
+    def seen(self) -> Integers:
+        """How many interval ends each entry has, shape (2N,)."""
+        both = np.concatenate([self.index.first, self.index.last])
+        return np.bincount(both[both >= 0], minlength=self.index.size)
+
+    def scores(self, white: Floats) -> Floats:
+        """Aᵀz, shape (2N,)."""
+        sums = np.zeros(self.index.size + 1)
+        fill_scores(*self._filter, np.ascontiguousarray(white), sums)
+        return sums[:-1]
+
+    def left(self, white: Floats, table: Floats) -> Floats:
+        """What whitened residuals (I,) are without a table's part in them."""
+        left = np.array(white, dtype=np.float64)
+        fill_explained(*self._filter, np.append(table, 0.0), left)
+        return left
+
+    @cached_property
+    def modes(self) -> Modes:
+        """AᵀA in the prior's own coordinates."""
+        return modes_of(self.gram, self.seen > 0, self.first_harmonic)
+
+
+@dataclass(frozen=True)
+class Projection:
+    """Removes from whitened residuals what a table with prior variance σ² [rad²] explains."""
+
+    table: SlotTable
+    variance: float
+
+    def _coordinates(self, white: Floats) -> Floats:
+        modes = self.table.modes
+        return np.asarray(modes.scores(self.table.scores(white)) / (modes.values + 1.0 / self.variance))
+
+    def best(self, white: Floats) -> Floats:
+        """The most likely table [rad] for whitened residuals (I,), shape (2N,)."""
+        return self.table.modes.table(self._coordinates(white))
+
+    def __call__(self, white: Floats) -> Floats:
+        """(I,) → (I + 2N,): what is left, then the table's own share of the cost."""
+        coordinates = self._coordinates(white)
+        left = self.table.left(white, self.table.modes.table(coordinates))
+        return np.concatenate([left, coordinates / np.sqrt(self.variance)])
+
+
+def likely_variance(table: SlotTable, white: Floats, guess: float, most: float, rounds: int) -> float:
+    """The variance σ² [rad²] of the seen slots' offsets for whitened residuals (I,), by expectation maximisation.
+
+    It stays below `most` [rad²]: what is beyond any real disc is an error of the model, and shall not pass for noise.
+    """
+    modes = table.modes
+    scores, spread = modes.scores(table.scores(white)), modes.spread
+    count = np.count_nonzero(table.seen)
+    variance = guess
+    for _ in range(rounds):
+        precision = modes.values + 1.0 / variance
+        mean = modes.table(scores / precision)
+        posterior = float(np.sum(spread / precision))
+        variance = min((float(mean @ mean) + posterior) / count, most)
+    return variance

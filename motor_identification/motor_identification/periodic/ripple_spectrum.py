@@ -1,0 +1,182 @@
+"""Ripple: a load periodic in the shaft angle, searched where no swarm finds it, in a spectrum of narrow lines.
+
+A load sin(cθ + φ) of 1 V moves the speed of a fitted motor by a linear response that is had in closed form between two
+measured angles; the residual's part along it, for any number of cycles c a turn, is a periodogram over the angle (over
+time: N. R. Lomb, Astrophys. Space Sci. 39, 1976). A line is as narrow as the angle range is wide, so that blocks of a
+few turns are searched first, their powers added, then counted runs around the best, then the whole recording around the
+best of those. What each counted run's wrong initial speed leaves (the model came to it without the ripple) is projected
+out before. Near a standstill, where the shaft swings on its ripple rather than turns over it, nothing is taken.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from math import tau
+
+import numpy as np
+
+from motor_identification.estimation.problem import Problem
+from motor_identification.estimation.whitened_fit import Encoder, learn
+from motor_identification.measurement.measured_angle import Track
+from motor_identification.periodic.linear_response import Course
+from motor_identification.periodic.run_alignment import align
+from motor_identification.recording import Floats, Integers
+from motor_model.compiled import compiled
+from motor_model.effects import SPEC_BY_NAME
+
+BLOCK = 8.0  # turns
+FINENESS = 4.0  # grid points to the width of a line
+PEAKS, REACH = 32, 2.0  # of the rough spectrum, and how many of its grid points around each are searched
+CANDIDATES = 3  # of those, which are searched in the whole recording
+SLOW = 0.03  # of the largest speed: below that a ripple holds or turns back the shaft, no linear response
+KNOTS = 16  # grid points
+CHANCE, BASE = 4.0, 12  # of the sum of white squares, for each counted run and so many more: slips explain by chance
+
+
+@dataclass(frozen=True)
+class Ripple:
+    """A load amplitude·sin(cycles·θ + phase), with a phase for every recording: there is no index pulse."""
+
+    cycles: float  # [1/rev]
+    amplitude: float  # [V]
+    phases: tuple[float, ...]  # [rad]
+    tracks: tuple[Track, ...]  # the measured angles with the slips that it reveals
+    explained: float  # of the sum of white squares
+
+
+@dataclass(frozen=True)
+class _Run:
+    """One recording's residual, whitened, with what is needed to whiten a response; arrays of shape (I,)."""
+
+    encoder: Encoder
+    course: Course
+    white: Floats  # of measured minus simulated increments, without what an initial speed explains
+    transient: Floats  # whitened increments that an initial speed of every counted run makes, of length 1 in each
+
+
+def ripples(problem: Problem, place: Floats, tracks: Sequence[Track], least: float = 0.0) -> list[Ripple]:
+    """The most likely ripples in what a fitted place (D,) leaves on measured angles, best first, each another line.
+
+    None where the spectrum promises less than `least` of the sum of white squares.
+    """
+    runs = _runs(problem, place, tracks)
+    spec = SPEC_BY_NAME["ripple_cycles"]
+    turns = max(np.ptp(np.concatenate([run.course.start, run.course.end])) for run in runs) / tau
+    width = 1.0 / (FINENESS * min(BLOCK, max(turns, 1.0)))
+    rough = np.arange(spec.low, spec.high, width)
+    blocks = [_blocks(run) for run in runs]
+    spectrum = _spectrum(runs, rough, blocks, problem.go_on)
+    if spectrum.max() - 2.0 * sum(int(block.max()) + 1 for block in blocks) < least:
+        return []
+    around = np.arange(-REACH * width, REACH * width, 1.0 / (FINENESS * max(turns, 1.0)))
+    likely = [rough[peak] + around for peak in _peaks(spectrum, PEAKS)]
+    counted = [run.course.run for run in runs]
+    likely.sort(key=lambda fine: -_spectrum(runs, fine, counted, problem.go_on).max())
+    found = []
+    for fine in likely[:CANDIDATES]:
+        problem.go_on()
+        lines = [_line(runs, tracks, cycles, problem) for cycles in fine]
+        found.append(max(lines, key=lambda line: line.explained))
+    chance = CHANCE * sum(int(run.course.run.max()) + BASE for run in runs) if least > 0.0 else 0.0
+    return sorted((line for line in found if line.explained > max(least, chance)), key=lambda line: -line.explained)
+
+
+def _spectrum(runs: Sequence[_Run], cycles: Floats, blocks: Sequence[Integers], go_on: Callable[[], None]) -> Floats:
+    """How much a ripple of each number of cycles explains, each block of every recording on its own."""
+    return np.asarray(np.sum([_powers(run, cycles, block, go_on) for run, block in zip(runs, blocks, strict=True)], 0))
+
+
+def _powers(run: _Run, cycles: Floats, block: Integers, go_on: Callable[[], None]) -> Floats:
+    """The same in one recording.
+
+    The products with the residual are exact; those of the responses among themselves change slowly with the cycles, and
+    are had at every KNOTS-th only.
+    """
+    shapes = np.array([_sums(run, knot, block) for knot in cycles[::KNOTS]])
+    knots = 0.5 * (shapes[:, :, 0] + shapes[:, :, 2])  # sine and cosine are as good as independent in every block
+    at = np.arange(len(cycles)) / KNOTS
+    sizes = np.array([np.interp(at, np.arange(len(knots)), column) for column in knots.T]).T
+    squares = []
+    for along, across in run.course.products(run.encoder.pull(run.white), cycles, block):
+        go_on()
+        squares.append(along**2 + across**2)
+    parts = np.concatenate(squares)
+    return np.asarray(np.divide(parts, sizes, where=sizes > 0.0, out=np.zeros_like(parts)).sum(axis=1))
+
+
+def ripple_of(problem: Problem, place: Floats, tracks: Sequence[Track], cycles: float) -> Ripple:
+    """The most likely ripple of so many cycles a turn."""
+    return _line(_runs(problem, place, tracks), tracks, cycles, problem)
+
+
+def _line(runs: Sequence[_Run], tracks: Sequence[Track], cycles: float, problem: Problem) -> Ripple:
+    """The best ripple of so many cycles, with every recording's slips."""
+    weights, straightened, explained = [], [], 0.0
+    for run, track, data in zip(runs, tracks, problem.intervals, strict=True):
+        aligned = align(_sums(run, cycles, run.course.run), cycles * data.slot)
+        weights.append(aligned.weight)
+        explained += aligned.explained
+        straightened.append(track.slipped(np.asarray(aligned.slips * data.slot)))
+    amplitude, phases = float(np.mean(np.abs(weights))), tuple(float(np.angle(weight)) for weight in weights)
+    return Ripple(cycles, amplitude, phases, tuple(straightened), explained)
+
+
+def _runs(problem: Problem, place: Floats, tracks: Sequence[Track]) -> list[_Run]:
+    problem = problem.without(tuple(np.abs(data.speed) < SLOW * np.abs(data.speed).max() for data in problem.intervals))
+    values = problem.unknowns.parameters(place, "").values
+    runs = []
+    rows = zip(problem.intervals, tracks, problem.increments(place), learn(problem, place), strict=True)
+    for data, track, increments, encoder in rows:
+        angle, begun = track.at(data.time), data.time[data.first]
+        course = Course(
+            np.argsort(begun, kind="stable"), track.run_at(begun), angle[data.first], angle[data.last], data.duration,
+            data.slack == 0.0, values["kv"] / values["ka"], values["ka"],
+        )  # fmt: skip
+        run = _Run(encoder, course, -increments, increments)
+        white, transient = _whitened(run, run.white), _whitened(run, course.transient())
+        length = np.sqrt(np.bincount(course.run, transient**2))[course.run]
+        run = replace(run, white=white, transient=np.divide(transient, length, where=length > 0.0, out=0.0 * length))
+        runs.append(replace(run, white=_without_transient(run, white)))
+    return runs
+
+
+def _without_transient(run: _Run, white: Floats) -> Floats:
+    """What is left of whitened increments (I,) once every counted run has an initial speed of its own."""
+    along = np.bincount(run.course.run, run.transient * white)
+    return white - along[run.course.run] * run.transient
+
+
+def _sums(run: _Run, cycles: float, block: Integers) -> Floats:
+    """What least squares of a ripple of so many cycles needs to know of every block, shape (B, 5)."""
+    sums = np.zeros((int(block.max()) + 1, 5))
+    sine, cosine = (_without_transient(run, _whitened(run, part)) for part in run.course.response(cycles))
+    _products(run.white, sine, cosine, block, sums)
+    return sums
+
+
+def _blocks(run: _Run) -> Integers:
+    """Number the stretches of a few turns within which the phase is surely kept, shape (I,)."""
+    pairs = np.column_stack([run.course.run, np.floor(run.course.start / (tau * BLOCK)).astype(np.int64)])
+    return np.asarray(np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1))
+
+
+def _whitened(run: _Run, increments: Floats) -> Floats:
+    return run.encoder.white(np.where(run.course.moving, increments, 0.0))[: len(increments)]
+
+
+@compiled
+def _products(white: Floats, sine: Floats, cosine: Floats, block: Integers, sums: Floats) -> None:
+    """Add up, for every block, the products that least squares needs: (B, 5)."""
+    for i in range(len(white)):
+        row = sums[block[i]]
+        row[0] += sine[i] * sine[i]
+        row[1] += sine[i] * cosine[i]
+        row[2] += cosine[i] * cosine[i]
+        row[3] += sine[i] * white[i]
+        row[4] += cosine[i] * white[i]
+
+
+def _peaks(spectrum: Floats, count: int) -> list[int]:
+    """Indices of the highest local maxima, highest first."""
+    padded = np.concatenate([[-np.inf], spectrum, [-np.inf]])
+    tops = np.flatnonzero((padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:]))
+    return [int(i) for i in tops[np.argsort(-spectrum[tops])][:count]]

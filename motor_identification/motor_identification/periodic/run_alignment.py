@@ -1,0 +1,85 @@
+"""Slips of the measured angle: a motor that swings about a standstill turns by an angle that no one channel tells.
+
+The angle between two counted runs is then off by some slots, and the phase of a fast ripple is lost from one to the
+next. Given the ripple, each run says how far; the most likely path of slips through all runs and the ripple are found
+in turns.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.noise.viterbi import fill_path
+from motor_identification.recording import Floats
+from motor_model.compiled import compiled
+
+FINENESS = 4  # steps to a slot
+FARTHEST = 12 * FINENESS  # steps of slip
+PRICE = 10.0 / FINENESS  # of a slip by one step, in halves of a squared standard deviation
+ROUNDS = 4
+
+
+@dataclass(frozen=True)
+class Aligned:
+    """A ripple's complex amplitude [V], each run's slip in slots (B,), and how much of the cost they explain."""
+
+    weight: complex
+    slips: Floats
+    explained: float
+
+
+def align(sums: Floats, turn: float) -> Aligned:
+    """The ripple and the slips that explain most; `turn` [rad] is what a slip of one slot turns the ripple's phase by.
+
+    sums: for every run ss, sc, cc, sw, cw with s and c the responses to sine and cosine, w the residual; shape (B, 5).
+    """
+    step = turn / FINENESS
+    alone = _best(sums)
+    weight = alone[int(np.argmax(alone.real * sums[:, 3] + alone.imag * sums[:, 4]))]
+    slips, before = np.zeros(len(sums), dtype=np.int64), np.zeros(0, dtype=np.int64)
+    scores, explained = np.empty((len(sums), 2 * FARTHEST + 1)), 0.0
+    for _ in range(ROUNDS):
+        _fill_scores(sums, weight.real, weight.imag, step, scores)
+        explained = fill_path(scores, PRICE, slips)
+        weight = _best(_turned(sums, np.asarray(slips * step)).sum(axis=0))
+        if np.array_equal(slips, before):
+            break
+        before = slips.copy()
+    return Aligned(complex(weight), slips / FINENESS, explained)
+
+
+def _best(sums: Floats) -> NDArray[np.complex128]:
+    """A + ib of the wave a·sin + b·cos that explains most, (…, 5) → (…); 0 where nothing tells."""
+    ss, sc, cc, sw, cw = np.moveaxis(sums, -1, 0)
+    determinant = ss * cc - sc * sc
+    told = determinant > 1e-9 * ss * cc
+    wave = (cc * sw - sc * cw) + 1j * (ss * cw - sc * sw)
+    return np.asarray(np.where(told, wave / np.where(told, determinant, 1.0), 0.0))
+
+
+def _turned(sums: Floats, angle: Floats) -> Floats:
+    """The sums with each run's phase turned back by an angle [rad], so that one wave fits all."""
+    c, s = np.cos(angle), np.sin(angle)
+    ss, sc, cc, sw, cw = sums.T
+    return np.column_stack(
+        [
+            c * c * ss + 2.0 * c * s * sc + s * s * cc,
+            c * s * (cc - ss) + (c * c - s * s) * sc,
+            s * s * ss - 2.0 * c * s * sc + c * c * cc,
+            c * sw + s * cw,
+            c * cw - s * sw,
+        ]
+    )
+
+
+@compiled
+def _fill_scores(sums: Floats, real: float, imag: float, step: float, scores: Floats) -> None:
+    """Fill what one wave explains of every run at every slip, (B, W)."""
+    for b in range(len(sums)):
+        ss, sc, cc, sw, cw = sums[b]
+        for k in range(scores.shape[1]):
+            angle = step * (k - FARTHEST)
+            x = real * np.cos(angle) - imag * np.sin(angle)
+            y = real * np.sin(angle) + imag * np.cos(angle)
+            scores[b, k] = 2.0 * (x * sw + y * cw) - (x * x * ss + 2.0 * x * y * sc + y * y * cc)

@@ -1,0 +1,77 @@
+"""The picture of before and after: speeds over each other, what is left under them, the worst regions marked."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from motor_identification.recording import Floats
+from motor_identification.reporting.html.curves import Curves
+from motor_identification.reporting.html.svg import AFTER, BEFORE, FLOOR, MEASURED, WORST, as_svg, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+WIDE, NARROW = (10.4, 4.6), (4.4, 4.8)  # [in] for a laptop and for a phone
+MOST = 4000  # points of a line: more cannot be told apart
+FEW = 1500  # points that are drawn large
+GAP = 0.15  # [s] without an interval, from which on a line is broken
+
+
+def draw_overlay(before: Curves, after: Curves | None, title: str, size: tuple[float, float]) -> str:
+    """Both models on one recording as SVG; without `after` there is only one."""
+    with style():
+        from matplotlib import pyplot as plt
+
+        figure, (speed, rest) = plt.subplots(
+            2, 1, figsize=size, sharex=True, height_ratios=(3, 2), constrained_layout=True
+        )
+        few = len(before.time) < FEW
+        speed.plot(
+            *_thin(before.time, before.measured), ".", color=MEASURED, markersize=4 if few else 2,
+            label="measured", rasterized=True,
+        )  # fmt: skip
+        speed.plot(*_broken(before.time, before.simulated), color=BEFORE, label="before" if after else "simulated")
+        if after is not None:
+            speed.plot(*_broken(after.time, after.simulated), color=AFTER, label="after")
+        speed.set_ylabel("speed [rad/s]")
+        speed.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, markerscale=2)
+        _draw_rest(rest, before, after, few)
+        rest.set_xlabel("time [s]")
+        rest.margins(x=0.01)
+        return as_svg(figure, title)
+
+
+def _draw_rest(axes: "Axes", before: Curves, after: Curves | None, few: bool) -> None:
+    """Simulated minus measured; the worst regions of the first model in colours of their own."""
+    size = 4.0 if few else 2.0
+    how: dict[str, Any] = {"linestyle": "", "marker": ".", "rasterized": True}
+    marked = np.any(before.regions, axis=0) if before.regions else np.zeros(len(before.time), dtype=bool)
+    for one, color, which in ((before, BEFORE, ~marked), (after, AFTER, True)):
+        if one is not None:  # what a recording's own unknowns were fitted on does not count, and is faint
+            for counts, alpha in ((~one.scored, 0.2), (one.scored & which, 1.0)):
+                axes.plot(*_thin(one.time[counts], one.left[counts]), color=color, alpha=alpha, markersize=size, **how)
+    for number, (inside, color) in enumerate(zip(before.regions, WORST, strict=False)):
+        if inside.any():
+            axes.plot(
+                *_thin(before.time[inside], before.left[inside]), color=color, markersize=size + 1.5,
+                label=f"worst {number + 1}", **how,
+            )  # fmt: skip
+    shown = after or before
+    time, floor = _thin(shown.time, 2.0 * shown.floor)
+    axes.fill_between(time, -floor, floor, color=FLOOR, alpha=0.45, linewidth=0, label="floor, ±2 σ", rasterized=True)
+    axes.set_ylabel("simulated −\nmeasured [rad/s]")
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.98), ncols=4, markerscale=2)
+
+
+def _thin(time: Floats, values: Floats) -> tuple[Floats, Floats]:
+    step = max(-(-len(time) // (5 * MOST)), 1)
+    return time[::step], values[::step]
+
+
+def _broken(time: Floats, values: Floats) -> tuple[Floats, Floats]:
+    """A line that is not drawn through times in which nothing was measured."""
+    step = max(-(-len(time) // MOST), 1)
+    time, values = time[::step], values[::step]
+    holes = np.flatnonzero(np.diff(time) > max(GAP, 10.0 * step * float(np.median(np.diff(time, prepend=0.0)))))
+    middle = 0.5 * (time[holes] + time[np.minimum(holes + 1, len(time) - 1)])
+    return np.insert(time, holes + 1, middle), np.insert(values, holes + 1, np.nan)

@@ -1,0 +1,123 @@
+"""Jobs: from bags to a fit or a diagnosis, what the command line and the node both run."""
+
+import sys
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from motor_identification.bag import read_recording
+from motor_identification.identify import Request, identify
+from motor_identification.recording import Recording
+from motor_identification.uncertainty.result import Fit
+from motor_model.errors import RecordingError
+
+if TYPE_CHECKING:
+    from motor_identification.diagnose import Stage
+    from motor_identification.diagnosis.result import Diagnosis
+
+
+@dataclass(frozen=True)
+class Job:
+    """Which bags, which part of them, and what to fit."""
+
+    uris: tuple[str, ...]
+    request: Request
+    topic_namespace: str = ""
+    start: float = 0.0  # [s]
+    stop: float = 0.0  # [s] 0, 0 is all
+
+
+def run_job(job: Job, progress: Callable[[str, float], None] | None = None) -> Fit:
+    """Read the bags and fit.
+
+    Raises:
+        RecordingError: a bag cannot be read or cannot answer.
+        ModelError: an effect is not in the table.
+    """
+    recordings = [read_recording(uri, job.topic_namespace, job.start, job.stop) for uri in job.uris]
+    return identify(recordings, job.request, progress)
+
+
+@dataclass(frozen=True)
+class DiagnosisJob:
+    """Which bags to diagnose, which to judge by, and what is known of the motor already."""
+
+    uris: tuple[str, ...]
+    validation: tuple[str, ...] = ()
+    known: tuple[str, ...] = ()  # effects
+    topic_namespace: str = ""
+    start: float = 0.0  # [s] of `uris`; validation is always whole
+    stop: float = 0.0  # [s] 0, 0 is all
+    workers: int = 1
+
+
+@dataclass(frozen=True)
+class Reported:
+    """A diagnosis and where its report is."""
+
+    diagnosis: "Diagnosis"
+    report: str  # empty where there is none
+    trouble: str  # why there is none, in a sentence
+
+
+def run_diagnosis(
+    job: DiagnosisJob,
+    progress: "Callable[[Stage], None] | None" = None,
+    stopped: Callable[[], bool] | None = None,
+) -> "Diagnosis":
+    """Read the bags and diagnose.
+
+    Raises:
+        RecordingError: a bag cannot be read or cannot answer, or is both fitted and judged by.
+        ModelError: a known effect is not in the table.
+        Stopped: `stopped` said so.
+    """
+    from motor_identification.diagnose import Stage, Stopped, diagnose
+
+    twice = {Path(uri).resolve() for uri in job.uris} & {Path(uri).resolve() for uri in job.validation}
+    if twice:
+        raise RecordingError(f"{twice.pop()} cannot be both fitted and judged by: leave it out of one of the two.")
+    recordings: list[Recording] = []
+    for uri in (*job.uris, *job.validation):
+        if stopped is not None and stopped():
+            raise Stopped("the diagnosis was stopped.")
+        if progress is not None:
+            progress(Stage(f"reading {uri}", 0.0, "", float("nan")))
+        part = (0.0, 0.0) if len(recordings) >= len(job.uris) else (job.start, job.stop)
+        recordings.append(read_recording(uri, job.topic_namespace, *part))
+    count = len(job.uris)
+    return diagnose(recordings[:count], recordings[count:], job.known, job.workers, progress, stopped)
+
+
+def run_reported(
+    job: DiagnosisJob,
+    report: str,
+    progress: "Callable[[Stage], None] | None" = None,
+    stopped: Callable[[], bool] | None = None,
+) -> Reported:
+    """Diagnose and write the report to a file (none where `report` is empty); one that cannot be written loses nothing.
+
+    Raises:
+        MotorError: as `run_diagnosis`.
+    """
+    from motor_identification.diagnose import Stage
+    from motor_identification.reporting.html import write_report
+
+    diagnosis = run_diagnosis(job, progress, stopped)
+    if not report:
+        return Reported(diagnosis, "", "")
+    if progress is not None:
+        progress(Stage("report", 1.0, "", diagnosis.gap_after))
+    try:
+        return Reported(diagnosis, str(write_report(diagnosis, report)), "")
+    except Exception as error:  # whatever it is, the diagnosis is worth more
+        traceback.print_exc(file=sys.stderr)
+        return Reported(diagnosis, "", f"There is no report: {error}")
+
+
+def notes_of(diagnosis: "Diagnosis") -> tuple[str, ...]:
+    """What a user has to read beside the result: bags that were cut off, what was left out; each once."""
+    judged_by = (note for recording in diagnosis.after.problem.recordings for note in recording.notes)
+    return tuple(dict.fromkeys((*diagnosis.model.notes, *judged_by)))

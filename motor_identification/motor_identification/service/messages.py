@@ -1,0 +1,89 @@
+"""Requests and answers of identification and diagnosis as messages, and the plain values behind them."""
+
+from builtin_interfaces.msg import Time
+
+from motor_identification.diagnose import Stage
+from motor_identification.identify import Request
+from motor_identification.reporting.diagnosis_text import summary
+from motor_identification.reporting.fit_text import sentence
+from motor_identification.service.job import DiagnosisJob, Job, Reported, notes_of
+from motor_identification.uncertainty.result import Fit
+from motor_msgs.action import Diagnose
+from motor_msgs.msg import MotorModel
+from motor_msgs.srv import Identify
+
+
+def job_of(request: Identify.Request, particles: int, epochs: int, seed: int, workers: int) -> Job:
+    """What a request asks for; its zeros stand for the node's own parameters, given here."""
+    wanted = Request(
+        effects=tuple(request.effects),
+        particles=request.particles or particles,
+        epochs=request.epochs or epochs,
+        seed=request.seed or seed,
+        workers=workers,
+    )
+    return Job(tuple(request.bag_uris), wanted, request.topic_namespace, request.start, request.stop)
+
+
+def model_message(fit: Fit, stamp: Time) -> MotorModel:
+    """A fit as it goes out on `motor/model`."""
+    names = list(fit.parameters.values)
+    message = MotorModel(
+        name=fit.parameters.name,
+        effects=list(fit.parameters.effects),
+        parameter_names=names,
+        parameter_values=[fit.parameters.values[name] for name in names],
+        standard_errors=[fit.standard_errors[name] for name in names],
+        on_bound=[fit.on_bound[name] for name in names],
+        residual_rms=fit.residual_rms,
+        noise_floor=fit.noise_floor,
+        bag_uris=list(fit.uris),
+    )
+    message.header.stamp = stamp
+    message.header.frame_id = fit.parameters.name
+    return message
+
+
+def fill_response(response: Identify.Response, fit: Fit, model: MotorModel) -> None:
+    """Put a fit, and the message of its model, into the service's answer."""
+    response.success = True
+    response.message = sentence(fit)
+    response.model = model
+    response.r_squared = fit.r_squared
+    response.duration = fit.duration
+    response.not_identifiable = list(fit.not_identifiable)
+    response.suggested_experiment = fit.suggested_experiment
+
+
+def diagnosis_job_of(goal: Diagnose.Goal, workers: int) -> DiagnosisJob:
+    """What a goal asks for."""
+    return DiagnosisJob(
+        uris=tuple(goal.bag_uris),
+        validation=tuple(goal.validation_uris),
+        known=tuple(goal.known_effects),
+        topic_namespace=goal.topic_namespace,
+        workers=workers,
+    )
+
+
+def feedback_message(stage: Stage, progress: float) -> Diagnose.Feedback:
+    """How far a diagnosis is, 0 to 1; its gap is NaN as long as there is none."""
+    return Diagnose.Feedback(stage=stage.text, progress=progress, best_effect=stage.best_effect, gap=float(stage.gap))
+
+
+def result_message(reported: Reported, model: MotorModel) -> Diagnose.Result:
+    """A diagnosis, and the message of its model, as the action's result."""
+    diagnosis = reported.diagnosis
+    return Diagnose.Result(
+        success=True,
+        message=" ".join(filter(None, (summary(diagnosis), *notes_of(diagnosis), reported.trouble))),
+        verdict=diagnosis.verdict.value,
+        effects=[finding.effect for finding in diagnosis.findings],
+        model=model,
+        gap_before=float(diagnosis.gap_before),
+        gap_after=float(diagnosis.gap_after),
+        noise_floor=float(diagnosis.noise_floor),
+        undetectable=list(diagnosis.undetectable),
+        suggested_experiment=diagnosis.suggested_experiment,
+        report_uri=reported.report,
+    )

@@ -1,0 +1,24 @@
+"""Compile everything a fit needs ahead of time: `python -m motor_identification.service.warm_up`."""
+
+from motor_identification.experiment import make_plan, simulate_plan
+from motor_identification.identify import Request, identify
+from motor_identification.recording import recording_of
+from motor_model import warm_up
+from motor_model.excitation import profile
+from motor_model.parameters import paper_motor
+from motor_model.sensing.board import BoardConfig
+
+
+def main() -> None:
+    """Fit a simulated step, as small as it gets; with a ripple, whose spectrum a diagnosis looks at too."""
+    warm_up.main()
+    motor, config = paper_motor(), BoardConfig()
+    plan = make_plan(profile("step"), 10.0, motor.max_voltage, 1.0 / config.sample_rate)
+    samples = [sample for _, sample in simulate_plan(plan, motor, config)]
+    recordings = [recording_of(samples, config.info(motor), "warm-up")]
+    for effects in ((), ("torque_ripple",)):
+        identify(recordings, Request(effects, particles=4, epochs=1))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,154 @@
+"""How sure a fit is: standard errors and correlations that stay right where the residuals do not."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import ndtri, stdtrit
+
+from motor_identification.estimation.whitened_fit import Refined
+from motor_identification.recording import Bools, Floats, Integers
+from motor_identification.uncertainty.identifiability import independence, scales_of, shown
+from motor_identification.uncertainty.whiteness import Series, Whiteness, analyse
+
+BLOCKS = (20, 10)  # of equal time; the fewer where the more are not independent
+DEPENDENT = 1.645  # standard deviations of the products of neighbours, from which on blocks are not independent
+LEAST_ROWS = 8  # residuals in a block
+DOUBTFUL = 0.01  # chance under which residuals do not pass for white
+DETERMINED = 0.95  # largest share of a direction that one block may be credited with
+COLLINEAR = 1e-4  # sine of the angle between a column of the Jacobian and the others, below which they are one
+TOO_UNSURE = 0.3  # standard error as a share of the value
+LEVEL = 0.975  # quantile up to which an interval of ±1.96 standard errors shall reach
+
+
+@dataclass(frozen=True)
+class Certainty:
+    """Standard errors of a place (D,) (NaN where not identifiable), and which physical parameters are not.
+
+    `correlations` (D, D) has NaN rows and columns where the errors are NaN.
+    """
+
+    errors: Floats
+    correlations: Floats
+    not_identifiable: tuple[str, ...]
+    whiteness: Whiteness
+
+    def correlations_of(self, names: tuple[str, ...]) -> dict[str, dict[str, float]]:
+        """The correlations of the first unknowns, which these names belong to."""
+        rows = self.correlations[: len(names), : len(names)]
+        return {name: dict(zip(names, map(float, row), strict=True)) for name, row in zip(names, rows, strict=True)}
+
+
+def certainty(refined: Refined, place: Floats, jacobian: Floats) -> Certainty:
+    """Judge a fitted place (D,) by the white residuals and their Jacobian (rows, D) there.
+
+    Where the residuals pass for white (portmanteau test of `whiteness.py`), the covariance is (JᵀJ)⁻¹: it needs no
+    estimate. Elsewhere, and where that cannot be tested (windows that overlap), it is that of the delete-one-block
+    jackknife over 20 blocks of equal time, which takes any correlation that is shorter than a block, and any change of
+    the motor from block to block, as it is (Künsch, Ann. Statist. 17, 1989; to first order the sandwich of Liang &
+    Zeger with each block's score divided by one minus its leverage, CV3 of MacKinnon, Nielsen & Webb, J. Appl.
+    Econometrics 38, 2023). Where neighbouring blocks still pull a parameter the same way, 10 are taken (blocking of
+    Flyvbjerg & Petersen, J. Chem. Phys. 91, 1989): a motor that warms up. So few blocks know the spread only roughly,
+    and fewer where one of them holds most of what there is to know of a parameter: the error is widened from the normal
+    to Student's distribution with the degrees of freedom of Bell & McCaffrey (Survey Methodology 28, 2002), so that
+    ±1.96 standard errors cover 95 % either way.
+
+    More and shorter blocks, and a stationary (autoregressive) model of the residuals, were tried and cover less: a
+    disturbance of the motor lasts long beside the time between edges, and is not stationary in the white residuals.
+    """
+    scale = scales_of(refined.problem, place)
+    scaled = jacobian * scale
+    root = _root(scaled)
+    white = refined.residuals(place)
+    whiteness = analyse(_series(refined, white))
+    covariance = root @ root.T
+    errors = np.sqrt(np.diag(covariance))
+    if not whiteness.p_value >= DOUBTFUL and len(white) >= BLOCKS[0] * LEAST_ROWS:
+        covariance, errors = _blocked(refined, scaled, white, root)
+    alone = independence(scaled)
+    unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE) | ~shown(refined.problem, place, scale)
+    names = tuple(name for name, bad in zip(refined.problem.unknowns.names, unsure, strict=False) if bad)
+    sigma = np.where(unsure, np.nan, np.sqrt(np.diag(covariance)))
+    correlations = np.clip(covariance / np.outer(sigma, sigma), -1.0, 1.0)
+    return Certainty(np.where(unsure, np.nan, errors * scale), correlations, names, whiteness)
+
+
+def _root(columns: Floats) -> Floats:
+    """R (D, D) with R Rᵀ = (JᵀJ)⁻¹, by eigenvalues; directions that do not show at all are left out."""
+    values, vectors = np.linalg.eigh(columns.T @ columns)
+    kept = values > 1e-14 * values[-1]
+    return np.asarray(vectors * np.where(kept, 1.0 / np.sqrt(np.where(kept, values, 1.0)), 0.0))
+
+
+def _blocked(refined: Refined, columns: Floats, white: Floats, root: Floats) -> tuple[Floats, Floats]:
+    """Covariance (D, D) by the more blocks; errors (D,), by the fewer where the more depend on each other."""
+    (covariance, errors, dependent), fewer = (
+        _jackknife(columns, white, root, _block_of(refined, blocks)) for blocks in BLOCKS
+    )
+    return covariance, np.where(dependent, np.maximum(errors, fewer[1]), errors)
+
+
+def _jackknife(columns: Floats, white: Floats, root: Floats, block_of: Integers) -> tuple[Floats, Floats, Bools]:
+    """Covariance (D, D), errors (D,) widened for the blocks being few, and where neighbouring blocks are dependent.
+
+    In the coordinates A = J R, AᵀA is the identity and G_b = A_bᵀA_b is what block b knows of each direction. Leaving
+    block b out moves the place by R m_b, m_b = (I − G_b)⁻¹ A_bᵀ r_b. Rows of block −1, the slot table's prior, are
+    independent of each other.
+    """
+    unit = columns @ root
+    known, weights, moves = [], [], []
+    for block in range(block_of.max() + 1):
+        rows = block_of == block
+        values, vectors = np.linalg.eigh(unit[rows].T @ unit[rows])
+        values = np.clip(values, 0.0, DETERMINED)
+        known.append((vectors * values) @ vectors.T)
+        weights.append((vectors / (1.0 - values)) @ vectors.T)
+        moves.append(root @ weights[-1] @ (unit[rows].T @ white[rows]))
+    prior = block_of < 0
+    table = (unit[prior] * white[prior, None]) @ root.T
+    moved = np.array(moves)
+    covariance = moved.T @ moved + table.T @ table
+    freedom = np.array([_freedom(direction, np.array(known), np.array(weights)) for direction in root])
+    widening = stdtrit(np.maximum(freedom, 1.0), LEVEL) / ndtri(LEVEL)
+    products = moved[1:] * moved[:-1]
+    dependent = products.sum(axis=0) > DEPENDENT * np.sqrt(np.sum(products**2, axis=0))
+    return covariance, np.sqrt(np.diag(covariance)) * widening, dependent
+
+
+def _freedom(direction: Floats, known: Floats, weight: Floats) -> float:
+    """Degrees of freedom of the variance of one parameter for white residuals: (tr Γ)²/tr Γ² (Satterthwaite).
+
+    Γ_bc = dᵀW_b (δ_bc G_b − G_b G_c) W_c d is the covariance of the blocks' moves along the parameter's direction d.
+    """
+    weighted = weight @ direction
+    parts = np.einsum("bij,bj->bi", known, weighted)
+    spread = np.diag(np.einsum("bi,bi->b", weighted, parts)) - parts @ parts.T
+    square = float(np.sum(spread**2))
+    return float(np.trace(spread)) ** 2 / square if square > 0.0 else 1.0
+
+
+def _lengths(refined: Refined) -> list[tuple[int, int]]:
+    """Of every recording: how many white residuals are of intervals, and how many of the slot table's prior."""
+    return [
+        (len(data.first), encoder.projection.table.index.size if encoder.projection is not None else 0)
+        for data, encoder in zip(refined.problem.intervals, refined.encoders, strict=True)
+    ]
+
+
+def _series(refined: Refined, white: Floats) -> tuple[Series, ...]:
+    """The white residuals recording by recording."""
+    series, row = [], 0
+    for r, (data, (intervals, table)) in enumerate(zip(refined.problem.intervals, _lengths(refined), strict=True)):
+        middle = 0.5 * (data.time[data.first] + data.time[data.last])
+        series.append(Series(white[row : row + intervals], middle, data.fresh, *refined.problem.commands[r]))
+        row += intervals + table
+    return tuple(series)
+
+
+def _block_of(refined: Refined, blocks: int) -> Integers:
+    """Number of the block of equal time that each residual belongs to; −1 for those of the slot table."""
+    parts, begun = [], 0.0
+    for data, (_, table) in zip(refined.problem.intervals, _lengths(refined), strict=True):
+        parts += [begun + 0.5 * (data.time[data.first] + data.time[data.last]), np.full(table, -1.0)]
+        begun += float(data.time[-1])
+    middle = np.concatenate(parts)
+    return np.where(middle < 0.0, -1, np.minimum(middle / begun * blocks, blocks - 1)).astype(np.int64)

@@ -1,0 +1,134 @@
+"""A simulated board: the motor, its disc, the timer that stamps edges, and the sampling that reports them."""
+
+from collections import deque
+from dataclasses import dataclass
+from math import tau
+
+import numpy as np
+
+from motor_model.dynamics.bridge import effective_voltage
+from motor_model.dynamics.state import State, at_rest
+from motor_model.effects import INDEX
+from motor_model.parameters import Parameters
+from motor_model.sample import Info, Measurement, Sample
+from motor_model.sensing.encoder import make_disc, turn
+from motor_model.sensing.speed_rule import SpeedState, revolution_share, single_channel_speed, speed_magnitude
+
+DELAY, MISS_RATE = INDEX["delay"], INDEX["miss_rate"]
+MOST_EDGES = 4096  # in one sample; at 200 Hz that is 54,000 rad/s on 96 edges
+POWER_UP = 1_000_000_000  # [ns] the board's clock at the first sample: no edge can be at its 0, which means "none yet"
+
+
+@dataclass(frozen=True, slots=True)
+class BoardConfig:
+    """How the board samples and what its encoder is like."""
+
+    name: str = "motor"
+    sample_rate: float = 200.0  # [Hz]
+    edges_per_revolution: int = 96
+    single_channel: bool = True
+    edge_resolution: float = 4e-6  # [s] timer tick
+    slot_irregularity: float = 0.0  # share of a slot
+    seed: int = 0  # of the disc, the starting angle and missed edges
+    start_angle: float | None = None  # [rad] of the disc; None: drawn from the seed
+
+    def info(self, parameters: Parameters) -> Info:
+        """What a reader of the samples has to know."""
+        return Info(
+            name=self.name,
+            source="simulation",
+            measurement=Measurement.EDGES,
+            edges_per_revolution=self.edges_per_revolution,
+            single_channel=self.single_channel,
+            edge_resolution=self.edge_resolution,
+            sample_period=1.0 / self.sample_rate,
+            max_voltage=parameters.max_voltage,
+            decay="coast" if parameters.value("coast_share") > 0.0 else "brake",
+        )
+
+
+class SimulatedBoard:
+    """Steps a motor from sample to sample and reports what a real board would; knows no wall clock."""
+
+    def __init__(self, parameters: Parameters, config: BoardConfig) -> None:
+        self._p = parameters.vector()
+        self._config = config
+        self._disc = make_disc(config.edges_per_revolution, config.slot_irregularity, config.seed)
+        self._random = np.random.default_rng([config.seed, 1])
+        drawn = float(self._random.uniform(0.0, tau))
+        self._offset = drawn if config.start_angle is None else config.start_angle
+        self._slot = revolution_share(config.edges_per_revolution)
+        self._state: State = at_rest(0.0)
+        self._samples = 0
+        self._commands: deque[tuple[float, float]] = deque([(-np.inf, 0.0)])  # [s], [V], as latched
+        self._edge_count, self._edge_time, self._edge_period = 0, 0, 0.0
+        self._speed_state, self._last_edge_direction = SpeedState(), 0
+        self._times, self._directions = np.empty(MOST_EDGES), np.empty(MOST_EDGES, dtype=np.int64)
+
+    @property
+    def speed(self) -> float:
+        """[rad/s] the true shaft speed, which no encoder reports."""
+        return float(self._state.speed)
+
+    @property
+    def angle(self) -> float:
+        """[rad] the true shaft angle since power-up."""
+        return float(self._state.angle)
+
+    def sample(self, command: float) -> Sample:
+        """Move on to the next sample, latch the command [V] there, and report."""
+        if self._samples > 0:
+            self._move((self._samples - 1) / self._config.sample_rate, self._samples / self._config.sample_rate)
+        limit = float(self._p[INDEX["max_voltage"]])
+        voltage = float(min(max(command, -limit), limit))
+        now = POWER_UP + round(self._samples * 1e9 / self._config.sample_rate)
+        if voltage != self._commands[-1][1]:
+            self._commands.append((self._samples / self._config.sample_rate, voltage))
+        self._samples += 1
+        return Sample(
+            sample_time=now,
+            speed=self._speed(voltage, now),
+            voltage=voltage,
+            edge_count=self._edge_count,
+            edge_time=self._edge_time,
+            edge_period=self._edge_period,
+        )
+
+    def _move(self, start: float, end: float) -> None:
+        """Turn the motor through all delayed commands that act between two times [s]."""
+        delay = float(self._p[DELAY])
+        while len(self._commands) > 1 and self._commands[1][0] + delay <= start:
+            self._commands.popleft()
+        switches = [at + delay for at, _ in self._commands][1:]
+        t = start
+        for (_, command), until in zip(self._commands, [*switches, np.inf], strict=True):
+            stop = min(until, end)
+            if stop > t:
+                self._turn(command, t, stop - t)
+                t = stop
+
+    def _turn(self, command: float, t: float, dt: float) -> None:
+        u = effective_voltage(self._p, command)
+        disc = self._disc
+        self._state, count = turn(
+            self._p, u, self._state, t, dt, disc.forward, disc.backward, self._offset, self._times, self._directions
+        )
+        missing = self._p[MISS_RATE] > 0.0
+        for time, direction in zip(self._times[:count], self._directions[:count], strict=True):
+            if not (missing and self._random.random() < self._p[MISS_RATE]):
+                self._see_edge(float(time), int(direction))
+
+    def _see_edge(self, time: float, direction: int) -> None:
+        tick = self._config.edge_resolution
+        stamp = POWER_UP + (round(time // tick * tick * 1e9) if tick > 0.0 else round(time * 1e9))
+        self._edge_period = (stamp - self._edge_time) * 1e-9 if self._edge_time else 0.0
+        self._edge_time = stamp
+        self._edge_count += 1 if self._config.single_channel else direction
+        self._last_edge_direction = direction
+
+    def _speed(self, voltage: float, now: int) -> float:
+        magnitude = speed_magnitude(self._slot, now, self._edge_time, self._edge_period)
+        if not self._config.single_channel:
+            return self._last_edge_direction * magnitude
+        speed, self._speed_state = single_channel_speed(self._speed_state, magnitude, voltage, now)
+        return speed

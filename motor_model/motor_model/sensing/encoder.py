@@ -1,0 +1,136 @@
+"""The encoder: a disc with irregular slots turns angle into edges, each with its exact time.
+
+Edges are of one polarity. Turning forward the sensor sees one flank of a hole, turning backward the other, half a slot
+away and with an irregularity of its own; that is why a table of slot offsets belongs to one direction.
+"""
+
+from dataclasses import dataclass
+from math import floor, pi, sin, tau
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_model.compiled import compiled
+from motor_model.dynamics.motor import piece, time_in_piece
+from motor_model.dynamics.state import State
+from motor_model.effects import INDEX
+
+ECCENTRICITY, ECCENTRICITY_PHASE = INDEX["eccentricity"], INDEX["eccentricity_phase"]
+HOLE_SHARE = 0.5  # of a slot
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Disc:
+    """Where a disc's flanks are: angles [rad] of edge i seen turning forward and backward, both of shape (N,)."""
+
+    forward: Floats
+    backward: Floats
+
+    @property
+    def slot(self) -> float:
+        """[rad] nominal angle between two edges."""
+        return tau / len(self.forward)
+
+
+def make_disc(edges_per_revolution: int, irregularity: float = 0.0, seed: int = 0) -> Disc:
+    """A disc whose flanks are off by a Gaussian share `irregularity` of a slot, the same every turn."""
+    random = np.random.default_rng(seed)
+    slot = tau / edges_per_revolution
+    nominal = slot * np.arange(edges_per_revolution)
+    offsets = irregularity * slot * random.standard_normal((2, edges_per_revolution))
+    offsets -= offsets.mean(axis=1, keepdims=True)
+    return Disc(nominal + offsets[0], nominal + HOLE_SHARE * slot + offsets[1])
+
+
+@compiled
+def shown_angle(p: Floats, angle: float) -> float:
+    """What an eccentric disc shows of a shaft angle [rad]."""
+    if p[ECCENTRICITY] == 0.0:
+        return angle
+    return angle + p[ECCENTRICITY] * sin(angle + p[ECCENTRICITY_PHASE])
+
+
+@compiled
+def shaft_angle_at(p: Floats, shown: float) -> float:
+    """The shaft's travel [rad] when the disc has shown this travel since the shaft was at 0; within e³."""
+    e, phase = p[ECCENTRICITY], p[ECCENTRICITY_PHASE]
+    if e == 0.0:
+        return shown
+    angle = shown + e * sin(phase)
+    return angle - e * sin(angle - e * sin(angle + phase) + phase)
+
+
+@compiled
+def show(p: Floats, angles: Floats, anchor: Floats) -> None:
+    """Replace shaft angles [rad] by what an eccentric disc shows of them; at `anchor` [rad], if that is not empty."""
+    if p[ECCENTRICITY] != 0.0:
+        for k in range(len(angles)):
+            at = shaft_angle_at(p, anchor[k]) if len(anchor) > 0 else angles[k]
+            angles[k] += shown_angle(p, at) - at
+
+
+@compiled
+def _shaft_angle(p: Floats, shown: float) -> float:
+    """The shaft angle [rad] at which an eccentric disc shows this angle; the inverse of `shown_angle`."""
+    e = p[ECCENTRICITY]
+    if e == 0.0:
+        return shown
+    low, high = shown - e, shown + e
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if middle + e * sin(middle + p[ECCENTRICITY_PHASE]) < shown:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+@compiled
+def flank(flanks: Floats, index: int) -> float:
+    """Angle [rad] of edge `index` counted without end over the turns."""
+    n = len(flanks)
+    turn = index // n
+    return flanks[index - turn * n] + 2.0 * pi * turn
+
+
+@compiled
+def turn(
+    p: Floats,
+    u: float,
+    s: State,
+    t: float,
+    dt: float,
+    forward: Floats,
+    backward: Floats,
+    offset: float,
+    times: Floats,
+    directions: NDArray[np.int64],
+) -> tuple[State, int]:
+    """Turn the motor for dt [s] at an effective voltage u [V] and write down the edges it passes.
+
+    offset: [rad] where the disc stands when the shaft is at 0. times [s] and directions (±1) are filled as far as they
+    reach. Returns the state and the number of edges.
+    """
+    end, count, slot = t + dt, 0, 2.0 * pi / len(forward)
+    while t < end:
+        left = end - t
+        after, taken = piece(p, u, s, t, left)
+        if after.angle != s.angle:
+            sign = 1 if after.angle > s.angle else -1
+            flanks = forward if sign > 0 else backward
+            here, there = shown_angle(p, s.angle) + offset, shown_angle(p, after.angle) + offset
+            index = int(floor(here / slot)) - 2 * sign
+            while (flank(flanks, index) - here) * sign <= 0.0:
+                index += sign
+            while (there - flank(flanks, index)) * sign >= 0.0:
+                angle = _shaft_angle(p, flank(flanks, index) - offset)
+                if count < len(times):
+                    times[count] = t + time_in_piece(p, u, s, t, taken, angle)
+                    directions[count] = sign
+                    count += 1
+                index += sign
+        s = after
+        t = end if taken >= left else t + taken
+    return s, count

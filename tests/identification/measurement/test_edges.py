@@ -1,0 +1,186 @@
+"""Edges and intervals that a recording reports, against the truth of the independent plant."""
+
+from dataclasses import replace
+from math import sqrt, tau
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from plant import Truth, profiles, record
+from recorded import as_counts, as_speed
+
+from motor_identification.estimation.residual import residuals
+from motor_identification.measurement.build_intervals import intervals_of
+from motor_identification.measurement.edges import Edges, edges_of
+from motor_identification.measurement.intervals import Intervals
+from motor_identification.recording import Floats, Recording
+from motor_model.errors import RecordingError
+from motor_model.parameters import PAPER_KA, PAPER_KV
+from motor_model.sample import Measurement
+
+BASE = {"kv": PAPER_KV, "ka": PAPER_KA}
+SLOT = tau / 96
+TICK = 4e-6
+
+MOTORS = {
+    "base": BASE,
+    "friction": BASE | {"ks": 0.5},
+    "friction and delay": BASE | {"ks": 0.5, "delay": 0.02},
+    "static friction": BASE | {"ks": 0.4, "breakaway_voltage": 0.9, "stribeck_speed": 5.0},
+    "inductance": BASE | {"electrical_time_constant": 0.01},
+}
+DRIVES = {
+    "reversals": profiles.reversals(8.0, 8, 0.4),
+    "random": profiles.random(12.0, 5.0),
+    "ramps": profiles.ramps(12.0, 1.0),
+    "coast": profiles.coast(12.0, 2, 0.5),
+    "staircase": profiles.staircase(12.0, 4, 0.2),
+}
+
+
+def true_number(edges: Edges, truth: Truth) -> NDArray[np.int64]:
+    """Which of the plant's edges each reported one is, shape (E,)."""
+    later = np.clip(np.searchsorted(truth.edge_time, edges.time), 1, len(truth.edge_time) - 1)
+    earlier = edges.time - truth.edge_time[later - 1] < truth.edge_time[later] - edges.time
+    return np.asarray(later - earlier)
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+@pytest.mark.parametrize("motor", MOTORS)
+def test_no_interval_that_is_kept_has_a_wrong_direction(motor: str, drive: str) -> None:
+    for seed, irregularity in enumerate((0.0, 0.01)):
+        recording, truth = record(MOTORS[motor], *DRIVES[drive], seed=seed, disc_seed=seed, irregularity=irregularity)
+        edges = edges_of(recording)
+        number = true_number(edges, truth)
+        assert np.max(np.abs(truth.edge_time[number] - edges.time)) <= 0.5 * TICK + 2e-9
+        assert np.array_equal(edges.count - edges.count[0], number - number[0])
+        kept = (edges.direction[1:] == edges.direction[:-1]) & (edges.direction[1:] != 0)
+        for k in np.flatnonzero(kept):
+            assert np.all(truth.edge_direction[number[k] : number[k + 1] + 1] == edges.direction[k])
+        turns = np.count_nonzero(np.diff(truth.edge_direction))
+        assert turns >= 1
+        assert turns <= np.count_nonzero(~kept) <= 3 * turns  # those around a turn, and no more
+        assert np.count_nonzero(kept) > 0.96 * len(kept)
+
+
+def test_two_channels_leave_out_only_the_interval_with_the_turn() -> None:
+    for seed in range(4):
+        recording, truth = record(MOTORS["friction"], *DRIVES["random"], seed=seed, single_channel=False)
+        edges = edges_of(recording)
+        number = true_number(edges, truth)
+        assert np.array_equal(edges.direction, truth.edge_direction[number])
+        intervals = intervals_of(recording)
+        turns = np.count_nonzero(np.diff(truth.edge_direction[number]))
+        assert intervals.left_out == turns >= 4
+
+
+@pytest.mark.parametrize("milliseconds", [50, 100])
+def test_even_a_voltage_that_turns_all_the_time_leaves_most_directions_right(milliseconds: int) -> None:
+    """What one channel cannot know, and how much of it: the plant's board follows the sign edge by edge."""
+    drive = profiles.random(6.0, 5.0, hold=(0.01, 0.001 * milliseconds))
+    recording, truth = record(BASE, *drive, seed=0)
+    edges = edges_of(recording)
+    number = true_number(edges, truth)
+    kept = (edges.direction[1:] == edges.direction[:-1]) & (edges.direction[1:] != 0)
+    wrong = kept & (truth.edge_direction[number[1:]] != edges.direction[1:])
+    assert np.count_nonzero(wrong) < 0.03 * np.count_nonzero(kept)
+    assert np.count_nonzero(kept) > 0.9 * len(kept)
+
+
+def angle_at(truth: Truth, time: Floats) -> Floats:
+    """[rad] the plant's true angle at times [s]; its nodes are 50 µs apart."""
+    return np.asarray(np.interp(time, truth.motion.time, truth.motion.angle))
+
+
+def scores(recording: Recording, truth: Truth) -> tuple[Intervals, Floats]:
+    """The truth's residuals over their sigma, where there is one."""
+    intervals = intervals_of(recording)
+    residual = residuals(intervals, angle_at(truth, intervals.time))
+    known = intervals.sigma > 0.0
+    return intervals, residual[known] / intervals.sigma[known]
+
+
+@pytest.mark.parametrize("drive", DRIVES)
+@pytest.mark.parametrize("motor", MOTORS)
+def test_the_truth_scores_what_the_timer_leaves(motor: str, drive: str) -> None:
+    recording, truth = record(MOTORS[motor], *DRIVES[drive], seed=7)
+    intervals, score = scores(recording, truth)
+    assert 0.9 < np.sqrt(np.mean(score**2)) < 1.1
+    assert np.max(np.abs(score)) < sqrt(6.0) + 0.1  # two stamps, each half a tick off at most
+    assert abs(np.mean(score)) < 0.1  # no bias: half a tick is added to a floored stamp
+    assert len(score) > 400
+
+
+def test_a_coarser_timer_leaves_more() -> None:
+    typical = []
+    for tick in (1e-6, 2e-5):
+        recording, truth = record(BASE, *DRIVES["random"], seed=1, tick=tick)
+        intervals, score = scores(recording, truth)
+        assert 0.9 < np.sqrt(np.mean(score**2)) < 1.1
+        typical.append(float(np.median(intervals.sigma)))
+    assert typical[1] / typical[0] == pytest.approx(20.0, rel=0.05)
+
+
+def test_irregular_slots_score_above_the_timer() -> None:
+    recording, truth = record(BASE, *DRIVES["random"], seed=1, irregularity=0.01)
+    assert 8.0 < np.sqrt(np.mean(scores(recording, truth)[1] ** 2)) < 14.0
+
+
+def test_intervals_follow_each_other_and_cover_the_motion() -> None:
+    recording, truth = record(BASE, *DRIVES["random"], seed=3)
+    intervals = intervals_of(recording)
+    moving = intervals.slack == 0.0
+    begin, end = intervals.time[intervals.first[moving]], intervals.time[intervals.last[moving]]
+    assert np.all(end > begin) and np.all(begin[1:] >= end[:-1])
+    assert np.array_equal(intervals.duration[moving], end - begin)
+    assert 0.95 < np.sum(end - begin) / recording.duration <= 1.0
+    assert intervals.time[0] == 0.0 and np.all(np.diff(intervals.time) > 0.0)
+
+
+def test_a_standing_motor_is_evidence_before_the_first_edge_and_after_the_last() -> None:
+    drive = profiles.pieces([0.0, 8.0, 0.0], [0.5, 0.5, 1.5])
+    recording, truth = record(BASE | {"ks": 0.5}, *drive, seed=0)
+    intervals = intervals_of(recording)
+    still = np.flatnonzero(intervals.slack)
+    assert len(still) == 2 and np.all(intervals.slack[still] == SLOT) and np.all(intervals.speed[still] == 0.0)
+    assert intervals.time[intervals.first[still[0]]] == 0.0
+    assert intervals.time[intervals.last[still[1]]] == recording.duration
+    creeping = residuals(intervals, 0.5 * intervals.time)[still]
+    assert creeping == pytest.approx(0.5 - SLOT / intervals.duration[still], rel=1e-9)  # all but the slot it may move
+    assert residuals(intervals, -0.5 * intervals.time)[still] == pytest.approx(-creeping, rel=1e-9)
+    assert np.all(residuals(intervals, 0.9 * SLOT * intervals.time / recording.duration)[still] == 0.0)
+
+
+def test_sampled_counts_are_known_to_a_slot() -> None:
+    recording, truth = record(BASE, *DRIVES["random"], seed=2, single_channel=False)
+    counts = as_counts(recording)
+    assert counts.info.measurement is Measurement.COUNTS
+    intervals, score = scores(counts, truth)
+    assert 0.7 < np.sqrt(np.mean(score**2)) < 1.1
+    assert np.max(np.abs(score)) < sqrt(6.0) * 1.001
+    assert 800 < len(score) <= len(recording)
+
+
+@pytest.mark.parametrize("window", [1, 4])
+def test_speeds_are_means_over_their_window(window: int) -> None:
+    recording, truth = record(BASE, *DRIVES["random"], seed=2, single_channel=False)
+    speed = as_speed(recording, window)
+    intervals, score = scores(speed, truth)
+    assert len(score) == len(recording) - window  # windows that began before the recording are left out
+    assert np.allclose(intervals.duration, 0.005 * window, rtol=0, atol=1e-9)
+    assert 0.8 < np.sqrt(np.mean(score**2)) < 1.1
+    late = np.sqrt(np.mean(scores(as_speed(recording, window, lag=0.02), truth)[1] ** 2))
+    assert late > 2.0  # a wrong lag is seen
+
+
+def test_degenerate_reports_leave_no_interval_rather_than_a_wrong_one() -> None:
+    recording, truth = record(BASE, *profiles.step(10.0, 0.5), seed=1)
+    whole = intervals_of(recording)
+    for period in (0.0, np.nan, -1.0):
+        fewer = intervals_of(replace(recording, edge_period=np.full(len(recording), period)))
+        assert 0 < len(fewer.first) < len(whole.first)  # the edge before the latest is not known then
+        assert np.all(np.isfinite(fewer.speed)) and np.max(np.abs(fewer.speed)) < 160.0
+    doubled = replace(recording, edge_time=np.repeat(recording.edge_time[::2], 2)[: len(recording)])
+    assert np.all(np.isfinite(intervals_of(doubled).speed))
+    with pytest.raises(RecordingError, match=r"9\d of 9\d edge_time values lie outside the sample that counted"):
+        intervals_of(replace(recording, edge_time=np.zeros(len(recording), dtype=np.int64)))

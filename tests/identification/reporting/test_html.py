@@ -1,0 +1,185 @@
+"""A diagnosis in HTML: complete, true to the numbers, and readable without anything from outside."""
+
+import json
+import re
+import shutil
+import subprocess
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.discrepancy.residual_maps import where
+from motor_identification.reporting.diagnosis_text import as_table, summary
+from motor_identification.reporting.html import write_report
+from motor_identification.reporting.html.onward import commands
+from motor_identification.reporting.html.page import rendered
+from motor_identification.reporting.html.tables import ladder
+from motor_model.errors import MotorError
+
+BROWSER = shutil.which("chromium") or shutil.which("google-chrome") or shutil.which("chromium-browser")
+
+
+@pytest.fixture(scope="module")
+def html(found: Diagnosis) -> str:
+    return rendered(found)
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pages without pictures, where only the text matters."""
+    for name in ("draw_overlay", "draw_map", "draw_shape"):
+        monkeypatch.setattr(f"motor_identification.reporting.html.page.{name}", lambda *how: "")
+
+
+class Reader(HTMLParser):
+    """Collects what a page refers to, its tags and its text."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.references: list[str] = []
+        self.tags: list[str] = []
+        self.ids: list[str] = []
+        self.text = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        for name, value in attrs:
+            if name in ("src", "href", "xlink:href", "srcset", "action", "data"):
+                self.references.append(value or "")
+            elif name == "id":
+                self.ids.append(value or "")
+
+    def handle_data(self, data: str) -> None:
+        self.text += data
+
+
+def squeezed(text: str) -> str:
+    return re.sub(r"\s+", " ", text)
+
+
+def test_the_page_needs_nothing_from_outside(html: str) -> None:
+    reader = Reader(html)
+    assert len(reader.references) > 20
+    assert all(reference.startswith(("#", "data:")) for reference in reader.references)
+    assert "script" not in reader.tags and "@import" not in html
+    assert all(inside.startswith(("#", "'#")) for inside in re.findall(r"url\(([^)]*)\)", html))
+    assert len(html.encode()) < 3_000_000
+    referred = {reference[1:] for reference in reader.references if reference.startswith("#")}
+    referred |= set(re.findall(r"url\(#([^)]*)\)", html))
+    assert referred <= set(reader.ids)
+    assert set(re.findall(r"var\((--\w+)\)", html)) <= set(re.findall(r"(--\w+):", html))
+
+
+def test_every_picture_is_there_for_both_screens(html: str) -> None:
+    drawn = re.findall(r"<svg.*?</svg>", html, re.DOTALL)
+    labels = []
+    for one in drawn:
+        root = ElementTree.fromstring(one)
+        assert root.get("viewBox") and root.get("width") is None and root.get("role") == "img"
+        labels.append(root.get("aria-label") or "")
+    assert len([label for label in labels if "most telling" in label]) == 2
+    assert len([label for label in labels if "all of it" in label]) == 2
+    assert len([label for label in labels if label.startswith("gap over")]) == 7
+    assert len([label for label in labels if label.startswith("missing load over")]) == 3
+
+
+def test_the_page_says_it_all(found: Diagnosis, html: str) -> None:
+    text = squeezed(Reader(html).text)
+    finding = found.findings[0]
+    for part in (
+        summary(found),
+        finding.where,
+        "quadratic drag",
+        f"leaves {finding.alternatives[0].gap_after / finding.gap_after:.2g} times the gap",
+        "It could not have shown warm up",
+        f"{found.left_out} intervals were left out",
+        "ros2 run motor_sim motor_sim --ros-args -p model:=model.yaml",
+        "irregular by 0.2",
+        "timer's tick of 4 µs",
+    ):
+        assert part in text, part
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_files_and_directories(found: Diagnosis, tmp_path: Path) -> None:
+    assert write_report(found, tmp_path / "deep" / "there") == tmp_path / "deep" / "there" / "report.html"
+    path = write_report(found, str(tmp_path / "own.html"))
+    assert path == tmp_path / "own.html" and path.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(MotorError, match="cannot write"):
+        write_report(found, tmp_path / "file" / "report.html")
+
+
+@pytest.mark.usefixtures("undrawn")
+@pytest.mark.parametrize("verdict", list(Verdict))
+def test_every_verdict_has_a_page(variants: dict[Verdict, Diagnosis], verdict: Verdict) -> None:
+    reader = Reader(rendered(variants[verdict]))
+    text = squeezed(reader.text)
+    assert squeezed(summary(variants[verdict])) in text
+    assert ("Where the model before was worst" in text) == (verdict is not Verdict.NOTHING_MISSING)
+    assert ("What was found" in text) == bool(variants[verdict].findings)
+    assert ("experiment coast" in text) == (verdict is Verdict.UNDECIDED)
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_names_cannot_break_the_page(found: Diagnosis) -> None:
+    text = rendered(replace(found, bags=("<b>&'bag",), suggested_experiment="rich"))
+    assert "<b>&'bag" not in text and "&lt;b&gt;&amp;" in text
+    assert "diagnose '<b>&'\"'\"'bag' rich" in Reader(text).text  # and neither the shell
+
+
+def test_without_findings_there_is_one_curve(variants: dict[Verdict, Diagnosis]) -> None:
+    reader = Reader(rendered(variants[Verdict.UNEXPLAINED]))
+    assert reader.tags.count("svg") == 14 and "before and after" not in reader.text
+    assert "simulated" in reader.text and "worst 1" in reader.text
+
+
+def test_a_recording_too_short_to_hold_anything_out(variants: dict[Verdict, Diagnosis]) -> None:
+    one = variants[Verdict.UNEXPLAINED]
+    empty = replace(one.after, scored=tuple(np.zeros_like(marks) for marks in one.after.scored), miscounted=0)
+    short = replace(one, verdict=Verdict.UNDECIDED, before=empty, after=empty, gap_before=0.0, gap_after=0.0)
+    assert "too short to keep any of its motion out" in summary(short)
+    assert "nowhere" in where(empty, 0.0) and rendered(short).count("</svg>") == 14
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_without_a_floor_there_is_no_ratio(found: Diagnosis) -> None:
+    one = replace(found, noise_floor=0.0)
+    assert "the recording says nothing of its own noise" in summary(one)
+    assert [rung.times for rung in ladder(one)] == ["", "", ""] and "–" in as_table(one)
+    assert "inf" not in squeezed(Reader(rendered(one)).text).split("How to go on")[0].lower().replace("info", "")
+
+
+def test_commands_are_for_this_diagnosis(variants: dict[Verdict, Diagnosis]) -> None:
+    first, second = (command for _, command in commands(variants[Verdict.UNDECIDED])[:2])
+    assert first == "ros2 run motor_identification experiment coast --output coast"
+    assert second == ("ros2 run motor_identification diagnose train.bag coast --validate held_out.bag --report next")
+    assert "--effects" not in "".join(command for _, command in commands(variants[Verdict.UNEXPLAINED]))
+
+
+MEASURE = """<script>document.title = JSON.stringify([innerWidth, document.documentElement.scrollWidth,
+[...document.querySelectorAll('.narrow')].filter(e => e.offsetWidth).length,
+Math.min(...[...document.querySelectorAll('svg')].map(e => e.clientWidth).filter(w => w))]);</script>"""
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium here")
+@pytest.mark.parametrize(("width", "narrow"), [(1280, 0), (500, 2)])
+def test_it_opens_in_a_browser(html: str, tmp_path: Path, width: int, narrow: int) -> None:
+    """Without a console error, and nothing wider than the screen; a browser's window is 500 pixels wide at least."""
+    (tmp_path / "report.html").write_text(html.replace("</body>", f"{MEASURE}</body>"), encoding="utf-8")
+    done = subprocess.run(
+        [str(BROWSER), "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--dump-dom",
+         f"--user-data-dir={tmp_path / 'profile'}", f"--window-size={width},900", str(tmp_path / "report.html")],
+        capture_output=True, text=True, timeout=100,
+    )  # fmt: skip
+    assert "CONSOLE" not in done.stderr, done.stderr
+    title = re.search(r"<title>(.*?)</title>", done.stdout)
+    assert title, done.stderr
+    inner, needed, shown, smallest = json.loads(title[1])
+    assert inner == width and needed <= inner and shown == narrow and smallest > 250
