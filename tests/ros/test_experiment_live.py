@@ -11,7 +11,7 @@ from std_srvs.srv import SetBool
 from workbench import DOMAIN, Bench
 
 from motor_identification.bag import BagWriter, contents, read_recording
-from motor_identification.cli import _probe
+from motor_identification.live import speed_probe
 from motor_identification.live.experiment_node import Driver
 from motor_identification.live.run_plan import drive
 from motor_model.errors import MotorError
@@ -149,7 +149,7 @@ def test_a_speed_is_kept_without_a_model(stand: Stand, capsys: pytest.CaptureFix
 
 
 def test_a_motor_that_runs_faster_than_allowed(stand: Stand, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(_probe, "slowed", lambda plan, parameters, limit: plan)  # as if the ramp had misled us
+    monkeypatch.setattr(speed_probe, "slowed", lambda plan, parameters, limit: plan)  # as if the ramp had misled us
     with pytest.raises(MotorError, match=r"at 6 V, above --speed 40, and was stopped: give less --voltage\."):
         stand.experiment("step", limit=40.0)
     stand.assert_stopped()
