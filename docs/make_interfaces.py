@@ -3,34 +3,20 @@
 import re
 from pathlib import Path
 
+from motor_ros.topics import SERVICES, TOPICS
+
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "interfaces.md"
 PARTS = {"msg": ("",), "srv": ("request", "response"), "action": ("goal", "result", "feedback")}
-TOPICS = """\
+HEAD = """\
 # Interfaces
 
 Topics and services are relative names: a namespace makes a second motor. "Plant" is whichever of `motor_sim` and
 `motor_driver` runs. All topics are reliable.
-
-| topic | type | from → to | durability, depth |
-|---|---|---|---|
-| `motor/speed` | `motor_msgs/msg/MotorSpeed` | plant → all, every sample (200 Hz by default) | volatile, 100 |
-| `motor/info` | `motor_msgs/msg/MotorInfo` | plant → all, at start and on change | transient local, 1 |
-| `motor/voltage` | `motor_msgs/msg/MotorVoltage` | controller → plant; must keep coming | volatile, 1 |
-| `motor/reference` | `std_msgs/msg/Float64` [rad/s] | user → controller; once is enough | volatile, 1 |
-| `motor/control_state` | `motor_msgs/msg/ControlState` | controller → all, every sample | volatile, 100 |
-| `motor/model` | `motor_msgs/msg/MotorModel` | identification → all, after each success | transient local, 1 |
-| `joint_states` | `sensor_msgs/msg/JointState` | plant → all, every sample | volatile, 10 |
-| `/diagnostics` | `diagnostic_msgs/msg/DiagnosticArray` | plant, controller → all, 1 Hz | volatile, 10 |
-
-| service or action | type | of |
-|---|---|---|
-| `motor/enable` | `std_srvs/srv/SetBool` | plant: false switches the output off and latches that, true clears it |
-| `motor/reset` | `std_srvs/srv/Trigger` | controller: clears its latched stop |
-| `motor/identify` | `motor_msgs/srv/Identify` | identification: fit a model to bags |
-| `motor/diagnose` | `motor_msgs/action/Diagnose` | identification: find what the model lacks |
-
-What follows is generated from the definitions in `motor_msgs` by `python docs/make_interfaces.py`.
+"""
+FOOT = """\
+What follows is generated from the definitions in `motor_msgs` by `python docs/make_interfaces.py`; the tables above are
+those of `motor_ros/topics.py`.
 """
 FIELD = re.compile(
     r"^(?P<type>[\w/\[\]<>=]+)\s+(?P<name>\w+)\s*(?:=\s*(?P<constant>[^#\s]+))?\s*(?:#\s*(?P<note>.*))?$"
@@ -40,7 +26,21 @@ FIELD = re.compile(
 def page() -> str:
     """The whole page."""
     files = [path for kind in PARTS for path in sorted((ROOT / "motor_msgs" / kind).glob(f"*.{kind}"))]
-    return "\n".join([TOPICS, *map(_section, files)])
+    return "\n".join([HEAD, *_topics(), "", *_services(), "", FOOT, *map(_section, files)])
+
+
+def _topics() -> list[str]:
+    rows = [
+        f"| `{topic.name}` | `{topic.type_name}`{f' [{topic.unit}]' if topic.unit else ''} | {topic.way} "
+        f"| {topic.qos.durability.name.lower().replace('_', ' ')}, {topic.qos.depth} |"
+        for topic in TOPICS
+    ]
+    return ["| topic | type | from → to | durability, depth |", "|---|---|---|---|", *rows]
+
+
+def _services() -> list[str]:
+    rows = [f"| `{service.name}` | `{service.type_name}` | {service.of}: {service.does} |" for service in SERVICES]
+    return ["| service or action | type | of |", "|---|---|---|", *rows]
 
 
 def _section(path: Path) -> str:

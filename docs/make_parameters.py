@@ -6,7 +6,7 @@ from pathlib import Path
 from motor_board.node import FAULTS, SET_UP
 from motor_control.parameters import ROWS as CONTROL
 from motor_driver.parameters import ROWS as DRIVER
-from motor_identification.service.node import PARAMETERS as IDENTIFICATION
+from motor_identification.service.parameters import PARAMETERS as IDENTIFICATION
 from motor_ros.parameters import Row
 from motor_ros.plant import SHARED_PARAMETERS, max_voltage_row
 from motor_sim.node import PARAMETERS as SIM
@@ -62,10 +62,7 @@ def _value(row: Row) -> str:
 
 
 def _meaning(row: Row) -> str:
-    unit = f"[{row.unit}] " if row.unit else ""
-    span = f"{row.low:.10g} to {row.high:.10g}: " if row.low is not None and row.high is not None else ""
-    notes = [*([NOTES[row.name]] if row.name in NOTES else []), *(["fixed at the start"] if row.read_only else [])]
-    return "; ".join([f"{unit}{span}{row.description}", *notes])
+    return "; ".join([row.meaning(), *([NOTES[row.name]] if row.name in NOTES else [])])
 
 
 def _number(value: float) -> str:

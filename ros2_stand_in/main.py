@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from motor_model.errors import MotorError
-from ros2_stand_in.verbs import VERBS, Verb
+from ros2_stand_in.verb_table import VERBS, Verb
 
 ABOUT = """\
 This is the motor workbench's stand-in for machines without the real ros2 command.
@@ -65,7 +65,7 @@ def _unknown(what: str, known: "Sequence[str] | dict[str, None]") -> int:
 
 def _call(verb: Verb, words: list[str]) -> int:
     module_name, _, function = verb.place.partition(":")
-    module = importlib.import_module(f"ros2_stand_in.{module_name}")
+    module = importlib.import_module(f"ros2_stand_in.verbs.{module_name}")
     parser = argparse.ArgumentParser(prog=f"ros2 {verb.words}", description=verb.help)
     getattr(module, f"{function}_arguments")(parser)
     status: int = getattr(module, function)(parser.parse_args(words))

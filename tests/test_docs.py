@@ -108,7 +108,7 @@ def test_the_messages_of_the_troubleshooting_are_those_of_the_program() -> None:
     """Every quoted symptom is in the sources, … standing for what is filled in."""
     files = [
         *ROOT.glob("motor_*/motor_*/**/*.py"),
-        *ROOT.glob("ros2_stand_in/*.py"),
+        *ROOT.glob("ros2_stand_in/**/*.py"),
         ROOT / "setup.sh",
         ROOT / "env.sh",
     ]

@@ -20,6 +20,7 @@ from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 from motor_ros import qos
 from motor_ros.parameters import Row, declare
+from motor_ros.program import Program
 from motor_ros.run import run
 
 SET_UP = (
@@ -41,6 +42,15 @@ FAULTS = (
     Row("encoder_connected", True, "false: no edges reach the board"),
     Row("reset_on_open", False, "opening the port resets the board, as an Uno's does"),
     Row("clock_error", 0.0, "by which the board's crystal is fast", "ppm", -10000.0, 10000.0),
+)
+PROGRAM = Program(
+    "motor_board",
+    "board_emulator",
+    "The board's real firmware on an emulated ATmega328P behind a serial port, with a simulated motor on its pins.\n"
+    "Faults are parameters that can be set while it runs; ~/reset presses its button, ~/hang hangs its firmware.",
+    (*SET_UP, *FAULTS),
+    "ros2 run motor_board board_emulator --ros-args -p link:=board -p model:=model.yaml",
+    publishes=("/diagnostics",),
 )
 SUPPLY_FULL_SCALE = 20_000  # [mV] on A0's divider
 
@@ -109,4 +119,4 @@ class BoardEmulator(Node):
 
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_board board_emulator`."""
-    return run(BoardEmulator, args)
+    return run(BoardEmulator, args, program=PROGRAM)

@@ -7,7 +7,7 @@ from rclpy.node import Node
 from motor_driver import status
 from motor_driver.driver import Driver, Reading
 from motor_driver.link import Closed, Event, Link, Opened, Received
-from motor_driver.parameters import ROWS, config_of
+from motor_driver.parameters import PROGRAM, ROWS, config_of
 from motor_ros.gate import Gate
 from motor_ros.messages import time_message
 from motor_ros.parameters import declare
@@ -100,4 +100,4 @@ class MotorDriver(Node):
 
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_driver motor_driver`."""
-    return run(MotorDriver, args)
+    return run(MotorDriver, args, program=PROGRAM)

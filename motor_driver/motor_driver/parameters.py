@@ -7,6 +7,7 @@ from motor_driver.frames import BAUD, Decay
 from motor_model.errors import MotorError
 from motor_ros.parameters import Row, Value
 from motor_ros.plant import SHARED_PARAMETERS, max_voltage_row
+from motor_ros.program import PLANT_PUBLISHES, Program
 
 ROWS = (
     *SHARED_PARAMETERS,
@@ -14,6 +15,16 @@ ROWS = (
     Row("port", "", "the board's serial port, such as /dev/ttyACM0; empty: the only one on USB", read_only=True),
     Row("baud", BAUD, "of the serial port; the firmware's", "", 9600, 4_000_000, read_only=True),
     Row("decay", "brake", "what the bridge does in the off part of a PWM period: brake or coast", read_only=True),
+)
+PROGRAM = Program(
+    "motor_driver",
+    "motor_driver",
+    "The real motor: speaks to the board on a serial port, and has the topics and services of motor_sim.",
+    ROWS,
+    "ros2 run motor_driver motor_driver --ros-args -p port:=/dev/ttyACM0 -p edges_per_revolution:=96",
+    publishes=PLANT_PUBLISHES,
+    subscribes=("motor/voltage",),
+    services=("motor/enable",),
 )
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
@@ -23,6 +24,12 @@ class Row:
     low: float | None = None
     high: float | None = None
     read_only: bool = False
+
+    def meaning(self) -> str:
+        """Unit, range, description and whether it can be changed, for a line of text."""
+        unit = f"[{self.unit}] " if self.unit else ""
+        span = f"{self.low:.10g} to {self.high:.10g}: " if self.low is not None and self.high is not None else ""
+        return f"{unit}{span}{self.description}{'; fixed at the start' if self.read_only else ''}"
 
     def descriptor(self) -> ParameterDescriptor:
         """What `ros2 param describe` shows."""
@@ -55,3 +62,19 @@ def declare(node: Node, rows: Iterable[Row]) -> dict[str, Value]:
                 + f", for example {row.default!r}."
             ) from error
     return values
+
+
+def unknown_parameters(node: Node, rows: Iterable[Row]) -> list[str]:
+    """A sentence for every parameter that was given and that the node does not have: ROS passes over it in silence."""
+    names = [row.name for row in rows]
+    given: Iterable[str] = getattr(node, "_parameter_overrides", ())  # rclpy has no public name for them
+    return [
+        f"there is no parameter {name} here, and it has no effect{_did_you_mean(name, names)}"
+        for name in sorted(given)
+        if not node.has_parameter(name) and not name.startswith("qos_overrides.")
+    ]
+
+
+def _did_you_mean(name: str, names: list[str]) -> str:
+    close = get_close_matches(name, names, 1)
+    return f": did you mean {close[0]}?" if close else f"; there are {', '.join(names)}."

@@ -13,6 +13,8 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from motor_model.errors import MotorError
+from motor_ros.parameters import unknown_parameters
+from motor_ros.program import Program, answer
 
 QUICK_DISCOVERY = Path(__file__).with_name("quick_discovery.xml")
 LOOK_FOR_SIGNALS_EVERY = 0.1  # [s] how long an idle node takes at most to notice Ctrl-C
@@ -80,16 +82,22 @@ def run(
     create: Callable[[], Node],
     args: list[str] | None = None,
     make_executor: Callable[[], Executor] = SingleThreadedExecutor,
+    program: Program | None = None,
 ) -> int:
     """Create a node, run it until Ctrl-C, let it `close()`, and return the exit status.
 
-    A node that has a `close` method is asked to leave the motor at 0 V while it can still publish.
+    With a `program`, `--help` and `--version` are answered without starting. A node that has a `close` method is asked
+    to leave the motor at 0 V while it can still publish.
     """
+    if program is not None:
+        answer(program, sys.argv[1:] if args is None else args)
     interrupt = Interrupt()
     start_ros(args)
     node: Node | None = None
     try:
         node = create()
+        for warning in unknown_parameters(node, program.rows if program else ()):
+            node.get_logger().warning(warning)
         spin(node, lambda: bool(interrupt), make_executor)
     except MotorError as error:
         print(error, file=sys.stderr)

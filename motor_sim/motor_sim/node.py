@@ -11,6 +11,7 @@ from motor_ros.gate import Gate
 from motor_ros.messages import time_message
 from motor_ros.parameters import Row, declare
 from motor_ros.plant import SHARED_PARAMETERS, Plant, max_voltage_row
+from motor_ros.program import PLANT_PUBLISHES, Program
 from motor_ros.run import quick_executor, run
 
 PARAMETERS = (
@@ -26,6 +27,16 @@ PARAMETERS = (
         read_only=True,
     ),
     Row("seed", 0, "of the disc, its starting angle and missed edges", "", 0, 2**31 - 1, read_only=True),
+)
+PROGRAM = Program(
+    "motor_sim",
+    "motor_sim",
+    "A simulated motor in real time, with an encoder as honest as the board's: start it instead of motor_driver.",
+    (*SHARED_PARAMETERS, max_voltage_row(), *PARAMETERS),
+    "ros2 run motor_sim motor_sim --ros-args -p model:=model.yaml -p sample_rate:=500.0 -r __ns:=/left",
+    publishes=PLANT_PUBLISHES,
+    subscribes=("motor/voltage",),
+    services=("motor/enable",),
 )
 MOST_BEHIND = 0.5  # [s] a process that was held up longer than this does not catch up
 
@@ -72,4 +83,4 @@ class MotorSim(Node):
 
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_sim motor_sim`."""
-    return run(MotorSim, args, quick_executor)
+    return run(MotorSim, args, quick_executor, PROGRAM)

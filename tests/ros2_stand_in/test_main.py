@@ -4,7 +4,7 @@ import importlib
 
 import pytest
 
-from ros2_stand_in.verbs import VERBS
+from ros2_stand_in.verb_table import VERBS
 
 ABOUT = "This is the motor workbench's stand-in for machines without the real ros2 command."
 
@@ -42,7 +42,7 @@ def test_every_verb_has_a_function_and_help(verb, capsys):
     from ros2_stand_in.main import main
 
     module, _, function = verb.place.partition(":")
-    assert callable(getattr(importlib.import_module(f"ros2_stand_in.{module}"), function))
+    assert callable(getattr(importlib.import_module(f"ros2_stand_in.verbs.{module}"), function))
     with pytest.raises(SystemExit) as ended:
         main([*verb.words.split(), "--help"])
     assert ended.value.code == 0

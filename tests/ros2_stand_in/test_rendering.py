@@ -6,7 +6,7 @@ from geometry_msgs.msg import PoseWithCovariance
 from std_msgs.msg import Float64MultiArray, Header, String
 
 from motor_msgs.msg import MotorModel
-from ros2_stand_in.rendering import to_csv, to_yaml
+from ros2_stand_in.interfaces.rendering import to_csv, to_yaml
 
 MODEL = """\
 header:

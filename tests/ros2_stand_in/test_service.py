@@ -52,7 +52,8 @@ def signal_handlers():
 
 
 def test_a_service_that_nobody_offers_is_a_sentence(ros2, signal_handlers, monkeypatch, capsys):
-    from ros2_stand_in import main, service
+    from ros2_stand_in import main
+    from ros2_stand_in.verbs import service
 
     monkeypatch.setattr(service, "_LONGEST_WAIT", 0.3)
     monkeypatch.setenv("ROS_DOMAIN_ID", ros2.env["ROS_DOMAIN_ID"])

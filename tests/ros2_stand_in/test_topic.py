@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from ros2_stand_in.topic_hz import Intervals
+from ros2_stand_in.verbs.topic_hz import Intervals
 
 
 def test_echo_once(bench):

@@ -12,7 +12,7 @@ from std_msgs.msg import Bool, ByteMultiArray, Float32, Float64, Int8, String
 
 from motor_msgs.msg import MotorSpeed
 from motor_msgs.srv import Identify
-from ros2_stand_in.values import ValueRefused, fill, parse
+from ros2_stand_in.interfaces.values import ValueRefused, fill, parse
 
 
 def filled(message, text):

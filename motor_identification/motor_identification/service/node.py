@@ -16,6 +16,7 @@ from motor_identification.service import warm_up
 from motor_identification.service.diagnose_action import DiagnoseAction
 from motor_identification.service.job import DiagnosisJob, Job, run_job
 from motor_identification.service.messages import diagnosis_job_of, fill_response, job_of, model_message
+from motor_identification.service.parameters import PARAMETERS, PROGRAM
 from motor_identification.service.worker import STOPPED, Call, Ended, Worker
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
@@ -23,18 +24,8 @@ from motor_msgs.action import Diagnose
 from motor_msgs.msg import MotorModel
 from motor_msgs.srv import Identify
 from motor_ros import qos
-from motor_ros.parameters import Row, declare
+from motor_ros.parameters import declare
 from motor_ros.run import run
-
-PARAMETERS = (
-    Row("bag_directory", "", "where relative bag_uris are looked for; empty: the working directory"),
-    Row("model_file", "", "every identified or diagnosed model is also written here (YAML); empty: nowhere"),
-    Row("report_directory", "", "where motor/diagnose writes BAG_diagnosis.html; empty: beside its first bag"),
-    Row("particles", 50, "of the swarm", "", 2, 100_000),
-    Row("epochs", 200, "of the swarm at most", "", 1, 1_000_000),
-    Row("seed", 0, "of the swarm", "", 0, 2**31 - 1),
-    Row("workers", 0, "threads that simulate; 0: all cores", "", 0, 1024),
-)
 
 
 class MotorIdentification(Node):
@@ -117,4 +108,4 @@ class MotorIdentification(Node):
 
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_identification motor_identification`."""
-    return run(MotorIdentification, args)
+    return run(MotorIdentification, args, program=PROGRAM)

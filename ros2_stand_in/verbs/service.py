@@ -3,8 +3,9 @@
 import argparse
 
 from motor_model.errors import MotorError
-from ros2_stand_in import graph, interface_type, values
-from ros2_stand_in.session import session
+from ros2_stand_in.graph import discovery
+from ros2_stand_in.graph.session import session
+from ros2_stand_in.interfaces import interface_type, values
 
 _LONGEST_WAIT = 10.0  # [s] for a service that nobody offers (yet)
 _LOOK_EVERY = 0.02  # [s]
@@ -15,34 +16,34 @@ def services_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-t", "--show-types", action="store_true", help="print the types too")
     parser.add_argument("-c", "--count-services", action="store_true", help="print only how many there are")
     parser.add_argument("--include-hidden-services", action="store_true", help="services whose name starts with _ too")
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def services(args: argparse.Namespace) -> int:
     """Print all services."""
     with session() as ros:
-        graph.settle(ros, args.spin_time)
-        rows = graph.visible(ros.node.get_service_names_and_types(), args.include_hidden_services)
-        graph.print_list(rows, args.show_types, args.count_services)
+        discovery.settle(ros, args.spin_time)
+        rows = discovery.visible(ros.node.get_service_names_and_types(), args.include_hidden_services)
+        discovery.print_list(rows, args.show_types, args.count_services)
     return 0
 
 
 def type_of_arguments(parser: argparse.ArgumentParser) -> None:
     """What `ros2 service type` takes."""
     parser.add_argument("service_name", help="name of the service")
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def type_of(args: argparse.Namespace) -> int:
     """Print the type of a service."""
-    name = graph.full_name(args.service_name)
+    name = discovery.full_name(args.service_name)
     with session() as ros:
 
         def types() -> list[str]:
             there: dict[str, list[str]] = dict(ros.node.get_service_names_and_types())
             return there.get(name, [])
 
-        graph.settle(ros, args.spin_time, types)
+        discovery.settle(ros, args.spin_time, types)
         if not types():
             raise MotorError(f"Unknown service '{name}': no running node offers it.")
         print(*types(), sep="\n")
@@ -61,7 +62,7 @@ def call(args: argparse.Namespace) -> int:
     kind = interface_type.load(args.service_type, "srv")
     request = kind.Request()
     values.fill(request, values.parse(args.values))
-    name = graph.full_name(args.service_name)
+    name = discovery.full_name(args.service_name)
     with session() as ros:
         client = ros.node.create_client(kind, name)
         if not client.service_is_ready():

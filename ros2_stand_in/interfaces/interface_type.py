@@ -4,7 +4,7 @@ import importlib
 from typing import Any
 
 from motor_model.errors import MotorError
-from ros2_stand_in import packages
+from ros2_stand_in.interfaces import packages
 
 
 def load(name: str, kind: str) -> Any:

@@ -8,9 +8,9 @@ from typing import Any
 import yaml
 
 from motor_model.errors import MotorError
-from ros2_stand_in import packages
 from ros2_stand_in.arguments import not_negative, positive
-from ros2_stand_in.run import become
+from ros2_stand_in.interfaces import packages
+from ros2_stand_in.verbs.run import become
 
 _PACKAGE = "motor_identification"
 _SIZES = ("B", "KiB", "MiB", "GiB", "TiB")

@@ -2,7 +2,7 @@
 
 import argparse
 
-from ros2_stand_in import packages as installed
+from ros2_stand_in.interfaces import packages as installed
 
 
 def packages_arguments(parser: argparse.ArgumentParser) -> None:

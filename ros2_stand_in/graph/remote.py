@@ -6,9 +6,8 @@ from rcl_interfaces.msg import Parameter
 from rclpy.parameter_client import AsyncParameterClient
 
 from motor_model.errors import MotorError
-from ros2_stand_in import graph
-from ros2_stand_in.node import names as node_names
-from ros2_stand_in.session import Session
+from ros2_stand_in.graph import discovery
+from ros2_stand_in.graph.session import Session
 
 _LONGEST_WAIT = 5.0  # [s] for the parameter services of a node that is there
 _LOOK_EVERY = 0.02  # [s]
@@ -22,7 +21,7 @@ class Remote:
     """
 
     def __init__(self, ros: Session, name: str, timeout: float = 1.0) -> None:
-        self._ros, self._name = ros, graph.full_name(name)
+        self._ros, self._name = ros, discovery.full_name(name)
         self._client = AsyncParameterClient(ros.node, self._name)
         self._wait(timeout)
 
@@ -44,9 +43,9 @@ class Remote:
 
     def _wait(self, timeout: float) -> None:
         def there() -> bool:
-            return self._name in node_names(self._ros.node, hidden_too=True)
+            return self._name in discovery.node_names(self._ros.node, hidden_too=True)
 
-        graph.settle(self._ros, enough=self._client.services_are_ready)
+        discovery.settle(self._ros, enough=self._client.services_are_ready)
         if not self._ros.spin(lambda: there() or self._client.services_are_ready(), timeout, _LOOK_EVERY):
             raise MotorError(f"Node not found: '{self._name}' does not run; 'ros2 node list' shows what does.")
         if not self._ros.spin(self._client.services_are_ready, _LONGEST_WAIT, _LOOK_EVERY):

@@ -8,8 +8,9 @@ from typing import Any
 from rclpy.node import Node
 
 from motor_model.errors import MotorError
-from ros2_stand_in import graph, interface_type
-from ros2_stand_in.session import Session, session
+from ros2_stand_in.graph import discovery
+from ros2_stand_in.graph.session import Session, session
+from ros2_stand_in.interfaces import interface_type
 
 
 def topics_arguments(parser: argparse.ArgumentParser) -> None:
@@ -18,19 +19,19 @@ def topics_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-c", "--count-topics", action="store_true", help="print only how many there are")
     parser.add_argument("-v", "--verbose", action="store_true", help="print who publishes and subscribes")
     parser.add_argument("--include-hidden-topics", action="store_true", help="topics whose name starts with _ too")
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def topics(args: argparse.Namespace) -> int:
     """Print all topics."""
     with session() as ros:
-        graph.settle(ros, args.spin_time)
-        rows = graph.visible(ros.node.get_topic_names_and_types(), args.include_hidden_topics)
+        discovery.settle(ros, args.spin_time)
+        rows = discovery.visible(ros.node.get_topic_names_and_types(), args.include_hidden_topics)
         if args.verbose and not args.count_topics:
             _print_ends("Published topics:", "publisher", rows, ros.node.count_publishers)
             _print_ends("Subscribed topics:", "subscriber", rows, ros.node.count_subscribers)
         else:
-            graph.print_list(rows, args.show_types, args.count_topics)
+            discovery.print_list(rows, args.show_types, args.count_topics)
     return 0
 
 
@@ -47,14 +48,14 @@ def info_arguments(parser: argparse.ArgumentParser) -> None:
     """What `ros2 topic info` takes."""
     parser.add_argument("topic_name", help="name of the topic")
     parser.add_argument("-v", "--verbose", action="store_true", help="print nodes, types and QoS of all ends")
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def info(args: argparse.Namespace) -> int:
     """Print the type of a topic and how many publish and subscribe."""
-    name = graph.full_name(args.topic_name)
+    name = discovery.full_name(args.topic_name)
     with session() as ros:
-        graph.settle(ros, args.spin_time)
+        discovery.settle(ros, args.spin_time)
         types = _types(ros.node, name)
         gap = "\n\n" if args.verbose else "\n"
         print(f"Type: {types[0] if len(types) == 1 else types}", end=gap)
@@ -73,14 +74,14 @@ def _print_info(title: str, ends: Sequence[Any], verbose: bool, gap: str) -> Non
 def type_of_arguments(parser: argparse.ArgumentParser) -> None:
     """What `ros2 topic type` takes."""
     parser.add_argument("topic_name", help="name of the topic")
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def type_of(args: argparse.Namespace) -> int:
     """Print the type of a topic."""
-    name = graph.full_name(args.topic_name)
+    name = discovery.full_name(args.topic_name)
     with session() as ros:
-        graph.settle(ros, args.spin_time, lambda: _found(ros.node, name))
+        discovery.settle(ros, args.spin_time, lambda: _found(ros.node, name))
         print(*_types(ros.node, name), sep="\n")
     return 0
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from rclpy.node import Node
 
 from motor_model.errors import MotorError
-from ros2_stand_in.session import Session
+from ros2_stand_in.graph.session import Session
 
 ANNOUNCEMENT_PERIOD = 3.0  # [s] of Fast DDS
 _LONGEST = ANNOUNCEMENT_PERIOD + 0.5  # [s]
@@ -110,3 +110,13 @@ def print_list(rows: list[tuple[str, list[str]]], with_types: bool, count_only: 
         return
     for name, types in rows:
         print(f"{name} [{', '.join(types)}]" if with_types else name)
+
+
+def node_names(node: Node, hidden_too: bool = False) -> list[str]:
+    """The full names of all nodes, sorted; hidden ones start with an underscore."""
+    everyone = node.get_node_names_and_namespaces()
+    return sorted(
+        f"{namespace.rstrip('/')}/{name}"
+        for name, namespace in everyone
+        if hidden_too or (name and not name.startswith("_"))
+    )

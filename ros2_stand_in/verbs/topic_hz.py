@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ros2_stand_in import graph, qos
 from ros2_stand_in.arguments import positive_count
-from ros2_stand_in.session import session
-from ros2_stand_in.topic import message_type
+from ros2_stand_in.graph import discovery, qos
+from ros2_stand_in.graph.session import session
+from ros2_stand_in.verbs.topic import message_type
 
 _PRINT_EVERY = 1.0  # [s]
 
@@ -20,14 +20,14 @@ def rate_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("topic_name", help="name of the topic")
     parser.add_argument("-w", "--window", type=positive_count, default=10000, metavar="N",
                         help="how many of the latest messages to average over (default: %(default)s)")  # fmt: skip
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def rate(args: argparse.Namespace) -> int:
     """Print the rate once a second until Ctrl-C."""
-    name = graph.full_name(args.topic_name)
+    name = discovery.full_name(args.topic_name)
     with session() as ros:
-        graph.settle(ros, args.spin_time, lambda: ros.node.count_publishers(name))
+        discovery.settle(ros, args.spin_time, lambda: ros.node.count_publishers(name))
         kind = message_type(ros, name, None)
         intervals = Intervals(args.window)
         profile = qos.fitting([], "sensor_data")

@@ -7,8 +7,9 @@ from action_msgs.msg import GoalStatus
 from rclpy.action import ActionClient, get_action_names_and_types
 
 from motor_model.errors import MotorError
-from ros2_stand_in import graph, interface_type, rendering, values
-from ros2_stand_in.session import Session, session
+from ros2_stand_in.graph import discovery
+from ros2_stand_in.graph.session import Session, session
+from ros2_stand_in.interfaces import interface_type, rendering, values
 
 _LONGEST_WAIT = 10.0  # [s] for an action that nobody offers (yet)
 _LONGEST_CANCEL = 5.0  # [s]
@@ -23,14 +24,14 @@ def actions_arguments(parser: argparse.ArgumentParser) -> None:
     """What `ros2 action list` takes."""
     parser.add_argument("-t", "--show-types", action="store_true", help="print the types too")
     parser.add_argument("-c", "--count-actions", action="store_true", help="print only how many there are")
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def actions(args: argparse.Namespace) -> int:
     """Print all actions."""
     with session() as ros:
-        graph.settle(ros, args.spin_time)
-        graph.print_list(get_action_names_and_types(ros.node), args.show_types, args.count_actions)
+        discovery.settle(ros, args.spin_time)
+        discovery.print_list(get_action_names_and_types(ros.node), args.show_types, args.count_actions)
     return 0
 
 
@@ -47,7 +48,7 @@ def send_goal(args: argparse.Namespace) -> int:
     kind = interface_type.load(args.action_type, "action")
     goal = kind.Goal()
     values.fill(goal, values.parse(args.goal))
-    name = graph.full_name(args.action_name)
+    name = discovery.full_name(args.action_name)
     with session() as ros:
         client = ActionClient(ros.node, kind, name)
         print("Waiting for an action server to become available...")

@@ -17,7 +17,7 @@ from rosidl_parser.definition import (
 )
 
 from motor_model.errors import MotorError
-from ros2_stand_in import interface_type
+from ros2_stand_in.interfaces import interface_type
 
 Setter = Callable[[Any], None]  # takes a builtin_interfaces/msg/Time
 

@@ -8,8 +8,8 @@ from rclpy.action import get_action_client_names_and_types_by_node, get_action_s
 from rclpy.node import Node
 
 from motor_model.errors import MotorError
-from ros2_stand_in import graph
-from ros2_stand_in.session import session
+from ros2_stand_in.graph import discovery
+from ros2_stand_in.graph.session import session
 
 NamesAndTypes = Callable[[Node, str, str], list[tuple[str, list[str]]]]
 _PARTS: dict[str, NamesAndTypes] = {
@@ -26,14 +26,14 @@ def nodes_arguments(parser: argparse.ArgumentParser) -> None:
     """What `ros2 node list` takes."""
     parser.add_argument("-a", "--all", action="store_true", help="hidden nodes too")
     parser.add_argument("-c", "--count-nodes", action="store_true", help="print only how many there are")
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def nodes(args: argparse.Namespace) -> int:
     """Print all nodes."""
     with session() as ros:
-        graph.settle(ros, args.spin_time)
-        found = names(ros.node, args.all)
+        discovery.settle(ros, args.spin_time)
+        found = discovery.node_names(ros.node, args.all)
     if args.count_nodes:
         print(len(found))
         return 0
@@ -44,29 +44,19 @@ def nodes(args: argparse.Namespace) -> int:
     return 0
 
 
-def names(node: Node, hidden_too: bool = False) -> list[str]:
-    """The full names of all nodes, sorted; hidden ones start with an underscore."""
-    everyone = node.get_node_names_and_namespaces()
-    return sorted(
-        f"{namespace.rstrip('/')}/{name}"
-        for name, namespace in everyone
-        if hidden_too or (name and not name.startswith("_"))
-    )
-
-
 def info_arguments(parser: argparse.ArgumentParser) -> None:
     """What `ros2 node info` takes."""
     parser.add_argument("node_name", help="name of the node")
     parser.add_argument("--include-hidden", action="store_true", help="what starts with an underscore too")
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def info(args: argparse.Namespace) -> int:
     """Print the topics, services and actions of a node."""
-    full_name = graph.full_name(args.node_name)
+    full_name = discovery.full_name(args.node_name)
     with session() as ros:
-        graph.settle(ros, args.spin_time)
-        count = names(ros.node, args.include_hidden).count(full_name)
+        discovery.settle(ros, args.spin_time)
+        count = discovery.node_names(ros.node, args.include_hidden).count(full_name)
         if count == 0:
             raise MotorError(f"Unable to find node '{full_name}'; 'ros2 node list' shows what runs.")
         if count > 1:
@@ -75,6 +65,6 @@ def info(args: argparse.Namespace) -> int:
         namespace, _, name = full_name.rpartition("/")
         for title, ask in _PARTS.items():
             print(f"  {title}:")
-            rows = graph.visible(ask(ros.node, name, namespace or "/"), args.include_hidden)
+            rows = discovery.visible(ask(ros.node, name, namespace or "/"), args.include_hidden)
             print("\n".join(f"    {row}: {', '.join(types)}" for row, types in rows))
     return 0

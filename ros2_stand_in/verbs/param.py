@@ -10,10 +10,9 @@ from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterType, Pa
 from rclpy.parameter import get_parameter_value, parameter_value_to_python
 
 from motor_model.errors import MotorError
-from ros2_stand_in import graph
-from ros2_stand_in.node import names as node_names
-from ros2_stand_in.remote import Remote
-from ros2_stand_in.session import session
+from ros2_stand_in.graph import discovery
+from ros2_stand_in.graph.remote import Remote
+from ros2_stand_in.graph.session import session
 
 _TYPE_NAMES = {
     ParameterType.PARAMETER_NOT_SET: "not set",
@@ -41,8 +40,8 @@ def names(args: argparse.Namespace) -> int:
         if args.node_name:
             _print_names(Remote(ros, args.node_name, args.timeout), args.param_type)
             return 0
-        graph.settle(ros, args.spin_time)
-        for name in node_names(ros.node):
+        discovery.settle(ros, args.spin_time)
+        for name in discovery.node_names(ros.node):
             print(f"{name}:")
             try:
                 _print_names(Remote(ros, name), args.param_type)
@@ -159,11 +158,11 @@ def dump(args: argparse.Namespace) -> int:
         for group in groups:
             branch = branch.setdefault(group, {})
         branch[leaf] = value
-    print(yaml.dump({graph.full_name(args.node_name): {"ros__parameters": tree}}, default_flow_style=False))
+    print(yaml.dump({discovery.full_name(args.node_name): {"ros__parameters": tree}}, default_flow_style=False))
     return 0
 
 
 def _node_arguments(parser: argparse.ArgumentParser, nargs: str | None = None) -> None:
     parser.add_argument("node_name", nargs=nargs, help=f"name of the node{'; all nodes without one' if nargs else ''}")
     parser.add_argument("--timeout", type=float, default=1.0, metavar="N", help="wait N seconds for a node not found")
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 from typing import NoReturn
 
-from ros2_stand_in import packages
+from ros2_stand_in.interfaces import packages
 
 
 def run_arguments(parser: argparse.ArgumentParser) -> None:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 class Verb:
     """One verb: the words that call it, where its function is, and what `--help` says.
 
-    The module that `place` names has the function, which takes the parsed arguments and returns the exit status, and
-    `<function>_arguments`, which takes the parser to fill.
+    The module of `verbs/` that `place` names has the function, which takes the parsed arguments and returns the exit
+    status, and `<function>_arguments`, which takes the parser to fill.
     """
 
     words: str

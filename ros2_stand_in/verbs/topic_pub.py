@@ -10,11 +10,12 @@ from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile
 
 from motor_model.errors import MotorError
-from ros2_stand_in import graph, interface_type, qos, values
 from ros2_stand_in.arguments import count, positive
-from ros2_stand_in.session import Session, session
+from ros2_stand_in.graph import discovery, qos
+from ros2_stand_in.graph.session import Session, session
+from ros2_stand_in.interfaces import interface_type, values
 
-_LONGEST_DELIVERY = graph.ANNOUNCEMENT_PERIOD + 1.0  # [s] a subscriber that started just now may not know us yet
+_LONGEST_DELIVERY = discovery.ANNOUNCEMENT_PERIOD + 1.0  # [s] a subscriber that started just now may not know us yet
 
 
 def publish_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,7 +34,7 @@ def publish_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-p", "--print", type=int, default=1, metavar="N", help="print every N-th message (default: 1)")
     parser.add_argument("-n", "--node-name", help="name of the publishing node")
     qos.qos_arguments(parser, "default")
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def publish(args: argparse.Namespace) -> int:
@@ -41,8 +42,8 @@ def publish(args: argparse.Namespace) -> int:
     message = interface_type.load(args.message_type, "msg")()
     stamps = values.fill(message, values.parse(args.values))
     times = 1 if args.once else args.times
-    name = graph.full_name(args.topic_name)
-    with session(graph.full_name(args.node_name)[1:] if args.node_name else None) as ros:
+    name = discovery.full_name(args.topic_name)
+    with session(discovery.full_name(args.node_name)[1:] if args.node_name else None) as ros:
         publisher = ros.node.create_publisher(type(message), name, _profile(args, times))
         wanted = args.wait if args.wait is not None else min(times, 1)
         _wait_for_subscriptions(ros, publisher, wanted, args.max_wait_time_secs or float("inf"))

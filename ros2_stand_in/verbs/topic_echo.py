@@ -7,10 +7,11 @@ from typing import Any
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from motor_model.errors import MotorError
-from ros2_stand_in import graph, qos, rendering
 from ros2_stand_in.arguments import count, positive
-from ros2_stand_in.session import Session, session
-from ros2_stand_in.topic import message_type
+from ros2_stand_in.graph import discovery, qos
+from ros2_stand_in.graph.session import Session, session
+from ros2_stand_in.interfaces import rendering
+from ros2_stand_in.verbs.topic import message_type
 
 _PRESET = "sensor_data"
 _LOOK_EVERY = 0.2  # [s] for publishers that have come
@@ -29,14 +30,14 @@ def echo_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-l", "--truncate-length", type=count, default=rendering.DEFAULT_LENGTH, metavar="N",
                         help="cut arrays and texts after N elements (default: %(default)s)")  # fmt: skip
     qos.qos_arguments(parser, _PRESET)
-    graph.discovery_arguments(parser)
+    discovery.discovery_arguments(parser)
 
 
 def echo(args: argparse.Namespace) -> int:
     """Print messages until Ctrl-C, or the first one only."""
-    name = graph.full_name(args.topic_name)
+    name = discovery.full_name(args.topic_name)
     with session() as ros:
-        graph.settle(ros, args.spin_time, lambda: ros.node.count_publishers(name))
+        discovery.settle(ros, args.spin_time, lambda: ros.node.count_publishers(name))
         listener = _Listener(ros, name, message_type(ros, name, args.message_type), args)
         ros.spin(listener.done, args.timeout)
     return 0

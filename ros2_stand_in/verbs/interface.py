@@ -6,7 +6,7 @@ import sys
 from collections.abc import Iterator
 
 from motor_model.errors import MotorError
-from ros2_stand_in import packages
+from ros2_stand_in.interfaces import packages
 
 _TITLES = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 _INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}

@@ -1,0 +1,104 @@
+"""What a node says of itself on the command line: `--help` and `--version`, answered before anything starts."""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib.metadata import version
+from typing import NoReturn
+
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.utilities import remove_ros_args
+
+from motor_ros.parameters import Row
+from motor_ros.topics import SERVICES, TOPICS
+
+PLANT_PUBLISHES = ("motor/speed", "motor/info", "joint_states", "/diagnostics")
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """A node as a program; topics and services are named as in the tables of `topics`."""
+
+    package: str
+    name: str
+    about: str
+    rows: tuple[Row, ...]
+    example: str  # a command line
+    publishes: tuple[str, ...] = ()
+    subscribes: tuple[str, ...] = ()
+    services: tuple[str, ...] = ()
+
+    @property
+    def command(self) -> str:
+        """How it is started."""
+        return f"ros2 run {self.package} {self.name}"
+
+
+def answer(program: Program, words: Sequence[str]) -> None:
+    """Return if the words after the program's name are arguments of ROS alone.
+
+    Raises:
+        SystemExit: `--help` or `--version` has been answered (status 0), or there is another word (status 2).
+    """
+    parser = _Parser(program)
+    try:
+        rest = remove_ros_args([program.name, *words])[1:]
+    except (rclpy_implementation.RCLInvalidROSArgsError, rclpy_implementation.UnknownROSArgsError) as error:
+        parser.error(_plain(error))
+    parser.parse_args(rest)
+
+
+def _plain(error: Exception) -> str:
+    """What ROS says of arguments that it does not understand, without the places in its sources."""
+    if isinstance(error, rclpy_implementation.UnknownROSArgsError):
+        return f"unknown ROS arguments: {str(error).strip('[]')}"
+    return str(error).removeprefix("Failed to parse ROS arguments: ").split(". Error:")[0].strip()
+
+
+class _Parser(argparse.ArgumentParser):
+    """Takes no arguments but `--help` and `--version`; the rest of a node's command line belongs to ROS."""
+
+    def __init__(self, program: Program) -> None:
+        usage = f"{program.command} [--help] [--version] [--ros-args [-p NAME:=VALUE]... [-r OLD:=NEW]...]"
+        super().__init__(prog=program.name, usage=usage, add_help=True)
+        self._program = program
+        self.add_argument("--version", action="version", version=f"{program.name} {version(program.package)}")
+
+    def format_help(self) -> str:
+        return f"{self.format_usage()}\n{describe(self._program)}"
+
+    def error(self, message: str) -> NoReturn:
+        print(
+            f"{self._program.name}: {message}. Parameters stand behind --ros-args, such as --ros-args"
+            f"{self._program.example.split('--ros-args')[1]}; see --help.",
+            file=sys.stderr,
+        )
+        sys.exit(2)
+
+
+def describe(program: Program) -> str:
+    """What the node is for, its parameters, topics and services, and an example."""
+    topics = {topic.name: topic for topic in TOPICS}
+    services = {service.name: service for service in SERVICES}
+    sections = {
+        "parameters and their defaults": [(row.name, _shown(row), row.meaning()) for row in program.rows],
+        "publishes": [(name, topics[name].type_name, topics[name].way) for name in program.publishes],
+        "subscribes to": [(name, topics[name].type_name, topics[name].way) for name in program.subscribes],
+        "services and actions": [(name, services[name].type_name, services[name].does) for name in program.services],
+    }
+    parts = [program.about, *(_section(title, rows) for title, rows in sections.items() if rows)]
+    return "\n\n".join([*parts, f"example:\n  {program.example}\n"])
+
+
+def _section(title: str, rows: list[tuple[str, str, str]]) -> str:
+    widths = [max(len(row[i]) for row in rows) for i in range(2)]
+    lines = (f"  {name:{widths[0]}}  {kind:{widths[1]}}  {meaning}".rstrip() for name, kind, meaning in rows)
+    return "\n".join([f"{title}:", *lines])
+
+
+def _shown(row: Row) -> str:
+    """A default as it would be typed."""
+    if isinstance(row.default, bool):
+        return str(row.default).lower()
+    return f"'{row.default}'" if isinstance(row.default, str) else f"{row.default}"

@@ -1,0 +1,1 @@
+"""What runs: a node of our own for one command, discovery of all others, their parameters, QoS that fits theirs."""
