@@ -4,7 +4,9 @@ The equation they belong to, in armature voltages throughout (see `motor.py`, wh
 
     ka dω/dt = drive − friction(ω) − loads,    drive = u_eff − kv ω,    dθ/dt = ω
 
-Adding an effect is adding a row here and its term in `motor.py`.
+An effect is its row here and its term in `dynamics/` (or `sensing/`): whatever else the workbench does with effects, it
+reads in the row (`effect.py` says what the columns mean). What is most common comes first: of two effects that explain
+a recording equally well, a diagnosis names the first.
 """
 
 from math import inf, pi
@@ -21,69 +23,107 @@ BASE = (
 )
 
 EFFECTS = (
-    Effect("coulomb_friction", "ks·sign ω while moving", "ramps", (P("ks", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE),)),
+    Effect(
+        "coulomb_friction",
+        "ks·sign ω while moving",
+        "ramps",
+        "the friction level (ks)",
+        (P("ks", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE, starts=(0.03,)),),
+        linear_onset=True,
+    ),
     Effect(
         "static_friction",
         "more friction at low speed, and a breakaway level at rest",
         "ramps",
+        "the breakaway level (static_friction)",
         (
-            P("breakaway_voltage", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE),
-            P("stribeck_speed", "rad/s", 1.0, 0.002, 0.3, Scale.SPEED, True, minimum=1e-6),
+            P("breakaway_voltage", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE, starts=(0.1, 0.03), at_least="ks"),
+            P("stribeck_speed", "rad/s", 1.0, 0.002, 0.3, Scale.SPEED, True, minimum=1e-6, starts=(0.01, 0.035, 0.1)),
         ),
         implies="coulomb_friction",
     ),
-    Effect("quadratic_drag", "drag·ω·|ω|", "staircase", (P("drag", "V·s²/rad²", 0.0, 0.0, 2.0, Scale.DRAG),)),
+    Effect(
+        "quadratic_drag",
+        "drag·ω·|ω|",
+        "staircase",
+        "drag (quadratic_drag)",
+        (P("drag", "V·s²/rad²", 0.0, 0.0, 2.0, Scale.DRAG, starts=(0.05,)),),
+        linear_onset=True,
+    ),
     Effect(
         "load_bias",
         "constant load, same sign both ways",
         "staircase",
-        (P("bias_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf),),
+        "a constant load (load_bias)",
+        (P("bias_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf, starts=(0.02,)),),
+        linear_onset=True,
     ),
     Effect(
         "load_step",
         "a load that appears once and stays",
         "rich",
+        "a load step (load_step)",
         (
-            P("step_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf),
-            P("step_time", "s", 0.0, 0.0, 1.0, Scale.DURATION, of_recording=True),
+            P("step_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf, starts=(0.03, -0.03)),
+            P("step_time", "s", 0.0, 0.0, 1.0, Scale.DURATION, of_recording=True, starts=(0.1, 0.3, 0.5, 0.7, 0.9)),
         ),
+        anywhere=True,
     ),
     Effect(
         "dead_zone",
         "the bridge swallows this much voltage",
         "coast",
-        (P("dead_zone_voltage", "V", 0.0, 0.0, 0.5, Scale.VOLTAGE),),
+        "a dead zone of the bridge (dead_zone)",
+        (P("dead_zone_voltage", "V", 0.0, 0.0, 0.5, Scale.VOLTAGE, starts=(0.03,)),),
+        linear_onset=True,
     ),
     Effect(
         "voltage_limit",
         "the output saturates here, below max_voltage",
         "staircase",
-        (P("limit_voltage", "V", inf, 0.2, 1.0, Scale.VOLTAGE),),
+        "the voltage limit (voltage_limit)",
+        (P("limit_voltage", "V", inf, 0.2, 1.0, Scale.VOLTAGE, starts=(0.97, 0.85, 0.7)),),
     ),
     Effect(
         "direction_asymmetry",
         "negative commands act stronger or weaker",
         "staircase",
-        (P("reverse_gain", "–", 1.0, 0.5, 1.5),),
+        "a difference between the directions (direction_asymmetry)",
+        (P("reverse_gain", "–", 1.0, 0.5, 1.5, starts=(0.97,)),),
     ),
     Effect(
         "coast_drive",
         "the bridge coasts in the off time, so that back-EMF brakes less at low duty",
         "coast",
-        (P("coast_share", "–", 0.0, 0.0, 1.0, maximum=1.0),),
+        "coasting in the off time (coast_drive)",
+        (P("coast_share", "–", 0.0, 0.0, 1.0, maximum=1.0, starts=(0.2,)),),
     ),
-    Effect("supply_sag", "the supply gives way under load", "staircase", (P("sag", "–", 0.0, 0.0, 1.0),)),
+    Effect(
+        "supply_sag",
+        "the supply gives way under load",
+        "staircase",
+        "sag of the supply (supply_sag)",
+        (P("sag", "–", 0.0, 0.0, 1.0, starts=(0.05,)),),
+    ),
     Effect(
         "armature_inductance",
         "first-order lag on the drive",
         "prbs",
-        (P("electrical_time_constant", "s", 0.0, 1e-5, 0.03, logarithmic=True),),
+        "the inductance (armature_inductance)",
+        (P("electrical_time_constant", "s", 0.0, 1e-5, 0.03, logarithmic=True, starts=(5e-4, 4e-3)),),
     ),
-    Effect("transport_delay", "the bridge acts late", "prbs", (P("delay", "s", 0.0, 0.0, 0.1),)),
+    Effect(
+        "transport_delay",
+        "the bridge acts late",
+        "prbs",
+        "the delay (transport_delay)",
+        (P("delay", "s", 0.0, 0.0, 0.1, starts=(2e-3, 1e-2, 4e-2)),),
+    ),
     Effect(
         "torque_ripple",
         "load periodic in the shaft angle",
         "ramps",
+        "the torque ripple (torque_ripple)",
         (
             P("ripple_voltage", "V", 0.0, 0.0, 0.3, Scale.VOLTAGE),
             P("ripple_cycles", "1/rev", 1.0, 1.0, 48.0),
@@ -95,35 +135,42 @@ EFFECTS = (
         "encoder_eccentricity",
         "the disc shows θ + e·sin(θ + phase)",
         "staircase",
+        "the eccentricity of the disc (encoder_eccentricity)",
         (
             P("eccentricity", "rad", 0.0, 0.0, 0.2, maximum=0.9),
             P("eccentricity_phase", "rad", 0.0, -2 * pi, 2 * pi, minimum=-inf, of_recording=True),
         ),
         periodic=True,
+        on_disc=True,
     ),
     Effect(
         "backlash",
         "after a reversal the load's share of inertia is missing until the play is taken up",
         "reversals",
+        "the backlash (backlash)",
         (
-            P("backlash_angle", "rad", 0.0, 0.0, 1.0),
-            P("load_fraction", "–", 0.0, 0.0, 0.95, maximum=0.99),
+            P("backlash_angle", "rad", 0.0, 0.0, 1.0, starts=(0.05, 0.4)),
+            P("load_fraction", "–", 0.0, 0.0, 0.95, maximum=0.99, starts=(0.3, 0.7)),
         ),
     ),
     Effect(
         "warm_up",
         "copper heats: ka, friction and loads grow by 1 + rise·(1 − e^(−t/τ))",
         "rich",
+        "the warming-up (warm_up)",
         (
-            P("resistance_rise", "–", 0.0, 0.0, 0.6),
-            P("warm_up_time", "s", 1.0, 0.5, 600.0, logarithmic=True, minimum=1e-3),
+            P("resistance_rise", "–", 0.0, 0.0, 0.6, starts=(0.1,)),
+            P("warm_up_time", "s", 1.0, 0.5, 600.0, logarithmic=True, minimum=1e-3, starts=(2.0, 15.0, 100.0)),
         ),
+        anywhere=True,
     ),
     Effect(
         "missed_edges",
         "that share of edges is not counted",
         "staircase",
+        "the missed edges (missed_edges)",
         (P("miss_rate", "–", 0.0, 0.0, 0.2, maximum=0.9),),
+        fitted=False,
     ),
 )
 

@@ -51,8 +51,9 @@ class Parameters:
                     f"{spec.minimum:g} to {spec.maximum:g}" if isfinite(spec.maximum) else f"at least {spec.minimum:g}"
                 )
                 raise ModelError(f"{name} = {value:g} {spec.unit} is not physical: it must be {most}.")
-        if "static_friction" in self.effects and self.values["breakaway_voltage"] < self.values["ks"]:
-            raise ModelError("breakaway_voltage must be at least ks: a motor does not hold less than it slides.")
+            if spec.at_least is not None and value < self.values[spec.at_least]:
+                least = f"{self.values[spec.at_least]:g} {spec.unit}"
+                raise ModelError(f"{name} must be at least {spec.at_least}: it is {value:g}, and that is {least}.")
         if self.values["kv"] <= 0.0 or self.values["ka"] <= 0.0:
             raise ModelError("kv and ka must be positive: a motor with neither back-EMF nor inertia is none.")
         if not np.isfinite(self.max_voltage) or self.max_voltage <= 0.0:

@@ -101,6 +101,7 @@ def test_an_edit_recompiles_all_that_depends_on_it(
             "more friction at low speed",
             "greater friction at low speed",
         ),  # what the table says to people
+        ("motor_model.effects", "starts=(0.03,)", "starts=(0.04,)"),  # what only a diagnosis reads
         ("motor_model.dynamics.bridge", "The H-bridge", "The bridge of transistors"),  # a docstring beside a kernel
         ("motor_identification.recording", "the motor never moves", "the motor never turns"),
         ("motor_identification.reporting.fit_text", "residual", "rest"),

@@ -55,6 +55,26 @@ def test_every_row_of_the_table_can_be_searched() -> None:
     assert {effect.shown_by for effect in EFFECTS} <= set(PROFILES)
 
 
+def test_every_row_of_the_table_can_be_added_to_a_fitted_model() -> None:
+    for effect in EFFECTS:
+        assert effect.implies is None or effect.implies in EFFECT_BY_NAME
+        for spec in effect.parameters:
+            started = effect.fitted and not effect.periodic  # what is periodic starts from its spectrum
+            assert bool(spec.starts) == started, f"{spec.name} needs starts"
+            assert all(spec.low <= start <= spec.high and start != spec.off for start in spec.starts), spec.name
+            if spec.at_least is not None:
+                implied = EFFECT_BY_NAME[str(effect.implies)].parameters
+                assert spec.at_least in {other.name for other in implied}
+
+
+def test_every_row_of_the_table_says_what_to_call_it() -> None:
+    assert EFFECT_BY_NAME["coulomb_friction"].title == "Coulomb friction"
+    assert EFFECT_BY_NAME["load_bias"].title == "load bias"
+    for effect in EFFECTS:
+        first = effect.parameters[0].name
+        assert effect.phrase.endswith((f" ({effect.name})", f" ({first})")) and effect.summary
+
+
 def test_effects_come_once_in_the_order_of_the_table_with_what_they_imply() -> None:
     assert normalised(()) == ()
     assert normalised(("transport_delay", "coulomb_friction", "transport_delay")) == (

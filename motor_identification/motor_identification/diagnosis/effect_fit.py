@@ -3,7 +3,6 @@
 The rest of the model is near its place already; what an effect's own valley looks like decides how many are needed.
 """
 
-from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
@@ -13,32 +12,10 @@ from motor_identification.estimation.parameter_space import carried
 from motor_identification.estimation.problem import Problem
 from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Floats
-from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME, normalised
+from motor_model.effects import EFFECT_BY_NAME, normalised
 
 QUICK = 0.02  # [s] intervals of the quick look
 LOOK = 10  # iterations of it
-
-# Shares of the largest voltage, speed or duration for what is scaled by these; plain values for the others.
-VALUES: dict[str, Sequence[float]] = {
-    "ks": (0.03,),
-    "breakaway_voltage": (0.1, 0.03),  # above ks
-    "stribeck_speed": (0.01, 0.035, 0.1),
-    "drag": (0.05,),
-    "bias_voltage": (0.02,),
-    "step_voltage": (0.03, -0.03),
-    "step_time": (0.1, 0.3, 0.5, 0.7, 0.9),
-    "dead_zone_voltage": (0.03,),
-    "limit_voltage": (0.97, 0.85, 0.7),
-    "reverse_gain": (0.97,),
-    "coast_share": (0.2,),
-    "sag": (0.05,),
-    "electrical_time_constant": (5e-4, 4e-3),
-    "delay": (2e-3, 1e-2, 4e-2),
-    "backlash_angle": (0.05, 0.4),
-    "load_fraction": (0.3, 0.7),
-    "resistance_rise": (0.1,),
-    "warm_up_time": (2.0, 15.0, 100.0),
-}
 
 
 def extended(problem: Problem, place: Floats, effect: str, least: float = 0.0) -> tuple[Problem, Floats, int] | None:
@@ -73,12 +50,14 @@ def noticeable(problem: Problem, place: Floats, effect: str) -> tuple[Problem, F
 
 def _starts(problem: Problem, place: Floats, larger: Problem) -> list[Floats]:
     old, new = problem.unknowns, larger.unknowns
-    names = [name for name in new.names if name not in old.names]
-    friction = float(place[old.names.index("ks")]) if "ks" in old.names else 0.0
+    added = [spec for spec in new.specs if spec.name not in old.names]
     starts = []
-    for shares in product(*(VALUES[name] for name in names)):
-        sizes = {name: share * new.extent.of(SPEC_BY_NAME[name]) for name, share in zip(names, shares, strict=True)}
-        if "breakaway_voltage" in sizes:
-            sizes["breakaway_voltage"] += sizes.get("ks", friction)
+    for shares in product(*(spec.starts for spec in added)):
+        sizes: dict[str, float] = {}
+        for spec, share in zip(added, shares, strict=True):
+            sizes[spec.name] = share * new.extent.of(spec)
+            if spec.at_least is not None:
+                least = spec.at_least
+                sizes[spec.name] += sizes[least] if least in sizes else float(place[old.names.index(least)])
         starts.append(carried(old, place, new, {name: np.array(size) for name, size in sizes.items()}))
     return starts

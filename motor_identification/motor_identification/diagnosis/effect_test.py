@@ -20,9 +20,7 @@ def lacking(effects: Sequence[str]) -> list[str]:
     return [
         effect.name
         for effect in EFFECT_BY_NAME.values()
-        if effect.name not in effects
-        and effect.name != "missed_edges"
-        and (effect.implies is None or effect.implies in effects)
+        if effect.name not in effects and effect.fitted and (effect.implies is None or effect.implies in effects)
     ]
 
 
@@ -84,10 +82,11 @@ def size(effect: str) -> int:
 
 def _visible(trial: Trial) -> bool:
     """Whether an eccentricity is more than the first harmonic that random slots have by chance."""
-    if trial.effect != "encoder_eccentricity":
+    effect = EFFECT_BY_NAME[trial.effect]
+    if not effect.on_disc:
         return True
     unknowns = trial.model.problem.unknowns
-    size = float(trial.model.place[unknowns.names.index("eccentricity")])
+    size = float(trial.model.place[unknowns.names.index(effect.parameters[0].name)])
     slot = max(data.slot for data in trial.model.problem.intervals)
     chance = trial.model.noise.share * slot * (2.0 * slot / 6.2832) ** 0.5
     return bool(size > 5.0 * chance)

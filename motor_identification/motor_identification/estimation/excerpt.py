@@ -20,7 +20,7 @@ LONG = 60.0  # [s] of all recordings together above which excerpts are searched
 PIECES = 4
 STILL = 0.1  # [s] without any speed before a motor counts as standing
 # Effects of something that happens once, or slowly, can be anywhere; phases count from a recording's beginning.
-WHOLE = frozenset({"load_step", "warm_up"})
+ANYWHERE = frozenset(effect.name for effect in EFFECTS if effect.anywhere)
 BEGINNING = frozenset(effect.name for effect in EFFECTS if effect.periodic)
 
 
@@ -32,7 +32,7 @@ def excerpt(problem: Problem, longest: float = LONG) -> Problem:
     """
     effects = set(problem.unknowns.effects)
     total = sum(recording.duration for recording in problem.recordings)
-    if total <= longest or effects & WHOLE:
+    if total <= longest or effects & ANYWHERE:
         return problem
     recordings, intervals, turning = [], [], []
     for recording, data, moving in zip(problem.recordings, problem.intervals, problem.unknowns.turning, strict=True):

@@ -13,8 +13,6 @@ from motor_model.effect import ParameterSpec
 from motor_model.effects import INDEX, normalised, specs_of
 from motor_model.parameters import Parameters, neutral
 
-BREAKAWAY, KS = INDEX["breakaway_voltage"], INDEX["ks"]
-
 
 @dataclass(frozen=True)
 class Extent:
@@ -71,8 +69,10 @@ class Unknowns:
         values = np.where(self.logarithmic, np.exp(np.where(self.logarithmic, places, 0.0)), places)
         vectors = np.tile(neutral(self.max_voltage), (len(places), len(self.turning), 1))
         vectors[:, :, [INDEX[name] for name in self.names]] = values[:, self.columns]
-        if "static_friction" in self.effects:  # a motor does not hold less than it slides
-            vectors[:, :, BREAKAWAY] = np.maximum(vectors[:, :, BREAKAWAY], vectors[:, :, KS])
+        for spec in self.specs:
+            if spec.at_least is not None:
+                own, least = INDEX[spec.name], INDEX[spec.at_least]
+                vectors[:, :, own] = np.maximum(vectors[:, :, own], vectors[:, :, least])
         starts = np.zeros((len(places), len(self.turning)))
         starts[:, self.turning] = values[:, len(self.low) - int(self.turning.sum()) :]
         return vectors, starts

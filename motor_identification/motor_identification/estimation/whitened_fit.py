@@ -18,6 +18,7 @@ from motor_identification.noise.likelihood import likely_noise
 from motor_identification.noise.slot_alignment import aligned
 from motor_identification.noise.slot_table import Projection, SlotTable, likely_variance, slot_index
 from motor_identification.recording import Bools, Floats
+from motor_model.effects import EFFECT_BY_NAME
 
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
 LEAST_SHARE = 1e-4  # of a slot: irregularity to begin with at least
@@ -57,7 +58,7 @@ class Encoder:
 
 def learn(problem: Problem, place: Floats) -> tuple[Encoder, ...]:
     """What the residuals at a fitted place (D,) say about every recording's encoder."""
-    first_harmonic = "encoder_eccentricity" not in problem.unknowns.effects
+    first_harmonic = not any(EFFECT_BY_NAME[name].on_disc for name in problem.unknowns.effects)
     rows = zip(problem.intervals, problem.increments(place), problem.angles(place), strict=True)
     return tuple(_learn_one(data, increments, angle, first_harmonic) for data, increments, angle in rows)
 

@@ -3,20 +3,27 @@
 from collections.abc import Sequence
 
 from motor_identification.recording import Recording
+from motor_model.effects import EFFECT_BY_NAME
 from motor_model.errors import ModelError
 from motor_model.sample import Measurement
 
 
 def refuse_nonsense(recordings: Sequence[Recording], effects: tuple[str, ...]) -> None:
     """Raise a ModelError for effects that no fit can have, or none of these recordings."""
-    if "missed_edges" in effects:
-        raise ModelError("missed_edges is recognised in every fit and left out, not fitted: drop it from the effects.")
     for name in effects:
+        effect = EFFECT_BY_NAME.get(name)  # unknown names are refused where effects are normalised
+        if effect is not None and not effect.fitted:
+            raise ModelError(f"{name} is recognised in every fit and left out, not fitted: drop it from the effects.")
         if effects.count(name) > 1:
             raise ModelError(f"'{name}' is named twice: name every effect once.")
+        if effect is not None and effect.on_disc:
+            _check_edges(recordings, name)
+
+
+def _check_edges(recordings: Sequence[Recording], effect: str) -> None:
     for recording in recordings:
-        if "encoder_eccentricity" in effects and recording.info.measurement is Measurement.SPEED:
+        if recording.info.measurement is Measurement.SPEED:
             raise ModelError(
-                f"encoder_eccentricity needs a recording that counts edges, and {recording.uri} has speeds only: drop "
-                "it from the effects."
+                f"{effect} needs a recording that counts edges, and {recording.uri} has speeds only: drop it from the "
+                "effects."
             )

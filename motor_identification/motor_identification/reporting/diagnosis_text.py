@@ -7,7 +7,7 @@ from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict
 from motor_identification.discrepancy.missing_torque import shape_in_words
 from motor_identification.discrepancy.residual_maps import shape_left, where
 from motor_identification.uncertainty.result import Fit
-from motor_model.effects import SPEC_BY_NAME
+from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 
 TOO_SHORT = "The recording is too short to keep any of its motion out of the fits: nothing can be judged by it."
 MOST = 6  # effects that are listed by name in a sentence
@@ -15,7 +15,7 @@ MOST = 6  # effects that are listed by name in a sentence
 
 def named(effect: str) -> str:
     """An effect's name as a person writes it."""
-    return effect.replace("_", " ").replace("coulomb", "Coulomb")
+    return EFFECT_BY_NAME[effect].title
 
 
 def listed(names: tuple[str, ...] | list[str], last: str = "and") -> str:

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from motor_identification.uncertainty.result import Fit
-from motor_model.effects import SPEC_BY_NAME
+from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 from motor_model.model_file import save
 
 SIGNIFICANT = 1e-3  # chance below which the residual's relation to the voltage is none
@@ -14,15 +14,6 @@ ABOVE = 1.3  # residual over noise floor, below which there is nothing to explai
 FOLLOWS = "The residual still follows the voltage: an effect is missing (diagnose names it)."
 REPEATS = 0.5  # correlation between residuals near each other, from which on they are not the encoder's
 NO_NOISE = "The residual is not noise: an effect is missing, or something unrecorded moves the motor."
-IN_WORDS = {
-    "coulomb_friction": "the friction level (ks)",
-    "load_bias": "a constant load (load_bias)",
-    "dead_zone": "a dead zone of the bridge (dead_zone)",
-    "quadratic_drag": "drag (quadratic_drag)",
-    "static_friction": "the breakaway level (static_friction)",
-    "transport_delay": "the delay (transport_delay)",
-    "voltage_limit": "the voltage limit (voltage_limit)",
-}
 
 
 def sentence(fit: Fit) -> str:
@@ -50,8 +41,8 @@ def cautions(fit: Fit) -> tuple[str, ...]:
         verdict = "cannot be told apart in" if several else "cannot be determined from"
         said.append(f"{_listed(fit.not_identifiable)} {verdict} this recording.")
     for effect, rivals in fit.not_told_apart.items():
-        others = " or ".join(IN_WORDS.get(rival, rival) for rival in rivals)
-        subject = IN_WORDS.get(effect, effect)
+        others = " or ".join(EFFECT_BY_NAME[rival].phrase for rival in rivals)
+        subject = EFFECT_BY_NAME[effect].phrase
         said.append(f"{subject[0].upper()}{subject[1:]} cannot be told from {others} in this recording.")
     walls = [name for name, hit in fit.on_bound.items() if hit]
     if walls:

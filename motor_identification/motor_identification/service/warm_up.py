@@ -4,19 +4,22 @@ from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.identify import Request, identify
 from motor_identification.recording import recording_of
 from motor_model import warm_up
+from motor_model.effects import EFFECTS
 from motor_model.excitation import profile
 from motor_model.parameters import paper_motor
 from motor_model.sensing.board import BoardConfig
 
+PERIODIC = tuple(effect.name for effect in EFFECTS if effect.periodic)
+
 
 def main() -> None:
-    """Fit a simulated step, as small as it gets; with a ripple, whose spectrum a diagnosis looks at too."""
+    """Fit a simulated step, as small as it gets; with what a diagnosis looks for in a spectrum too."""
     warm_up.main()
     motor, config = paper_motor(), BoardConfig()
     plan = make_plan(profile("step"), 10.0, motor.max_voltage, 1.0 / config.sample_rate)
     samples = [sample for _, sample in simulate_plan(plan, motor, config)]
     recordings = [recording_of(samples, config.info(motor), "warm-up")]
-    for effects in ((), ("torque_ripple",)):
+    for effects in ((), PERIODIC):
         identify(recordings, Request(effects, particles=4, epochs=1))
 
 

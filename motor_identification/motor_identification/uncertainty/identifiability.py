@@ -8,13 +8,11 @@ from numpy.typing import NDArray
 from motor_identification.estimation.problem import Problem
 from motor_identification.estimation.whitened_fit import Refined
 from motor_identification.recording import Floats
-from motor_model.effects import EFFECT_BY_NAME, INDEX, SPEC_BY_NAME
+from motor_model.effects import EFFECT_BY_NAME, EFFECTS, INDEX, SPEC_BY_NAME
 
 NOTHING = 1e-6  # of the speed
 DETECTABLE = 10.0  # standard deviations by which a trace must differ from its imitation to be told apart
-
-# Effects whose absence is a value that a small step can leave: their trace is a derivative.
-RIVALS = ("coulomb_friction", "load_bias", "dead_zone", "quadratic_drag")
+RIVALS = tuple(effect.name for effect in EFFECTS if effect.linear_onset)  # their trace is a derivative
 
 
 def scales_of(problem: Problem, place: Floats) -> Floats:

@@ -13,9 +13,10 @@ from motor_identification.estimation.problem import Problem
 from motor_identification.measurement.measured_angle import Track
 from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Bools, Floats
+from motor_model.effect import Scale
 from motor_model.effects import EFFECT_BY_NAME
 
-TIMES = 24  # at which a load step is tried
+TIMES = 24  # at which an instant is tried
 
 
 @dataclass(frozen=True)
@@ -69,8 +70,9 @@ def _fitted(problem: Problem, place: Floats, own_blocks: tuple[Bools, ...]) -> F
     own = _Own(problem, place, free, np.concatenate(own_blocks))
     if not free.any():
         return place
-    if "step_time" in unknowns.names:
-        own = replace(own, place=_with_step_times(own))
+    for i, spec in enumerate(unknowns.specs):
+        if spec.of_recording and spec.scale is Scale.DURATION:
+            own = replace(own, place=_with_instants(own, i))
     low, high = unknowns.low[free], unknowns.high[free]
     margin = 1e-9 * (high - low)
     start = np.clip(own.place[free], low + margin, high - margin)
@@ -78,12 +80,10 @@ def _fitted(problem: Problem, place: Floats, own_blocks: tuple[Bools, ...]) -> F
     return own.whole(solution.x)
 
 
-def _with_step_times(own: _Own) -> Floats:
-    """Each recording's load step at the best of many times."""
-    place, unknowns = own.place, own.problem.unknowns
-    for recording, column in zip(
-        own.problem.recordings, unknowns.columns[:, unknowns.names.index("step_time")], strict=True
-    ):
+def _with_instants(own: _Own, parameter: int) -> Floats:
+    """The place with an instant of each recording, such as that of a load step, at the best of many times."""
+    place, columns = own.place, own.problem.unknowns.columns[:, parameter]
+    for recording, column in zip(own.problem.recordings, columns, strict=True):
         trials = np.tile(place, (TIMES, 1))
         trials[:, column] = np.linspace(0.0, recording.duration, TIMES)
         place = min(trials, key=own.cost)
