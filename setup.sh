@@ -133,7 +133,7 @@ rm -f "$stamp"
 if [ "$(cat "$venv/setup.lock" 2>/dev/null)" != "$(sha256sum <$lock)" ]; then
   say "installing $(grep -c '==' $lock) pinned packages (about a minute; log/setup.log has the details)"
   quietly "installing the pinned packages (needs the network)" \
-    "$venv/bin/python" -m pip install --disable-pip-version-check --no-input --no-deps -r $lock
+    "$venv/bin/python" -m pip install --disable-pip-version-check --no-input --no-deps --require-hashes -r $lock
   sha256sum <$lock >"$venv/setup.lock"
 fi
 echo "$wanted" >"$venv/setup.kind"

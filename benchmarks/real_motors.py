@@ -1,6 +1,6 @@
 """Three real motors, recorded by others: what `diagnose` finds in their logs, as a table and a picture.
 
-The logs are not part of the repository; give their directory (`undc/…`, `ev3/…`) as the argument.
+The logs are those of `tests/data`; another directory with `undc/…` and `ev3/…` can be the argument.
 """
 
 import argparse
@@ -30,7 +30,7 @@ from motor_identification.uncertainty.result import Fit
 from motor_model.simulate import simulate
 
 RESULTS = Path(__file__).with_name("results")
-DATA = Path(__file__).resolve().parents[2] / "shared/data"
+DATA = Path(__file__).resolve().parents[1] / "tests" / "data"
 BEFORE, AFTER, MEASURED = "#d95f02", "#1b6ca8", "#222222"
 UNDC = CsvForm("t", "u", "y", Kind.SPEED, "deg/s", edges_per_revolution=2800, max_voltage=5.0)
 STEADY = CsvForm(None, "u", "y", Kind.SPEED, "deg/s", edges_per_revolution=2800, speed_window=1.0, max_voltage=5.0)

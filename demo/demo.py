@@ -25,7 +25,7 @@ from motor_msgs.msg import ControlState, MotorSpeed
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "out" / "demo"
-REAL_MOTOR = ROOT.parent / "shared" / "data" / "undc" / "prbs_2026-08-14.csv"
+REAL_MOTOR = ROOT / "tests" / "data" / "undc" / "prbs_2026-08-14.csv"
 REFERENCE = 100.0  # [rad/s]
 HELD_WITHIN = 2.0  # [rad/s] mean of the last second
 FITTED_WITHIN = 0.01  # relative
@@ -138,14 +138,8 @@ def _seconds(stamp: Time) -> float:
 
 
 def real_motor() -> None:
-    """A log of a real gearmotor, recorded by others, if it lies beside the project."""
+    """Import and identify a log of a real gearmotor, recorded by others (tests/data)."""
     step("5. A real motor's log: a 5 V gearmotor under a random telegraph voltage, recorded by others")
-    if not REAL_MOTOR.exists():
-        print("  (the log is not beside this checkout; any CSV with time, voltage and speed does:")
-        print(
-            "   ros2 run motor_identification import_csv FILE --output BAG --time t --voltage u --speed y --unit deg/s)"
-        )
-        return
     csv = os.path.relpath(REAL_MOTOR, OUT)
     run(
         f"ros2 run motor_identification import_csv {shlex.quote(csv)} --output real --time t --voltage u --speed y "

@@ -7,7 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from bringup.test_parameter_files import reference
+from bringup_tables import reference
 from domains import free_domain
 from patience import PATIENCE
 

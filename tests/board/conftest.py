@@ -4,14 +4,11 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from board.bench import Bench, Client, need_emulator
+from board_fixtures import live  # noqa: F401  (a fixture)
+from emulated_board import Bench, Client, need_emulator
 
-from motor_board.build import FirmwareConfig, firmware
-from motor_board.emulator import Emulator
 from motor_board.live import LiveBoard
-from motor_board.port import Port
-from motor_board.shaft import EncoderConfig
-from motor_model.parameters import paper_motor
+
 
 
 @pytest.fixture
@@ -32,17 +29,6 @@ def make_bench() -> Iterator[Callable[..., Bench]]:
 @pytest.fixture
 def bench(make_bench: Callable[..., Bench]) -> Bench:
     return make_bench()
-
-
-@pytest.fixture
-def live(tmp_path: Path) -> Iterator[LiveBoard]:
-    """A board in real time behind tmp_path/port."""
-    need_emulator()
-    elf = firmware(FirmwareConfig(edges_per_revolution=96))
-    board = LiveBoard(Emulator(elf, paper_motor(), EncoderConfig(seed=3)), Port(tmp_path / "port"))
-    yield board
-    board.close()
-    assert board.error is None
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import workbench
-from board.bench import Client, need_emulator
+from emulated_board import Client, need_emulator
 from diagnostic_msgs.msg import DiagnosticArray
 from std_srvs.srv import Trigger
 

@@ -3,7 +3,7 @@
 from ctypes import byref, create_string_buffer
 from dataclasses import dataclass
 
-from board import core
+import firmware_core as core
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

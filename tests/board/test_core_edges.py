@@ -3,7 +3,7 @@
 from ctypes import byref
 from dataclasses import dataclass, field
 
-from board import core
+import firmware_core as core
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -6,7 +6,7 @@ from ctypes import byref, create_string_buffer
 from typing import Any
 
 import pytest
-from board import core
+import firmware_core as core
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from board.bench import MS, TICK, Bench
+from emulated_board import MS, TICK, Bench
 
 from motor_board.build import FirmwareConfig
 from motor_board.chip import Hang

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from board.bench import MS, TICK, Bench
+from emulated_board import MS, TICK, Bench
 
 from motor_board.build import FirmwareConfig
 from motor_board.shaft import EncoderConfig

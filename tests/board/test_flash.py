@@ -5,7 +5,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from board.bench import Bench, need_emulator
+from emulated_board import Bench, need_emulator
 
 from motor_board import build, programmer
 from motor_board.build import AVR, FirmwareConfig, firmware

@@ -7,7 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from board.bench import Client
+from emulated_board import Client
 
 from motor_board.errors import BoardError
 from motor_board.live import LiveBoard

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from bringup.test_sessions import FILES
+from bringup_tables import SESSIONS
 from domains import free_domain
 from patience import PATIENCE
 
@@ -33,8 +33,8 @@ sys.exit(service.run())
 
 def test_each_file_passes_on_its_own_table() -> None:
     """Without the launch system: the file's syntax, and which session it names."""
-    assert {path.name for path in LAUNCH.iterdir() if path.is_file()} == {f"{name}.launch.py" for name in FILES}
-    for name in FILES:
+    assert {path.name for path in LAUNCH.iterdir() if path.is_file()} == {f"{name}.launch.py" for name in SESSIONS}
+    for name in SESSIONS:
         tree = ast.parse((LAUNCH / f"{name}.launch.py").read_text(encoding="utf-8"))
         imported = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
         functions = [node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]

@@ -1,43 +1,18 @@
 """The parameter files document the nodes' parameters: the same names, defaults, units and ranges, both ways."""
 
-import importlib.util
 import re
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 import yaml
+from bringup_tables import NODES, ROOT, reference
 
-from motor_board.node import FAULTS, SET_UP
-from motor_control.parameters import ROWS as CONTROL
-from motor_driver.parameters import ROWS as DRIVER
-from motor_identification.service.node import PARAMETERS as IDENTIFICATION
 from motor_ros.parameters import Row
-from motor_ros.plant import SHARED_PARAMETERS, max_voltage_row
-from motor_sim.node import PARAMETERS as SIM
 
-ROOT = Path(__file__).resolve().parents[2]
 CONFIG = ROOT / "motor_bringup" / "config"
-# node: the file, and the parameters it declares
-NODES = {
-    "motor_sim": ("plant.yaml", (*SHARED_PARAMETERS, max_voltage_row(), *SIM)),
-    "motor_driver": ("plant.yaml", DRIVER),
-    "board_emulator": ("plant.yaml", (*SET_UP, *FAULTS)),
-    "motor_control": ("control.yaml", CONTROL),
-    "motor_identification": ("identification.yaml", IDENTIFICATION),
-}
 LINE = re.compile(
     r"^    (?P<name>\w+): .*?  # (?:\[(?P<unit>[^]]+)\] )?(?:(?P<low>[-\d.]+) to (?P<high>[-\d.]+): )?(?P<text>.+)$"
 )
-
-
-def reference(name: str) -> ModuleType:
-    """A script of docs/ as a module."""
-    spec = importlib.util.spec_from_file_location(name, ROOT / "docs" / f"{name}.py")
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def sections(file: str) -> dict[str, dict[str, object]]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from ament_index_python.packages import get_package_prefix
-from bringup.test_parameter_files import NODES
+from bringup_tables import NODES, SESSIONS
 
 from motor_bringup import identify, motor, replay
 from motor_bringup.argument import Argument
@@ -15,7 +15,6 @@ from motor_bringup.program import Program, Session
 from motor_model.errors import MotorError
 
 BAGS = Path(__file__).resolve().parents[2] / "bags"
-FILES = {"motor": motor, "identify": identify, "replay": replay}
 
 
 def by_name(session: Session) -> dict[str, Program]:
@@ -130,7 +129,7 @@ def test_replay_takes_the_motor_as_it_was_recorded() -> None:
 )
 def test_what_is_wrong_is_one_sentence(name: str, told: Mapping[str, str], says: str) -> None:
     with pytest.raises(MotorError, match=says):
-        FILES[name].session(told)
+        SESSIONS[name].session(told)
 
 
 def test_the_words_for_a_shell_mean_the_same(tmp_path: Path) -> None:
@@ -144,9 +143,9 @@ def test_the_words_for_a_shell_mean_the_same(tmp_path: Path) -> None:
     assert done.returncode == 1 and "parameter kp (proportional gain)" in done.stderr
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", SESSIONS)
 def test_arguments_are_documented(name: str) -> None:
-    rows: tuple[Argument, ...] = FILES[name].ARGUMENTS
+    rows: tuple[Argument, ...] = SESSIONS[name].ARGUMENTS
     page = (Path(__file__).resolve().parents[2] / "motor_bringup" / "README.md").read_text(encoding="utf-8")
     assert len({row.name for row in rows}) == len(rows)
     for row in rows:

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterator
 
 import pytest
-from board.bench import need_emulator
-from driver.rig import Rig
+from emulated_board import need_emulator
+from driver_rig import Rig
 
 
 @pytest.fixture

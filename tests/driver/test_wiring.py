@@ -5,7 +5,7 @@ from dataclasses import replace
 from math import nan
 
 import pytest
-from driver.rig import Rig
+from driver_rig import Rig
 
 from motor_driver import status
 from motor_driver.wiring import Wiring

@@ -19,8 +19,7 @@ from motor_identification.uncertainty.recording_consistency import dissents, sen
 from motor_identification.uncertainty.result import Fit
 from motor_model.simulate import simulate
 
-DATA = Path(__file__).resolve().parents[3] / "shared/data"
-pytestmark = pytest.mark.skipif(not DATA.is_dir(), reason="the measured data are not part of the repository")
+DATA = Path(__file__).resolve().parents[1] / "data"
 
 STEPS = CsvForm(
     "t_s", "duty_pct", "pos_deg", Kind.POSITION, "deg", voltage_scale=0.074, split="duty_pct", rest_until=0.0

@@ -18,8 +18,8 @@ import pytest
 from domains import free_domain
 from patience import PATIENCE
 
-HERE = Path(__file__).resolve().parent
-LAUNCHER = HERE.parent.parent / "ros2_stand_in" / "ros2"
+SUPPORT = Path(__file__).resolve().parents[1] / "support"
+LAUNCHER = SUPPORT.parents[1] / "ros2_stand_in" / "ros2"
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class Ros2:
         self.env = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
         self.env |= {"TZ": "UTC", "LC_ALL": "C.UTF-8"}
         if quick:
-            self.env["FASTRTPS_DEFAULT_PROFILES_FILE"] = str(HERE / "quick_announcements.xml")
+            self.env["FASTRTPS_DEFAULT_PROFILES_FILE"] = str(SUPPORT / "quick_announcements.xml")
         self._started: list[Process] = []
 
     def __call__(self, *words: str, status: int = 0, stdin: str = "", **more: str) -> Output:
@@ -130,7 +130,7 @@ class Ros2:
 
     def start_node(self, *arguments: str) -> Process:
         """Start the node of bench_node.py and wait until it is up."""
-        node = self._start([sys.executable, str(HERE / "bench_node.py"), *arguments])
+        node = self._start([sys.executable, str(SUPPORT / "bench_node.py"), *arguments])
         node.wait_for("ready")
         return node
 

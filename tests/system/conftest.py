@@ -5,14 +5,10 @@ from pathlib import Path
 from subprocess import Popen
 
 import pytest
-from board.bench import need_emulator
-from ros.conftest import bench, start  # noqa: F401  (fixtures)
+from board_fixtures import live  # noqa: F401  (a fixture)
+from emulated_board import need_emulator
+from ros_fixtures import bench, start  # noqa: F401  (fixtures)
 
-from motor_board.build import FirmwareConfig, firmware
-from motor_board.emulator import Emulator
-from motor_board.live import LiveBoard
-from motor_board.port import Port
-from motor_board.shaft import EncoderConfig
 from motor_model.model_file import save
 from motor_model.parameters import Parameters, paper_motor
 
@@ -39,14 +35,3 @@ def start_plant(request: pytest.FixtureRequest, start: Start, tmp_path: Path) ->
 
 def assigned(*parameters: str) -> list[str]:
     return [word for parameter in parameters for word in ("-p", parameter)]
-
-
-@pytest.fixture
-def live(tmp_path: Path) -> Iterator[LiveBoard]:
-    """A board in real time behind tmp_path/port."""
-    need_emulator()
-    elf = firmware(FirmwareConfig(edges_per_revolution=96))
-    board = LiveBoard(Emulator(elf, paper_motor(), EncoderConfig(seed=3)), Port(tmp_path / "port"))
-    yield board
-    board.close()
-    assert board.error is None

@@ -11,7 +11,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
-from system.user import User
+from plant_user import User
 from workbench import PATIENCE, Bench
 
 from motor_board.chip import FREQUENCY

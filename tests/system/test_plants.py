@@ -11,7 +11,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
-from system.user import User
+from plant_user import User
 from workbench import PATIENCE, Bench, end
 
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters

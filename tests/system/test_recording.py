@@ -9,7 +9,7 @@ from subprocess import Popen
 import numpy as np
 import pytest
 from std_msgs.msg import Float64
-from system.user import User
+from plant_user import User
 from workbench import PATIENCE, Bench, end
 
 from motor_identification.bag import contents, messages, read_recording

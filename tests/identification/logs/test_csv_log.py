@@ -12,7 +12,7 @@ from motor_identification.logs import CsvForm, Kind, Log, read_log
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement, Sample
 
-DATA = Path(__file__).resolve().parents[4] / "shared/data"
+DATA = Path(__file__).resolve().parents[2] / "data"
 SPEED = CsvForm(time="t", voltage="u", motion="y", kind=Kind.SPEED, unit="deg/s")
 ANGLE = CsvForm(time="t", voltage="u", motion="y", kind=Kind.POSITION, unit="deg")
 COUNT = CsvForm(time="t", voltage="u", motion="y", kind=Kind.COUNT, unit="count", edges_per_revolution=100)
@@ -215,7 +215,6 @@ def column(run: tuple[Sample, ...], name: str) -> "np.ndarray[tuple[int], np.dty
     return np.array([getattr(sample, name) for sample in run], dtype=np.float64)
 
 
-@pytest.mark.skipif(not DATA.is_dir(), reason="no shared data here")
 def test_the_prbs_of_a_gearmotor() -> None:
     log = read_log(DATA / "undc/prbs_2026-08-14.csv", replace(SPEED, edges_per_revolution=2800))
     (run,) = log.runs
@@ -227,7 +226,6 @@ def test_the_prbs_of_a_gearmotor() -> None:
     assert np.degrees(column(run.samples, "speed")).max() == pytest.approx(471.4, abs=20)
 
 
-@pytest.mark.skipif(not DATA.is_dir(), reason="no shared data here")
 def test_the_steps_of_an_ev3_motor() -> None:
     form = CsvForm("t_s", "duty_pct", "pos_deg", Kind.POSITION, "deg", voltage_scale=0.074, split="duty_pct")
     log = read_log(DATA / "ev3/steps_1s.csv", form)

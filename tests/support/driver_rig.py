@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from board.bench import MS, TICK
+from emulated_board import MS, TICK
 
 from motor_board.build import FirmwareConfig, firmware
 from motor_board.emulator import Emulator
