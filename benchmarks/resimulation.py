@@ -2,8 +2,8 @@
 
 Random motors of `hidden.py`. The model that the diagnosis returns is given to the tests' plant, which shares no
 formula with the library, under the validation recording's voltages, from rest; what it leaves of the recorded edges is
-scored by the definition of the gap alone (`tests/support/plant/score.py`). Beside it: the gap of the true motor, the noise
-floor reported, and the one of the disc that was really there.
+scored by the definition of the gap alone (`tests/support/plant/score.py`). Beside it: the gap of the true motor, the
+noise floor reported, and the one of the disc that was really there.
 """
 
 import argparse

@@ -10,7 +10,6 @@ from emulated_board import Bench, Client, need_emulator
 from motor_board.live import LiveBoard
 
 
-
 @pytest.fixture
 def make_bench() -> Iterator[Callable[..., Bench]]:
     """Makes boards in lockstep."""
@@ -32,7 +31,7 @@ def bench(make_bench: Callable[..., Bench]) -> Bench:
 
 
 @pytest.fixture
-def connect(live: LiveBoard, tmp_path: Path) -> Iterator[Callable[[], Client]]:
+def connect(live: LiveBoard, tmp_path: Path) -> Iterator[Callable[[], Client]]:  # noqa: F811
     """Opens the live board's port."""
     clients: list[Client] = []
 

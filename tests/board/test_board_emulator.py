@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 import workbench
-from emulated_board import Client, need_emulator
 from diagnostic_msgs.msg import DiagnosticArray
+from emulated_board import Client, need_emulator
 from std_srvs.srv import Trigger
 
 from motor_driver.frames import Hello, Identify, ResetCause, Telemetry

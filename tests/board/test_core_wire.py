@@ -5,8 +5,8 @@ import zlib
 from ctypes import byref, create_string_buffer
 from typing import Any
 
-import pytest
 import firmware_core as core
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -1,7 +1,6 @@
 """The parameter files document the nodes' parameters: the same names, defaults, units and ranges, both ways."""
 
 import re
-from pathlib import Path
 
 import pytest
 import yaml

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterator
 
 import pytest
-from emulated_board import need_emulator
 from driver_rig import Rig
+from emulated_board import need_emulator
 
 
 @pytest.fixture

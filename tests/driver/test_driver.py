@@ -11,8 +11,8 @@ from math import isnan, tau
 from statistics import fmean
 
 import pytest
-from emulated_board import MS
 from driver_rig import Rig
+from emulated_board import MS
 
 from motor_board.build import FirmwareConfig
 from motor_board.chip import Hang

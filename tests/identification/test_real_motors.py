@@ -4,7 +4,6 @@ from math import degrees
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.candidate_model import LASTING

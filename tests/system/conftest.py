@@ -1,6 +1,6 @@
 """Plants that swap, as processes, and a board in the test's own process whose truth can be looked at."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from subprocess import Popen
 

@@ -9,9 +9,9 @@ from subprocess import Popen
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from plant_user import User
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
-from plant_user import User
 from workbench import PATIENCE, Bench
 
 from motor_board.chip import FREQUENCY

@@ -9,9 +9,9 @@ from subprocess import Popen
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from plant_user import User
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
-from plant_user import User
 from workbench import PATIENCE, Bench, end
 
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters

@@ -8,8 +8,8 @@ from subprocess import Popen
 
 import numpy as np
 import pytest
-from std_msgs.msg import Float64
 from plant_user import User
+from std_msgs.msg import Float64
 from workbench import PATIENCE, Bench, end
 
 from motor_identification.bag import contents, messages, read_recording
