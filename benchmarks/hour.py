@@ -84,13 +84,15 @@ def read(bag: Path) -> dict[str, object]:
 
 def fit(bag: Path) -> dict[str, object]:
     """What `identify BAG --effects coulomb_friction` does; the time is that of reading and fitting."""
+    from motor_identification.bag import Source
     from motor_identification.identify import Request
     from motor_identification.service.job import Job, run_job
 
     stages: list[tuple[str, float]] = []
     begin = time.perf_counter()
     request = Request(EFFECTS, workers=os.cpu_count() or 1)
-    found = run_job(Job((str(bag),), request), lambda stage, share: stages.append((stage, time.perf_counter() - begin)))
+    job = Job(Source((str(bag),)), request)
+    found = run_job(job, lambda stage, share: stages.append((stage, time.perf_counter() - begin)))
     return {
         "seconds": time.perf_counter() - begin,
         "cpu": time.process_time(),

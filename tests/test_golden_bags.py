@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motor_identification.bag import contents, read_recording
+from motor_identification.bag import Source, contents, read_recording
 from motor_identification.identify import Request
 from motor_identification.service.job import DiagnosisJob, Job, run_diagnosis, run_job
 from motor_model.model_file import load
@@ -52,7 +52,7 @@ def test_what_is_in_it(bag: str) -> None:
 def test_the_motor_that_made_it_is_found(bag: str) -> None:
     model, shares = TRUTH[bag]
     truth = load(BAGS / f"{model}.yaml")
-    fit = run_job(Job((str(BAGS / bag),), Request(effects=truth.effects)))
+    fit = run_job(Job(Source((str(BAGS / bag),)), Request(effects=truth.effects)))
     assert set(fit.parameters.values) == set(shares) and not fit.not_identifiable and not any(fit.on_bound.values())
     for name, share in shares.items():
         value, sigma = fit.parameters.values[name], fit.standard_errors[name]
@@ -74,7 +74,7 @@ def test_the_command_that_made_it_makes_it_again(tmp_path: Path) -> None:
 
 
 def test_friction_is_missing_in_the_closed_loop_and_nothing_else() -> None:
-    found = run_diagnosis(DiagnosisJob((str(BAGS / "closed_loop"),)))
+    found = run_diagnosis(DiagnosisJob(Source((str(BAGS / "closed_loop"),))))
     assert [finding.effect for finding in found.findings] == ["coulomb_friction"]
     assert 30.0 < found.gap_before / found.noise_floor < 70.0
     assert 0.7 < found.gap_after / found.noise_floor < 1.2

@@ -4,6 +4,7 @@ from motor_identification.bag.contents import Contents
 from motor_identification.bag.motor import read_recording
 from motor_identification.bag.reader import contents, in_time_order, messages, topics
 from motor_identification.bag.repair import repair
+from motor_identification.bag.source import Source, Window
 from motor_identification.bag.topic import Qos, Topic, absolute_name
 from motor_identification.bag.writer import FLUSH_EVERY, BagWriter
 
@@ -12,7 +13,9 @@ __all__ = [
     "BagWriter",
     "Contents",
     "Qos",
+    "Source",
     "Topic",
+    "Window",
     "absolute_name",
     "contents",
     "in_time_order",

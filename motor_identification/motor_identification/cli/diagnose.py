@@ -40,19 +40,17 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _diagnose(options: argparse.Namespace) -> int:
+    from motor_identification.bag import Source, Window
     from motor_identification.cli._diagnosed import Files, diagnosed
+    from motor_identification.identify import Request
     from motor_identification.service.job import DiagnosisJob
 
     files = Files(options.output, options.json, options.report)
     files.check()
     job = DiagnosisJob(
-        uris=tuple(options.bags),
+        source=Source(tuple(options.bags), options.topic_namespace, Window(options.start, options.stop)),
         validation=tuple(options.validate),
-        known=named(options.known_effects),
-        topic_namespace=options.topic_namespace,
-        start=options.start,
-        stop=options.stop,
-        workers=os.cpu_count() or 1,
+        request=Request(named(options.known_effects), workers=os.cpu_count() or 1),
     )
     diagnosed(job, files)
     return 0

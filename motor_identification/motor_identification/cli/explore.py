@@ -84,13 +84,14 @@ def _recorded(profile: str, bag: str, options: argparse.Namespace) -> int:
 
 
 def _diagnosed(bags: list[str], options: argparse.Namespace, files: "Files") -> "Diagnosis":
+    from motor_identification.bag import Source
     from motor_identification.cli._diagnosed import diagnosed
+    from motor_identification.identify import Request
     from motor_identification.service.job import DiagnosisJob
 
     namespace = "" if options.model is not None else options.topic_namespace  # offline there is none
-    known = named(options.known_effects)
-    job = DiagnosisJob(tuple(bags), known=known, topic_namespace=namespace, workers=os.cpu_count() or 1)
-    return diagnosed(job, files)
+    request = Request(named(options.known_effects), workers=os.cpu_count() or 1)
+    return diagnosed(DiagnosisJob(Source(tuple(bags), namespace), request=request), files)
 
 
 def _made(directory: Path) -> Path:

@@ -13,6 +13,7 @@ from motor_model.errors import MotorError
 from motor_ros.command import shell
 
 if TYPE_CHECKING:
+    from motor_identification.bag import Source
     from motor_identification.uncertainty.result import Fit
 
 
@@ -55,7 +56,7 @@ def _identify(options: argparse.Namespace) -> int:
 
     effects = tuple(name.strip() for name in options.effects.split(",") if name.strip())
     request = Request(effects, options.particles, options.epochs, options.seed, os.cpu_count() or 1)
-    job = Job(tuple(options.bags), request, options.topic_namespace, options.start, options.stop)
+    job = Job(_source(options), request)
     with tqdm(total=100, desc="search", delay=2.0, disable=None, bar_format="{desc} {bar} {percentage:3.0f} %") as bar:
 
         def show(stage: str, share: float) -> None:
@@ -64,6 +65,12 @@ def _identify(options: argparse.Namespace) -> int:
 
         fit = run_job(job, show)
     return _present(options, fit)
+
+
+def _source(options: argparse.Namespace) -> "Source":
+    from motor_identification.bag import Source, Window
+
+    return Source(tuple(options.bags), options.topic_namespace, Window(options.start, options.stop))
 
 
 def _present(options: argparse.Namespace, fit: "Fit") -> int:
@@ -95,7 +102,6 @@ def _write_json(path: Path, content: dict[str, object]) -> None:
 
 def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: str) -> Path:
     """Picture, JSON and model file side by side; returns the picture."""
-    from motor_identification.bag import read_recording
     from motor_identification.reporting.fit_figure import draw_fit
     from motor_identification.reporting.fit_text import as_json, save_model
 
@@ -103,7 +109,7 @@ def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: s
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise MotorError(f"cannot make the directory {directory}: {error.strerror}.") from error
-    recording = read_recording(options.bags[0], options.topic_namespace, options.start, options.stop)
+    recording = _source(options).read(options.bags[0])
     picture = directory / "fit.png"
     draw_fit(recording, fit, picture)
     _write_json(directory / "fit.json", as_json(fit))

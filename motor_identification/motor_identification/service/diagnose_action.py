@@ -57,7 +57,7 @@ class DiagnoseAction:
 
     async def _diagnosed(self, goal: ServerGoalHandle) -> Diagnose.Result:
         job, report = self._job_of(goal.request)
-        self._node.get_logger().info(f"diagnosing {', '.join(job.uris)}")
+        self._node.get_logger().info(f"diagnosing {', '.join(job.source.uris)}")
         self._running = self._worker.submit(run_reported, job, report, heard=self._hear)
         if goal.is_cancel_requested:  # before there was anything to stop
             self._running.stop()

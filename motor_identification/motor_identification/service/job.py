@@ -2,12 +2,12 @@
 
 import sys
 import traceback
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.bag import read_recording
+from motor_identification.bag import Source, Window
 from motor_identification.identify import Request, identify
 from motor_identification.recording import Recording
 from motor_identification.uncertainty.result import Fit
@@ -20,13 +20,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Job:
-    """Which bags, which part of them, and what to fit."""
+    """Recordings to read, and what to fit to them."""
 
-    uris: tuple[str, ...]
-    request: Request
-    topic_namespace: str = ""
-    start: float = 0.0  # [s]
-    stop: float = 0.0  # [s] 0, 0 is all
+    source: Source
+    request: Request = Request()
 
 
 def run_job(job: Job, progress: Callable[[str, float], None] | None = None) -> Fit:
@@ -36,21 +33,16 @@ def run_job(job: Job, progress: Callable[[str, float], None] | None = None) -> F
         RecordingError: a bag cannot be read or cannot answer.
         ModelError: an effect is not in the table.
     """
-    recordings = [read_recording(uri, job.topic_namespace, job.start, job.stop) for uri in job.uris]
-    return identify(recordings, job.request, progress)
+    return identify([job.source.read(uri) for uri in job.source.uris], job.request, progress)
 
 
 @dataclass(frozen=True)
 class DiagnosisJob:
-    """Which bags to diagnose, which to judge by, and what is known of the motor already."""
+    """Recordings to diagnose, bags to judge by, and what the first fit has: the effects known already."""
 
-    uris: tuple[str, ...]
-    validation: tuple[str, ...] = ()
-    known: tuple[str, ...] = ()  # effects
-    topic_namespace: str = ""
-    start: float = 0.0  # [s] of `uris`; validation is always whole
-    stop: float = 0.0  # [s] 0, 0 is all
-    workers: int = 1
+    source: Source
+    validation: tuple[str, ...] = ()  # of the same motor; always whole
+    request: Request = Request()
 
 
 @dataclass(frozen=True)
@@ -76,19 +68,21 @@ def run_diagnosis(
     """
     from motor_identification.diagnose import Stage, Stopped, diagnose
 
-    twice = {Path(uri).resolve() for uri in job.uris} & {Path(uri).resolve() for uri in job.validation}
+    kept_out = replace(job.source, uris=job.validation, window=Window())
+    twice = {Path(uri).resolve() for uri in job.source.uris} & {Path(uri).resolve() for uri in job.validation}
     if twice:
         raise RecordingError(f"{twice.pop()} cannot be both fitted and judged by: leave it out of one of the two.")
-    recordings: list[Recording] = []
-    for uri in (*job.uris, *job.validation):
-        if stopped is not None and stopped():
-            raise Stopped("the diagnosis was stopped.")
-        if progress is not None:
-            progress(Stage(f"reading {uri}", 0.0, "", float("nan")))
-        part = (0.0, 0.0) if len(recordings) >= len(job.uris) else (job.start, job.stop)
-        recordings.append(read_recording(uri, job.topic_namespace, *part))
-    count = len(job.uris)
-    return diagnose(recordings[:count], recordings[count:], job.known, job.workers, progress, stopped)
+
+    def read(source: Source) -> Iterator[Recording]:
+        for uri in source.uris:
+            if stopped is not None and stopped():
+                raise Stopped("the diagnosis was stopped.")
+            if progress is not None:
+                progress(Stage(f"reading {uri}", 0.0, "", float("nan")))
+            yield source.read(uri)
+
+    recordings, validation = list(read(job.source)), list(read(kept_out))
+    return diagnose(recordings, validation, job.request.effects, job.request.workers, progress, stopped)
 
 
 def run_reported(

@@ -2,6 +2,7 @@
 
 from builtin_interfaces.msg import Time
 
+from motor_identification.bag import Source, Window
 from motor_identification.diagnose import Stage
 from motor_identification.identify import Request
 from motor_identification.reporting.diagnosis_text import summary
@@ -22,7 +23,8 @@ def job_of(request: Identify.Request, particles: int, epochs: int, seed: int, wo
         seed=request.seed or seed,
         workers=workers,
     )
-    return Job(tuple(request.bag_uris), wanted, request.topic_namespace, request.start, request.stop)
+    window = Window(request.start, request.stop)
+    return Job(Source(tuple(request.bag_uris), request.topic_namespace, window), wanted)
 
 
 def model_message(fit: Fit, stamp: Time) -> MotorModel:
@@ -58,11 +60,9 @@ def fill_response(response: Identify.Response, fit: Fit, model: MotorModel) -> N
 def diagnosis_job_of(goal: Diagnose.Goal, workers: int) -> DiagnosisJob:
     """What a goal asks for."""
     return DiagnosisJob(
-        uris=tuple(goal.bag_uris),
+        source=Source(tuple(goal.bag_uris), goal.topic_namespace),
         validation=tuple(goal.validation_uris),
-        known=tuple(goal.known_effects),
-        topic_namespace=goal.topic_namespace,
-        workers=workers,
+        request=Request(tuple(goal.known_effects), workers=workers),
     )
 
 

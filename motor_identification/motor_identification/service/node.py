@@ -11,6 +11,7 @@ from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
 from rclpy.task import Future
 
+from motor_identification.bag import Source
 from motor_identification.reporting.fit_text import save_model
 from motor_identification.service import warm_up
 from motor_identification.service.diagnose_action import DiagnoseAction
@@ -45,7 +46,7 @@ class MotorIdentification(Node):
     async def _on_identify(self, request: Identify.Request, response: Identify.Response) -> Identify.Response:
         try:
             job = self._job(request)
-            self.get_logger().info(f"identifying {', '.join(job.uris)}")
+            self.get_logger().info(f"identifying {', '.join(job.source.uris)}")
             fit = await self._awaited(self._worker.submit(run_job, job))
             fill_response(response, fit, self._keep(fit))
         except MotorError as error:
@@ -66,19 +67,22 @@ class MotorIdentification(Node):
 
     def _job(self, request: Identify.Request) -> Job:
         job = job_of(request, *map(self._value, ("particles", "epochs", "seed", "workers")))
-        return replace(job, uris=self._resolved(job.uris))
+        return replace(job, source=self._resolved(job.source))
 
     def _diagnosis_job(self, goal: Diagnose.Goal) -> tuple[DiagnosisJob, str]:
         job = diagnosis_job_of(goal, self._value("workers"))
-        uris = self._resolved(job.uris)
-        first = Path(uris[0]).absolute()
+        source, validation = self._resolved(job.source), tuple(map(self._path, job.validation))
+        first = Path(source.uris[0]).absolute()
         report = Path(self._value("report_directory") or first.parent).absolute() / f"{first.name}_diagnosis.html"
-        return replace(job, uris=uris, validation=self._resolved(job.validation, some=False)), str(report)
+        return replace(job, source=source, validation=validation), str(report)
 
-    def _resolved(self, uris: tuple[str, ...], some: bool = True) -> tuple[str, ...]:
-        if some and not uris:
+    def _resolved(self, source: Source) -> Source:
+        if not source.uris:
             raise MotorError("bag_uris is empty: name at least one bag.")
-        return tuple(str(Path(self._value("bag_directory") or ".") / uri) for uri in uris)
+        return replace(source, uris=tuple(map(self._path, source.uris)))
+
+    def _path(self, uri: str) -> str:
+        return str(Path(self._value("bag_directory") or ".") / uri)
 
     def _value(self, name: str) -> Any:
         value = self.get_parameter(name).value

@@ -1,0 +1,31 @@
+"""A source of recordings: which bags, which motor in them, and which part of each."""
+
+from dataclasses import dataclass
+
+from motor_identification.bag.motor import read_recording
+from motor_identification.recording import Recording
+
+
+@dataclass(frozen=True)
+class Window:
+    """Part of a recording, in seconds after its first sample; 0, 0 is all of it."""
+
+    start: float = 0.0  # [s]
+    stop: float = 0.0  # [s] 0 is the end
+
+
+@dataclass(frozen=True)
+class Source:
+    """Bags of one motor, the namespace that its plant ran in, and the part of each that is used."""
+
+    uris: tuple[str, ...]
+    namespace: str = ""
+    window: Window = Window()
+
+    def read(self, uri: str) -> Recording:
+        """Read and check one of the bags.
+
+        Raises:
+            RecordingError: the bag cannot be read, has no such motor, or the window is empty.
+        """
+        return read_recording(uri, self.namespace, self.window.start, self.window.stop)
