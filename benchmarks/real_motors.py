@@ -25,7 +25,7 @@ from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.logs import CsvForm, Kind, read_log
 from motor_identification.recording import Floats, Recording, check, recording_of
-from motor_identification.reporting.diagnosis_text import as_table, summary
+from motor_identification.reporting.diagnosis_text import format_diagnosis, summarize_diagnosis
 from motor_identification.uncertainty.result import Fit
 from motor_model.simulate import simulate
 
@@ -141,8 +141,8 @@ def main() -> int:
     found = {}
     for name, case in CASES.items():
         found[name] = diagnose(recordings(case, data), workers=2)
-        text = as_table(found[name])
-        lines += [f"## {case.title}", "", "```", *text.splitlines(), "```", "", summary(found[name]), ""]
+        text = format_diagnosis(found[name])
+        lines += [f"## {case.title}", "", "```", *text.splitlines(), "```", "", summarize_diagnosis(found[name]), ""]
         print("\n".join(lines[-8:]), flush=True)
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(12.0, 3.6), layout="constrained")
     draw_telegraph(left, found["prbs"], recordings(CASES["prbs"], data)[0])

@@ -8,7 +8,7 @@ setup(
     description="Fits motor models to recorded bags by particle swarm and least squares; records and imports them.",
     license="Apache-2.0",
     packages=find_packages(exclude=["test"]),
-    package_data={package_name: ["py.typed", "report/*.html", "report/*.css"]},
+    package_data={package_name: ["py.typed", "reporting/html/*.html", "reporting/html/*.css"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),

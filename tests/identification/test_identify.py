@@ -10,7 +10,7 @@ from recorded import as_counts, as_speed
 
 from motor_identification.identify import Request, identify
 from motor_identification.recording import check
-from motor_identification.reporting.fit_text import cautions
+from motor_identification.reporting.fit_text import list_cautions
 from motor_identification.uncertainty.result import Fit
 from motor_model.excitation import PROFILES
 
@@ -33,7 +33,7 @@ def test_the_papers_experiment(papers: list[Fit]) -> None:
     assert abs(np.mean(kv)) < np.std(kv) and abs(np.mean(ka)) < np.std(ka)  # no bias
     for fit in papers:
         assert fit.parameters.effects == () and not fit.not_identifiable and not any(fit.on_bound.values())
-        assert fit.suggested_experiment == "" and cautions(fit) == ()
+        assert fit.suggested_experiment == "" and list_cautions(fit) == ()
         assert 0.85 < fit.residual_rms / fit.noise_floor < 1.15 and 0.1 < fit.noise_floor < 0.2
         assert 0.9999 < fit.r_squared < 1.0
         assert fit.start_speeds == (0.0,)
@@ -98,7 +98,7 @@ def test_friction_is_found_in_the_rich_profile() -> None:
     fit = identify([recording], quick("coulomb_friction"))
     errors = off(fit, {"ks": 0.5})
     assert abs(errors["kv"]) < 1e-5 and abs(errors["ka"]) < 1e-4 and abs(errors["ks"]) < 1e-4
-    assert cautions(fit) == ()
+    assert list_cautions(fit) == ()
 
 
 def test_counts_without_stamps_and_mean_speeds_find_the_motor_too() -> None:

@@ -13,7 +13,7 @@ from motor_identification.estimation.whitened_fit import Refined, learn
 from motor_identification.identify import Request, identify
 from motor_identification.logs import CsvForm, Kind, read_log
 from motor_identification.recording import Recording, check, recording_of
-from motor_identification.reporting.fit_text import sentence
+from motor_identification.reporting.fit_text import summarize_fit
 from motor_identification.uncertainty.recording_consistency import dissents, sentence_of
 from motor_identification.uncertainty.result import Fit
 from motor_model.simulate import simulate
@@ -69,7 +69,9 @@ def contradictions(recordings: list[Recording], fit: Fit) -> list[str]:
     found = dissents(Refined(problem, learn(problem, place)), place)
     assert [one.uri for one in found] == [recording.uri for recording in recordings]
     for one in found:
-        assert sentence_of(one).startswith(f"{one.uri} contradicts the other recordings: ")
+        assert sentence_of(one).startswith(
+            f"{one.uri}: joint fit {one.common:.3g} rad/s RMS, separate fit {one.own:.3g}: the recordings disagree."
+        )
     return [one.uri for one in found if one.disagrees]
 
 
@@ -123,7 +125,7 @@ def test_a_random_telegraph_voltage_on_a_gearmotor() -> None:
     within(fit, "ks", 0.265, 0.285, 0.0003, 0.01)
     within(fit, "delay", 0.0090, 0.0098, 1e-5, 3e-4)
     assert 2.7 < degrees(fit.residual_rms) < 3.0 and 2.5 < degrees(fit.noise_floor) < 2.75
-    assert "The friction level (ks) cannot be told from a constant load (load_bias)" in sentence(fit)
+    assert "cannot distinguish the friction level (ks) from a constant load (load_bias)" in summarize_fit(fit)
     assert fit.not_identifiable == () and not any(fit.on_bound.values())
 
 

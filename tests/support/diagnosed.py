@@ -6,7 +6,7 @@ import numpy as np
 from plant import profiles, record
 
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Verdict
-from motor_identification.discrepancy.residual_maps import where
+from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.estimation.direction_correction import redirected
 from motor_identification.estimation.least_squares import Speeds, descend
 from motor_identification.estimation.miscounts import find_miscounted
@@ -73,7 +73,7 @@ def diagnosis(effect: str, **hidden: float) -> Diagnosis:
         gap_before=before.gap,
         gap_after=after.gap,
         evidence=after.log_likelihood(noise) - before.log_likelihood(noise),
-        where=where(before, noise.share),
+        where=describe_error(before, noise.share),
         parameters={name: (model.parameters.value(name), model.standard_errors[name]) for name in names},
         alternatives=(Alternative("quadratic_drag", kept.judged(other, elsewhere).gap, 12.5),),
         ambiguous_with=(),

@@ -6,7 +6,7 @@ import signal
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime, timezone
 from math import isfinite
 from pathlib import Path
@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from motor_model.errors import MotorError
 
 if TYPE_CHECKING:
+    from motor_identification.bag import Source
     from motor_identification.diagnose import Stage
     from motor_identification.diagnosis.result import Diagnosis
     from motor_identification.service.job import DiagnosisJob
@@ -43,7 +44,9 @@ def diagnosed(job: "DiagnosisJob", files: "Files") -> "Diagnosis":
                 bar.update(max(round(100 * stage.share) - bar.n, 0))
 
         diagnosis = run_diagnosis(job, show, stopped)
-    written, troubles = files.write(diagnosis)  # first: whoever reads what is printed may stop reading
+    written, troubles = replace(files, source=job.source).write(
+        diagnosis
+    )  # first: whoever reads what is printed may stop reading
     print(as_text(diagnosis), *written, sep="\n")
     if troubles:
         raise MotorError(" ".join(troubles))
@@ -52,10 +55,10 @@ def diagnosed(job: "DiagnosisJob", files: "Files") -> "Diagnosis":
 
 def as_text(diagnosis: "Diagnosis") -> str:
     """What a terminal shows."""
-    from motor_identification.reporting.diagnosis_text import as_table, summary
+    from motor_identification.reporting.diagnosis_text import format_diagnosis, summarize_diagnosis
     from motor_identification.service.job import notes_of
 
-    return "\n".join([as_table(diagnosis), "", summary(diagnosis), *notes_of(diagnosis)])
+    return "\n".join([format_diagnosis(diagnosis), "", summarize_diagnosis(diagnosis), *notes_of(diagnosis)])
 
 
 def _described(stage: "Stage") -> str:
@@ -86,15 +89,23 @@ class Files:
     model: str | None = None
     json: str | None = None
     report: str | None = None  # a directory, for the report, the model and the JSON
+    source: "Source | None" = None  # of the recordings: what the report's commands read again
 
     def rows(self) -> "list[tuple[str, Callable[[Diagnosis, Path], None], Path]]":
         """What is written, how and where; what comes without being asked for has no name."""
         rows = [("model", write_model, self.model), ("json", write_json, self.json)]
         if self.report is not None:
             files = (("", write_model, "model.yaml"), ("", write_json, "diagnosis.json"))
-            last = ("report", write_report, "report.html")  # the longest: nothing waits for it
+            last = ("report", self._write_report, "report.html")  # the longest: nothing waits for it
             rows += [(name, write, os.path.join(self.report, file)) for name, write, file in (*files, last)]
         return [(name, write, Path(path)) for name, write, path in rows if path]
+
+    def _write_report(self, diagnosis: "Diagnosis", path: Path) -> None:
+        """The report, with pictures, in one file; it names the model file that was asked for."""
+        from motor_identification.reporting import html
+
+        model = self.model or str(path.parent / "model.yaml")
+        html.write_report(diagnosis, path, html.Files(model, self.source))
 
     def check(self) -> None:
         """Refuse before anything is computed what could not be written afterwards.
@@ -129,23 +140,16 @@ class Files:
 
 def write_model(diagnosis: "Diagnosis", path: Path) -> None:
     """The model with the effects that were found, as a model file."""
-    from motor_identification.reporting.fit_text import save_model
+    from motor_identification.reporting.fit_model_file import save_model
 
     save_model(path, diagnosis.model, datetime.now(timezone.utc).isoformat(timespec="seconds"))
 
 
 def write_json(diagnosis: "Diagnosis", path: Path) -> None:
     """Everything that was found, in the form that the interfaces promise."""
-    from motor_identification.reporting.diagnosis_json import as_json
+    from motor_identification.reporting.diagnosis_json import diagnosis_to_json
 
     try:
-        path.write_text(json.dumps(as_json(diagnosis), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+        path.write_text(json.dumps(diagnosis_to_json(diagnosis), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     except OSError as error:
         raise MotorError(f"cannot write {path}: {error.strerror}.") from error
-
-
-def write_report(diagnosis: "Diagnosis", path: Path) -> None:
-    """The report, with pictures, in one file."""
-    from motor_identification.reporting import html as report
-
-    report.write_report(diagnosis, path)

@@ -36,7 +36,9 @@ def parser() -> argparse.ArgumentParser:
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the swarm (default 0)")
     parser.add_argument("--output", metavar="FILE", help="write the model here (YAML)")
     parser.add_argument("--json", metavar="FILE", help="write everything that was found here")
-    parser.add_argument("--report", metavar="DIR", help="write a picture and the numbers into this directory")
+    parser.add_argument(
+        "--report", metavar="DIR", help="write report.html, fit.png, the model and the numbers into this directory"
+    )
     return parser
 
 
@@ -74,20 +76,20 @@ def _source(options: argparse.Namespace) -> "Source":
 
 
 def _present(options: argparse.Namespace, fit: "Fit") -> int:
-    from motor_identification.reporting.fit_text import as_json, as_table, cautions, save_model
+    from motor_identification.reporting.fit_json import fit_to_json
+    from motor_identification.reporting.fit_model_file import save_model
+    from motor_identification.reporting.fit_text import describe_residual, format_fit, list_cautions
 
-    print(as_table(fit))
-    floor = f", noise floor {fit.noise_floor:.3g}" if fit.noise_floor > 0.0 else ""
-    print(f"\nresidual {fit.residual_rms:.4g} rad/s RMS{floor}, R² {fit.r_squared:.6f}", end="")
-    print(f"; {fit.evaluations} simulations in {fit.duration:.2f} s")
-    for caution in cautions(fit):
+    print(format_fit(fit))
+    print(f"\n{describe_residual(fit)}; {fit.evaluations} simulations in {fit.duration:.2f} s")
+    for caution in list_cautions(fit):
         print(caution)
     created = datetime.now(timezone.utc).isoformat(timespec="seconds")
     if options.output:
         save_model(options.output, fit, created)
         print(f"model: {options.output}")
     if options.json:
-        _write_json(Path(options.json), as_json(fit))
+        _write_json(Path(options.json), fit_to_json(fit))
     if options.report:
         print(f"report: {_report(Path(options.report), fit, options, created)}")
     return 0
@@ -101,20 +103,23 @@ def _write_json(path: Path, content: dict[str, object]) -> None:
 
 
 def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: str) -> Path:
-    """Picture, JSON and model file side by side; returns the picture."""
+    """Page, picture, JSON and model file side by side; returns the page."""
     from motor_identification.reporting.fit_figure import draw_fit
-    from motor_identification.reporting.fit_text import as_json, save_model
+    from motor_identification.reporting.fit_json import fit_to_json
+    from motor_identification.reporting.fit_model_file import save_model
+    from motor_identification.reporting.html import Files, write_fit_report
 
     try:
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise MotorError(f"cannot make the directory {directory}: {error.strerror}.") from error
-    recording = _source(options).read(options.bags[0])
-    picture = directory / "fit.png"
-    draw_fit(recording, fit, picture)
-    _write_json(directory / "fit.json", as_json(fit))
+    source = _source(options)
+    recordings = [source.read(bag) for bag in source.uris]
+    draw_fit(recordings[0], fit, directory / "fit.png")
+    _write_json(directory / "fit.json", fit_to_json(fit))
     save_model(directory / "model.yaml", fit, created)
-    return picture
+    files = Files(options.output or str(directory / "model.yaml"), source)
+    return write_fit_report(fit, recordings, directory, files)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from motor_identification.diagnosis.candidate_model import AT_FLOOR, LASTING, Mo
 from motor_identification.diagnosis.detectability import undetectable
 from motor_identification.diagnosis.forward_selection import Step, Way
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Verdict
-from motor_identification.discrepancy.residual_maps import where
+from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.estimation.whitened_fit import refine
 from motor_identification.recording import Recording
 from motor_identification.uncertainty.identifiability import telling_apart
@@ -87,7 +87,7 @@ def _where(step: Step) -> str:
     """Where the model without a finding was wrong, on stretches long enough to see it."""
     before, after = step.before.held, step.found.model
     at_floor = before.gap <= AT_FLOOR * after.floor
-    return where(before.joined(LASTING) if at_floor else before, after.noise.share)
+    return describe_error(before.joined(LASTING) if at_floor else before, after.noise.share)
 
 
 def _missed(model: Model) -> Finding | None:
@@ -110,7 +110,7 @@ def _missed(model: Model) -> Finding | None:
         gap_before=everything.gap,
         gap_after=held.gap,
         evidence=short,
-        where=f"in {held.miscounted} intervals, short by whole slots, whatever the motor does",
+        where=f"{held.miscounted} intervals are short by whole slots, whatever the motor does",
         parameters={"miss_rate": (rate, float(np.sqrt(short)) / (total + short))},
         alternatives=(),
         ambiguous_with=(),

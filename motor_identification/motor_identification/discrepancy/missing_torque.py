@@ -19,7 +19,7 @@ BLOCK = 0.1  # [s] inside of which torques may repeat each other, for the standa
 FEWEST = 4  # blocks behind a standard error
 CLEAR = 5.0  # standard errors
 SEVERAL = 4  # bins that make a shape
-NAMES = {"speed": "speed [rad/s]", "angle": "shaft angle [rad]", "time": "time within the recording [s]"}
+NAMES = {"speed": "speed [rad/s]", "angle": "shaft angle [rad]", "time": "time [s]"}
 
 
 @dataclass(frozen=True)
@@ -108,8 +108,8 @@ def _shape(
     return Shape(axis, number, edges, np.where(enough, mean, np.nan), np.where(enough, scatter, np.nan), total)
 
 
-def shape_in_words(shapes: tuple[Shape, ...]) -> str:
-    """The missing torque over the axis that shows most of it, as a sentence; empty if none stands out of its error."""
+def describe_torque(shapes: tuple[Shape, ...]) -> str:
+    """Describe the residual torque over the axis that shows most of it; empty if none is significant."""
     rows = [(_power(shape), shape) for shape in shapes if np.count_nonzero(_clear(shape)) >= SEVERAL]
     if not rows:
         return ""
@@ -118,9 +118,8 @@ def shape_in_words(shapes: tuple[Shape, ...]) -> str:
     k = int(np.argmax(np.where(clear, np.abs(shape.torque), 0.0)))
     torque, middle = shape.torque[clear], 0.5 * (shape.edges[k] + shape.edges[k + 1])
     name, unit = NAMES[shape.axis].rstrip("]").split(" [")
-    return (
-        f"As a load over the {name} it is {torque.min():.2g} to {torque.max():.2g} V, largest near {middle:.2g} {unit}."
-    )
+    span = f"{torque.min():.2g} to {torque.max():.2g} V"
+    return f"Residual torque over the {name}: {span}, largest near {middle:.2g} {unit}."
 
 
 def _clear(shape: Shape) -> Bools:

@@ -1,7 +1,7 @@
 """Discrepancy: where a model is wrong, as its residual mapped over speed, direction, acceleration, time and angle.
 
-`maps` has the numbers, `where` the worst region in words (`regions.py`), `shape_left` what is left as a torque
-(`shape.py`). All of them look at held-out data only.
+In: a model on held-out data. Out: its gap, noise floor and bias in the bins of every axis. The worst conditions are in
+`worst_regions`, their description in `region_text`, the residual torque in `missing_torque`.
 """
 
 from collections.abc import Callable
@@ -10,13 +10,9 @@ from math import inf, tau
 
 import numpy as np
 
-from motor_identification.discrepancy.missing_torque import Shape, shape_left
 from motor_identification.discrepancy.operating_conditions import Situations, situations
-from motor_identification.discrepancy.worst_regions import Region, where, worst
 from motor_identification.recording import Bools, Floats
 from motor_identification.validation.held_out import HeldOut
-
-__all__ = ["AXES", "Axis", "Map", "Region", "Shape", "maps", "shape_left", "where", "worst"]
 
 SINCE = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, inf)  # [s]
 ACCELERATIONS = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)  # of the largest

@@ -1,20 +1,17 @@
-"""Regions: where most of the gap is, in words that a person would use, and the intervals they stand for."""
+"""Find the worst regions: the conditions under which most of the gap arises, and the intervals that meet them."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from motor_identification.discrepancy.angle_harmonics import Repeat, repeat_of
 from motor_identification.discrepancy.operating_conditions import Situations, situations
 from motor_identification.recording import Bools, Floats
 from motor_identification.validation.held_out import HeldOut
 
-AT_FLOOR = 1.1  # times the floor: nothing to find
 EVERYWHERE = 0.05  # [nat] of contrast below which no region is worse than the rest
 SECOND = 0.1  # [nat] that a second condition must add
 UNPHYSICAL = 0.5  # [nat] by which "in this recording" has to be better than what a motor does
-TELLING = 0.3  # share of the excess that has to repeat with the angle, to be worth saying before anything else
 SHARES = (0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9)  # of the largest: thresholds that are tried
 MOMENTS = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)  # [s]
 STEADY = 0.02  # of the largest acceleration
@@ -39,49 +36,6 @@ class _Condition:
     axis: str
     words: str
     inside: Bools
-
-
-def where(held: HeldOut, share: float) -> str:
-    """The worst region in words; `share` is the irregularity of the slots behind the floor, as a share of a slot."""
-    if not held.counted.any():
-        return "nowhere: no motion is held out"
-    floor = held.floor(share)
-    if held.gap <= AT_FLOOR * floor:
-        return f"at the floor everywhere ({held.gap:.3g} rad/s, {_times(held.gap, floor)})"
-    repeat = repeat_of(held, share)
-    if repeat is not None and repeat.share > TELLING:
-        return _repeated(repeat, held.gap, floor)
-    said = sentence(worst(held, share, 1)[0])
-    return said if repeat is None else f"{said}; part of it comes {_often(repeat)} in every turn of the shaft"
-
-
-def sentence(region: Region) -> str:
-    """A region as `where` says it."""
-    text = f"{region.words}, {_times(region.gap, region.floor)} ({region.gap:.3g} rad/s"
-    if region.time < 1.0:
-        text += f"; {100 * region.excess:.0f} % of the excess in {100 * region.time:.2g} % of the time"
-    if abs(region.bias) > 0.5 * region.gap:
-        text += f"; the simulation is {abs(region.bias):.2g} rad/s too {'fast' if region.bias > 0.0 else 'slow'}"
-    elif abs(region.offset) > 0.5 * region.gap:
-        way, other = ("forward", "backward") if region.offset > 0.0 else ("backward", "forward")
-        text += f"; the simulation is {abs(region.offset):.2g} rad/s too fast {way} and too slow {other}"
-    return text + ")"
-
-
-def _times(gap: float, floor: float) -> str:
-    if floor <= 0.0:
-        return "where the floor is 0"
-    ratio = gap / floor
-    return f"{ratio:.2g} × the floor" if ratio < 100.0 else f"{ratio:.0f} × the floor"
-
-
-def _often(repeat: Repeat) -> str:
-    return "once" if repeat.cycles == 1 else f"{repeat.cycles} times"
-
-
-def _repeated(repeat: Repeat, gap: float, floor: float) -> str:
-    share = f"about {100 * repeat.share:.0f} % of the excess repeats with the angle"
-    return f"{_often(repeat)} in every turn of the shaft, {_times(gap, floor)} ({gap:.3g} rad/s; {share})"
 
 
 def worst(held: HeldOut, share: float, count: int = 3) -> tuple[Region, ...]:
@@ -122,7 +76,7 @@ def _worst_of(
     if pairs[i, j] > alone[single] + SECOND:
         chosen = [conditions[min(i, j)], conditions[max(i, j)]]
     elif alone[single] < EVERYWHERE:
-        chosen = [_Condition("", "everywhere", np.ones(len(squares), dtype=bool))]
+        chosen = [_Condition("", "everywhere alike", np.ones(len(squares), dtype=bool))]
     return _region(held, share, seen, squares, chosen, open_)
 
 
@@ -144,7 +98,7 @@ def _region(
     total = max(float(weight.sum()), 1e-300)
     everything = bool(inside.all())
     return Region(
-        words=("" if bool(open_.all()) else "elsewhere ") + " ".join(one.words for one in chosen),
+        words=("" if bool(open_.all()) else "elsewhere, ") + _joined(chosen),
         inside=inside,
         gap=float(np.sqrt(weight @ left**2 / total)),
         floor=float(np.sqrt(weight @ held.floors(share)[inside] ** 2 / total)),
@@ -155,25 +109,31 @@ def _region(
     )
 
 
+def _joined(chosen: list[_Condition]) -> str:
+    """Conditions as one phrase: a second "at" is left out."""
+    first, *others = (one.words for one in chosen)
+    return ", ".join((first, *(words.removeprefix("at ") for words in others)))
+
+
 def _conditions(held: HeldOut, seen: Situations) -> Iterator[_Condition]:
     """Everything that a region may be said to be, in the order in which two of them are said."""
     size, moving = np.abs(seen.speed), ~seen.still
-    yield _Condition("speed", "at a standstill", seen.still)
+    yield _Condition("speed", "at standstill", seen.still)
     for limit in thresholds(size):
-        yield _Condition("speed", f"below {limit:g} rad/s", moving & (size < limit))
-        yield _Condition("speed", f"above {limit:g} rad/s", size > limit)
-    yield _Condition("direction", "turning forward", seen.speed > 0.0)
-    yield _Condition("direction", "turning backward", seen.speed < 0.0)
+        yield _Condition("speed", f"at |ω| < {limit:g} rad/s", moving & (size < limit))
+        yield _Condition("speed", f"at |ω| > {limit:g} rad/s", size > limit)
+    yield _Condition("direction", "in forward motion", seen.speed > 0.0)
+    yield _Condition("direction", "in backward motion", seen.speed < 0.0)
     limit = STEADY * float(np.abs(seen.acceleration[moving]).max(initial=0.0))
-    yield _Condition("acceleration", "while speeding up", moving & (seen.acceleration > limit))
-    yield _Condition("acceleration", "while slowing down", moving & (seen.acceleration < -limit))
-    yield _Condition("acceleration", "at steady speed", moving & (np.abs(seen.acceleration) <= limit))
+    yield _Condition("acceleration", "during acceleration", moving & (seen.acceleration > limit))
+    yield _Condition("acceleration", "during deceleration", moving & (seen.acceleration < -limit))
+    yield _Condition("acceleration", "at constant speed", moving & (np.abs(seen.acceleration) <= limit))
     yield from _driven(seen, moving)
     for limit in MOMENTS:
         yield _Condition("since", f"within {limit:g} s after a standstill or reversal", moving & (seen.since < limit))
     for limit in thresholds(seen.time):
-        yield _Condition("time", f"later than {limit:g} s into the recording", seen.time > limit)
-        yield _Condition("time", f"earlier than {limit:g} s into the recording", seen.time < limit)
+        yield _Condition("time", f"at t > {limit:g} s", seen.time > limit)
+        yield _Condition("time", f"at t < {limit:g} s", seen.time < limit)
     if len(held.problem.recordings) > 1:
         for number, recording in enumerate(held.problem.recordings):
             yield _Condition("recording", f"in {recording.uri}", seen.recording == number)
@@ -181,11 +141,11 @@ def _conditions(held: HeldOut, seen: Situations) -> Iterator[_Condition]:
 
 def _driven(seen: Situations, moving: Bools) -> Iterator[_Condition]:
     size = np.abs(seen.voltage)
-    yield _Condition("voltage", "at 0 V", moving & (size == 0.0))
-    yield _Condition("voltage", "with the voltage against the motion", seen.voltage * seen.speed < 0.0)
+    yield _Condition("voltage", "at u = 0", moving & (size == 0.0))
+    yield _Condition("voltage", "while the voltage opposes the motion", seen.voltage * seen.speed < 0.0)
     for limit in thresholds(size):
-        yield _Condition("voltage", f"with less than {limit:g} V", moving & (size < limit))
-        yield _Condition("voltage", f"with more than {limit:g} V", moving & (size > limit))
+        yield _Condition("voltage", f"at |u| < {limit:g} V", moving & (size < limit))
+        yield _Condition("voltage", f"at |u| > {limit:g} V", moving & (size > limit))
 
 
 def thresholds(values: Floats) -> list[float]:

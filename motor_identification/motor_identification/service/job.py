@@ -97,7 +97,7 @@ def run_reported(
         MotorError: as `run_diagnosis`.
     """
     from motor_identification.diagnose import Stage
-    from motor_identification.reporting.html import write_report
+    from motor_identification.reporting.html import Files, write_report
 
     diagnosis = run_diagnosis(job, progress, stopped)
     if not report:
@@ -105,7 +105,7 @@ def run_reported(
     if progress is not None:
         progress(Stage("report", 1.0, "", diagnosis.gap_after))
     try:
-        return Reported(diagnosis, str(write_report(diagnosis, report)), "")
+        return Reported(diagnosis, str(write_report(diagnosis, report, Files(source=job.source))), "")
     except Exception as error:  # whatever it is, the diagnosis is worth more
         traceback.print_exc(file=sys.stderr)
         return Reported(diagnosis, "", f"There is no report: {error}")

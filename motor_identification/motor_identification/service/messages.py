@@ -5,8 +5,8 @@ from builtin_interfaces.msg import Time
 from motor_identification.bag import Source, Window
 from motor_identification.diagnose import Stage
 from motor_identification.identify import Request
-from motor_identification.reporting.diagnosis_text import summary
-from motor_identification.reporting.fit_text import sentence
+from motor_identification.reporting.diagnosis_text import summarize_diagnosis
+from motor_identification.reporting.fit_text import summarize_fit
 from motor_identification.service.job import DiagnosisJob, Job, Reported, notes_of
 from motor_identification.uncertainty.result import Fit
 from motor_msgs.action import Diagnose
@@ -49,7 +49,7 @@ def model_message(fit: Fit, stamp: Time) -> MotorModel:
 def fill_response(response: Identify.Response, fit: Fit, model: MotorModel) -> None:
     """Put a fit, and the message of its model, into the service's answer."""
     response.success = True
-    response.message = sentence(fit)
+    response.message = summarize_fit(fit)
     response.model = model
     response.r_squared = fit.r_squared
     response.duration = fit.duration
@@ -76,7 +76,7 @@ def result_message(reported: Reported, model: MotorModel) -> Diagnose.Result:
     diagnosis = reported.diagnosis
     return Diagnose.Result(
         success=True,
-        message=" ".join(filter(None, (summary(diagnosis), *notes_of(diagnosis), reported.trouble))),
+        message=" ".join(filter(None, (summarize_diagnosis(diagnosis), *notes_of(diagnosis), reported.trouble))),
         verdict=diagnosis.verdict.value,
         effects=[finding.effect for finding in diagnosis.findings],
         model=model,

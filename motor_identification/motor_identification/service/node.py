@@ -12,7 +12,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from motor_identification.bag import Source
-from motor_identification.reporting.fit_text import save_model
+from motor_identification.reporting.fit_model_file import save_model
 from motor_identification.service import warm_up
 from motor_identification.service.diagnose_action import DiagnoseAction
 from motor_identification.service.job import DiagnosisJob, Job, run_job

@@ -70,8 +70,8 @@ def _named(problem: Problem, place: Floats, shift: Floats) -> dict[str, float]:
 
 
 def sentence_of(one: Dissent) -> str:
-    """For a user."""
+    """Describe a disagreement, and what to do about it."""
     return (
-        f"{one.uri} contradicts the other recordings: beside their common motor it is off by {one.common:.3g} rad/s "
-        f"RMS, beside one of its own by {one.own:.3g}; do not trust the common values and errors, fit each and compare."
+        f"{one.uri}: joint fit {one.common:.3g} rad/s RMS, separate fit {one.own:.3g}: the recordings disagree. "
+        "Do not trust the joint values and errors; fit each recording alone and compare."
     )

@@ -8,10 +8,11 @@ import pytest
 from diagnosed import BASE, fitted, held
 from plant import profiles, record
 
-from motor_identification.discrepancy.missing_torque import Shape, shape_in_words
+from motor_identification.discrepancy.missing_torque import Shape, describe_torque, shape_left
 from motor_identification.discrepancy.operating_conditions import situations
-from motor_identification.discrepancy.residual_maps import AXES, maps, shape_left, where, worst
-from motor_identification.discrepancy.worst_regions import contrasts, sentence, thresholds
+from motor_identification.discrepancy.region_text import describe_error, describe_region
+from motor_identification.discrepancy.residual_maps import AXES, maps
+from motor_identification.discrepancy.worst_regions import contrasts, thresholds, worst
 from motor_identification.estimation.problem import make_problem
 from motor_identification.recording import Floats, check
 from motor_identification.validation.held_out import HeldOut, keep_out
@@ -103,16 +104,17 @@ def test_a_complete_model_is_at_the_floor_everywhere() -> None:
 
 
 SENTENCE = re.compile(
-    r"below ([\d.]+) rad/s, ([\d.]+) × the floor \(([\d.]+) rad/s; (\d+) % of the excess in ([\d.]+) % of the time; "
+    r"largest error at \|ω\| < ([\d.]+) rad/s \(RMS ([\d.]+) rad/s, ([\d.]+) × the noise floor; "
+    r"(\d+) % of the excess error in ([\d.]+) % of the time; "
     r"the simulation is ([\d.]+) rad/s too fast\)"
 )
 
 
 def test_where_says_what_can_be_recomputed() -> None:
     one = held(**FRICTION)
-    found = SENTENCE.fullmatch(where(one, SHARE))
-    assert found, where(one, SHARE)
-    limit, times, gap, excess, time, fast = map(float, found.groups())
+    found = SENTENCE.fullmatch(describe_error(one, SHARE))
+    assert found, describe_error(one, SHARE)
+    limit, gap, times, excess, time, fast = map(float, found.groups())
     data, marks = one.problem.intervals[0], one.scored[0]
     left = one.problem.residuals(one.place)[marks]
     seconds, speed, still = data.duration[marks], data.speed[marks], data.slack[marks] > 0.0
@@ -131,33 +133,38 @@ def test_where_says_what_can_be_recomputed() -> None:
 
 def test_where_nothing_is_wrong() -> None:
     one = held()
-    found = re.fullmatch(r"at the floor everywhere \(([\d.]+) rad/s, ([\d.]+) × the floor\)", where(one, SHARE))
+    found = re.fullmatch(
+        r"the error is at the noise floor everywhere \(RMS ([\d.]+) rad/s, ([\d.]+) × the noise floor\)",
+        describe_error(one, SHARE),
+    )
     assert found and float(found[1]) == pytest.approx(one.gap, rel=0.005) and 0.8 < float(found[2]) < 1.1
 
 
 def test_a_load_that_comes_is_dated() -> None:
-    found = re.match(r"later than ([\d.]+) s into the recording, ", where(missing(**STEP), SHARE))
+    found = re.match(r"largest error at t > ([\d.]+) s \(RMS ", describe_error(missing(**STEP), SHARE))
     assert found and 9.0 < float(found[1]) < 13.0
 
 
 def test_a_disc_is_seen_in_every_turn() -> None:
-    assert where(held(**DISC), SHARE).startswith("once in every turn of the shaft, ")
-    assert "turn of the shaft" not in where(held(**FRICTION), SHARE)
+    assert describe_error(held(**DISC), SHARE).startswith("the error repeats once per revolution (RMS ")
+    assert "per revolution" not in describe_error(held(**FRICTION), SHARE)
 
 
 def test_a_ripple_is_counted() -> None:
     """On a motor with friction, which is known: it stops on its ripple and does not swing there."""
     problem, _, kept = fitted(ks=0.5, ripple_voltage=0.4, ripple_cycles=6.0, ripple_phase=0.5)
     place = np.array([*np.log([BASE["kv"], BASE["ka"]]), 0.5])
-    said = where(kept.judged(problem.with_effects(("coulomb_friction",)), place), SHARE)
-    found = re.match(r"6 times in every turn of the shaft, [\d.]+ × the floor .* about (\d+) % of the excess", said)
+    said = describe_error(kept.judged(problem.with_effects(("coulomb_friction",)), place), SHARE)
+    found = re.match(
+        r"the error repeats 6 times per revolution \(RMS [\d.]+ rad/s, .* about (\d+) % of the excess error\)", said
+    )
     assert found and 60 < int(found[1]) < 90
 
 
 def test_the_worst_regions_do_not_overlap() -> None:
     one = held(**FRICTION)
     regions = worst(one, SHARE)
-    assert 1 <= len(regions) <= 3 and sentence(regions[0]) == where(one, SHARE)
+    assert 1 <= len(regions) <= 3 and f"largest error {describe_region(regions[0])}" == describe_error(one, SHARE)
     assert np.max(np.sum([region.inside for region in regions], axis=0)) == 1
     assert sum(region.excess for region in regions) <= 1.0 + 1e-9
     for region in regions:
@@ -189,8 +196,8 @@ def test_missing_friction_has_the_shape_of_friction() -> None:
     one = shape(missing(**FRICTION), "speed")
     middle = 0.5 * (one.edges[1:] + one.edges[:-1])
     within(one, 0.4 * np.sign(middle), np.abs(middle) > 10.0)
-    words = shape_in_words(shape_left(missing(**FRICTION)))
-    found = re.fullmatch(r"As a load over the speed it is (-[\d.]+) to ([\d.]+) V, largest near .*rad/s\.", words)
+    words = describe_torque(shape_left(missing(**FRICTION)))
+    found = re.fullmatch(r"Residual torque over the speed: (-[\d.]+) to ([\d.]+) V, largest near .*rad/s\.", words)
     assert found and -0.5 < float(found[1]) < -0.38 and 0.38 < float(found[2]) < 0.5
 
 
@@ -201,4 +208,4 @@ def test_a_missing_load_step_has_its_size_and_time() -> None:
 
 
 def test_nothing_is_left_of_a_complete_model() -> None:
-    assert shape_in_words(shape_left(missing())) == ""
+    assert describe_torque(shape_left(missing())) == ""

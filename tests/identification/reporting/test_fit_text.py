@@ -1,6 +1,7 @@
 """What a fit says besides its numbers: what the recording leaves open, what ended on a bound, notes and names."""
 
 import json
+import re
 from dataclasses import replace
 from math import isnan
 from pathlib import Path
@@ -13,7 +14,9 @@ from recorded import as_speed
 
 from motor_identification.identify import identify
 from motor_identification.recording import check
-from motor_identification.reporting.fit_text import as_json, as_table, cautions, save_model, sentence
+from motor_identification.reporting.fit_json import fit_to_json
+from motor_identification.reporting.fit_model_file import save_model
+from motor_identification.reporting.fit_text import format_fit, list_cautions, summarize_fit
 from motor_model.model_file import load
 
 
@@ -22,11 +25,11 @@ def test_one_level_does_not_tell_friction_from_gain_and_says_so() -> None:
     assert set(fit.not_identifiable) >= {"kv", "ks"}
     assert isnan(fit.standard_errors["kv"]) and isnan(fit.standard_errors["ks"])
     assert fit.suggested_experiment == "ramps"
-    text = sentence(fit)
-    assert "(not identifiable)" in text and "cannot be told apart in this recording" in text
-    assert "The profile 'ramps' would show it." in text
-    assert "not identifiable" in as_table(fit)
-    content = as_json(fit)
+    text = summarize_fit(fit)
+    assert "(not identifiable)" in text and re.search(r"This recording does not determine kv.* separately\.", text)
+    assert "Record the profile 'ramps' and fit both recordings together." in text
+    assert "not identifiable" in format_fit(fit)
+    content = fit_to_json(fit)
     assert content["model"]["parameters"]["ks"]["standard_error"] is None
     assert "NaN" not in json.dumps(content, allow_nan=False)
 
@@ -38,19 +41,22 @@ def test_one_way_does_not_tell_friction_from_a_load_and_says_so() -> None:
     assert set(fit.not_told_apart["coulomb_friction"]) >= {"load_bias", "dead_zone"}
     assert "transport_delay" not in fit.not_told_apart
     assert max(map(abs, off(fit, {"ks": 0.5, "delay": 0.005}).values())) < 1e-3
-    (said, *_) = cautions(fit)
-    assert said.startswith("The friction level (ks) cannot be told from a constant load (load_bias) or a dead zone")
-    assert as_json(fit)["not_told_apart"]["coulomb_friction"][:2] == ["load_bias", "dead_zone"]
+    (said, *_) = list_cautions(fit)
+    assert said.startswith("This recording cannot distinguish the friction level (ks) from a constant load (load_bias)")
+    assert fit_to_json(fit)["not_told_apart"]["coulomb_friction"][:2] == ["load_bias", "dead_zone"]
     both_ways = identify([made({"ks": 0.5}, profiles.staircase(12.0, 4, 0.25), seed=1)], quick("coulomb_friction"))
-    assert both_ways.not_told_apart == {} and cautions(both_ways) == ()
+    assert both_ways.not_told_apart == {} and list_cautions(both_ways) == ()
 
 
 def test_a_parameter_on_the_edge_of_its_box_is_said() -> None:
     """A motor whose friction takes more than the box has."""
     fit = identify([made({"delay": 0.13}, profiles.step(10.0, 1.0), seed=0)], quick("transport_delay"))
     assert fit.on_bound["delay"] and fit.parameters.values["delay"] == pytest.approx(0.1, rel=1e-3)
-    assert any(said == "delay ended on the edge of the search box: do not trust the value." for said in cautions(fit))
-    assert "on bound" in as_table(fit) and "delay" in as_json(fit)["on_bound"]
+    assert any(
+        said == "delay = 0.1 s is the limit of its search range: do not trust the value; fit without transport_delay."
+        for said in list_cautions(fit)
+    )
+    assert "at the limit of its range" in format_fit(fit) and "delay" in fit_to_json(fit)["on_bound"]
     absent = identify([made({}, profiles.staircase(12.0, 2, 0.2), seed=0)], quick("coulomb_friction"))
     assert not absent.on_bound["ks"] and absent.parameters.values["ks"] < 1e-3  # no friction is an answer
 
@@ -62,16 +68,16 @@ def test_constant_speed_says_nothing_of_inertia_and_has_no_r_squared() -> None:
     assert "ka" in fit.not_identifiable or fit.on_bound["ka"]
     level = as_speed(steady)
     flat = identify([check(replace(level, speed=np.full(len(level), 5.0)))], quick())
-    assert isnan(flat.r_squared) and as_json(flat)["r_squared"] is None
+    assert isnan(flat.r_squared) and fit_to_json(flat)["r_squared"] is None
     assert "ka" in flat.not_identifiable and "kv" not in flat.not_identifiable
-    json.dumps(as_json(flat), allow_nan=False)
+    json.dumps(fit_to_json(flat), allow_nan=False)
 
 
 def test_notes_and_names_come_through(tmp_path: Path) -> None:
     recording = replace(made({}, profiles.step(10.0, 0.5), seed=0, name="bag"), notes=("bag was cut off.",))
     stages: list[tuple[str, float]] = []
     fit = identify([recording], quick(), lambda stage, share: stages.append((stage, share)))
-    assert fit.notes == ("bag was cut off.",) and sentence(fit).endswith(" bag was cut off.")
+    assert fit.notes == ("bag was cut off.",) and summarize_fit(fit).endswith(" bag was cut off.")
     shares = [share for _, share in stages]
     assert shares == sorted(shares) and 0.0 < shares[0] < 0.1 and stages[-1] == ("done", 1.0)
     save_model(tmp_path / "model.yaml", fit, "2026-01-01T00:00:00+00:00")

@@ -12,13 +12,19 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
+from motor_identification.bag import Source, Window
 from motor_identification.diagnosis.result import Diagnosis, Verdict
-from motor_identification.discrepancy.residual_maps import where
-from motor_identification.reporting.diagnosis_text import as_table, summary
+from motor_identification.discrepancy.region_text import describe_error
+from motor_identification.reporting.diagnosis_text import format_diagnosis, summarize_diagnosis
 from motor_identification.reporting.html import write_report
-from motor_identification.reporting.html.onward import commands
-from motor_identification.reporting.html.page import rendered
-from motor_identification.reporting.html.tables import ladder
+from motor_identification.reporting.html.diagnosis_page import render_diagnosis
+from motor_identification.reporting.html.next_steps import (
+    NO_FILES,
+    Files,
+    list_diagnosis_steps,
+    list_fit_steps,
+)
+from motor_identification.reporting.html.tables import list_gaps
 from motor_model.errors import MotorError
 
 BROWSER = shutil.which("chromium") or shutil.which("google-chrome") or shutil.which("chromium-browser")
@@ -26,14 +32,14 @@ BROWSER = shutil.which("chromium") or shutil.which("google-chrome") or shutil.wh
 
 @pytest.fixture(scope="module")
 def html(found: Diagnosis) -> str:
-    return rendered(found)
+    return render_diagnosis(found, Files("found.yaml"))
 
 
 @pytest.fixture
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pages without pictures, where only the text matters."""
-    for name in ("draw_overlay", "draw_map", "draw_shape"):
-        monkeypatch.setattr(f"motor_identification.reporting.html.page.{name}", lambda *how: "")
+    for name in ("pictures.draw_overlay", "diagnosis_page.draw_map", "diagnosis_page.draw_shape"):
+        monkeypatch.setattr(f"motor_identification.reporting.html.{name}", lambda *how: "")
 
 
 class Reader(HTMLParser):
@@ -83,23 +89,22 @@ def test_every_picture_is_there_for_both_screens(html: str) -> None:
         root = ElementTree.fromstring(one)
         assert root.get("viewBox") and root.get("width") is None and root.get("role") == "img"
         labels.append(root.get("aria-label") or "")
-    assert len([label for label in labels if "most telling" in label]) == 2
-    assert len([label for label in labels if "all of it" in label]) == 2
+    assert len([label for label in labels if "s: the largest change" in label]) == 2
+    assert len([label for label in labels if "whole recording" in label]) == 2
     assert len([label for label in labels if label.startswith("gap over")]) == 7
-    assert len([label for label in labels if label.startswith("missing load over")]) == 3
+    assert len([label for label in labels if label.startswith("residual torque over")]) == 3
 
 
 def test_the_page_says_it_all(found: Diagnosis, html: str) -> None:
     text = squeezed(Reader(html).text)
     finding = found.findings[0]
     for part in (
-        summary(found),
+        summarize_diagnosis(found),
         finding.where,
-        "quadratic drag",
-        f"leaves {finding.alternatives[0].gap_after / finding.gap_after:.2g} times the gap",
-        "It could not have shown warm up",
+        "No improvement (below 1 %): quadratic drag.",
+        "This recording could not show warm up",
         f"{found.left_out} intervals were left out",
-        "ros2 run motor_sim motor_sim --ros-args -p model:=model.yaml",
+        "ros2 run motor_sim motor_sim --ros-args -p model:=found.yaml",
         "irregular by 0.2",
         "timer's tick of 4 µs",
     ):
@@ -119,23 +124,23 @@ def test_files_and_directories(found: Diagnosis, tmp_path: Path) -> None:
 @pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize("verdict", list(Verdict))
 def test_every_verdict_has_a_page(variants: dict[Verdict, Diagnosis], verdict: Verdict) -> None:
-    reader = Reader(rendered(variants[verdict]))
+    reader = Reader(render_diagnosis(variants[verdict], NO_FILES))
     text = squeezed(reader.text)
-    assert squeezed(summary(variants[verdict])) in text
-    assert ("Where the model before was worst" in text) == (verdict is not Verdict.NOTHING_MISSING)
+    assert squeezed(summarize_diagnosis(variants[verdict])) in text
+    assert ("Largest errors of the model before" in text) == (verdict is not Verdict.NOTHING_MISSING)
     assert ("What was found" in text) == bool(variants[verdict].findings)
     assert ("experiment coast" in text) == (verdict is Verdict.UNDECIDED)
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_names_cannot_break_the_page(found: Diagnosis) -> None:
-    text = rendered(replace(found, bags=("<b>&'bag",), suggested_experiment="rich"))
+    text = render_diagnosis(replace(found, bags=("<b>&'bag",), suggested_experiment="rich"), NO_FILES)
     assert "<b>&'bag" not in text and "&lt;b&gt;&amp;" in text
     assert "diagnose '<b>&'\"'\"'bag' rich" in Reader(text).text  # and neither the shell
 
 
 def test_without_findings_there_is_one_curve(variants: dict[Verdict, Diagnosis]) -> None:
-    reader = Reader(rendered(variants[Verdict.UNEXPLAINED]))
+    reader = Reader(render_diagnosis(variants[Verdict.UNEXPLAINED], NO_FILES))
     assert reader.tags.count("svg") == 14 and "before and after" not in reader.text
     assert "simulated" in reader.text and "worst 1" in reader.text
 
@@ -144,23 +149,55 @@ def test_a_recording_too_short_to_hold_anything_out(variants: dict[Verdict, Diag
     one = variants[Verdict.UNEXPLAINED]
     empty = replace(one.after, scored=tuple(np.zeros_like(marks) for marks in one.after.scored), miscounted=0)
     short = replace(one, verdict=Verdict.UNDECIDED, before=empty, after=empty, gap_before=0.0, gap_after=0.0)
-    assert "too short to keep any of its motion out" in summary(short)
-    assert "nowhere" in where(empty, 0.0) and rendered(short).count("</svg>") == 14
+    assert "too short to keep a part of it for validation" in summarize_diagnosis(short)
+    assert (
+        "no motion was kept for validation" in describe_error(empty, 0.0)
+        and render_diagnosis(short, NO_FILES).count("</svg>") == 14
+    )
 
 
 @pytest.mark.usefixtures("undrawn")
 def test_without_a_floor_there_is_no_ratio(found: Diagnosis) -> None:
     one = replace(found, noise_floor=0.0)
-    assert "the recording says nothing of its own noise" in summary(one)
-    assert [rung.times for rung in ladder(one)] == ["", "", ""] and "–" in as_table(one)
-    assert "inf" not in squeezed(Reader(rendered(one)).text).split("How to go on")[0].lower().replace("info", "")
+    assert "the noise level is unknown" in summarize_diagnosis(one)
+    assert [rung.times for rung in list_gaps(one)] == ["", "", ""] and "–" in format_diagnosis(one)
+    assert "inf" not in squeezed(Reader(render_diagnosis(one, NO_FILES)).text).split("How to go on")[0].lower().replace(
+        "info", ""
+    )
 
 
 def test_commands_are_for_this_diagnosis(variants: dict[Verdict, Diagnosis]) -> None:
-    first, second = (command for _, command in commands(variants[Verdict.UNDECIDED])[:2])
-    assert first == "ros2 run motor_identification experiment coast --output coast"
-    assert second == ("ros2 run motor_identification diagnose train.bag coast --validate held_out.bag --report next")
-    assert "--effects" not in "".join(command for _, command in commands(variants[Verdict.UNEXPLAINED]))
+    steps = list_diagnosis_steps(variants[Verdict.UNDECIDED], Files("out/found.yaml", Source((), "/left", Window(1.5))))
+    run, read = "ros2 run motor_identification", "--topic-namespace /left --start 1.5"
+    assert [step.command for step in steps] == [
+        f"{run} experiment coast --output coast",
+        f"{run} diagnose train.bag coast --validate held_out.bag {read} --report next",
+        "ros2 run motor_sim motor_sim --ros-args -p model:=out/found.yaml",
+        "ros2 run motor_control tune out/found.yaml --output out/gains.yaml",
+        "ros2 run motor_control motor_control --ros-args --params-file out/gains.yaml",
+        f"{run} identify train.bag --effects coulomb_friction {read} --report fit",
+    ]
+    bare = [step.command for step in list_diagnosis_steps(variants[Verdict.UNEXPLAINED], NO_FILES)]
+    assert bare[0] == f"{run} diagnose train.bag --validate held_out.bag --output model.yaml"  # nobody wrote one yet
+    assert bare[1].endswith("model:=model.yaml") and "--effects" not in "".join(bare)
+    again = replace(variants[Verdict.UNDECIDED], bags=("runs/coast", "coast_2"))
+    assert list_diagnosis_steps(again, Files("m.yaml"))[0].command.endswith("--output coast_3")  # none is overwritten
+
+
+def test_commands_are_for_this_fit(found: Diagnosis) -> None:
+    fit = replace(found.model, uris=("a bag",), suggested_experiment="ramps")
+    run = "ros2 run motor_identification"
+    assert [step.command for step in list_fit_steps(fit, Files("m.yaml"))][:3] == [
+        f"{run} experiment ramps --output ramps",
+        f"{run} identify 'a bag' ramps --effects coulomb_friction --report next",
+        f"{run} diagnose 'a bag' --known-effects coulomb_friction --report diagnosis",
+    ]
+    plain = replace(found.baseline, uris=("bag",), suggested_experiment="")
+    assert [step.command for step in list_fit_steps(plain, NO_FILES)][:2] == [
+        f"{run} identify bag --output model.yaml",
+        f"{run} diagnose bag --report diagnosis",
+    ]
+    assert NO_FILES.reading == () and Files("", Source((), "", Window(0.0, 2.0))).reading == ("--stop", "2")
 
 
 MEASURE = """<script>document.title = JSON.stringify([innerWidth, document.documentElement.scrollWidth,

@@ -6,26 +6,43 @@ from math import nan
 import pytest
 
 from motor_identification.diagnosis.result import Alternative, Diagnosis
-from motor_identification.reporting.html.tables import ladder, lost, parameter_rows
+from motor_identification.reporting.html.tables import explain_rejection, list_gaps, list_parameters, rank_alternatives
 
 
 def test_the_ladder_is_logarithmic(found: Diagnosis) -> None:
     one = replace(found, gap_before=10.0, findings=(replace(found.findings[0], gap_after=1.0),), noise_floor=0.1)
-    shares = [rung.share for rung in ladder(one)]
+    shares = [rung.share for rung in list_gaps(one)]
     assert shares == pytest.approx([100.0, 54.0, 8.0])
-    assert [rung.times for rung in ladder(one)] == ["1e+02 ×", "10 ×", "1 ×"]
+    assert [rung.times for rung in list_gaps(one)] == ["100 ×", "10 ×", "1 ×"]
 
 
-def test_why_an_alternative_lost(found: Diagnosis) -> None:
+def test_why_an_alternative_was_not_taken(found: Diagnosis) -> None:
     one = replace(found.findings[0], gap_after=1.0, evidence=100.0, ambiguous_with=("load_bias",))
-    assert lost(Alternative("sag", 2.5, 90.0), one) == "leaves 2.5 times the gap"
-    assert lost(Alternative("sag", 1.1, 53.95), one).endswith("is 10^20 times less likely")
-    assert lost(Alternative("load_bias", 1.0, 99.0), one).endswith("not told apart")
-    assert lost(Alternative("sag", nan, 1.0), one) == "no fit"
+    assert explain_rejection(Alternative("sag", 2.5, 90.0), one) == "gap 2.5 times as large"
+    assert explain_rejection(Alternative("sag", 1.1, 53.95), one).endswith("data 10^20 times less likely")
+    assert explain_rejection(Alternative("load_bias", 1.0, 99.0), one).endswith("cannot be distinguished")
+    assert explain_rejection(Alternative("sag", nan, 1.0), one) == "the fit failed"
+
+
+def test_alternatives_are_ranked_by_their_gap(found: Diagnosis) -> None:
+    """All that reduce the gap by 1 % are shown, the best first, and what explains as much in any case."""
+    gaps = {
+        "load_bias": 9.89,
+        "dead_zone": 2.0,
+        "supply_sag": 9.91,
+        "backlash": nan,
+        "quadratic_drag": 5.0,
+        "warm_up": 9.99,
+    }
+    tried = tuple(Alternative(name, gap, 1.0) for name, gap in gaps.items())
+    one = replace(found.findings[0], gap_before=10.0, alternatives=tried, ambiguous_with=("warm_up",))
+    matters, others = rank_alternatives(one)
+    assert [other.effect for other in matters] == ["dead_zone", "quadratic_drag", "load_bias", "warm_up"]
+    assert [other.effect for other in others] == ["supply_sag", "backlash"]
 
 
 def test_parameters_have_95_percent_intervals(found: Diagnosis) -> None:
-    rows = {row.name: row for row in parameter_rows(found)}
+    rows = {row.name: row for row in list_parameters(found.model, found.baseline)}
     assert list(rows) == ["kv", "ka", "ks"] and rows["ks"].before == "–"
     for name, row in rows.items():
         value, error = found.model.parameters.values[name], found.model.standard_errors[name]
@@ -34,4 +51,4 @@ def test_parameters_have_95_percent_intervals(found: Diagnosis) -> None:
         assert high == pytest.approx(value + 1.96 * error, abs=0.2 * error)
         assert low < float(row.after) < high
     unsure = replace(found, model=replace(found.model, standard_errors=dict.fromkeys(rows, nan)))
-    assert {(row.interval, row.note) for row in parameter_rows(unsure)} == {("–", "not identifiable")}
+    assert {(row.interval, row.note) for row in list_parameters(unsure.model)} == {("–", "not identifiable")}

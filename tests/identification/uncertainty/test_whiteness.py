@@ -11,7 +11,13 @@ from scipy.stats import kstest
 
 from motor_identification.identify import Request, identify
 from motor_identification.recording import check
-from motor_identification.reporting.fit_text import FOLLOWS, NO_NOISE, as_json, cautions, still_follows
+from motor_identification.reporting.fit_json import fit_to_json
+from motor_identification.reporting.fit_text import (
+    FOLLOWS,
+    NOT_WHITE,
+    list_cautions,
+    residual_follows_voltage,
+)
 from motor_identification.uncertainty.result import Fit
 from motor_identification.uncertainty.whiteness import Series, analyse, autocorrelation
 from motor_model.parameters import PAPER_KA, PAPER_KV
@@ -105,16 +111,20 @@ MISSING = {
 def test_a_missing_effect_is_said_and_one_that_is_fitted_is_not(effect: str) -> None:
     wrong = fitted(("coulomb_friction",), MISSING[effect])
     assert wrong.whiteness.p_value < 1e-6 and wrong.whiteness.autocorrelation > 0.5
-    assert {FOLLOWS, NO_NOISE} & set(cautions(wrong))
+    left = wrong.whiteness
+    said = {FOLLOWS.format(left.input_correlation), NOT_WHITE.format(left.autocorrelation)}
+    assert said & set(list_cautions(wrong))
     right = fitted(("coulomb_friction", effect), MISSING[effect])
     assert right.whiteness.p_value > 1e-4 and abs(right.whiteness.autocorrelation) < 0.15
-    assert not still_follows(right) and cautions(right) == ()
-    assert as_json(right)["whiteness"]["p_value"] == right.whiteness.p_value
+    assert not residual_follows_voltage(right) and list_cautions(right) == ()
+    assert fit_to_json(right)["whiteness"]["p_value"] == right.whiteness.p_value
 
 
 def test_what_follows_the_voltage_is_said_so() -> None:
     fit = fitted(("coulomb_friction",), MISSING["direction_asymmetry"])
-    assert still_follows(fit) and FOLLOWS in cautions(fit) and NO_NOISE not in cautions(fit)
-    content = as_json(fit)["input_correlation"]
+    said = list_cautions(fit)
+    assert residual_follows_voltage(fit) and FOLLOWS.format(fit.whiteness.input_correlation) in said
+    assert NOT_WHITE.format(fit.whiteness.autocorrelation) not in said
+    content = fit_to_json(fit)["input_correlation"]
     assert content["p_value"] < 1e-3 and 0.15 < abs(content["correlation"]) < 1.0
-    assert not still_follows(replace(fit, noise_floor=fit.residual_rms))
+    assert not residual_follows_voltage(replace(fit, noise_floor=fit.residual_rms))

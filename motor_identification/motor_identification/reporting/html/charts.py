@@ -1,4 +1,4 @@
-"""Small pictures: the gap over speed, time and angle before and after, and the torque that is left."""
+"""Draw the small charts: the gap over speed, time and angle before and after, and the residual torque."""
 
 from typing import TYPE_CHECKING
 
@@ -7,7 +7,7 @@ import numpy as np
 from motor_identification.discrepancy.missing_torque import NAMES, Shape
 from motor_identification.discrepancy.residual_maps import Map
 from motor_identification.recording import Floats
-from motor_identification.reporting.html.svg import AFTER, BEFORE, FLOOR, as_svg, style
+from motor_identification.reporting.html.svg import AFTER, BEFORE, FLOOR, svg_style, to_svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,8 +18,8 @@ WAYS = ("backward", "still", "forward")
 
 
 def draw_map(before: Map, after: Map | None, recording: str) -> str:
-    """The gap over one axis before and after, above what a perfect model would leave, as SVG."""
-    with style():
+    """Draw the gap over one axis before and after, above what a perfect model would leave, as SVG."""
+    with svg_style():
         from matplotlib import pyplot as plt
 
         figure, axes = plt.subplots(figsize=SIZE, constrained_layout=True)
@@ -39,7 +39,7 @@ def draw_map(before: Map, after: Map | None, recording: str) -> str:
         _label(axes, before, place)
         if recording:
             axes.set_title(recording)
-        return as_svg(figure, f"gap over {before.axis.label}")
+        return to_svg(figure, f"gap over {before.axis.label}")
 
 
 def _draw_signs(axes: "Axes", one: Map, place: Floats, lowest: float, color: str) -> None:
@@ -91,8 +91,8 @@ def _label(axes: "Axes", one: Map, place: Floats) -> None:
 
 
 def draw_shape(shape: Shape, recording: str) -> str:
-    """The torque that is missing over one axis, with 95 % intervals, as SVG."""
-    with style():
+    """Draw the residual torque over one axis, with 95 % intervals, as SVG."""
+    with svg_style():
         from matplotlib import pyplot as plt
 
         figure, axes = plt.subplots(figsize=SIZE, constrained_layout=True)
@@ -102,7 +102,7 @@ def draw_shape(shape: Shape, recording: str) -> str:
             middle, shape.torque, 1.96 * np.nan_to_num(shape.error), fmt=".", color=BEFORE, elinewidth=1, markersize=5
         )
         axes.set_xlabel(NAMES[shape.axis])
-        axes.set_ylabel("missing load [V]")
+        axes.set_ylabel("residual torque [V]")
         if recording:
             axes.set_title(recording)
-        return as_svg(figure, f"missing load over {shape.axis}")
+        return to_svg(figure, f"residual torque over {shape.axis}")

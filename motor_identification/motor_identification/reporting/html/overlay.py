@@ -1,12 +1,12 @@
-"""The picture of before and after: speeds over each other, what is left under them, the worst regions marked."""
+"""Draw measured and simulated speeds over time, before and after, and the residual below them."""
 
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from motor_identification.recording import Floats
-from motor_identification.reporting.html.curves import Curves
-from motor_identification.reporting.html.svg import AFTER, BEFORE, FLOOR, MEASURED, WORST, as_svg, style
+from motor_identification.reporting.curves import Curves
+from motor_identification.reporting.html.svg import AFTER, BEFORE, FLOOR, MEASURED, WORST, svg_style, to_svg
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,47 +18,55 @@ GAP = 0.15  # [s] without an interval, from which on a line is broken
 
 
 def draw_overlay(before: Curves, after: Curves | None, title: str, size: tuple[float, float]) -> str:
-    """Both models on one recording as SVG; without `after` there is only one."""
-    with style():
+    """Draw one or two models on one recording as SVG; without `after` there is only one."""
+    with svg_style():
         from matplotlib import pyplot as plt
 
         figure, (speed, rest) = plt.subplots(
             2, 1, figsize=size, sharex=True, height_ratios=(3, 2), constrained_layout=True
         )
         few = len(before.time) < FEW
-        speed.plot(
-            *_thin(before.time, before.measured), ".", color=MEASURED, markersize=4 if few else 2,
-            label="measured", rasterized=True,
-        )  # fmt: skip
-        speed.plot(*_broken(before.time, before.simulated), color=BEFORE, label="before" if after else "simulated")
-        if after is not None:
-            speed.plot(*_broken(after.time, after.simulated), color=AFTER, label="after")
-        speed.set_ylabel("speed [rad/s]")
-        speed.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, markerscale=2)
-        _draw_rest(rest, before, after, few)
+        _draw_speeds(speed, before, after, few)
+        _draw_residuals(rest, before, after, few)
         rest.set_xlabel("time [s]")
         rest.margins(x=0.01)
-        return as_svg(figure, title)
+        return to_svg(figure, title)
 
 
-def _draw_rest(axes: "Axes", before: Curves, after: Curves | None, few: bool) -> None:
+def _draw_speeds(axes: "Axes", before: Curves, after: Curves | None, few: bool) -> None:
+    """Measured speeds as a broad pale band, and the models as thin lines on it: both stay visible where they agree."""
+    time, measured = _thin(before.time, before.measured)
+    axes.plot(
+        time, measured, "o", color=MEASURED, markersize=6.0 if few else 4.0, markeredgewidth=0.0, alpha=0.55,
+        label="measured", rasterized=True,
+    )  # fmt: skip
+    label = "before" if after else "simulated"
+    axes.plot(*_broken(before.time, before.simulated), color=BEFORE, linewidth=1.2, label=label)
+    if after is not None:
+        axes.plot(*_broken(after.time, after.simulated), color=AFTER, linewidth=0.9, label="after")
+    axes.set_ylabel("speed [rad/s]")
+    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
+
+
+def _draw_residuals(axes: "Axes", before: Curves, after: Curves | None, few: bool) -> None:
     """Simulated minus measured; the worst regions of the first model in colours of their own."""
     size = 4.0 if few else 2.0
     how: dict[str, Any] = {"linestyle": "", "marker": ".", "rasterized": True}
+    dots = how | {"markersize": size}
     marked = np.any(before.regions, axis=0) if before.regions else np.zeros(len(before.time), dtype=bool)
     for one, color, which in ((before, BEFORE, ~marked), (after, AFTER, True)):
         if one is not None:  # what a recording's own unknowns were fitted on does not count, and is faint
             for counts, alpha in ((~one.scored, 0.2), (one.scored & which, 1.0)):
-                axes.plot(*_thin(one.time[counts], one.left[counts]), color=color, alpha=alpha, markersize=size, **how)
+                axes.plot(*_thin(one.time[counts], one.residual[counts]), color=color, alpha=alpha, **dots)
     for number, (inside, color) in enumerate(zip(before.regions, WORST, strict=False)):
         if inside.any():
             axes.plot(
-                *_thin(before.time[inside], before.left[inside]), color=color, markersize=size + 1.5,
+                *_thin(before.time[inside], before.residual[inside]), color=color, markersize=size + 1.5,
                 label=f"worst {number + 1}", **how,
             )  # fmt: skip
     shown = after or before
     time, floor = _thin(shown.time, 2.0 * shown.floor)
-    axes.fill_between(time, -floor, floor, color=FLOOR, alpha=0.45, linewidth=0, label="floor, ±2 σ", rasterized=True)
+    axes.fill_between(time, -floor, floor, color=FLOOR, alpha=0.45, linewidth=0, label="noise, ±2 σ", rasterized=True)
     axes.set_ylabel("simulated −\nmeasured [rad/s]")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.98), ncols=4, markerscale=2)
 

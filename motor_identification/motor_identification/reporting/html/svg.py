@@ -16,8 +16,8 @@ FONT = 9.0  # points
 
 
 @contextmanager
-def style() -> Iterator[None]:
-    """Within, figures are drawn for `as_svg`."""
+def svg_style() -> Iterator[None]:
+    """Within, figures are drawn for `to_svg`."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -46,7 +46,7 @@ def style() -> Iterator[None]:
         yield
 
 
-def as_svg(figure: "Figure", title: str) -> str:
+def to_svg(figure: "Figure", title: str) -> str:
     """The figure as an <svg> element; `title` is what a screen reader says."""
     from matplotlib import pyplot as plt
 

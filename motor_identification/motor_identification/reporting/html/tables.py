@@ -1,93 +1,104 @@
-"""The tables of the report: the ladder of gaps, parameters before and after, why an alternative lost."""
+"""The tables of the reports: gaps effect by effect, alternatives with the reason against each, parameters."""
 
 from dataclasses import dataclass
-from math import isfinite, isnan, log
+from math import inf, isfinite, isnan, log
 
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding
-from motor_identification.reporting.diagnosis_text import digits, listed, named
-from motor_model.effects import SPEC_BY_NAME
+from motor_identification.reporting.fit_text import describe_parameter
+from motor_identification.reporting.names import effect_name, join_names
+from motor_identification.reporting.numbers import TWO_SIDED, format_error, format_ratio, format_unit, format_value
+from motor_identification.uncertainty.result import Fit
 
 LARGER = 1.3  # times the finding's gap, from which on an alternative's gap says enough
+MATTERS = 0.01  # of the gap: an alternative that reduces it by less changes none of the digits that are shown
 
 
 @dataclass(frozen=True)
-class Rung:
-    """One line of the ladder: a gap and how long its bar is."""
+class GapRow:
+    """A gap with the length of its bar."""
 
     name: str
-    gap: float
-    times: str
+    gap: float  # [rad/s]
+    times: str  # the noise floor
     share: float  # of the width, logarithmic
-    detail: str
 
 
 @dataclass(frozen=True)
-class Row:
-    """One parameter before and after."""
+class ParameterRow:
+    """One parameter, before and after a diagnosis."""
 
     name: str
     unit: str
     before: str
     after: str
+    error: str
     interval: str  # 95 %
     note: str
 
 
-def ladder(diagnosis: Diagnosis) -> list[Rung]:
+def list_gaps(diagnosis: Diagnosis) -> list[GapRow]:
     """The gap before, after every effect, and the noise floor; bars by the logarithm."""
-    rows = [("kv, ka" + "".join(f", {named(e)}" for e in diagnosis.baseline.parameters.effects),
-             diagnosis.gap_before, "the model before")]  # fmt: skip
+    known = "".join(f", {effect_name(effect)}" for effect in diagnosis.baseline.parameters.effects)
+    rows = [(f"kv, ka{known}", diagnosis.gap_before)]
     for one in diagnosis.findings:
-        also = listed([named(name) for name in one.ambiguous_with], "or")
-        rows.append((f"+ {named(one.effect)}" + (f" (or {also})" if also else ""), one.gap_after, ""))
-    rows.append(("noise floor", diagnosis.noise_floor, "timer and slots alone"))
-    gaps = [gap for _, gap, _ in rows if gap > 0.0 and isfinite(gap)] or [1.0]
+        also = join_names([effect_name(name) for name in one.ambiguous_with], "or")
+        rows.append((f"+ {effect_name(one.effect)}" + (f" (or {also})" if also else ""), one.gap_after))
+    rows.append(("noise floor", diagnosis.noise_floor))
+    gaps = [gap for _, gap in rows if gap > 0.0 and isfinite(gap)] or [1.0]
     low, span = log(min(gaps)), max(log(max(gaps)) - log(min(gaps)), 1e-9)
     floor = diagnosis.noise_floor
     return [
-        Rung(
+        GapRow(
             name=name,
             gap=gap,
-            times=f"{gap / floor:.2g} ×" if floor > 0.0 else "",
+            times=f"{format_ratio(gap / floor)} ×" if floor > 0.0 else "",
             share=8.0 + 92.0 * (log(gap) - low) / span if gap > 0.0 else 0.0,
-            detail=detail,
         )
-        for name, gap, detail in rows
+        for name, gap in rows
     ]
 
 
-def lost(other: Alternative, finding: Finding) -> str:
-    """Why an alternative was not taken."""
+def rank_alternatives(finding: Finding) -> tuple[list[Alternative], list[Alternative]]:
+    """Order alternatives by their gap; return those that reduce it by 1 % at least, and the others."""
+    ranked = sorted(finding.alternatives, key=lambda one: one.gap_after if isfinite(one.gap_after) else inf)
+    matters = [
+        one.effect in finding.ambiguous_with or one.gap_after <= (1.0 - MATTERS) * finding.gap_before for one in ranked
+    ]
+    pairs = list(zip(ranked, matters, strict=True))
+    return [one for one, much in pairs if much], [one for one, much in pairs if not much]
+
+
+def explain_rejection(other: Alternative, finding: Finding) -> str:
+    """Say why an alternative was not taken."""
     if other.effect in finding.ambiguous_with:
-        return "explains this recording as well: not told apart"
+        return "explains this recording as well: cannot be distinguished"
     behind = finding.evidence - other.evidence
     if not (isfinite(behind) and isfinite(other.gap_after)):
-        return "no fit"
+        return "the fit failed"
     if other.gap_after > LARGER * finding.gap_after:
-        return f"leaves {other.gap_after / finding.gap_after:.2g} times the gap"
+        return f"gap {format_ratio(other.gap_after / finding.gap_after)} times as large"
     if behind <= 0.0:
-        return "as likely, but not what the other findings need"
-    return f"held-out motion is 10^{behind / log(10.0):.0f} times less likely"
+        return "as likely, but the other effects found do not need it"
+    return f"validation data 10^{behind / log(10.0):.0f} times less likely"
 
 
-def parameter_rows(diagnosis: Diagnosis) -> list[Row]:
-    """Every parameter of the final model with its 95 % interval."""
+def list_parameters(fit: Fit, baseline: Fit | None = None) -> list[ParameterRow]:
+    """Every parameter of a model with its 95 % interval, and its value in the baseline."""
+    before = baseline.parameters.values if baseline else {}
+    errors = baseline.standard_errors if baseline else {}
     rows = []
-    fit, before = diagnosis.model, diagnosis.baseline.parameters.values
     for name, value in fit.parameters.values.items():
         error = fit.standard_errors[name]
-        on_bound = "on the edge of the search" if fit.on_bound.get(name) else ""
-        note = "not identifiable" if isnan(error) else on_bound
-        places = digits(value, error)
-        low, high = (f"{value + way * 1.96 * error:.{places}g}" for way in (-1.0, 1.0))
+        low, high = (format_value(value + way * TWO_SIDED * error, error) for way in (-1.0, 1.0))
         rows.append(
-            Row(
+            ParameterRow(
                 name=name,
-                unit="" if SPEC_BY_NAME[name].unit == "–" else SPEC_BY_NAME[name].unit,
-                before=f"{before[name]:.5g}" if name in before else "–",
-                after=f"{value:.{places}g}",
+                unit=format_unit(name),
+                before=format_value(before[name], errors[name]) if name in before else "–",
+                after=format_value(value, error),
+                error="–" if isnan(error) else format_error(error),
                 interval="–" if isnan(error) else f"{low} … {high}",
-                note=note,
+                note=describe_parameter(fit, name),
             )
         )
     return rows

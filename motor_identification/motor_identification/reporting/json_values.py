@@ -1,0 +1,25 @@
+"""Numbers and models in the JSON form that the interfaces promise; null where there is no number."""
+
+from math import isfinite
+from typing import Any
+
+from motor_identification.uncertainty.result import Fit
+
+
+def to_number(value: float) -> float | None:
+    """Return a finite number, or None."""
+    return float(value) if isfinite(value) else None
+
+
+def to_estimate(value: float, error: float) -> dict[str, float | None]:
+    """Return a value with its standard error."""
+    return {"value": to_number(value), "standard_error": to_number(error)}
+
+
+def to_model(fit: Fit) -> dict[str, Any]:
+    """Return the effects and parameters of a fitted motor."""
+    values = fit.parameters.values
+    return {
+        "effects": list(fit.parameters.effects),
+        "parameters": {name: to_estimate(value, fit.standard_errors[name]) for name, value in values.items()},
+    }
