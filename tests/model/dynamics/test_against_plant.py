@@ -10,7 +10,6 @@ import pytest
 from numpy.typing import NDArray
 
 from motor_model.effects import EFFECTS, normalised, specs_of
-from motor_model.errors import ModelError
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.simulate import Trajectory, simulate, simulate_swarm
 
@@ -255,11 +254,3 @@ def test_a_delay_of_many_samples_and_a_first_command_before_the_start() -> None:
     early = simulate(Parameters(BASE), TIME - 0.1, VOLTAGE, TIME)  # from rest at 0 s, into the voltage of that time
     rolled = simulate(Parameters(BASE), TIME, np.roll(VOLTAGE, -20), TIME)
     assert np.max(np.abs(early.angle - rolled.angle)[TIME < 4.0]) < 1e-12
-
-
-@pytest.mark.parametrize(("commands", "times"), [(0, 5), (5, 0)])
-def test_nothing_to_simulate_is_said(commands: int, times: int) -> None:
-    with pytest.raises(ModelError, match="at least one command"):
-        simulate(Parameters(BASE), TIME[:commands], VOLTAGE[:commands], TIME[:times])
-    with pytest.raises(ModelError, match="a time for each"):
-        simulate(Parameters(BASE), TIME[:4], VOLTAGE[:3], TIME[:4])
