@@ -122,6 +122,26 @@ def test_every_folder_says_what_it_is_for() -> None:
         assert said and len(said) > 40, f"{folder.relative_to(ROOT)}/__init__.py does not say what it is for"
 
 
+def is_algorithmic(path: Path, imported: set[str]) -> bool:
+    """Whether a module computes something: it has functions, and neither talks to ROS nor is a command."""
+    shell = imported & ROS or {"cli", "live"} & set(path.parts) or path.name in ("__init__.py", "warm_up.py")
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return not shell and any(isinstance(node, ast.FunctionDef) for node in ast.walk(tree))
+
+
+def test_every_algorithmic_module_has_a_test_file_of_its_own_name() -> None:
+    """In the folder that mirrors its own. Those that have none yet are listed one by one; the list only shrinks."""
+    without = set()
+    for package, path, imported in MODULES:
+        inside = path.relative_to(ROOT / package / package)
+        mirrored = ROOT / "tests" / package.removeprefix("motor_") / inside.with_name(f"test_{inside.name}")
+        if is_algorithmic(path, imported) and not mirrored.exists():
+            without.add(f"{package}/{inside.with_suffix('')}")
+    listed = set((ROOT / "tests" / "without_test_file.txt").read_text(encoding="utf-8").split())
+    assert not without - listed, f"write a test file of its own name for {sorted(without - listed)}"
+    assert not listed - without, f"take out of tests/without_test_file.txt: {sorted(listed - without)}"
+
+
 def test_ros_stays_in_the_shells() -> None:
     for _, path, names in MODULES:
         if names & ROS:
