@@ -1,24 +1,23 @@
 """What an effect is: its name, what it does, its parameters with their units and where a search looks for them."""
 
 from dataclasses import dataclass
-from enum import Enum
 from math import inf
 
 
-class Scale(Enum):
+@dataclass(frozen=True, slots=True)
+class Scale:
     """What a search bound is a multiple of: powers of a recording's largest voltage, largest speed and duration."""
 
-    ABSOLUTE = (0, 0, 0)
-    VOLTAGE = (1, 0, 0)  # V
-    SPEED = (0, 1, 0)  # rad/s
-    GAIN = (1, -1, 0)  # V·s/rad
-    DRAG = (1, -2, 0)  # V·s²/rad²
-    DURATION = (0, 0, 1)  # s
+    voltage: float = 0.0
+    speed: float = 0.0
+    duration: float = 0.0
 
     def of(self, voltage: float, speed: float, duration: float) -> float:
-        """The scale's size for a recording that reaches `voltage` [V] and `speed` [rad/s] in `duration` [s]."""
-        powers = self.value
-        return float(voltage ** powers[0] * speed ** powers[1] * duration ** powers[2])
+        """Return the size for a recording that reaches `voltage` [V] and `speed` [rad/s] in `duration` [s]."""
+        return float(voltage**self.voltage * speed**self.speed * duration**self.duration)
+
+
+ABSOLUTE = Scale()
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +35,7 @@ class ParameterSpec:
     off: float
     low: float
     high: float
-    scale: Scale = Scale.ABSOLUTE
+    scale: Scale = ABSOLUTE
     logarithmic: bool = False
     minimum: float = 0.0
     maximum: float = inf

@@ -15,11 +15,12 @@ from motor_model.effect import Effect, ParameterSpec, Scale
 from motor_model.errors import ModelError
 
 P = ParameterSpec
+VOLTAGE, SPEED, DURATION = Scale(voltage=1), Scale(speed=1), Scale(duration=1)
 
 BASE = (
-    P("kv", "V·s/rad", 0.0, 0.1, 4.0, Scale.GAIN, True),
+    P("kv", "V·s/rad", 0.0, 0.1, 4.0, Scale(voltage=1, speed=-1), True),
     # ka = kv · time constant; 0.5 ms to 5 s of it are searched.
-    P("ka", "V·s²/rad", 0.0, 5e-4, 5.0, Scale.GAIN, True),
+    P("ka", "V·s²/rad", 0.0, 5e-4, 5.0, Scale(voltage=1, speed=-1), True),
 )
 
 EFFECTS = (
@@ -28,7 +29,7 @@ EFFECTS = (
         "ks·sign ω while moving",
         "ramps",
         "the friction level (ks)",
-        (P("ks", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE, starts=(0.03,)),),
+        (P("ks", "V", 0.0, 0.0, 0.8, VOLTAGE, starts=(0.03,)),),
         linear_onset=True,
     ),
     Effect(
@@ -37,8 +38,8 @@ EFFECTS = (
         "ramps",
         "the breakaway level (static_friction)",
         (
-            P("breakaway_voltage", "V", 0.0, 0.0, 0.8, Scale.VOLTAGE, starts=(0.1, 0.03), at_least="ks"),
-            P("stribeck_speed", "rad/s", 1.0, 0.002, 0.3, Scale.SPEED, True, minimum=1e-6, starts=(0.01, 0.035, 0.1)),
+            P("breakaway_voltage", "V", 0.0, 0.0, 0.8, VOLTAGE, starts=(0.1, 0.03), at_least="ks"),
+            P("stribeck_speed", "rad/s", 1.0, 0.002, 0.3, SPEED, True, minimum=1e-6, starts=(0.01, 0.035, 0.1)),
         ),
         implies="coulomb_friction",
     ),
@@ -47,7 +48,7 @@ EFFECTS = (
         "drag·ω·|ω|",
         "staircase",
         "drag (quadratic_drag)",
-        (P("drag", "V·s²/rad²", 0.0, 0.0, 2.0, Scale.DRAG, starts=(0.05,)),),
+        (P("drag", "V·s²/rad²", 0.0, 0.0, 2.0, Scale(voltage=1, speed=-2), starts=(0.05,)),),
         linear_onset=True,
     ),
     Effect(
@@ -55,7 +56,7 @@ EFFECTS = (
         "constant load, same sign both ways",
         "staircase",
         "a constant load (load_bias)",
-        (P("bias_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf, starts=(0.02,)),),
+        (P("bias_voltage", "V", 0.0, -0.5, 0.5, VOLTAGE, minimum=-inf, starts=(0.02,)),),
         linear_onset=True,
     ),
     Effect(
@@ -64,8 +65,8 @@ EFFECTS = (
         "rich",
         "a load step (load_step)",
         (
-            P("step_voltage", "V", 0.0, -0.5, 0.5, Scale.VOLTAGE, minimum=-inf, starts=(0.03, -0.03)),
-            P("step_time", "s", 0.0, 0.0, 1.0, Scale.DURATION, of_recording=True, starts=(0.1, 0.3, 0.5, 0.7, 0.9)),
+            P("step_voltage", "V", 0.0, -0.5, 0.5, VOLTAGE, minimum=-inf, starts=(0.03, -0.03)),
+            P("step_time", "s", 0.0, 0.0, 1.0, DURATION, of_recording=True, starts=(0.1, 0.3, 0.5, 0.7, 0.9)),
         ),
         anywhere=True,
     ),
@@ -74,7 +75,7 @@ EFFECTS = (
         "the bridge swallows this much voltage",
         "coast",
         "a dead zone of the bridge (dead_zone)",
-        (P("dead_zone_voltage", "V", 0.0, 0.0, 0.5, Scale.VOLTAGE, starts=(0.03,)),),
+        (P("dead_zone_voltage", "V", 0.0, 0.0, 0.5, VOLTAGE, starts=(0.03,)),),
         linear_onset=True,
     ),
     Effect(
@@ -82,7 +83,7 @@ EFFECTS = (
         "the output saturates here, below max_voltage",
         "staircase",
         "the voltage limit (voltage_limit)",
-        (P("limit_voltage", "V", inf, 0.2, 1.0, Scale.VOLTAGE, starts=(0.97, 0.85, 0.7)),),
+        (P("limit_voltage", "V", inf, 0.2, 1.0, VOLTAGE, starts=(0.97, 0.85, 0.7)),),
     ),
     Effect(
         "direction_asymmetry",
@@ -125,7 +126,7 @@ EFFECTS = (
         "ramps",
         "the torque ripple (torque_ripple)",
         (
-            P("ripple_voltage", "V", 0.0, 0.0, 0.3, Scale.VOLTAGE),
+            P("ripple_voltage", "V", 0.0, 0.0, 0.3, VOLTAGE),
             P("ripple_cycles", "1/rev", 1.0, 1.0, 48.0),
             P("ripple_phase", "rad", 0.0, -2 * pi, 2 * pi, minimum=-inf, of_recording=True),
         ),

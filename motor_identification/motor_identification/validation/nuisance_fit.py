@@ -13,8 +13,7 @@ from motor_identification.estimation.problem import Problem
 from motor_identification.measurement.measured_angle import Track
 from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Bools, Floats
-from motor_model.effect import Scale
-from motor_model.effects import EFFECT_BY_NAME
+from motor_model.effects import DURATION, EFFECT_BY_NAME
 
 TIMES = 24  # at which an instant is tried
 
@@ -71,7 +70,7 @@ def _fitted(problem: Problem, place: Floats, own_blocks: tuple[Bools, ...]) -> F
     if not free.any():
         return place
     for i, spec in enumerate(unknowns.specs):
-        if spec.of_recording and spec.scale is Scale.DURATION:
+        if spec.of_recording and spec.scale == DURATION:
             own = replace(own, place=_with_instants(own, i))
     low, high = unknowns.low[free], unknowns.high[free]
     margin = 1e-9 * (high - low)

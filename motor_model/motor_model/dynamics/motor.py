@@ -36,9 +36,8 @@ from motor_model.effects import INDEX
 Floats = NDArray[np.float64]
 
 KA, KS, BREAKAWAY = INDEX["ka"], INDEX["ks"], INDEX["breakaway_voltage"]
-DRAG, LAG = INDEX["drag"], INDEX["electrical_time_constant"]
+LAG = INDEX["electrical_time_constant"]
 STEP, STEP_TIME = INDEX["step_voltage"], INDEX["step_time"]
-RIPPLE, RISE = INDEX["ripple_voltage"], INDEX["resistance_rise"]
 PLAY, LOAD_FRACTION = INDEX["backlash_angle"], INDEX["load_fraction"]
 
 MAX_PIECES = 100_000  # between two outputs; a guard against endless chatter, never reached in a physical case
@@ -47,8 +46,8 @@ MAX_PIECES = 100_000  # between two outputs; a guard against endless chatter, ne
 @compiled
 def is_straight(p: Floats) -> bool:
     """Whether the equation is linear and the same at any time while the shaft turns one way at one voltage."""
-    smooth = p[BREAKAWAY] <= p[KS] and p[DRAG] == 0.0 and p[RIPPLE] == 0.0 and p[RISE] == 0.0
-    return smooth and p[LAG] == 0.0 and p[STEP] == 0.0 and (p[PLAY] == 0.0 or p[LOAD_FRACTION] == 0.0)
+    steady = p[LAG] == 0.0 and p[STEP] == 0.0 and (p[PLAY] == 0.0 or p[LOAD_FRACTION] == 0.0)
+    return steady and not is_bent(p)
 
 
 @compiled
