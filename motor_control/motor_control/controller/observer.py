@@ -1,11 +1,11 @@
-"""The observer: an identified model and the encoder's edges make the speed, and how certain it is, at any instant.
+"""Observe speed and load: a Kalman filter of an identified model and the encoder's edges.
 
 An edge is an exact angle at an exact time; between edges the model moves on. A Kalman filter over angle, speed and load
-joins the two (Anderson & Moore, "Optimal Filtering", 1979; what is special to an encoder stands in `kalman`):
+joins the two (Anderson & Moore, "Optimal Filtering", 1979; what is special to an encoder stands in `filter`):
 
     mean        every effect of the model, delay and inductance included, by the model's own compiled step
     covariance  by the line through it; the load is a random walk, so no unknown load leaves a lasting error
-    jump        where edges show that the load has jumped, it is taken up at once (`kalman.jump`)
+    jump        where edges show that the load has jumped, it is taken up at once (`filter.load_jump`)
     edges       at their own times, between two samples; what their number leaves open, the motion tells
     silence     no edge: the shaft is still within a slot; a motor that friction holds has the speed 0
 
@@ -20,10 +20,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_control.checks import at_least
-from motor_control.filter.direction_hypotheses import Pair
 from motor_control.filter.filter_state import Noise
-from motor_control.filter.prediction import carried
-from motor_control.filter.sample_update import first_pair, read
+from motor_control.filter.load_jump import no_jumps
+from motor_control.filter.packed_state import Memory, unpack_hypotheses
+from motor_control.filter.prediction import Commands
+from motor_control.filter.sample_update import Edge, Speed, predict_speed, start_filter, update_at_sample
 from motor_model.effects import INDEX
 from motor_model.errors import MotorError
 from motor_model.parameters import Parameters
@@ -34,15 +35,15 @@ SHAKE = 1e-6  # [V²·s] of the torque
 HOLE = 0.2  # of a slot: standard deviation of where a hole's other flank is
 MOST_COMMANDS = 1000  # that may be on their way through the delay
 FASTEST = 10.0  # times what the supply gives: no motor turns so fast
-NONE = (nan, 0.0)  # no edge
+NO_EDGE = Edge(nan, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class State:
     """What the observer remembers of the samples up to one of them."""
 
-    pair: Pair
-    latched: NDArray[np.float64]  # (M, 2) seconds before the sample, volts; the newest first
+    memory: Memory  # the filter's
+    commands: Commands  # that may still be on their way through the delay
     sample_time: int  # [ns]
     edge_count: int
     edge_time: int  # [ns]
@@ -96,66 +97,61 @@ class Observer:
         object.__setattr__(self, "noise", noise)
 
     def begin(self, sample: Sample, speed: float) -> State:
-        """A motor of which only a speed [rad/s] is known, at a sample."""
-        latched = _fitted(np.array([[0.0, sample.voltage]]), self._rows())
+        """Begin at a sample with a motor of which only a speed [rad/s] is known."""
+        commands = _fit_commands(Commands(np.zeros(1), np.array([sample.voltage])), self._rows())
         fastest = FASTEST * float(self.vector[INDEX["max_voltage"]] / self.vector[INDEX["kv"]])
         speed = min(max(float(speed), -fastest), fastest)
-        pair = first_pair(self.noise, speed, copysign(1.0, speed) if speed else 0.0)
-        return State(pair, latched, sample.sample_time, sample.edge_count, sample.edge_time)
+        memory = start_filter(self.noise, speed, copysign(1.0, speed) if speed else 0.0, no_jumps())
+        return State(memory, commands, sample.sample_time, sample.edge_count, sample.edge_time)
 
     def update(self, state: State, sample: Sample) -> tuple[Estimate, State]:
-        """The state at a sample after that of `state`, and the speed when a voltage sent now will act."""
+        """Update the state at the next sample, and estimate the speed when a voltage sent now will act."""
         dt = (sample.sample_time - state.sample_time) * 1e-9
-        earlier, latest = self._edges(state, sample)
-        pair, latched, speed, sigma = read(
+        after = update_at_sample(
             self.vector,
             self.noise,
-            state.pair,
-            state.latched,
+            state.memory,
+            state.commands,
             dt,
             sample.voltage,
-            earlier,
-            latest,
+            self._edges(state, sample),
             self.info.sample_period,
         )
-        after = State(pair, latched, sample.sample_time, sample.edge_count, sample.edge_time)
-        belief = pair.likely
-        return Estimate(speed, sigma, belief.trail.innovation, belief.load, belief.trail.still), after
+        estimate = Estimate(after.ahead.mean, after.ahead.sigma, after.innovation, after.load, after.stands)
+        return estimate, State(after.memory, after.commands, sample.sample_time, sample.edge_count, sample.edge_time)
 
-    def predict(self, state: State, lead: float) -> tuple[float, float]:
-        """Speed and its standard deviation [rad/s], `lead` [s] >= 0 after the state's sample if its voltage stays."""
-        then = carried(self.vector.copy(), self.noise, state.pair.likely, state.latched, 0.0, lead)
-        return then.motor.speed, sqrt(max(then.spread.ss, 0.0))
+    def predict(self, state: State, lead: float) -> Speed:
+        """Predict the speed `lead` [s] >= 0 after the state's sample if its voltage stays."""
+        return predict_speed(self.vector, self.noise, state.memory, state.commands, lead)
 
-    def renewed(self, state: State) -> State:
-        """What this observer may take over from another model's state: the motion, not the load."""
-        motor = state.pair.likely.motor
-        pair = first_pair(self.noise, motor.speed, motor.direction)
-        return replace(state, pair=pair, latched=_fitted(state.latched, self._rows()))
+    def adopt(self, state: State) -> State:
+        """Adopt what another model's state knows of the motion, not of the load."""
+        motor = unpack_hypotheses(state.memory).likely.estimate.motor
+        memory = start_filter(self.noise, motor.speed, motor.direction, no_jumps())
+        return replace(state, memory=memory, commands=_fit_commands(state.commands, self._rows()))
 
     def _rows(self) -> int:
-        """How many commands may still be on their way."""
+        """Count the commands that may still be on their way."""
         delay = float(self.vector[INDEX["delay"]])
         return min(ceil(delay / self.info.sample_period) + 2, MOST_COMMANDS)
 
-    def _edges(self, state: State, sample: Sample) -> tuple[tuple[float, float], tuple[float, float]]:
-        """The last two edges since a state, as [s] after it and the steps to each from the one before."""
+    def _edges(self, state: State, sample: Sample) -> tuple[Edge, Edge]:
+        """Find the last two edges since a state."""
         steps = sample.edge_count - state.edge_count
         if steps < 0 and self.noise.single:
             steps = 0  # a count that nobody can explain
         if sample.edge_time == state.edge_time or sample.edge_time == 0:
-            return NONE, NONE
+            return NO_EDGE, NO_EDGE
         at = (sample.edge_time - state.sample_time) * 1e-9 + 0.5 * self.noise.tick
         before = at - sample.edge_period
         if abs(steps) < 2 or sample.edge_period <= 0.0 or before < 0.0:
-            return NONE, (at, float(steps))
+            return NO_EDGE, Edge(at, float(steps))
         one = copysign(1.0, steps)
-        return (before, steps - one), (at, one)
+        return Edge(before, steps - one), Edge(at, one)
 
 
-def _fitted(latched: NDArray[np.float64], rows: int) -> NDArray[np.float64]:
-    """The newest commands, in so many rows."""
-    fitted = np.zeros((rows, 2))
-    fitted[:, 0] = -inf
-    fitted[: min(rows, len(latched))] = latched[:rows]
-    return fitted
+def _fit_commands(commands: Commands, rows: int) -> Commands:
+    """Keep the newest commands, in so many rows."""
+    times, voltages, kept = np.full(rows, -inf), np.zeros(rows), min(rows, len(commands.times))
+    times[:kept], voltages[:kept] = commands.times[:kept], commands.voltages[:kept]
+    return Commands(times, voltages)

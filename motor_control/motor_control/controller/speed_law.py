@@ -115,7 +115,7 @@ def _handed_over(run: Run, config: Config, sample: Sample) -> Watched | None:
     if run.watched is None:
         return config.observer.begin(sample, sample.speed)
     same = run.config.observer is not None and run.config.observer == config.observer
-    return run.watched if same else config.observer.renewed(run.watched)
+    return run.watched if same else config.observer.adopt(run.watched)
 
 
 def _law(config: Config, run: Run, sample: Sample, wanted: float, hold: bool = False) -> tuple[Answer, Run]:

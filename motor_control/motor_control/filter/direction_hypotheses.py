@@ -1,4 +1,4 @@
-"""Two beliefs where a single channel leaves the direction open: the likely one, and the same edges the other way.
+"""Follow two hypotheses where a single channel leaves the direction open: the likely one, and the other way round.
 
 Near a reversal the model decides, and may be wrong by an edge. So wherever an edge has left doubt, the mirrored motion
 is followed too. The voltage drives one of them on and brakes the other, hence the next edge or two tell which is true
@@ -12,11 +12,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_control.filter.edge_update import edge_passed
-from motor_control.filter.filter_state import Belief, Noise, mirrored
-from motor_control.filter.load_jump import forgotten, led_on
-from motor_control.filter.no_edge_update import bounded, nothing_seen, turned_round
-from motor_control.filter.prediction import acting, carried
+from motor_control.filter.edge_update import update_at_edge
+from motor_control.filter.filter_state import FilterState, Noise, mirror_motion
+from motor_control.filter.load_jump import Jumps, forget_jumps, predict_jumps
+from motor_control.filter.no_edge_update import clamp_state, turn_by_load, update_without_edge
+from motor_control.filter.prediction import Commands, find_acting_voltage, predict_state
 from motor_model.compiled import compiled
 
 OPEN = 12.0  # log-likelihood by which the chosen direction has to lead, else the other one is followed as well
@@ -27,65 +27,62 @@ SETTLED = 25.0  # after which the other one is dropped
 Floats = NDArray[np.float64]
 
 
-class Pair(NamedTuple):
-    """The likely belief, the other one, and by how much log-likelihood the first leads; infinite: there is no other."""
+class Hypotheses(NamedTuple):
+    """Both directions, and by how much log-likelihood the first leads; infinite: there is no other."""
 
-    likely: Belief
-    other: Belief
+    likely: FilterState
+    other: FilterState
     lead: float
-    jumps: Floats  # of the likely belief's load; see `jump`
+    jumps: Jumps  # of the likely one's load; see `load_jump`
 
 
 @compiled
-def _settled(likely: Belief, other: Belief, lead: float, jumps: Floats, choice: float) -> Pair:
-    """The pair after an edge whose direction was chosen with this much more likelihood."""
+def decide_direction(pair: Hypotheses, margin: float) -> Hypotheses:
+    """Decide between the directions after an edge whose own direction was chosen by this log-likelihood margin."""
+    likely, other, lead, jumps = pair.likely, pair.other, pair.lead, pair.jumps
     if lead == inf:
-        if choice < OPEN:
-            return Pair(likely, mirrored(likely, likely.load), min(choice, HEAD_START), jumps)
-        return Pair(likely, other, inf, jumps)
-    if likely.motor.speed * other.motor.speed > 0.0:  # they agree by now
+        if margin < OPEN:
+            return Hypotheses(likely, mirror_motion(likely, likely.estimate.load), min(margin, HEAD_START), jumps)
+        return pair
+    if likely.estimate.motor.speed * other.estimate.motor.speed > 0.0:  # they agree by now
         if lead < -OVERTAKEN:
-            likely = other
-            forgotten(jumps)
-        return Pair(likely, other, inf, jumps)
+            return Hypotheses(other, other, inf, forget_jumps(jumps))
+        return Hypotheses(likely, other, inf, jumps)
     if lead < -OVERTAKEN:
-        likely, other, lead = other, likely, -lead
-        forgotten(jumps)
-    return Pair(likely, other, inf if lead > SETTLED else lead, jumps)
+        likely, other, lead, jumps = other, likely, -lead, forget_jumps(jumps)
+    return Hypotheses(likely, other, inf if lead > SETTLED else lead, jumps)
 
 
 @compiled
-def followed(
-    p: Floats, noise: Noise, pair: Pair, latched: Floats, start: float, stop: float, edge: bool, steps: float
-) -> Pair:
-    """The pair from start to stop [s], where an edge passes or not, `steps` after the one before."""
-    likely, other, lead, choice, jumps = pair.likely, pair.other, pair.lead, inf, pair.jumps
-    led_on(p, jumps, acting(p, latched, stop), likely.motor.speed, stop - start)
-    for which in range(2):
-        if which == 1 and lead == inf:
-            break
-        b = carried(p, noise, likely if which == 0 else other, latched, start, stop)
-        if edge:
-            b, score, doubt = edge_passed(
-                p, noise, b, jumps if which == 0 else jumps[:0], acting(p, latched, stop), steps
-            )
-            lead += score if which == 0 else -score
-            choice = doubt if which == 0 else choice
-            b = bounded(p, noise, b)
-        if which == 0:
-            likely = b
-        else:
-            other = b
-    return _settled(likely, other, lead, jumps, choice) if edge else Pair(likely, other, lead, jumps)
+def predict_hypotheses(
+    p: Floats, noise: Noise, pair: Hypotheses, commands: Commands, start: float, stop: float
+) -> Hypotheses:
+    """Predict both hypotheses from `start` to `stop` [s]."""
+    u = find_acting_voltage(p, commands, stop)
+    jumps = predict_jumps(p, pair.jumps, u, pair.likely.estimate.motor.speed, stop - start)
+    likely = predict_state(p, noise, pair.likely, commands, start, stop)
+    other = pair.other if pair.lead == inf else predict_state(p, noise, pair.other, commands, start, stop)
+    return Hypotheses(likely, other, pair.lead, jumps)
 
 
 @compiled
-def at_sample(p: Floats, noise: Noise, pair: Pair, u: float, dt: float, seen: bool) -> Pair:
-    """The pair at a sample dt [s] after the last one; seen: an edge has come since; u: effective voltage [V]."""
-    likely, other = pair.likely, pair.other
+def update_hypotheses(p: Floats, noise: Noise, pair: Hypotheses, u: float, steps: float) -> Hypotheses:
+    """Update both hypotheses at an edge, `steps` after the last one, under an effective voltage u [V]."""
+    first = update_at_edge(p, noise, pair.likely, pair.jumps, u, steps)
+    likely, other, lead = clamp_state(p, noise, first.state), pair.other, pair.lead
+    if lead != inf:
+        second = update_at_edge(p, noise, other, pair.jumps[:0], u, steps)
+        other, lead = clamp_state(p, noise, second.state), lead + first.log_likelihood - second.log_likelihood
+    return decide_direction(Hypotheses(likely, other, lead, first.jumps), first.margin)
+
+
+@compiled
+def finish_sample(p: Floats, noise: Noise, pair: Hypotheses, u: float, dt: float, seen: bool) -> Hypotheses:
+    """Finish a sample dt [s] after the last one, at an effective voltage u [V]; seen: an edge has come since."""
+    likely, other, jumps = pair.likely, pair.other, pair.jumps
     if not seen:
-        likely, other = nothing_seen(noise, likely, dt), nothing_seen(noise, other, dt)
-    after = turned_round(p, noise, likely, u, dt)
-    if after.motor.speed * likely.motor.speed < 0.0:
-        forgotten(pair.jumps)
-    return Pair(bounded(p, noise, after), bounded(p, noise, other), pair.lead, pair.jumps)
+        likely, other = update_without_edge(noise, likely, dt), update_without_edge(noise, other, dt)
+    after = turn_by_load(p, noise, likely, u, dt)
+    if after.estimate.motor.speed * likely.estimate.motor.speed < 0.0:
+        jumps = forget_jumps(jumps)
+    return Hypotheses(clamp_state(p, noise, after), clamp_state(p, noise, other), pair.lead, jumps)

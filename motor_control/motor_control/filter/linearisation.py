@@ -1,4 +1,4 @@
-"""What an error of the belief becomes: the line through the motor model at its speed.
+"""Linearise the motor model at its speed: what an error of the estimate becomes.
 
 With the friction's slope f' there, and δd the error of the load, in volts:
 
@@ -30,8 +30,8 @@ class Transition(NamedTuple):
 
 
 @compiled
-def transition(p: Floats, u: float, speed: float, dt: float) -> Transition:
-    """Over dt [s] at an effective voltage u [V] and about this speed [rad/s]."""
+def linearise_motion(p: Floats, u: float, speed: float, dt: float) -> Transition:
+    """Compute the transition matrix over dt [s] at an effective voltage u [V] and about this speed [rad/s]."""
     _source, back_emf = drive_of(p, u)
     a, b = -(back_emf + friction_slope_at(p, speed)) / p[KA], -1.0 / p[KA]
     z = a * dt

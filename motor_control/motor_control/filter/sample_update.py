@@ -1,15 +1,30 @@
-"""One sample: what has come since the last one, and how things stand now and when the next voltage acts."""
+"""Update the filter at a sample: through the edges since the last one, then on to when the next voltage acts."""
 
-from math import inf, isnan, sqrt
+from math import inf, sqrt
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_control.filter.direction_hypotheses import Pair, at_sample, followed
-from motor_control.filter.filter_state import Belief, Noise, Spread, Trail
-from motor_control.filter.load_jump import SHAPE, UNEARNED
-from motor_control.filter.prediction import acting, carried
+from motor_control.filter.direction_hypotheses import (
+    Hypotheses,
+    finish_sample,
+    predict_hypotheses,
+    update_hypotheses,
+)
+from motor_control.filter.filter_state import (
+    Consistency,
+    Covariance,
+    Estimate,
+    FilterState,
+    History,
+    LatestEdge,
+    Noise,
+    Silence,
+)
+from motor_control.filter.load_jump import UNEARNED, Jumps
+from motor_control.filter.packed_state import Memory, pack_hypotheses, unpack_hypotheses
+from motor_control.filter.prediction import Commands, find_acting_voltage, predict_state
 from motor_model.compiled import compiled
 from motor_model.dynamics.state import State
 from motor_model.effects import INDEX
@@ -19,55 +34,87 @@ DELAY = INDEX["delay"]
 Floats = NDArray[np.float64]
 
 
-class Reading(NamedTuple):
+class Edge(NamedTuple):
+    """An edge between two samples."""
+
+    time: float  # [s] after the earlier sample; NaN: there was none
+    steps: float  # since the edge before it; signed where the encoder has two channels
+
+
+class Speed(NamedTuple):
+    """A speed and how certain it is."""
+
+    mean: float  # [rad/s]
+    sigma: float  # [rad/s]
+
+
+class SampleUpdate(NamedTuple):
     """What a sample leads to."""
 
-    pair: Pair  # at the sample
-    latched: Floats  # [s] before the sample, [V]; the newest first
-    speed: float  # [rad/s] when a voltage sent now will act
-    sigma: float  # [rad/s] of that
+    memory: Memory  # the hypotheses at the sample
+    commands: Commands  # counted from the sample
+    ahead: Speed  # when a voltage sent now will act
+    innovation: float  # [rad] angle at the latest edge less its prediction
+    load: float  # [V] beyond the model's
+    stands: bool  # no edge comes although the model would have it move
 
 
 @compiled
-def first_pair(noise: Noise, speed: float, direction: float) -> Pair:
-    """A motor of which only a reported speed [rad/s] is known, as good as a period of irregular slots."""
-    spread = Spread(noise.slot * noise.slot, 0.0, 0.0, 0.01 * speed * speed, 0.0, 0.01)
-    motor = State(0.0, speed, 0.0, 0.0, direction, 0.0)
-    belief = Belief(motor, 0.0, spread, Trail(0.0, 0.0, 0.0, False, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, UNEARNED), 0.0)
-    return Pair(belief, belief, inf, np.zeros(SHAPE))
+def start_filter(noise: Noise, speed: float, direction: float, jumps: Jumps) -> Memory:
+    """Start from a reported speed [rad/s] alone, as good as a period of irregular slots; jumps: a table without any."""
+    covariance = Covariance(noise.slot * noise.slot, 0.0, 0.0, 0.01 * speed * speed, 0.0, 0.01)
+    estimate = Estimate(State(0.0, speed, 0.0, 0.0, direction, 0.0), 0.0, covariance)
+    history = History(LatestEdge(0.0, 0.0, 0.0, 0.0), Silence(0.0, False), Consistency(0.0, 0.0, UNEARNED), 0.0, 0.0)
+    state = FilterState(estimate, history, 0.0)
+    return pack_hypotheses(Hypotheses(state, state, inf, jumps))
 
 
 @compiled
-def read(
+def shift_commands(commands: Commands, voltage: float, dt: float) -> Commands:
+    """Count the commands from a sample dt [s] later that latches a voltage [V]; the oldest goes if that is new."""
+    times, voltages = np.empty_like(commands.times), np.empty_like(commands.voltages)
+    times[0], voltages[0] = 0.0, voltage
+    if commands.voltages[0] == voltage:
+        times[:], voltages[:] = commands.times - dt, commands.voltages
+    else:
+        times[1:], voltages[1:] = commands.times[:-1] - dt, commands.voltages[:-1]
+    return Commands(times, voltages)
+
+
+@compiled
+def predict_speed(p: Floats, noise: Noise, memory: Memory, commands: Commands, lead: float) -> Speed:
+    """Predict the speed `lead` [s] after the sample if its voltage stays."""
+    then = predict_state(p, noise, unpack_hypotheses(memory).likely, commands, 0.0, lead).estimate
+    return Speed(then.motor.speed, sqrt(max(then.covariance.ss, 0.0)))
+
+
+@compiled
+def update_at_sample(
     p: Floats,
     noise: Noise,
-    pair: Pair,
-    latched: Floats,
+    memory: Memory,
+    commands: Commands,
     dt: float,
     voltage: float,
-    earlier: tuple[float, float],
-    latest: tuple[float, float],
+    edges: tuple[Edge, Edge],
     lead: float,
-) -> Reading:
-    """What is believed dt [s] after `pair`, at a sample that latches a voltage [V].
+) -> SampleUpdate:
+    """Update the hypotheses at a sample dt [s] after their own, which latches a voltage [V].
 
-    p: the model's vector. earlier, latest: edges since then as time after `pair` [s] (NaN: none) and steps. lead: [s]
-    after which a voltage that is sent now gets to the board.
+    p: the model's vector. edges: the latest two since then. lead: [s] after which a voltage that is sent now gets to
+    the board.
     """
-    p = p.copy()
-    t, seen = 0.0, False
-    pair = Pair(pair.likely, pair.other, pair.lead, pair.jumps.copy())  # the rest is written to it
-    for at, steps, edge in ((*earlier, True), (*latest, True), (dt, 0.0, False)):
-        if not isnan(at):
-            stop = min(max(at, t), dt)
-            pair = followed(p, noise, pair, latched, t, stop, edge, steps)
-            t, seen = stop, seen or edge
-    pair = at_sample(p, noise, pair, acting(p, latched, dt), dt, seen)
-    after = np.empty_like(latched)
-    after[0, 0], after[0, 1] = 0.0, voltage
-    if latched[0, 1] == voltage:
-        after[:, 0], after[:, 1] = latched[:, 0] - dt, latched[:, 1]
-    else:
-        after[1:, 0], after[1:, 1] = latched[:-1, 0] - dt, latched[:-1, 1]
-    then = carried(p, noise, pair.likely, after, 0.0, lead + p[DELAY])
-    return Reading(pair, after, then.motor.speed, sqrt(max(then.spread.ss, 0.0)))
+    pair, t, seen = unpack_hypotheses(memory), 0.0, False
+    for edge in edges:
+        if edge.time == edge.time:  # not NaN
+            stop = min(max(edge.time, t), dt)
+            pair = predict_hypotheses(p, noise, pair, commands, t, stop)
+            pair = update_hypotheses(p, noise, pair, find_acting_voltage(p, commands, stop), edge.steps)
+            t, seen = stop, True
+    pair = predict_hypotheses(p, noise, pair, commands, t, dt)
+    pair = finish_sample(p, noise, pair, find_acting_voltage(p, commands, dt), dt, seen)
+    after = shift_commands(commands, voltage, dt)
+    history, load = pair.likely.history, pair.likely.estimate.load
+    memory = pack_hypotheses(pair)
+    ahead = predict_speed(p, noise, memory, after, lead + p[DELAY])
+    return SampleUpdate(memory, after, ahead, history.edge.innovation, load, history.silence.stands)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from motor_control.controller.observer import Observer, State
+from motor_control.filter.packed_state import unpack_hypotheses
 from motor_model.errors import MotorError
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.sample import Info, Measurement, Sample
@@ -215,17 +216,20 @@ def test_whatever_comes_the_estimate_is_finite(
         estimate, state = observer.update(state, Sample(time, 0.0, voltage, count, time + edge, period))
         assert isfinite(estimate.speed) and isfinite(estimate.sigma) and isfinite(estimate.load)
         assert abs(estimate.load) <= 36.0 and estimate.sigma >= 0.0
-        assert abs(state.pair.likely.motor.speed) < 1e5
+        assert abs(unpack_hypotheses(state.memory).likely.estimate.motor.speed) < 1e5
 
 
 def test_update_changes_nothing_that_it_was_given() -> None:
     observer = Observer(motor(), Info())
     state = observer.begin(Sample(0, 0.0, 3.0), 0.0)
-    before = (state.pair[:3], state.pair.jumps.copy(), state.latched.copy(), observer.vector.copy())
+    before = [part.copy() for part in (*state.memory, *state.commands, observer.vector)]
     sample = Sample(5_000_000, 0.0, 4.0, 1, 3_000_000, 0.0)
     first, second = observer.update(state, sample), observer.update(state, sample)
-    assert first[0] == second[0] and first[1].pair[:3] == second[1].pair[:3]
-    assert np.array_equal(first[1].pair.jumps, second[1].pair.jumps)
-    assert state.pair[:3] == before[0] and np.array_equal(state.pair.jumps, before[1])
-    assert np.array_equal(state.latched, before[2]) and np.array_equal(observer.vector, before[3])
+    assert first[0] == second[0]
+    for one, other in zip(
+        (*first[1].memory, *first[1].commands), (*second[1].memory, *second[1].commands), strict=True
+    ):
+        assert np.array_equal(one, other)
+    for now, then in zip((*state.memory, *state.commands, observer.vector), before, strict=True):
+        assert np.array_equal(now, then)
     assert replace(state, sample_time=1) != state
