@@ -23,37 +23,42 @@ def parser() -> argparse.ArgumentParser:
     """The command line."""
     parser = argparse.ArgumentParser(
         prog="tune",
-        description="Make the gains of the speed controller from a motor model, and say what they will do.",
+        description="Design the gains of the speed controller from a motor model, and predict the loop.",
         epilog="To use the gains: ros2 run motor_control motor_control --ros-args --params-file gains.yaml",
     )
     parser.add_argument("model", metavar="MODEL", help="model file (YAML), as 'identify --output' writes it")
-    parser.add_argument("--output", type=Path, metavar="FILE", help="write the gains here (ROS 2 parameter file)")
-    parser.add_argument("--figure", type=Path, metavar="FILE", help="draw the predicted step here (PNG)")
+    parser.add_argument(
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="write the gains here (ROS 2 parameter file; never over an existing one)",
+    )
+    parser.add_argument("--figure", type=Path, metavar="FILE", help="draw the predicted step here (PNG, PDF or SVG)")
     parser.add_argument(
         "--time-constant",
         type=positive,
         metavar="S",
-        help="of the closed loop [s] (default: the fastest that delay and encoder allow)",
+        help="closed-loop time constant [s] (default: the shortest that delay and encoder allow)",
     )
     parser.add_argument(
         "--speed-source",
         choices=(MEASURED, OBSERVER),
         default=MEASURED,
-        help="where the controller takes the speed from (default measured: the period between edges)",
+        help="speed that the law uses (default measured: from the period between edges)",
     )
     parser.add_argument(
         "--lowest-speed",
         type=positive,
         default=10.0,
         metavar="RAD_S",
-        help="the slowest reference of interest [rad/s] (default 10)",
+        help="slowest reference of interest [rad/s] (default 10)",
     )
     parser.add_argument(
         "--oscillation",
         type=positive,
         default=0.02,
         metavar="SHARE",
-        help="of the speed, peak to peak, that an irregular disc may cause (default 0.02)",
+        help="speed ripple, peak to peak, that an irregular disc may cause (default 0.02)",
     )
     _add_encoder(parser)
     return parser
@@ -91,7 +96,7 @@ def _tune(options: argparse.Namespace) -> int:
     for caution in cautions(tuning, parameters):
         print(f"\n{caution}")
     if options.output:
-        save_gains(options.output, tuning, options.model)
+        save_gains(options.output, tuning, Path(options.model))
         print(f"gains: {options.output}")
     if options.figure:
         _draw(options, tuning, parameters)

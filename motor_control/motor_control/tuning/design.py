@@ -59,7 +59,7 @@ class Tuning:
     bounds: tuple[Bound, ...]
     margins: Margins  # the least of all speeds
     step: StepResponse  # small
-    large_step: StepResponse  # to the middle of the range, within the voltage
+    large_step: StepResponse  # to the middle of the range, with the voltage limit
     ripples: tuple[tuple[float, Ripple], ...]  # at some speeds [rad/s]
 
 
@@ -84,9 +84,9 @@ def tune(parameters: Parameters, encoder: Encoder, wish: Wish) -> Tuning:
         quiet := quiet_kp(sight, bare, speeds, wish.oscillation, calm),
     )
     names = (
-        "sampling and bridge",
+        "sampling and bridge delay",
         sight.bound.format(wish.lowest_speed),
-        f"swings of {100 * wish.oscillation:.3g} % by the disc",
+        f"{100 * wish.oscillation:.3g} % ripple from the disc",
     )
     plants = (sight.plant(bare, top), *[sight.plant(bare, wish.lowest_speed)] * 2)
     bounds = tuple(

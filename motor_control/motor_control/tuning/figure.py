@@ -1,4 +1,4 @@
-"""The picture of a tuning: the step as predicted and as simulated, its voltage, and the swings over the speed."""
+"""Draw a tuning: the step as predicted and as simulated, its voltage, and the ripple over the speed."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -32,7 +32,7 @@ def draw_tuning(tuning: Tuning, rehearsal: Rehearsal, title: str, path: Path) ->
     figure.suptitle(f"{title}: kp {tuning.gains.kp:.4g} V/(rad/s), ki {tuning.gains.ki:.4g} V/rad", fontsize=11)
     _draw_large(speed, voltage, tuning, rehearsal)
     _draw_small(small, tuning)
-    _draw_swings(swing, tuning)
+    _draw_ripple(swing, tuning)
     for axes in (speed, voltage, small, swing):
         axes.grid(alpha=0.25)
         axes.spines[["top", "right"]].set_visible(False)
@@ -48,9 +48,9 @@ def draw_tuning(tuning: Tuning, rehearsal: Rehearsal, title: str, path: Path) ->
 def _draw_large(speed: "Axes", voltage: "Axes", tuning: Tuning, rehearsal: Rehearsal) -> None:
     step = tuning.large_step
     speed.axhline(step.reference, color=REFERENCE, linewidth=0.8, linestyle="--")
-    speed.plot(1e3 * rehearsal.time, rehearsal.speed, color=SIMULATED, label="simulated: whole model, disc, controller")
-    speed.plot(1e3 * step.time, step.speed, color=PREDICTED, linewidth=1.1, label="predicted: linear motor")
-    speed.set_title(f"0 to {step.reference:.3g} rad/s within the voltage", fontsize=10)
+    speed.plot(1e3 * rehearsal.time, rehearsal.speed, color=SIMULATED, label="simulated: full model, disc, controller")
+    speed.plot(1e3 * step.time, step.speed, color=PREDICTED, linewidth=1.1, label="predicted: linear model")
+    speed.set_title(f"step from 0 to {step.reference:.3g} rad/s, with the voltage limit", fontsize=10)
     speed.set_ylabel("shaft speed [rad/s]")
     speed.legend(frameon=False, loc="lower right", fontsize=8)
     speed.sharex(voltage)
@@ -71,7 +71,7 @@ def _draw_small(axes: "Axes", tuning: Tuning) -> None:
     axes.set_xlim(0.0, 1e3 * min(float(step.time[-1]), 8.0 * tuning.time_constant))
     axes.set_ylim(0.0, None)
     margins = tuning.margins
-    axes.set_title("a small step, no voltage limit felt", fontsize=10)
+    axes.set_title("small step, below the voltage limit", fontsize=10)
     axes.text(
         0.97,
         0.06,
@@ -85,7 +85,7 @@ def _draw_small(axes: "Axes", tuning: Tuning) -> None:
     axes.set_xlabel("time [ms]")
 
 
-def _draw_swings(axes: "Axes", tuning: Tuning) -> None:
+def _draw_ripple(axes: "Axes", tuning: Tuning) -> None:
     speeds = np.array([speed for speed, _ in tuning.ripples])
     swings = np.array([ripple.speed for _, ripple in tuning.ripples])
     axes.semilogx(speeds, 100.0 * swings, "o-", color=PREDICTED, markersize=4)
@@ -93,6 +93,6 @@ def _draw_swings(axes: "Axes", tuning: Tuning) -> None:
     axes.set_xticks(speeds, [f"{speed:.3g}" for speed in speeds])
     axes.minorticks_off()
     axes.set_ylim(0.0, None)
-    axes.set_title("swings that the disc causes (dashed: allowed)", fontsize=10)
+    axes.set_title("speed ripple from the disc (dashed: allowed)", fontsize=10)
     axes.set_ylabel("peak to peak [%]")
     axes.set_xlabel("speed [rad/s]")

@@ -1,4 +1,4 @@
-"""Gains as a ROS 2 parameter file, with comments that say how they came about."""
+"""Write gains as a ROS 2 parameter file, with comments that say how they came about."""
 
 import json
 from pathlib import Path
@@ -10,12 +10,12 @@ from motor_model.errors import MotorError
 NODE = "/**/motor_control"  # in any namespace
 
 
-def gain_text(tuning: Tuning, model: str) -> str:
-    """The file's content; `model` is the model file's path as the node will be given it."""
+def gain_text(tuning: Tuning, model: Path) -> str:
+    """Format the file's content; the model is named by its absolute path, so the node may be started anywhere."""
     wish, encoder, plant = tuning.wish, tuning.sight.encoder, tuning.plant
     margins = tuning.margins
     least = max(tuning.bounds, key=lambda bound: bound.time_constant)
-    how = "as asked for" if wish.time_constant is not None else f"bounded by {least.name}"
+    how = "as requested" if wish.time_constant is not None else f"limited by {least.name}"
     lines = [
         f"# Gains for the motor of {model}, by `tune`. To use them:",
         "#   ros2 run motor_control motor_control --ros-args --params-file THIS_FILE",
@@ -32,20 +32,27 @@ def gain_text(tuning: Tuning, model: str) -> str:
         f"    speed_source: {tuning.sight.name}",
     ]
     if tuning.sight.name == OBSERVER:
-        lines.append(f"    model: {json.dumps(model, ensure_ascii=False)}  # of the observer and the feed-forward")
+        lines.append(
+            f"    model: {json.dumps(str(model.absolute()), ensure_ascii=False)}  # of observer and feed-forward"
+        )
         lines.append(f"    slot_irregularity: {_number(encoder.slot_irregularity)}  # share of a slot")
         lines.append("    feedforward: true  # kv, ka, friction of the model")
     return "\n".join(lines) + "\n"
 
 
-def save_gains(path: Path, tuning: Tuning, model: str) -> None:
-    """Write the parameter file.
+def save_gains(path: Path, tuning: Tuning, model: Path) -> None:
+    """Write the parameter file, never over another one.
 
     Raises:
-        MotorError: it cannot be written.
+        MotorError: the file exists, or cannot be written.
     """
     try:
-        path.write_text(gain_text(tuning, model), encoding="utf-8")
+        with path.open("x", encoding="utf-8") as file:
+            file.write(gain_text(tuning, model))
+    except FileExistsError as error:
+        raise MotorError(
+            f"{path} exists already and is left as it is: choose another name, or move it away."
+        ) from error
     except OSError as error:
         raise MotorError(f"cannot write {path}: {error.strerror}.") from error
 

@@ -10,16 +10,15 @@ from motor_model.errors import MotorError
 SLOWEST = 1000.0  # times less than the largest kp; beyond that a wish is a slip of the pen
 TOO_FAST = {
     MEASURED: (
-        "A time constant of {:.3g} ms is faster than this loop can be: {:.3g} ms pass before a voltage shows in the "
-        "speed ({}), so ask for {:.3g} ms or more, sample faster, give a higher lowest speed, or take the observer."
+        "A time constant of {:.3g} ms is too short for this loop. The total delay is {:.3g} ms ({}): ask for {:.3g} ms "
+        "or more, sample faster, give a higher lowest speed, or use the observer."
     ),
     OBSERVER: (
-        "A time constant of {:.3g} ms is faster than this loop can be: {:.3g} ms pass before a voltage shows in the "
-        "speed ({}), and an observer that is slower than the loop costs margins, so ask for {:.3g} ms or more, or "
-        "sample faster."
+        "A time constant of {:.3g} ms is too short for this loop. The total delay is {:.3g} ms ({}), and the observer "
+        "needs its own margins: ask for {:.3g} ms or more, or sample faster."
     ),
 }
-TOO_SLOW = "A time constant of {:.3g} s is slower than this law can be: ask for {:.3g} s or less."
+TOO_SLOW = "A time constant of {:.3g} s is too long for this law: ask for {:.3g} s or less."
 
 
 def time_constant_of(sight: Sight, plant: Plant, gains: Gains) -> float:
@@ -41,7 +40,7 @@ def quiet_kp(sight: Sight, bare: Plant, speeds: tuple[float, ...], most: float, 
         return largest
     if excess(low) > 0.0:
         raise MotorError(
-            f"No gains keep the oscillation below {100 * most:.3g} % with this encoder: allow more, or give a higher "
+            f"No gains keep the speed ripple below {100 * most:.3g} % with this encoder: allow more, or give a higher "
             "lowest speed."
         )
     return float(2.0 ** brentq(excess, low, high, xtol=1e-3))

@@ -33,7 +33,7 @@ class Measured:
 
     encoder: Encoder
     name: str = MEASURED
-    bound: str = "the encoder's lag at {:.3g} rad/s"
+    bound: str = "encoder delay at {:.3g} rad/s"
 
     def lag(self, speed: float) -> float:
         """[s] how old the reported speed is at a speed [rad/s], in the mean."""

@@ -49,7 +49,7 @@ class Observed:
     walk: float
     shake: float
     name: str = OBSERVER
-    bound: str = "margins with the observer"
+    bound: str = "stability margins with the observer"
 
     def plant(self, bare: Plant, speed: float) -> Plant:
         """Nothing is late that the model knows."""

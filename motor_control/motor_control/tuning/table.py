@@ -1,4 +1,4 @@
-"""What `tune` prints: gains, margins, predictions, what bounds the loop, and what to be careful about."""
+"""Format a tuning as text: gains, margins, predictions, limits of the time constant, cautions."""
 
 from math import isfinite
 
@@ -6,42 +6,44 @@ from motor_control.tuning.design import Tuning
 from motor_control.tuning.speed_feedback import OBSERVER
 from motor_model.parameters import Parameters
 
-SWINGS = "speed [rad/s]  shaft swings [%]  reported [%]  voltage [V]"
+RIPPLE = "speed [rad/s]  shaft [%]  reported [%]  voltage [V]"
 FRICTION = (
-    "The model has {:.3g} V of friction that these gains know nothing of; '--speed-source observer' writes it into the "
-    "feed-forward."
+    "The model has {:.3g} V of friction, which these gains do not compensate. With '--speed-source observer' the "
+    "feed-forward does."
 )
-BEYOND = "At this time constant the disc makes the shaft swing by {:.3g} % of the speed; {:.3g} ms keep it to {:.3g} %."
+BEYOND = (
+    "At this time constant the disc causes {:.3g} % speed ripple. A time constant of {:.3g} ms keeps it at {:.3g} %."
+)
 TRUST = (
-    "These numbers take the model for the motor. Gain and delay of the real one may differ from it by the margins "
-    "before the loop oscillates; the step is the model's own."
+    "These margins assume that the model is exact. The loop oscillates where gain or delay of the real motor differ "
+    "from the model's by more than the margins."
 )
 
 
 def as_table(tuning: Tuning) -> str:
-    """Three tables: the gains and what they predict, swings over the speed, what keeps the loop from being faster."""
+    """Format three tables: gains with their predictions, ripple over the speed, limits of the time constant."""
     margins, large = tuning.margins, tuning.large_step
     rows = (
         ("kp", f"{tuning.gains.kp:.4g}", "V/(rad/s)"),
         ("ki", f"{tuning.gains.ki:.4g}", "V/rad"),
-        ("closed-loop time constant", f"{1e3 * tuning.time_constant:.3g}", "ms, 63 % of a small step"),
+        ("closed-loop time constant", f"{1e3 * tuning.time_constant:.3g}", "ms to 63 % of a small step"),
         ("gain margin", _finite(margins.gain_db, ".1f"), "dB"),
         ("phase margin", _finite(margins.phase, ".0f"), "deg"),
         ("delay margin", _finite(1e3 * margins.delay, ".3g"), "ms"),
-        ("overshoot of a small step", f"{100 * tuning.step.overshoot:.1f}", "%"),
-        (f"overshoot of 0 to {large.reference:.3g} rad/s", f"{100 * large.overshoot:.1f}", "%, within the voltage"),
+        ("overshoot, small step", f"{100 * tuning.step.overshoot:.1f}", "%"),
+        (f"overshoot, 0 to {large.reference:.3g} rad/s", f"{100 * large.overshoot:.1f}", "% with the voltage limit"),
     )
     width = max(len(name) for name, _, _ in rows) + 2
     lines = [f"{name:{width}}{value:9}{unit}".rstrip() for name, value, unit in rows]
-    return "\n".join([*lines, "", *_swings(tuning), "", *_bounds(tuning)])
+    return "\n".join([*lines, "", *_ripple_lines(tuning), "", *_bound_lines(tuning)])
 
 
 def cautions(tuning: Tuning, parameters: Parameters) -> list[str]:
-    """Sentences about what the numbers alone do not say."""
+    """List sentences about what the numbers alone do not say."""
     said = []
-    swing = max(ripple.speed for _, ripple in tuning.ripples)
-    if swing > 1.01 * tuning.wish.oscillation:
-        said.append(BEYOND.format(100 * swing, 1e3 * tuning.bounds[-1].time_constant, 100 * tuning.wish.oscillation))
+    ripple = max(ripple.speed for _, ripple in tuning.ripples)
+    if ripple > 1.01 * tuning.wish.oscillation:
+        said.append(BEYOND.format(100 * ripple, 1e3 * tuning.bounds[-1].time_constant, 100 * tuning.wish.oscillation))
     friction = max(parameters.value("ks"), parameters.value("breakaway_voltage"))
     if tuning.wish.source == OBSERVER:
         said.append(TRUST)
@@ -50,21 +52,21 @@ def cautions(tuning: Tuning, parameters: Parameters) -> list[str]:
     return said
 
 
-def _swings(tuning: Tuning) -> list[str]:
+def _ripple_lines(tuning: Tuning) -> list[str]:
     encoder = tuning.sight.encoder
     lines = [
-        f"What slots irregular by {100 * encoder.slot_irregularity:.3g} % and a timer of "
-        f"{1e6 * encoder.edge_resolution:.3g} µs make of a constant reference, peak to peak:",
-        SWINGS,
+        f"Steady-state ripple from encoder errors ({100 * encoder.slot_irregularity:.3g} % slots, "
+        f"{1e6 * encoder.edge_resolution:.3g} µs timer), peak to peak:",
+        RIPPLE,
     ]
     for speed, ripple in tuning.ripples:
-        swing, reported = 100 * ripple.speed, 100 * ripple.reported
-        lines.append(f"{speed:<15.4g}{swing:<18.2f}{reported:<14.2f}{ripple.voltage:.3f}")
+        shaft, reported = 100 * ripple.speed, 100 * ripple.reported
+        lines.append(f"{speed:<15.4g}{shaft:<11.2f}{reported:<14.2f}{ripple.voltage:.3f}")
     return lines
 
 
-def _bounds(tuning: Tuning) -> list[str]:
-    lines = ["what bounds the time constant from below, each with those above it"]
+def _bound_lines(tuning: Tuning) -> list[str]:
+    lines = ["Lower limits of the closed-loop time constant (cumulative):"]
     width = max(len(bound.name) for bound in tuning.bounds) + 2
     lines += [f"{bound.name:{width}}{1e3 * bound.time_constant:.3g} ms" for bound in tuning.bounds]
     return lines

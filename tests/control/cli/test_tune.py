@@ -50,11 +50,11 @@ def test_prints_and_writes(model: Path, tmp_path: Path, capsys: pytest.CaptureFi
     assert 32.0 < shown["closed-loop time constant"] < 34.0
     assert 12.5 < shown["gain margin"] < 14.0 and 69.0 < shown["phase margin"] < 73.0
     assert 48.0 < shown["delay margin"] < 52.0
-    assert shown["overshoot of a small step"] == 0.0
-    assert "encoder's lag at 10 rad/s  22.8 ms" in out and "swings of 2 % by the disc      33 ms" in out
-    assert "The model has 0.9 V of friction that these gains know nothing of" in out
+    assert shown["overshoot, small step"] == 0.0
+    assert "encoder delay at 10 rad/s  22.8 ms" in out and "2 % ripple from the disc   33 ms" in out
+    assert "The model has 0.9 V of friction, which these gains do not compensate." in out
     text = gains.read_text(encoding="utf-8")
-    assert "time constant 33 ms, bounded by swings of 2 % by the disc" in text
+    assert "time constant 33 ms, limited by 2 % ripple from the disc" in text
     assert "Gain margin 13.2 dB, phase margin 71 deg, delay margin 49.7 ms" in text
     assert figure.stat().st_size > 30_000 and figure.read_bytes()[:4] == b"\x89PNG"
 
@@ -65,7 +65,7 @@ def test_the_observers_file_sets_up_the_controller(
     gains, figure = tmp_path / "gains.yaml", tmp_path / "step.png"
     options = ["--speed-source", "observer", "--slot-irregularity", "0.02", "--output", str(gains)]
     assert main([str(model), *options, "--figure", str(figure)]) == 0
-    assert "take the model for the motor" in capsys.readouterr().out
+    assert "assume that the model is exact" in capsys.readouterr().out
     values = written(gains)
     assert (values["speed_source"], values["feedforward"], values["model"]) == ("observer", True, str(model))
     names = {row.name: type(row.default) for row in ROWS}
@@ -114,7 +114,7 @@ def test_options_reach_the_loop(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert 0.2 < kp("--slot-irregularity", "0.02") / usual < 0.4
     assert 1.2 < kp("--oscillation", "0.04") / usual < 1.7
     assert main([str(path), "--time-constant", "0.025"]) == 0
-    assert "swing by 2.37 % of the speed; 33 ms keep it to 2 %" in capsys.readouterr().out
+    assert "causes 2.37 % speed ripple. A time constant of 33 ms keeps it at 2 %" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
