@@ -40,9 +40,9 @@ def describe_region(region: Region) -> str:
 
 
 def _size(gap: float, floor: float) -> str:
-    """An RMS error beside the noise floor; above 100 times to the whole number."""
+    """An RMS error beside the noise floor, where there is one: at standstill, no encoder noise is in the error."""
     if floor <= 0.0:
-        return f"RMS {gap:.3g} rad/s, noise level unknown"
+        return f"RMS {gap:.3g} rad/s"
     ratio = gap / floor
     return f"RMS {gap:.3g} rad/s, {f'{ratio:.2g}' if ratio < 99.5 else f'{ratio:.0f}'} × the noise floor"
 

@@ -34,7 +34,7 @@ def compare_with_floor(diagnosis: Diagnosis) -> str:
     floor = diagnosis.noise_floor
     if floor <= 0.0:
         return "the noise level is unknown"
-    return f"{format_ratio(diagnosis.gap_after / floor)} × the noise floor of {floor:.3g}"
+    return f"{format_ratio(diagnosis.gap_after / floor)} × the noise floor of {floor:.3g} rad/s"
 
 
 def _describe_gap(diagnosis: Diagnosis) -> str:

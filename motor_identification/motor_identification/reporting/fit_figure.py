@@ -80,7 +80,7 @@ def _draw_residual(axes: "Axes", curves: Curves) -> None:
     """Simulated minus measured over time, and what encoder and irregular slots alone would leave."""
     thin = slice(None, None, -(-len(curves.time) // MOST_POINTS))
     time, band = curves.time[thin], 2.0 * curves.floor[thin]
-    axes.fill_between(time, -band, band, color=MEASURED, alpha=0.5, linewidth=0, label="encoder and disc alone, ±2 σ")
+    axes.fill_between(time, -band, band, color=MEASURED, alpha=0.5, linewidth=0, zorder=3, label="noise, ±2 σ")
     axes.plot(time, curves.residual[thin], ".", color=SIMULATED, markersize=2)
     axes.set_ylabel("simulated −\nmeasured [rad/s]")
     axes.set_xlabel("time [s]")

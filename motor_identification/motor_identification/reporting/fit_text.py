@@ -8,6 +8,7 @@ from motor_identification.reporting.numbers import (
     describe_absence,
     format_error,
     format_quantity,
+    format_ratio,
     format_unit,
     format_value,
 )
@@ -18,6 +19,7 @@ from motor_model.effects import BASE, EFFECT_BY_NAME, EFFECTS
 SIGNIFICANT = 1e-3  # chance below which the residual's relation to the voltage is none
 VISIBLE = 0.15  # correlation with the voltage: explains 2 % of the residual's power
 ABOVE = 1.3  # residual over noise floor, below which there is nothing to explain
+LARGE = 2.0  # residual over noise floor, from which on three quarters of its power are not the encoder's
 REPEATS = 0.5  # correlation between residuals near each other, from which on they are not the encoder's
 FOLLOWS = (
     "The residual correlates with the voltage (correlation {:.2f}): an effect is missing; run diagnose to name it."
@@ -25,6 +27,9 @@ FOLLOWS = (
 NOT_WHITE = (
     "The residual is autocorrelated (correlation {:.2f}): an effect is missing or an unrecorded load acts; run "
     "diagnose to tell."
+)
+TOO_LARGE = (
+    "The residual is {} × the noise floor: an effect is missing or an unrecorded load acts; run diagnose to tell."
 )
 
 
@@ -73,6 +78,8 @@ def _residual_patterns(fit: Fit) -> Iterator[str]:
         yield FOLLOWS.format(left.input_correlation)
     elif left.p_value < SIGNIFICANT and left.autocorrelation > REPEATS:
         yield NOT_WHITE.format(left.autocorrelation)
+    elif 0.0 < LARGE * fit.noise_floor < fit.residual_rms:
+        yield TOO_LARGE.format(format_ratio(fit.residual_rms / fit.noise_floor))
 
 
 def _next_experiment(fit: Fit) -> Iterator[str]:

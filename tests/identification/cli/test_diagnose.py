@@ -56,7 +56,8 @@ def test_names_the_effect_and_writes_what_was_asked_for(
     beside = files["new/report"]
     assert json.loads((beside / "diagnosis.json").read_text()) == content
     assert load(beside / "model.yaml") == model
-    assert "<html" in (beside / "report.html").read_text(encoding="utf-8")
+    page = (beside / "report.html").read_text(encoding="utf-8")
+    assert "<html" in page and f"model:={files['model.yaml']}" in page  # the file that was asked for
 
 
 def test_what_is_known_is_not_found_again_and_only_the_part_asked_for_is_read(

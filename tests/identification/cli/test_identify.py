@@ -58,6 +58,9 @@ def test_prints_the_parameters_and_writes_what_was_asked_for(
     saved = yaml.safe_load(files["model.yaml"].read_text())
     assert saved["parameters"]["ka"]["unit"] == "V·s²/rad" and saved["origin"]["bags"] == [str(good)]
     assert (files["report"] / "fit.png").stat().st_size > 20_000
+    page = (files["report"] / "report.html").read_text(encoding="utf-8")
+    assert "<h2>Measured and simulated</h2>" in page and f"model:={files['model.yaml']}" in page
+    assert f"report: {files['report'] / 'report.html'}" in out
 
 
 def test_the_same_seed_gives_the_same_answer(good: Path, tmp_path: Path) -> None:

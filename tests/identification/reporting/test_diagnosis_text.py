@@ -17,7 +17,7 @@ from motor_model.effects import EFFECTS
 def test_summaries(variants: dict[Verdict, Diagnosis]) -> None:
     said = {verdict: summarize_diagnosis(one) for verdict, one in variants.items()}
     one = variants[Verdict.EXPLAINED]
-    ratio = f"{one.gap_after / one.noise_floor:.2g} × the noise floor of {one.noise_floor:.3g}"
+    ratio = f"{one.gap_after / one.noise_floor:.2g} × the noise floor of {one.noise_floor:.3g} rad/s"
     fell = f"validation RMS error (gap) falls from {one.gap_before:.3g} to {one.gap_after:.3g} rad/s ({ratio})"
     assert re.match(r"Coulomb friction \(ks = 0\.4\d* ± [\d.e-]+ V\) was missing\.", said[Verdict.EXPLAINED])
     assert said[Verdict.EXPLAINED].endswith(f"With it, the {fell}.")

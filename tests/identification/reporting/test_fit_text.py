@@ -16,7 +16,7 @@ from motor_identification.identify import identify
 from motor_identification.recording import check
 from motor_identification.reporting.fit_json import fit_to_json
 from motor_identification.reporting.fit_model_file import save_model
-from motor_identification.reporting.fit_text import format_fit, list_cautions, summarize_fit
+from motor_identification.reporting.fit_text import TOO_LARGE, format_fit, list_cautions, summarize_fit
 from motor_model.model_file import load
 
 
@@ -71,6 +71,16 @@ def test_constant_speed_says_nothing_of_inertia_and_has_no_r_squared() -> None:
     assert isnan(flat.r_squared) and fit_to_json(flat)["r_squared"] is None
     assert "ka" in flat.not_identifiable and "kv" not in flat.not_identifiable
     json.dumps(fit_to_json(flat), allow_nan=False)
+
+
+def test_a_residual_well_above_the_noise_is_said() -> None:
+    """From twice the noise floor on; where the floor is not known, nobody can tell."""
+    fit = identify([made({}, profiles.staircase(12.0, 2, 0.2), seed=0)], quick())
+    assert list_cautions(fit) == ()
+    assert list_cautions(replace(fit, residual_rms=1.99 * fit.noise_floor)) == ()
+    assert list_cautions(replace(fit, residual_rms=2.04 * fit.noise_floor)) == (TOO_LARGE.format("2"),)
+    assert list_cautions(replace(fit, noise_floor=0.0)) == ()
+    assert "(noise level unknown)" in summarize_fit(replace(fit, noise_floor=0.0))
 
 
 def test_notes_and_names_come_through(tmp_path: Path) -> None:

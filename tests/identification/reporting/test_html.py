@@ -12,18 +12,12 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from motor_identification.bag import Source, Window
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.reporting.diagnosis_text import format_diagnosis, summarize_diagnosis
 from motor_identification.reporting.html import write_report
 from motor_identification.reporting.html.diagnosis_page import render_diagnosis
-from motor_identification.reporting.html.next_steps import (
-    NO_FILES,
-    Files,
-    list_diagnosis_steps,
-    list_fit_steps,
-)
+from motor_identification.reporting.html.next_steps import NO_FILES, Files
 from motor_identification.reporting.html.tables import list_gaps
 from motor_model.errors import MotorError
 
@@ -166,40 +160,6 @@ def test_without_a_floor_there_is_no_ratio(found: Diagnosis) -> None:
     )
 
 
-def test_commands_are_for_this_diagnosis(variants: dict[Verdict, Diagnosis]) -> None:
-    steps = list_diagnosis_steps(variants[Verdict.UNDECIDED], Files("out/found.yaml", Source((), "/left", Window(1.5))))
-    run, read = "ros2 run motor_identification", "--topic-namespace /left --start 1.5"
-    assert [step.command for step in steps] == [
-        f"{run} experiment coast --output coast",
-        f"{run} diagnose train.bag coast --validate held_out.bag {read} --report next",
-        "ros2 run motor_sim motor_sim --ros-args -p model:=out/found.yaml",
-        "ros2 run motor_control tune out/found.yaml --output out/gains.yaml",
-        "ros2 run motor_control motor_control --ros-args --params-file out/gains.yaml",
-        f"{run} identify train.bag --effects coulomb_friction {read} --report fit",
-    ]
-    bare = [step.command for step in list_diagnosis_steps(variants[Verdict.UNEXPLAINED], NO_FILES)]
-    assert bare[0] == f"{run} diagnose train.bag --validate held_out.bag --output model.yaml"  # nobody wrote one yet
-    assert bare[1].endswith("model:=model.yaml") and "--effects" not in "".join(bare)
-    again = replace(variants[Verdict.UNDECIDED], bags=("runs/coast", "coast_2"))
-    assert list_diagnosis_steps(again, Files("m.yaml"))[0].command.endswith("--output coast_3")  # none is overwritten
-
-
-def test_commands_are_for_this_fit(found: Diagnosis) -> None:
-    fit = replace(found.model, uris=("a bag",), suggested_experiment="ramps")
-    run = "ros2 run motor_identification"
-    assert [step.command for step in list_fit_steps(fit, Files("m.yaml"))][:3] == [
-        f"{run} experiment ramps --output ramps",
-        f"{run} identify 'a bag' ramps --effects coulomb_friction --report next",
-        f"{run} diagnose 'a bag' --known-effects coulomb_friction --report diagnosis",
-    ]
-    plain = replace(found.baseline, uris=("bag",), suggested_experiment="")
-    assert [step.command for step in list_fit_steps(plain, NO_FILES)][:2] == [
-        f"{run} identify bag --output model.yaml",
-        f"{run} diagnose bag --report diagnosis",
-    ]
-    assert NO_FILES.reading == () and Files("", Source((), "", Window(0.0, 2.0))).reading == ("--stop", "2")
-
-
 MEASURE = """<script>document.title = JSON.stringify([innerWidth, document.documentElement.scrollWidth,
 [...document.querySelectorAll('.narrow')].filter(e => e.offsetWidth).length,
 Math.min(...[...document.querySelectorAll('svg')].map(e => e.clientWidth).filter(w => w))]);</script>"""
@@ -220,3 +180,16 @@ def test_it_opens_in_a_browser(html: str, tmp_path: Path, width: int, narrow: in
     assert title, done.stderr
     inner, needed, shown, smallest = json.loads(title[1])
     assert inner == width and needed <= inner and shown == narrow and smallest > 250
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium here")
+def test_it_prints_on_full_pages(html: str, tmp_path: Path) -> None:
+    """Sections break where a page ends; only pictures, rows and paragraphs stay whole."""
+    (tmp_path / "report.html").write_text(html, encoding="utf-8")
+    subprocess.run(
+        [str(BROWSER), "--headless", "--no-sandbox", "--disable-gpu", f"--print-to-pdf={tmp_path / 'report.pdf'}",
+         f"--user-data-dir={tmp_path / 'profile'}", str(tmp_path / "report.html")],
+        capture_output=True, check=True, timeout=100,
+    )  # fmt: skip
+    pages = len(re.findall(rb"/Type\s*/Page\b(?!s)", (tmp_path / "report.pdf").read_bytes()))
+    assert 2 <= pages <= 4

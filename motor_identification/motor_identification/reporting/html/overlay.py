@@ -37,13 +37,13 @@ def _draw_speeds(axes: "Axes", before: Curves, after: Curves | None, few: bool) 
     """Measured speeds as a broad pale band, and the models as thin lines on it: both stay visible where they agree."""
     time, measured = _thin(before.time, before.measured)
     axes.plot(
-        time, measured, "o", color=MEASURED, markersize=6.0 if few else 4.0, markeredgewidth=0.0, alpha=0.55,
+        time, measured, "o", color=MEASURED, markersize=6.0 if few else 4.5, markeredgewidth=0.0,
         label="measured", rasterized=True,
     )  # fmt: skip
     label = "before" if after else "simulated"
     axes.plot(*_broken(before.time, before.simulated), color=BEFORE, linewidth=1.2, label=label)
     if after is not None:
-        axes.plot(*_broken(after.time, after.simulated), color=AFTER, linewidth=0.9, label="after")
+        axes.plot(*_broken(after.time, after.simulated), color=AFTER, linewidth=1.0, label="after")
     axes.set_ylabel("speed [rad/s]")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
 

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 TEXT, FAINT = "#010203", "#010204"  # stand for the page's own colours
-MEASURED, BEFORE, AFTER, FLOOR = "#8492a3", "#e0672a", "#2f7fe0", "#9aa7b6"
+MEASURED, BEFORE, AFTER, FLOOR = "#b4bdc8", "#e0672a", "#2f7fe0", "#9aa7b6"
 WORST = ("#c026a8", "#7c3aed", "#0d9488")
 FONT = 9.0  # points
 

@@ -23,6 +23,7 @@ def _environment() -> "Environment":
     environment.filters |= {
         "effect_name": effect_name,
         "join_names": join_names,
+        "capital": capitalize,
         "sentence": lambda text: f"{capitalize(text)}.",
         "explain_rejection": explain_rejection,
     }
