@@ -40,4 +40,5 @@ case ":$PATH:" in
   *) export PATH="$_motor_root/.venv/bin:$PATH" ;;
 esac
 source "$_motor_root/install/$_motor_install"
+case $- in *i*) source "$_motor_root/motor_ros/motor_ros/completion.bash" ;; esac # TAB, where somebody types
 unset _motor_root _motor_install

@@ -124,7 +124,7 @@ def test_every_folder_says_what_it_is_for() -> None:
 
 def is_algorithmic(path: Path, imported: set[str]) -> bool:
     """Whether a module computes something: it has functions, and neither talks to ROS nor is a command."""
-    shell = imported & ROS or {"cli", "live"} & set(path.parts) or path.name in ("__init__.py", "warm_up.py")
+    shell = imported & ROS or {"cli", "live"} & set(path.relative_to(ROOT).parts) or path.name in ("__init__.py", "warm_up.py")
     tree = ast.parse(path.read_text(encoding="utf-8"))
     return not shell and any(isinstance(node, ast.FunctionDef) for node in ast.walk(tree))
 
@@ -184,7 +184,7 @@ def test_package_xml_names_what_is_imported(package: str) -> None:
     text = (ROOT / package / "package.xml").read_text(encoding="utf-8")
     declared = set(re.findall(r"<(?:exec_)?depend>([\w-]+)</", text))
     keys = {"numpy": "python3-numpy", "scipy": "python3-scipy", "yaml": "python3-yaml", "tqdm": "python3-tqdm"}
-    keys["jinja2"] = "python3-jinja2"
+    keys |= {"jinja2": "python3-jinja2", "argcomplete": "python3-argcomplete"}
     keys |= {"matplotlib": "python3-matplotlib", "serial": "python3-serial"}
     rows = re.findall(r"from PyPI[^:]*: ([^>]*?) -->", text)
     from_pypi = {name.strip().split(".")[0] for row in rows for name in row.split(",")}

@@ -4,10 +4,69 @@ import argparse
 import os
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from shutil import get_terminal_size
+from types import FrameType
+from typing import Any
 
 from motor_model.errors import MotorError
+
+INTERRUPTED = 130  # exit status after Ctrl-C
+_CLEAR = "\r\x1b[K"  # the line of a terminal
+
+
+class CommandParser(argparse.ArgumentParser):
+    """The command line of one executable of a package: its options and `--version`, with completion by TAB.
+
+    Actions may have an attribute `completer` (see `argcomplete`): what their values can be.
+    """
+
+    def __init__(self, package: str, prog: str, description: str, epilog: str = "") -> None:
+        super().__init__(prog=prog, description=description, epilog=epilog, formatter_class=_Formatter)
+        self.add_argument("--version", action=_Version, package=package, help="print the version and exit")
+
+    def parse_args(self, *args: Any, **named: Any) -> Any:  # type: ignore[override]
+        """As argparse does; where the shell asks what could come next, answer that and exit."""
+        if "_ARGCOMPLETE" in os.environ:
+            from argcomplete import autocomplete
+
+            autocomplete(self, always_complete_options=False)
+        return super().parse_args(*args, **named)
+
+
+class _Formatter(argparse.HelpFormatter):
+    """Keeps the lines of a text that has several, such as a table, and fills a paragraph."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        if "\n" in text:
+            return "".join(f"{indent}{line}" for line in text.splitlines(keepends=True))
+        return super()._fill_text(text, width, indent)
+
+
+class _Version(argparse.Action):
+    """Looks the version up only where somebody asks for it."""
+
+    def __init__(self, package: str, **named: Any) -> None:
+        super().__init__(nargs=0, default=argparse.SUPPRESS, **named)
+        self._package = package
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from importlib.metadata import version
+
+        print(f"{parser.prog} {version(self._package)}")
+        parser.exit()
+
+
+def listed_names(names: Sequence[str]) -> Callable[..., list[str]]:
+    """A completer for names in a list with commas."""
+
+    def complete(prefix: str, **_: object) -> list[str]:
+        before, comma, _begun = prefix.rpartition(",")
+        taken = before.split(",")
+        return [f"{before}{comma}{name}" for name in names if name not in taken]
+
+    return complete
 
 
 def shell(work: Callable[[], int]) -> int:
@@ -25,7 +84,28 @@ def shell(work: Callable[[], int]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except KeyboardInterrupt:
-        return 130
+        return INTERRUPTED
+
+
+@contextmanager
+def ended_by_interrupt(sentence: str) -> Iterator[None]:
+    """Within, Ctrl-C or SIGTERM says a sentence and ends the process at once (130): for computing, without open files.
+
+    A KeyboardInterrupt would not do: where Numba calls back through ctypes it is printed as a traceback and lost, and
+    threads that compute would hold the process until they are done.
+    """
+
+    def end(number: int, frame: FrameType | None) -> None:
+        sys.stdout.flush()
+        os.write(sys.stderr.fileno(), f"{_CLEAR if sys.stderr.isatty() else ''}{sentence}\n".encode())
+        os._exit(INTERRUPTED)
+
+    before = {number: signal.signal(number, end) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def positive(text: str) -> float:
@@ -48,4 +128,4 @@ def in_place(line: str) -> None:
     """Replace the last line of a terminal; a file or a pipe gets nothing."""
     if sys.stdout.isatty():
         width = get_terminal_size().columns - 1
-        print(f"\r\x1b[K{line if len(line) <= width else line[: width - 1] + '…'}", end="", flush=True)
+        print(f"{_CLEAR}{line if len(line) <= width else line[: width - 1] + '…'}", end="", flush=True)

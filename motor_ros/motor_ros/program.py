@@ -1,6 +1,7 @@
 """What a node says of itself on the command line: `--help` and `--version`, answered before anything starts."""
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -42,11 +43,28 @@ def answer(program: Program, words: Sequence[str]) -> None:
         SystemExit: `--help` or `--version` has been answered (status 0), or there is another word (status 2).
     """
     parser = _Parser(program)
+    if "_ARGCOMPLETE" in os.environ:
+        _complete(program)
     try:
         rest = remove_ros_args([program.name, *words])[1:]
     except (rclpy_implementation.RCLInvalidROSArgsError, rclpy_implementation.UnknownROSArgsError) as error:
         parser.error(_plain(error))
     parser.parse_args(rest)
+
+
+def _complete(program: Program) -> None:
+    """Answer a shell that asks what could come next, and exit."""
+    from argcomplete import SuppressCompleter, autocomplete
+
+    parser = argparse.ArgumentParser(prog=program.name)
+    parser.add_argument("--version", action="store_true")
+    parser.add_argument("--ros-args", action="store_true")
+    parameter = parser.add_argument("-p", "--param", action="append")
+    parameter.completer = lambda **_: [f"{row.name}:=" for row in program.rows]  # type: ignore[attr-defined]
+    renamed = parser.add_argument("-r", "--remap", action="append")
+    renamed.completer = SuppressCompleter()  # type: ignore[attr-defined, no-untyped-call]
+    parser.add_argument("--params-file", action="append")
+    autocomplete(parser, always_complete_options=False)
 
 
 def _plain(error: Exception) -> str:

@@ -8,12 +8,13 @@ from motor_board.build import BRIDGES, FirmwareConfig, firmware
 from motor_board.programmer import BAUD, flash, the_port
 from motor_board.sketch import write_sketch
 from motor_model.errors import MotorError
+from motor_ros.command import CommandParser
 
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    parser = argparse.ArgumentParser(
-        prog="flash", description="Build the firmware and flash it onto an Arduino Uno or Nano (ATmega328P, 16 MHz)."
+    parser = CommandParser(
+        "motor_board", "flash", "Build the firmware and flash it onto an Arduino Uno or Nano (ATmega328P, 16 MHz)."
     )
     parser.add_argument("--port", metavar="PORT", help="the board's serial port (default: the only one there is)")
     parser.add_argument("--board", choices=list(BAUD), default="uno", help="default uno; nano-old: its old bootloader")

@@ -8,7 +8,7 @@ from motor_control.tuning.design import Tuning, Wish, tune
 from motor_control.tuning.speed_feedback import MEASURED, OBSERVER, Encoder
 from motor_model import model_file
 from motor_model.parameters import Parameters
-from motor_ros.command import positive, shell
+from motor_ros.command import CommandParser, positive, shell
 
 
 def share(text: str) -> float:
@@ -21,10 +21,11 @@ def share(text: str) -> float:
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    parser = argparse.ArgumentParser(
-        prog="tune",
-        description="Design the gains of the speed controller from a motor model, and predict the loop.",
-        epilog="To use the gains: ros2 run motor_control motor_control --ros-args --params-file gains.yaml",
+    parser = CommandParser(
+        "motor_control",
+        "tune",
+        "Design the gains of the speed controller from a motor model, and predict the loop.",
+        "To use the gains: ros2 run motor_control motor_control --ros-args --params-file gains.yaml",
     )
     parser.add_argument("model", metavar="MODEL", help="model file (YAML), as 'identify --output' writes it")
     parser.add_argument(

@@ -2,18 +2,17 @@
 
 import json
 import os
-import signal
 import threading
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import datetime, timezone
 from math import isfinite
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING
 
 from motor_model.errors import MotorError
+from motor_ros.command import ended_by_interrupt
+from motor_ros.output_files import check_outputs
 
 if TYPE_CHECKING:
     from motor_identification.bag import Source
@@ -24,29 +23,28 @@ if TYPE_CHECKING:
 BAR = "{desc} {bar} {percentage:3.0f} %"
 
 
-def diagnosed(job: "DiagnosisJob", files: "Files") -> "Diagnosis":
-    """Diagnose with a progress bar, write files, and print what came out.
+def diagnosed(job: "DiagnosisJob", files: "Files", interrupted: str) -> "Diagnosis":
+    """Diagnose with a progress bar, write files, and print what came out; `interrupted` is what Ctrl-C says.
 
     Raises:
         MotorError: it cannot be done.
-        KeyboardInterrupt: Ctrl-C or SIGTERM; every thread has been told to stop.
     """
     from tqdm import tqdm
 
     from motor_identification.service.job import run_diagnosis
 
     speaking = threading.Lock()  # stages come from any thread
-    with _interruptible() as stopped, tqdm(total=100, delay=2.0, disable=None, bar_format=BAR) as bar:
+    with tqdm(total=100, delay=2.0, disable=None, bar_format=BAR) as bar:
 
         def show(stage: "Stage") -> None:
             with speaking:
                 bar.set_description(_described(stage), refresh=False)
                 bar.update(max(round(100 * stage.share) - bar.n, 0))
 
-        diagnosis = run_diagnosis(job, show, stopped)
-    written, troubles = replace(files, source=job.source).write(
-        diagnosis
-    )  # first: whoever reads what is printed may stop reading
+        with ended_by_interrupt(interrupted):
+            diagnosis = run_diagnosis(job, show)
+    files = replace(files, source=job.source)
+    written, troubles = files.write(diagnosis)  # first: whoever reads what is printed may stop reading
     print(as_text(diagnosis), *written, sep="\n")
     if troubles:
         raise MotorError(" ".join(troubles))
@@ -63,23 +61,6 @@ def as_text(diagnosis: "Diagnosis") -> str:
 
 def _described(stage: "Stage") -> str:
     return f"{stage.text}, gap {stage.gap:.3g} rad/s" if isfinite(stage.gap) else stage.text
-
-
-@contextmanager
-def _interruptible() -> "Iterator[Callable[[], bool]]":
-    """Within, Ctrl-C and SIGTERM interrupt the main thread and make what this yields true for all others."""
-    unwanted = threading.Event()
-
-    def interrupt(number: int, frame: FrameType | None) -> None:
-        unwanted.set()
-        raise KeyboardInterrupt
-
-    before = {number: signal.signal(number, interrupt) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield unwanted.is_set
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 @dataclass(frozen=True)
@@ -107,18 +88,13 @@ class Files:
         model = self.model or str(path.parent / "model.yaml")
         html.write_report(diagnosis, path, html.Files(model, self.source))
 
-    def check(self) -> None:
-        """Refuse before anything is computed what could not be written afterwards.
+    def check(self, force: bool = False) -> None:
+        """Refuse before anything is computed what could not be written afterwards, or would replace what is there.
 
         Raises:
-            MotorError: a directory is missing or must not be written to.
+            MotorError: a directory is missing or must not be written to, or a file exists and `force` is false.
         """
-        for _name, _write, path in self.rows():
-            directory = path.parent
-            if self.report is not None and directory == Path(self.report):  # it will be made
-                directory = next(parent for parent in path.absolute().parents if parent.exists())
-            if not directory.is_dir() or not os.access(directory, os.W_OK) or path.is_dir():
-                raise MotorError(f"cannot write {path}: name a file in a directory that exists and can be written to.")
+        check_outputs((path for _name, _write, path in self.rows()), force, self.report)
 
     def write(self, diagnosis: "Diagnosis") -> tuple[list[str], list[str]]:
         """Write everything; returns lines that say where it is, and sentences about what could not be written."""

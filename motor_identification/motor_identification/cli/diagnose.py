@@ -4,32 +4,35 @@ import argparse
 import os
 import sys
 
+from motor_identification.cli.identify import add_effects_option
 from motor_model.effects import EFFECTS
-from motor_ros.command import shell
+from motor_ros.command import CommandParser, shell
+from motor_ros.output_files import add_force_option
 
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
     effects = "\n".join(f"  {effect.name:22}{effect.summary}" for effect in EFFECTS)
-    parser = argparse.ArgumentParser(
-        prog="diagnose",
-        description="Find where simulation and measurement disagree, name the effects that are missing from the\n"
+    parser = CommandParser(
+        "motor_identification",
+        "diagnose",
+        "Find where simulation and measurement disagree, name the effects that are missing from the\n"
         "model, and show on data that no fit has seen how far they close the gap. (`explore` drives the\n"
         "motor too, and records what a diagnosis asks for.)",
-        epilog=f"effects:\n{effects}",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        f"effects:\n{effects}",
     )
     parser.add_argument("bags", nargs="+", metavar="BAG", help="recordings of one motor")
     parser.add_argument(
         "--validate", nargs="+", default=[], metavar="BAG", help="judge by these (default: parts of the others)"
     )
-    parser.add_argument("--known-effects", default="", metavar="A,B", help="in the model already, separated by commas")
+    add_effects_option(parser, "--known-effects", "in the model already, separated by commas")
     parser.add_argument("--topic-namespace", default="", metavar="NS", help="of the recorded motor")
     parser.add_argument("--start", type=float, default=0.0, metavar="S", help="from here [s], not of --validate")
     parser.add_argument("--stop", type=float, default=0.0, metavar="S", help="to here [s], not of --validate")
     parser.add_argument("--output", metavar="FILE", help="write the model here (YAML)")
     parser.add_argument("--json", metavar="FILE", help="write everything that was found here")
     parser.add_argument("--report", metavar="DIR", help="write report.html, the model and the JSON into this directory")
+    add_force_option(parser)
     return parser
 
 
@@ -46,13 +49,13 @@ def _diagnose(options: argparse.Namespace) -> int:
     from motor_identification.service.job import DiagnosisJob
 
     files = Files(options.output, options.json, options.report)
-    files.check()
+    files.check(options.force)
     job = DiagnosisJob(
         source=Source(tuple(options.bags), options.topic_namespace, Window(options.start, options.stop)),
         validation=tuple(options.validate),
         request=Request(named(options.known_effects), workers=os.cpu_count() or 1),
     )
-    diagnosed(job, files)
+    diagnosed(job, files, "The diagnosis was interrupted; nothing was written.")
     return 0
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from motor_identification.cli._plant_options import add_plant_options
 from motor_model.excitation import PROFILES, profile
 from motor_model.parameters import paper_motor
-from motor_ros.command import shell
+from motor_ros.command import CommandParser, shell
 
 if TYPE_CHECKING:
     from motor_identification.experiment import Plan
@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 def parser() -> argparse.ArgumentParser:
     """The command line."""
     rows = "\n".join(f"  {p.name:11}{p.duration:6.2f} s  {p.shows}" for p in PROFILES.values())
-    parser = argparse.ArgumentParser(
-        prog="experiment",
-        description="Drive the motor through a voltage profile and record it into a bag. Without --model the live "
+    parser = CommandParser(
+        "motor_identification",
+        "experiment",
+        "Drive the motor through a voltage profile and record it into a bag. Without --model the live "
         "plant (motor_sim or motor_driver) is driven; with --model a simulated motor runs offline, at full speed. "
         "However a live experiment ends, the motor gets 0 V. The bag says which profile it was, under custom_data in "
         "its metadata.yaml.",
-        epilog=f"profiles:\n{rows}",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        f"profiles:\n{rows}",
     )
     parser.add_argument("profile", choices=list(PROFILES), metavar="PROFILE", help="one of the profiles below")
     parser.add_argument("--output", required=True, metavar="BAG", help="the bag to write; must not exist")

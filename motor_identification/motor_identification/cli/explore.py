@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 from motor_identification.cli._plant_options import add_plant_options, passed_on
 from motor_identification.cli.diagnose import named
+from motor_identification.cli.identify import add_effects_option
 from motor_model.excitation import PROFILES
-from motor_ros.command import shell
+from motor_ros.command import CommandParser, shell
 
 if TYPE_CHECKING:
     from motor_identification.cli._diagnosed import Files
@@ -19,19 +20,20 @@ if TYPE_CHECKING:
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    parser = argparse.ArgumentParser(
-        prog="explore",
-        description="Drive a motor through a profile, diagnose the recording, drive the profile that the diagnosis "
+    parser = CommandParser(
+        "motor_identification",
+        "explore",
+        "Drive a motor through a profile, diagnose the recording, drive the profile that the diagnosis "
         "suggests, and diagnose all recordings together, until nothing is open. Drives the live plant (motor_sim or "
         "motor_driver), or with --model a simulated motor offline. The motor stands still whenever nothing is "
         "recorded, and however this ends.",
-        epilog="DIRECTORY gets a bag for every round, and after each report.html, model.yaml and diagnosis.json. "
+        "DIRECTORY gets a bag for every round, and after each report.html, model.yaml and diagnosis.json. "
         "Profiles: see experiment --help.",
     )
     parser.add_argument("directory", metavar="DIRECTORY", help="for everything; must not exist, or be empty")
     parser.add_argument("--profile", choices=list(PROFILES), default="rich", metavar="P", help="first (default rich)")
     parser.add_argument("--rounds", type=_rounds, default=3, metavar="N", help="experiments at most (default 3)")
-    parser.add_argument("--known-effects", default="", metavar="A,B", help="in the model already, separated by commas")
+    add_effects_option(parser, "--known-effects", "in the model already, separated by commas")
     add_plant_options(parser)
     return parser
 
@@ -91,7 +93,8 @@ def _diagnosed(bags: list[str], options: argparse.Namespace, files: "Files") -> 
 
     namespace = "" if options.model is not None else options.topic_namespace  # offline there is none
     request = Request(named(options.known_effects), workers=os.cpu_count() or 1)
-    return diagnosed(DiagnosisJob(Source(tuple(bags), namespace), request=request), files)
+    interrupted = f"Interrupted; what was recorded is in {options.directory}."
+    return diagnosed(DiagnosisJob(Source(tuple(bags), namespace), request=request), files, interrupted)
 
 
 def _made(directory: Path) -> Path:

@@ -10,24 +10,27 @@ from typing import TYPE_CHECKING
 
 from motor_model.effects import EFFECTS
 from motor_model.errors import MotorError
-from motor_ros.command import shell
+from motor_ros.command import CommandParser, ended_by_interrupt, listed_names, shell
+from motor_ros.output_files import add_force_option, check_outputs
 
 if TYPE_CHECKING:
     from motor_identification.bag import Source
     from motor_identification.uncertainty.result import Fit
 
+REPORT_FILES = ("report.html", "fit.png", "fit.json", "model.yaml")
+
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
     effects = "\n".join(f"  {effect.name:22}{effect.summary}" for effect in EFFECTS)
-    parser = argparse.ArgumentParser(
-        prog="identify",
-        description="Fit a motor model to recorded bags: particle swarm over the whole box, then least squares.",
-        epilog=f"effects:\n{effects}",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = CommandParser(
+        "motor_identification",
+        "identify",
+        "Fit a motor model to recorded bags: particle swarm over the whole box, then least squares.",
+        f"effects:\n{effects}",
     )
     parser.add_argument("bags", nargs="+", metavar="BAG", help="recordings of one motor")
-    parser.add_argument("--effects", default="", metavar="A,B", help="beyond kv and ka, separated by commas")
+    add_effects_option(parser, "--effects", "beyond kv and ka, separated by commas")
     parser.add_argument("--topic-namespace", default="", metavar="NS", help="of the recorded motor")
     parser.add_argument("--start", type=float, default=0.0, metavar="S", help="from here [s] (default: the beginning)")
     parser.add_argument("--stop", type=float, default=0.0, metavar="S", help="to here [s] (default: the end)")
@@ -39,7 +42,14 @@ def parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--report", metavar="DIR", help="write report.html, fit.png, the model and the numbers into this directory"
     )
+    add_force_option(parser)
     return parser
+
+
+def add_effects_option(parser: argparse.ArgumentParser, name: str, meaning: str) -> None:
+    """Add an option that takes names of effects, which TAB completes."""
+    action = parser.add_argument(name, default="", metavar="A,B", help=meaning)
+    action.completer = listed_names([effect.name for effect in EFFECTS])  # type: ignore[attr-defined]
 
 
 def main(args: list[str] | None = None) -> int:
@@ -57,6 +67,8 @@ def _identify(options: argparse.Namespace) -> int:
     from motor_identification.service.job import Job, run_job
 
     effects = tuple(name.strip() for name in options.effects.split(",") if name.strip())
+    report = [os.path.join(options.report, name) for name in REPORT_FILES] if options.report else []
+    check_outputs(filter(None, (options.output, options.json, *report)), options.force, options.report)
     request = Request(effects, options.particles, options.epochs, options.seed, os.cpu_count() or 1)
     job = Job(_source(options), request)
     with tqdm(total=100, desc="search", delay=2.0, disable=None, bar_format="{desc} {bar} {percentage:3.0f} %") as bar:
@@ -65,7 +77,8 @@ def _identify(options: argparse.Namespace) -> int:
             bar.set_description(stage, refresh=False)
             bar.update(round(100 * share) - bar.n)
 
-        fit = run_job(job, show)
+        with ended_by_interrupt("The identification was interrupted; nothing was written."):
+            fit = run_job(job, show)
     return _present(options, fit)
 
 

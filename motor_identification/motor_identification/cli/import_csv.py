@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from motor_identification.logs.csv_form import UNITS, CsvForm, Kind
-from motor_ros.command import positive, shell
+from motor_ros.command import CommandParser, positive, shell
 
 if TYPE_CHECKING:
     from motor_identification.bag import BagWriter
@@ -27,18 +27,18 @@ _SINCE_1970 = 10**18  # [ns] the year 2001: a log whose times are later counts f
 
 def main(args: list[str] | None = None) -> int:
     """Entry point; returns the exit status."""
-    parser = _parser()
-    options = parser.parse_args(args)
-    form = _form(parser, options)
+    options = parser().parse_args(args)
+    form = _form(parser(), options)
     return shell(lambda: _import(options.file, form, options.output))
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="import_csv",
-        description="Make a bag from a CSV log of a motor, for identify and diagnose. Its first line names columns.",
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    parser = CommandParser(
+        "motor_identification",
+        "import_csv",
+        "Make a bag from a CSV log of a motor, for identify and diagnose. Its first line names columns.",
+        EXAMPLES,
     )
     add = parser.add_argument
     add("file", type=Path, help="the CSV file: commas, semicolons or tabs between columns")

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from motor_ros.command import in_place, not_negative, positive, shell
+from motor_ros.command import CommandParser, in_place, not_negative, positive, shell
 
 if TYPE_CHECKING:
     from motor_identification.bag import Contents
@@ -25,12 +25,12 @@ and the recorded speed alone, from the tenth second on, as if the motor ran:  pl
 
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    parser = argparse.ArgumentParser(
-        prog="play",
-        description="Publish the messages of a bag again, with their original spacing and QoS, as they were "
+    parser = CommandParser(
+        "motor_identification",
+        "play",
+        "Publish the messages of a bag again, with their original spacing and QoS, as they were "
         "serialised. A plant that listens to motor/voltage will move its motor; at the end it gets 0 V.",
-        epilog=_EXAMPLE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        _EXAMPLE,
     )
     parser.add_argument("bag", metavar="BAG", help="a rosbag2 directory or a .mcap or .db3 file")
     parser.add_argument("--rate", type=positive, default=1.0, metavar="R", help="times as fast (default: 1)")

@@ -5,7 +5,7 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from motor_ros.command import in_place, positive, shell
+from motor_ros.command import CommandParser, in_place, positive, shell
 
 if TYPE_CHECKING:
     from motor_identification.bag import BagWriter
@@ -24,11 +24,12 @@ TOPICS = (
 )
 
 
-def main(args: list[str] | None = None) -> int:
-    """Entry point; returns the exit status."""
-    parser = argparse.ArgumentParser(
-        prog="record",
-        description=f"Record topics into a bag until Ctrl-C, by default {', '.join(TOPICS)}. They may appear later; "
+def parser() -> CommandParser:
+    """The command line."""
+    parser = CommandParser(
+        "motor_identification",
+        "record",
+        f"Record topics into a bag until Ctrl-C, by default {', '.join(TOPICS)}. They may appear later; "
         "the bag is a rosbag2 directory with MCAP storage. What is older than half a second survives whatever happens "
         "to this program, and a bag that was cut off is read as it is.",
     )
@@ -39,9 +40,14 @@ def main(args: list[str] | None = None) -> int:
         "--topic-namespace", default="", metavar="NS", help="the namespace of the motor (default: none)"
     )
     parser.add_argument("--duration", type=positive, metavar="S", help="end after so many seconds")
-    options = parser.parse_args(args)
+    return parser
+
+
+def main(args: list[str] | None = None) -> int:
+    """Entry point; returns the exit status."""
+    options = parser().parse_args(args)
     if options.all and options.topics:
-        parser.error("--all and TOPIC do not go together")
+        parser().error("--all and TOPIC do not go together")
     return shell(lambda: _record(options))
 
 

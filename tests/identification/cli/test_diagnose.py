@@ -131,6 +131,20 @@ def test_a_file_that_cannot_be_written_after_all_takes_no_other_with_it(
     assert {path.name for path in (tmp_path / "report").iterdir()} == {"model.yaml", "diagnosis.json"}
 
 
+@pytest.mark.parametrize("taken", ["model.yaml", "all.json", "report/report.html", "report/diagnosis.json"])
+def test_what_exists_is_not_replaced_and_nothing_computed_in_vain(
+    taken: str, bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("motor_identification.diagnose.searched", None)  # nobody gets so far
+    (tmp_path / "report").mkdir()
+    (tmp_path / taken).write_text("mine")
+    options = ["--output", str(tmp_path / "model.yaml"), "--json", str(tmp_path / "all.json")]
+    assert diagnose([str(bags / "coast"), *options, "--report", str(tmp_path / "report")]) == 1
+    said = "exists already and is left as it is: choose another name, or replace it with --force.\n"
+    assert capsys.readouterr() == ("", f"{tmp_path / taken} {said}")
+    assert (tmp_path / taken).read_text() == "mine"
+
+
 SLOW = """
 import threading
 import motor_identification.diagnose as module
@@ -139,11 +153,11 @@ from motor_identification.cli.diagnose import main
 def diagnose(recordings, validation, known, workers, progress, stopped):
     tick = threading.Event()
 
-    def until_told() -> None:
-        while not stopped():
+    def for_ever() -> None:
+        while True:
             tick.wait(0.01)
 
-    threading.Thread(target=until_told).start()
+    threading.Thread(target=for_ever).start()
     while True:
         progress(module.Stage("step 1: backlash", 0.4, "backlash", 0.25))
         tick.wait(0.01)
@@ -170,6 +184,7 @@ def test_shows_progress_on_a_terminal_and_ends_at_ctrl_c(bags: Path, number: sig
     os.close(terminal)
     assert process.communicate(timeout=PATIENCE)[0] == b"" and process.returncode == 130
     assert told and b"Traceback" not in shown
+    assert shown.endswith(b"The diagnosis was interrupted; nothing was written.\r\n")
 
 
 def test_explores_until_nothing_is_open(bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

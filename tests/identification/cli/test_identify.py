@@ -2,6 +2,9 @@
 
 import json
 import shutil
+import signal
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,6 +12,7 @@ import numpy as np
 import pytest
 import yaml
 from motor_bags import write_bag
+from patience import PATIENCE
 
 from motor_identification.cli.experiment import main as experiment
 from motor_identification.cli.identify import main as identify
@@ -115,7 +119,7 @@ def test_a_recording_that_cannot_answer_is_one_sentence(
         (["{bag}", "--effects", "magic"], "'magic' is not an effect; the effects are coulomb_friction,"),
         (["{bag}", "--topic-namespace", "left"], "/left/motor/speed"),
         (["{bag}", "--start", "3", "--stop", "2"], "must be before"),
-        (["{bag}", "--output", "{tmp}/no/such/directory.yaml"], "cannot write the model file"),
+        (["{bag}", "--output", "{tmp}/no/such/directory.yaml"], "cannot write {tmp}/no/such/directory.yaml"),
     ],
 )
 def test_a_bad_command_is_one_sentence(
@@ -123,7 +127,48 @@ def test_a_bad_command_is_one_sentence(
 ) -> None:
     assert identify([argument.format(tmp=tmp_path, bag=good) for argument in arguments]) == 1
     err = capsys.readouterr().err
-    assert words in err and err.count("\n") == 1
+    assert words.format(tmp=tmp_path) in err and err.count("\n") == 1
+
+
+@pytest.mark.parametrize("taken", ["model.yaml", "fit.json", "report/fit.png", "report/model.yaml"])
+def test_what_exists_is_only_replaced_by_force(
+    taken: str, good: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "report").mkdir()
+    (tmp_path / taken).write_text("mine")
+    options = ["--output", str(tmp_path / "model.yaml"), "--json", str(tmp_path / "fit.json")]
+    options += ["--report", str(tmp_path / "report")]
+    assert identify([str(good), *options]) == 1
+    said = "exists already and is left as it is: choose another name, or replace it with --force.\n"
+    assert capsys.readouterr() == ("", f"{tmp_path / taken} {said}")
+    assert (tmp_path / taken).read_bytes() == b"mine"
+    assert identify([str(good), *options, "--force"]) == 0
+    assert (tmp_path / taken).read_bytes() != b"mine"
+
+
+SLOW = """
+from numba import njit
+import motor_identification.service.job as module
+from motor_identification.cli.identify import main
+
+def run_job(job, progress):
+    progress("search", 0.3)
+    print("computing", flush=True)
+    while True:
+        njit(lambda x: x + 1.0)(1.0)  # compiling calls back through ctypes, where a KeyboardInterrupt would be lost
+
+module.run_job = run_job
+raise SystemExit(main())
+"""
+
+
+def test_ctrl_c_is_one_sentence_while_the_motor_is_compiled_too(good: Path) -> None:
+    process = subprocess.Popen([sys.executable, "-c", SLOW, str(good)], stderr=subprocess.PIPE, stdout=subprocess.PIPE)
+    assert process.stdout is not None and process.stdout.readline() == b"computing\n"
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, out) == (130, b"")
+    assert err == b"The identification was interrupted; nothing was written.\n"
 
 
 @pytest.mark.parametrize("arguments", [[], ["bag", "--particles", "1"], ["bag", "--epochs", "many"]])
