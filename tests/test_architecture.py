@@ -124,7 +124,11 @@ def test_every_folder_says_what_it_is_for() -> None:
 
 def is_algorithmic(path: Path, imported: set[str]) -> bool:
     """Whether a module computes something: it has functions, and neither talks to ROS nor is a command."""
-    shell = imported & ROS or {"cli", "live"} & set(path.relative_to(ROOT).parts) or path.name in ("__init__.py", "warm_up.py")
+    shell = (
+        imported & ROS
+        or {"cli", "live"} & set(path.relative_to(ROOT).parts)
+        or path.name in ("__init__.py", "warm_up.py")
+    )
     tree = ast.parse(path.read_text(encoding="utf-8"))
     return not shell and any(isinstance(node, ast.FunctionDef) for node in ast.walk(tree))
 

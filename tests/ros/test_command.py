@@ -1,0 +1,66 @@
+"""What commands share: exit statuses, sentences, numbers on the command line, completion of lists."""
+
+import argparse
+import subprocess
+import sys
+from collections.abc import Callable
+
+import pytest
+
+from motor_model.errors import MotorError
+from motor_ros.command import CommandParser, listed_names, not_negative, positive, shell
+
+
+def test_the_status_says_how_it_ended(capsys: pytest.CaptureFixture[str]) -> None:
+    def refused() -> int:
+        raise MotorError("this cannot be: do that.")
+
+    def interrupted() -> int:
+        raise KeyboardInterrupt
+
+    assert [shell(lambda: 0), shell(lambda: 3), shell(refused), shell(interrupted)] == [0, 3, 1, 130]
+    assert capsys.readouterr() == ("", "this cannot be: do that.\n")
+
+
+@pytest.mark.parametrize(
+    ("take", "text", "value"),
+    [(positive, "0.5", 0.5), (not_negative, "0", 0.0), (positive, "0", None), (not_negative, "-1", None)]
+    + [(positive, text, None) for text in ("inf", "nan")],
+)
+def test_numbers_outside_their_range_are_refused(take: Callable[[str], float], text: str, value: float | None) -> None:
+    if value is not None:
+        assert take(text) == value
+        return
+    with pytest.raises(argparse.ArgumentTypeError, match=text):
+        take(text)
+
+
+def test_a_list_with_commas_is_completed_name_by_name() -> None:
+    complete = listed_names(["friction", "drag", "delay"])
+    assert complete("") == ["friction", "drag", "delay"]
+    assert complete("drag,d") == ["drag,friction", "drag,delay"]
+
+
+def test_a_table_keeps_its_lines_and_a_paragraph_is_filled() -> None:
+    text = CommandParser("motor_ros", "tool", "word " * 60, "profiles:\n  step   4 s\n  rich  28 s").format_help()
+    assert "profiles:\n  step   4 s\n  rich  28 s" in text
+    assert all(len(line) < 200 for line in text.splitlines()) and "word word" in text
+
+
+END = """
+import os, signal
+from motor_ros.command import ended_by_interrupt, shell
+
+def work():
+    with ended_by_interrupt("It was interrupted; nothing was written."):
+        os.kill(os.getpid(), signal.{})
+    return 0
+
+raise SystemExit(shell(work))
+"""
+
+
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
+def test_an_interrupt_while_computing_is_one_sentence(name: str) -> None:
+    done = subprocess.run([sys.executable, "-c", END.format(name)], capture_output=True, text=True, timeout=30.0)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "It was interrupted; nothing was written.\n")
