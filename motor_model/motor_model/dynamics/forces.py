@@ -68,6 +68,18 @@ def friction_slope_at(p: Floats, speed: float) -> float:
 
 
 @compiled
+def drag_curvature_at(p: Floats, speed: float) -> float:
+    """The size of half the second derivative of friction without Stribeck's over the speed, in V·s²/rad²."""
+    return p[DRAG]
+
+
+@compiled
+def is_bent(p: Floats) -> bool:
+    """Whether friction or loads are more than lines while the shaft turns one way, or change with time."""
+    return bool(p[BREAKAWAY] > p[KS] or p[DRAG] != 0.0 or p[RISE] != 0.0 or p[RIPPLE] != 0.0)
+
+
+@compiled
 def drive_of(p: Floats, u: float) -> tuple[float, float]:
     """The drive's constant part and the back-EMF per speed, for an effective voltage u."""
     share = u / p[U_MAX]

@@ -27,9 +27,17 @@ from numpy.typing import NDArray
 from motor_model.compiled import compiled
 from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.events import until_event
-from motor_model.dynamics.forces import drive_of, friction_at, friction_slope_at, load_slope_at, loads_at, warmth
+from motor_model.dynamics.forces import (
+    drive_of,
+    friction_at,
+    friction_slope_at,
+    is_bent,
+    load_slope_at,
+    loads_at,
+    warmth,
+)
 from motor_model.dynamics.linear import Coefficients
-from motor_model.dynamics.pieces import is_bent, lines, longest_piece
+from motor_model.dynamics.pieces import lines, longest_piece
 from motor_model.dynamics.state import State
 from motor_model.effects import INDEX
 

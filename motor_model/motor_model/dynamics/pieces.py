@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from motor_model.compiled import compiled
 from motor_model.dynamics.events import solve, time_of_rest
-from motor_model.dynamics.forces import friction_at, friction_slope_at, loads_at, warmth
+from motor_model.dynamics.forces import drag_curvature_at, friction_at, friction_slope_at, loads_at, warmth
 from motor_model.dynamics.linear import Coefficients
 from motor_model.dynamics.state import State
 from motor_model.effects import INDEX
@@ -22,7 +22,7 @@ from motor_model.effects import INDEX
 Floats = NDArray[np.float64]
 
 KV, KS, BREAKAWAY, STRIBECK = INDEX["kv"], INDEX["ks"], INDEX["breakaway_voltage"], INDEX["stribeck_speed"]
-DRAG, LAG = INDEX["drag"], INDEX["electrical_time_constant"]
+LAG = INDEX["electrical_time_constant"]
 RIPPLE, CYCLES, RISE, WARM_UP = (
     INDEX["ripple_voltage"],
     INDEX["ripple_cycles"],
@@ -35,12 +35,6 @@ STRIBECK_PIECE, RUNAWAY, DRAG_PIECE = 0.25, 0.5, 1e-3
 RIPPLE_ANGLE = 2e-8  # [rad] error of the swing that a ripple makes of a fast shaft
 RIPPLE_TURN, RIPPLE_BEND = 1.5, 0.05  # [rad] of a ripple's phase: all of it, and what is not at the piece's first speed
 EARLY, LATE = 0.5 - sqrt(1 / 12), 0.5 + sqrt(1 / 12)  # Gauss nodes of a piece
-
-
-@compiled
-def is_bent(p: Floats) -> bool:
-    """Whether a motor needs lines at all: Stribeck friction, drag, ripple or warm-up."""
-    return bool(p[BREAKAWAY] > p[KS] or p[DRAG] != 0.0 or p[RISE] != 0.0 or p[RIPPLE] != 0.0)
 
 
 @compiled
@@ -71,9 +65,10 @@ def longest_piece(p: Floats, s: State, acceleration: float, inertia: float) -> f
         swift = abs(acceleration) + 1e-9
         near = min(max(STRIBECK_PIECE * p[STRIBECK] / swift, 1e-6), RUNAWAY * inertia / steepest)
         longest = min(longest, max(above / swift, near))
-    if p[DRAG] != 0.0:
+    curvature = drag_curvature_at(p, s.speed)
+    if curvature != 0.0:
         squared = acceleration * acceleration + 1e-9
-        longest = min(longest, (DRAG_PIECE * inertia / (p[KV] * p[DRAG] * squared)) ** (1.0 / 3.0))
+        longest = min(longest, (DRAG_PIECE * inertia / (p[KV] * curvature * squared)) ** (1.0 / 3.0))
     if p[RIPPLE] != 0.0:
         longest = min(longest, _ripple_piece(p, abs(s.speed), acceleration, inertia))
     if p[RISE] != 0.0:

@@ -1,14 +1,16 @@
 """The terms of the equation, each alone: sizes, signs, and slopes that are those of the curves."""
 
-from math import e, pi, sin
+from math import copysign, e, pi, sin
 
 import pytest
 from numpy.typing import NDArray
 
 from motor_model.dynamics.forces import (
+    drag_curvature_at,
     drive_of,
     friction_at,
     friction_slope_at,
+    is_bent,
     load_slope_at,
     loads_at,
     warmth,
@@ -71,6 +73,22 @@ def test_the_slope_of_friction_is_that_of_friction(speed: float) -> None:
     p = vector("static_friction", "quadratic_drag", **STATIC)
     slope = (friction_at(p, speed + 1e-5, 1.0) - friction_at(p, speed - 1e-5, 1.0)) / 2e-5
     assert friction_slope_at(p, speed) == pytest.approx(slope, rel=1e-6, abs=1e-10)
+
+
+@pytest.mark.parametrize("speed", [-40.0, 0.5, 60.0])
+def test_the_curvature_of_drag_is_that_of_friction(speed: float) -> None:
+    p, way = vector("quadratic_drag", drag=1e-4), copysign(1.0, speed)
+    below, here, above = (friction_at(p, speed + step, way) for step in (-0.1, 0.0, 0.1))
+    assert drag_curvature_at(p, speed) == pytest.approx(0.5 * abs(above - 2.0 * here + below) / 0.01, rel=1e-6)
+    assert drag_curvature_at(vector(), speed) == 0.0
+
+
+def test_only_curves_and_what_warms_up_are_bent() -> None:
+    assert is_bent(vector("static_friction", ks=0.4, breakaway_voltage=0.9, stribeck_speed=5.0))
+    assert is_bent(vector("quadratic_drag", drag=1e-4))
+    assert is_bent(vector("torque_ripple", **RIPPLE))
+    assert is_bent(vector("warm_up", resistance_rise=0.3, warm_up_time=2.0))
+    assert not is_bent(vector("coulomb_friction", "load_bias", ks=0.5, bias_voltage=0.2))
 
 
 def test_the_drive_of_a_plain_motor_is_its_voltage_and_back_emf() -> None:

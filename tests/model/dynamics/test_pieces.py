@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from motor_model.dynamics.events import solve
 from motor_model.dynamics.forces import friction_at, friction_slope_at
 from motor_model.dynamics.linear import Coefficients
-from motor_model.dynamics.pieces import EARLY, LATE, is_bent, lines, longest_piece
+from motor_model.dynamics.pieces import EARLY, LATE, lines, longest_piece
 from motor_model.dynamics.state import State
 from motor_model.effects import INDEX
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
@@ -31,11 +31,6 @@ BENT = [
     vector("torque_ripple", **RIPPLE),
     vector("warm_up", resistance_rise=0.3, warm_up_time=2.0),
 ]
-
-
-def test_only_curves_need_lines() -> None:
-    assert all(is_bent(p) for p in BENT)
-    assert not is_bent(vector("coulomb_friction", "load_bias", ks=0.5, bias_voltage=0.2))
 
 
 def test_a_linear_motor_needs_one_piece_and_an_oscillating_one_a_quarter_period() -> None:
