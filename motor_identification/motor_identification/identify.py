@@ -24,12 +24,12 @@ from motor_model.errors import MotorError, RecordingError
 Progress = Callable[[str, float], None]  # what is being done, share done 0 to 1
 
 COARSE = 0.02  # [s] length of the intervals that the swarm compares
-MISCOUNTED = "{} of {} intervals are off by whole slots (edges missed or counted twice) and were left out."
+MISCOUNTED = "{} of {} intervals were left out: off by whole slots (edges missed or counted twice)."
 UNFINISHED = (
-    "The search used up its {} simulations before independent descents agreed ({} of {} did): give it more epochs or "
+    "The search ended after {} simulations, before independent starts agreed ({} of {} did): raise epochs or "
     "particles, or compare another seed."
 )
-OUTLYING = "{} of {} intervals contradict their neighbours (a wrong stamp, an unseen reversal) and were left out."
+OUTLYING = "{} of {} intervals were left out: they contradict their neighbours (wrong stamp, unseen reversal)."
 
 
 @dataclass(frozen=True)

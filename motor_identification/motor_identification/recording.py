@@ -101,7 +101,7 @@ def check(recording: Recording) -> Recording:
     """
     uri = recording.uri
     if len(recording) < 2:
-        raise RecordingError(f"{uri} holds {len(recording)} samples; record at least a second of motion.")
+        raise RecordingError(f"{uri} is too short (samples: {len(recording)}): record at least a second of motion.")
     for name, values in (("voltage", recording.voltage), ("speed", recording.speed)):
         bad = int(np.count_nonzero(~np.isfinite(values)))
         if bad:
@@ -113,13 +113,13 @@ def check(recording: Recording) -> Recording:
     if np.any(np.diff(recording.sample_time) <= 0):
         at = float(recording.time[int(np.argmax(np.diff(recording.sample_time) <= 0))])
         raise RecordingError(
-            f"{uri}: the plant's clock stands still or steps back after {at:.3f} s; "
-            "this happens when a plant restarts while recording: use the part before it (--stop)."
+            f"{uri}: the plant's clock stands still or steps back after {at:.3f} s: "
+            "the plant was restarted. Use the part before (--stop)."
         )
     _check_encoder(recording)
     if not np.any(recording.speed) and np.ptp(recording.edge_count) == 0:
         raise RecordingError(
-            f"{uri}: the motor never moves; check supply, wiring and enable, and record with a voltage that turns it."
+            f"{uri}: the motor never moves. Check supply, wiring and enable; record with a voltage that turns it."
         )
     return recording
 
@@ -134,6 +134,6 @@ def _check_encoder(recording: Recording) -> None:
     falls = np.flatnonzero(np.diff(recording.edge_count) < 0)
     if info.measurement is Measurement.EDGES and info.single_channel and len(falls):
         raise RecordingError(
-            f"{uri}: edge_count falls after {float(recording.time[falls[0]]):.3f} s, which one channel cannot: "
-            "use the part before it (--stop), or correct single_channel in motor/info."
+            f"{uri}: edge_count falls after {float(recording.time[falls[0]]):.3f} s, which one channel cannot "
+            "show: use the part before (--stop), or correct single_channel in motor/info."
         )

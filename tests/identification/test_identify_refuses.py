@@ -12,8 +12,11 @@ from motor_identification.recording import check
 from motor_model.errors import ModelError, MotorError, RecordingError
 
 REFUSED = {
-    "no voltage": (lambda r: replace(r, voltage=0.0 * r.voltage), "has no voltage other than 0"),
-    "one sample": (lambda r: r._select(np.arange(len(r)) < 1), "holds 1 samples; record at least a second"),
+    "no voltage": (lambda r: replace(r, voltage=0.0 * r.voltage), "the voltage is always 0"),
+    "one sample": (
+        lambda r: r._select(np.arange(len(r)) < 1),
+        r"is too short \(samples: 1\): record at least a second",
+    ),
     "no motion": (lambda r: r._select(np.arange(len(r)) < 2), "the motor never moves"),
     "a voltage that is no number": (
         lambda r: replace(r, voltage=np.where(np.arange(len(r)) == 20, np.nan, r.voltage)),
@@ -35,7 +38,7 @@ REFUSED = {
     ),
     "hardly any motion": (
         lambda r: replace(r, edge_count=np.minimum(r.edge_count, 2)),
-        "shows only . stretches of motion: record longer",
+        "shows only . intervals of motion: record longer",
     ),
 }
 

@@ -54,7 +54,7 @@ def test_a_killed_recorder_loses_at_most_a_second(bench: Bench, start: Start, tm
     assert len(both) == sum(recording.sample_time[0] <= time <= recording.sample_time[-1] for time in heard) > 200
     found, said = identified(start, tmp_path / "bag")
     assert found["kv"] == pytest.approx(PAPER_KV, rel=1e-3) and found["ka"] == pytest.approx(PAPER_KA, rel=1e-2)
-    assert f"is cut off: read {len(recording)} samples, {recording.duration:.2f} s up to the cut." in said
+    assert f"is cut off: {len(recording)} samples, {recording.duration:.2f} s up to the cut." in said
     assert {row[0] for row in messages(tmp_path / "bag")} >= {"/motor/speed", "/motor/info", "/motor/voltage"}
 
 

@@ -64,7 +64,7 @@ class McapFile:
         with self.path.open("rb") as stream:
             magic = stream.read(len(MCAP0_MAGIC))
             if not MCAP0_MAGIC.startswith(magic):
-                raise RecordingError(f"{self.path} is not an MCAP file: give a bag that record or ros2 bag has made.")
+                raise RecordingError(f"{self.path} is not an MCAP file: give a bag made by record or ros2 bag.")
             try:
                 yield from self._read(stream, size, wanted)
             except (_Cut, struct.error):

@@ -45,11 +45,9 @@ def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.
     kept, notes = _without_repeats(rows, bag.uri)
     if bag.cut:
         span = float(kept["sample_time"][-1] - kept["sample_time"][0]) * 1e-9
-        notes = [f"{uri} is cut off: read {len(kept)} samples, {span:.2f} s up to the cut.", *notes]
+        notes = [f"{uri} is cut off: {len(kept)} samples, {span:.2f} s up to the cut.", *notes]
     if bag.missing:
-        notes.append(
-            f"{uri} lacks {', '.join(bag.missing)}, which its metadata.yaml lists: samples in there are missing."
-        )
+        notes.append(f"{uri} lacks {', '.join(bag.missing)}, which its metadata.yaml lists: those samples are missing.")
     info = _info(infos, kept, info_topic, bag.uri, notes)
     return check(_recording(bag.uri, info, kept, tuple(notes)).between(start, stop))
 
@@ -98,8 +96,8 @@ def _nothing(bag: Bag, speed_topic: str) -> RecordingError:
     if not bag.topics:
         return RecordingError(f"{bag.uri} is an empty bag: record while a plant (motor_sim or motor_driver) runs.")
     if speed_topic in bag.topics:
-        return RecordingError(f"{bag.uri} has no message on {speed_topic}: record while a plant runs and publishes.")
-    return RecordingError(f"{bag.uri} has no {speed_topic}; {_elsewhere(bag.topics.values())}")
+        return RecordingError(f"{bag.uri} has no message on {speed_topic}: record while a plant publishes.")
+    return RecordingError(f"{bag.uri} has no {speed_topic}: {_elsewhere(bag.topics.values())}")
 
 
 def _elsewhere(topics: Iterable[Topic]) -> str:
@@ -139,7 +137,7 @@ def _info(infos: list[Info], rows: Rows, info_topic: str, uri: str, notes: list[
     if len(rows) > 1:
         info = replace(info, sample_period=float(np.median(np.diff(rows["sample_time"]))) * 1e-9)
     notes.append(
-        f"{uri} has no {info_topic}: taken as {info.edges_per_revolution} stamped edges per revolution on one channel, "
+        f"{uri} has no {info_topic}; assumed: {info.edges_per_revolution} stamped edges per revolution on one channel, "
         f"{info.edge_resolution * 1e6:g} µs resolution, {info.max_voltage:g} V at full duty."
     )
     return info

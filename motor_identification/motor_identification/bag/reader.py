@@ -52,7 +52,9 @@ def in_time_order(stored: Iterable[Message], uri: str | Path) -> Iterator[Messag
     latest = 0
     for number, message in enumerate(stored):
         if message[2] < latest:
-            raise RecordingError(f"{uri} is not in the order of its log times: sort it, for example with `mcap sort`.")
+            raise RecordingError(
+                f"{uri}: the messages are not in the order of their log times; sort it, for example with `mcap sort`."
+            )
         heappush(waiting, (message[2], number, message))
         if len(waiting) > _LOOK_AHEAD:
             latest, _, first = heappop(waiting)

@@ -99,7 +99,7 @@ def _files(path: Path) -> list[Path]:
         inside = (
             "has no .mcap or .db3 file in it" if path.is_dir() else "is neither a directory nor a .mcap or .db3 file"
         )
-        raise RecordingError(f"{path} is not a bag (it {inside}): give what record or ros2 bag has made.")
+        raise RecordingError(f"{path} is not a bag (it {inside}): give a bag made by record or ros2 bag.")
     return [found[name] for name in sorted(found, key=_by_number)]
 
 
@@ -130,7 +130,7 @@ def _readable(path: Path) -> Iterator[None]:
         yield
     except OSError as error:
         raise RecordingError(
-            f"{path} cannot be read ({error.strerror}): see to whom it belongs, and that its disk is there."
+            f"{path} cannot be read ({error.strerror}): check its owner and permissions, and that its disk is mounted."
         ) from error
 
 

@@ -83,7 +83,7 @@ def search(landscape: Landscape, config: SearchConfig, progress: Progress | None
                 break
     if not log.descents:
         raise MotorError(
-            "no motor in the search box gives a finite motion here: check the recording's voltages and times."
+            "no parameters in the search range give a finite simulation: check the recording's voltages and times."
         )
     return log.found(landscape, number, agreed=False)
 

@@ -173,13 +173,13 @@ def make_problem(recordings: Sequence[Recording], effects: tuple[str, ...], work
     refuse_nonsense(recordings, effects)
     for recording in recordings:
         if not np.any(recording.voltage):
-            raise RecordingError(f"{recording.uri} has no voltage other than 0 in it: record with the motor driven.")
+            raise RecordingError(f"{recording.uri}: the voltage is always 0; record with the motor driven.")
     intervals = tuple(intervals_of(recording) for recording in recordings)
     unknowns = unknowns_of(recordings, effects)
     count = sum(len(data.first) for data in intervals)
     if count <= len(unknowns.low):
         raise RecordingError(
-            f"{len(unknowns.low)} unknowns cannot be fitted to {count} stretches of motion: record longer, or ask for "
+            f"{len(unknowns.low)} unknowns cannot be fitted to {count} intervals of motion: record longer, or fit "
             "fewer effects."
         )
     return Problem(tuple(recordings), intervals, unknowns, workers)

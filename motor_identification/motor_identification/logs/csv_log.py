@@ -17,8 +17,8 @@ from motor_model.sample import Info, Sample
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-FROM_THEN = "A row's voltage is taken to be applied from its time until the next row (else say --voltage-before)."
-BEFORE = "A row's voltage was applied from the row before until its own time."
+FROM_THEN = "Assumed: a row's voltage is applied from its time until the next row (otherwise: --voltage-before)."
+BEFORE = "A row's voltage is applied from the time of the row before until its own."
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, voltage: Floats, runs: d
     held = _held(form, voltage, runs)
     rows = zip(time.tolist(), motion.speed.tolist(), held.tolist(), motion.counts.tolist(), strict=True)
     samples = tuple(Sample(*row) for row in rows)
-    about = f"{table.path}: {_about_time(len(table), len(runs), steps)}, at most {info.max_voltage:.4g} V."
+    about = f"{table.path}: {_about_time(len(table), len(runs), steps)}, up to {info.max_voltage:.4g} V."
     applied = BEFORE if form.voltage_before else FROM_THEN
     rest = () if form.rest_until is None else (_about_rest(form.rest_until, len(runs)),)
     return Log(
@@ -103,15 +103,15 @@ def _from_rest(samples: tuple[Sample, ...], form: CsvForm, voltage: float) -> tu
 def _about_rest(rest_until: float, runs: int) -> str:
     which = "every run begins" if runs > 1 else "the bag begins"
     return (
-        f"The motor stood until {rest_until:g} s: {which} then, with the voltage and the count of its first row and "
-        "no speed."
+        f"The motor stands until {rest_until:g} s: {which} then, at speed 0, with the voltage and the count of its "
+        "first row."
     )
 
 
 def _steady_log(table: Table, form: CsvForm, info: Info, voltage: Floats, runs: dict[str, slice]) -> Log:
     """Rows that are steady states."""
     steady = read_steady(form, info, voltage, table.numbers(form.motion), list(runs.values()))
-    about = f"{table.path}: {len(table)} steady states, at most {info.max_voltage:.4g} V."
+    about = f"{table.path}: {len(table)} steady states, up to {info.max_voltage:.4g} V."
     made = tuple(Run(label, samples) for label, samples in zip(runs, steady.samples, strict=True))
     return Log(steady.info, made, (about, *steady.findings))
 
@@ -119,7 +119,7 @@ def _steady_log(table: Table, form: CsvForm, info: Info, voltage: Floats, runs: 
 def _max_voltage(form: CsvForm, voltage: Floats, path: Path) -> float:
     largest = form.max_voltage or float(np.max(np.abs(voltage)))
     if largest == 0.0:
-        raise RecordingError(f"{path}: {form.voltage} is 0 in every row: check --voltage, or say --max-voltage.")
+        raise RecordingError(f"{path}: {form.voltage} is 0 in every row: check --voltage, or give --max-voltage.")
     return largest
 
 

@@ -53,7 +53,7 @@ class Table:
             try:
                 numbers.append(convert(cell.replace(",", ".") if self.decimal_comma else cell))
             except (ValueError, InvalidOperation) as error:
-                what = f"'{cell}' is not a number" if cell else "there is no number"
+                what = f"'{cell}' is not a number" if cell else "the cell is empty"
                 raise RecordingError(
                     f"{self.path}, line {line}, column {column}: {what}; correct or remove that line."
                 ) from error
@@ -69,7 +69,7 @@ def read_table(path: Path, wanted: Sequence[str]) -> Table:
     lines = _text(path).split("\n")
     header_line = next((line for line in lines if line.strip()), None)
     if header_line is None:
-        raise RecordingError(f"{path} is empty: it takes a line of column names and a row for each sample.")
+        raise RecordingError(f"{path} is empty: it needs a line of column names and a row for each sample.")
     delimiter = max(_DELIMITERS, key=header_line.count)
     try:
         reader = csv.reader(lines, delimiter=delimiter)
@@ -90,7 +90,7 @@ def _text(path: Path) -> str:
     except FileNotFoundError as error:
         raise RecordingError(f"There is no file {path}: check the path.") from error
     except UnicodeDecodeError as error:
-        raise RecordingError(f"{path} is not text in UTF-8: export it again as CSV in UTF-8.") from error
+        raise RecordingError(f"{path} is not UTF-8 text: export it again as CSV in UTF-8.") from error
     except OSError as error:
         raise RecordingError(f"{path} cannot be read ({error.strerror}): give a CSV file.") from error
 

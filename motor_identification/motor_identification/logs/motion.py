@@ -52,8 +52,8 @@ def read_motion(form: CsvForm, info: Info, table: Table, time: Integers, voltage
 def _jumped(form: CsvForm, table: Table, row: int) -> RecordingError:
     before, here = (table.cells[form.motion][k] for k in (row - 1, row))
     return RecordingError(
-        f"{table.path}, line {table.lines[row]}: {form.motion} jumps from {before} to {here}, which no motor does: "
-        "it wraps or was reset; unwrap it, or mark the parts in a column that --split names."
+        f"{table.path}, line {table.lines[row]}: {form.motion} jumps from {before} to {here}: the counter "
+        "wrapped or was reset. Unwrap it, or mark the parts in a column for --split."
     )
 
 
@@ -67,15 +67,15 @@ def _mean_speeds(form: CsvForm, info: Info, values: Floats) -> Motion:
     if edges:
         _check_steps(form, values, edges, 2.0 * pi / edges / window / unit)
     info = replace(info, measurement=Measurement.SPEED, speed_window=window, speed_lag=lag, edges_per_revolution=edges)
-    assumed = "" if form.speed_window else " (assumed: one sample period; else say --speed-window)"
-    placed = "" if form.speed_lag is not None else " (assumed: it ends there; else say --speed-lag)"
+    assumed = "" if form.speed_window else " (assumed: one sample period; otherwise: --speed-window)"
+    placed = "" if form.speed_lag is not None else " (assumed: the window ends there; otherwise: --speed-lag)"
     count = (
-        f"One count of {edges} per revolution within the window is {2.0 * pi / edges / window / unit:.4g} {form.unit}."
+        f"One count ({edges} per revolution) within the window is {2.0 * pi / edges / window / unit:.4g} {form.unit}."
         if edges
-        else "The encoder behind it, and so its noise floor, is not known (--edges-per-revolution)."
+        else "The noise level is unknown: give the encoder's --edges-per-revolution if you know it."
     )
     findings = (
-        f"Speed only: each is the mean over {window * 1e3:.4g} ms{assumed}.",
+        f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",
         f"The middle of that window is {lag * 1e3:.4g} ms before the row's time{placed}.",
         count,
     )
@@ -87,8 +87,8 @@ def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> Non
     step = _grid_step(values)
     if step is not None and not 1.0 / _FAR < step / count < _FAR:
         raise RecordingError(
-            f"Speeds in {form.motion} come in steps of {step:.4g} {form.unit}, but one count of {edges} per revolution "
-            f"is {count:.4g}: check --unit, --edges-per-revolution and --speed-window."
+            f"Speeds in {form.motion} change in steps of {step:.4g} {form.unit}, but one count ({edges} per "
+            f"revolution) is {count:.4g}: check --unit, --edges-per-revolution and --speed-window."
         )
 
 
@@ -102,11 +102,11 @@ def _counts(form: CsvForm, info: Info, time: Integers, values: Floats, runs: lis
         speed[run] = _differences(counts[run], time[run]) * (2.0 * pi / edges)
     info = replace(info, measurement=Measurement.COUNTS, edges_per_revolution=edges)
     findings = [
-        f"Counts sampled without stamps: one is {quantum:.6g} {form.unit}, {edges} per revolution{how}.",
-        "Speed is the difference of counts over time; the angle is known to one count at each row's time.",
+        f"Sampled counts without time stamps: one count is {quantum:.6g} {form.unit}, {edges} per revolution{how}.",
+        "The angle is known to one count at each row's time; the speed is its difference quotient.",
     ]
     if beside > _ON_GRID:
-        findings.append(f"Beware: values lie up to {beside:.2f} counts beside whole ones: check --count-quantum.")
+        findings.append(f"Caution: values are up to {beside:.2f} counts off whole counts: check --count-quantum.")
     return Motion(speed, counts, info, tuple(findings))
 
 
@@ -121,7 +121,7 @@ def _count_size(form: CsvForm, values: Floats) -> tuple[float, int, str]:
     unit = UNITS[form.kind][form.unit]
     if unit is None:  # the file counts by itself
         if form.edges_per_revolution is None:
-            raise RecordingError("Counts have a size only with --edges-per-revolution: say it.")
+            raise RecordingError("The size of a count is unknown: give --edges-per-revolution.")
         return form.count_quantum or 1.0, form.edges_per_revolution, ""
     turn = 2.0 * pi / unit
     if form.count_quantum:
@@ -131,18 +131,18 @@ def _count_size(form: CsvForm, values: Floats) -> tuple[float, int, str]:
     step = _grid_step(values)
     if step is None:
         raise RecordingError(
-            f"Positions in {form.motion} show no steps of an encoder: say --edges-per-revolution or --count-quantum."
+            f"Positions in {form.motion} show no encoder steps: give --edges-per-revolution or --count-quantum."
         )
-    return step, _agreed(form, turn / step, _AGREE_COUNTS), " (assumed: the smallest step there is)"
+    return step, _agreed(form, turn / step, _AGREE_COUNTS), " (assumed: the smallest step in the data)"
 
 
 def _agreed(form: CsvForm, exact: float, tolerance: float) -> int:
     """Whole counts of a turn, if a count's size leads to them and they are those that were said."""
     edges = form.edges_per_revolution or max(round(exact), 1)
     if abs(exact - edges) > tolerance * edges:
-        expected = f"to {edges}" if form.edges_per_revolution else "to a whole number"
+        expected = f"{edges}" if form.edges_per_revolution else "a whole number"
         raise RecordingError(
-            f"Such counts come to {exact:.6g} a revolution, not {expected}: "
+            f"The counts come to {exact:.6g} per revolution, not {expected}: "
             "check --count-quantum, --edges-per-revolution and --unit."
         )
     return edges

@@ -26,8 +26,8 @@ def runs_of(table: Table, split: str | None) -> dict[str, slice]:
         stop = start + len(list(rows))
         if stop - start < 2:
             raise RecordingError(
-                f"{table.path}, line {table.lines[start]}: the run with {split} = {value} has a single row; "
-                "at least 2 samples are needed: correct or remove that line."
+                f"{table.path}, line {table.lines[start]}: the run with {split} = {value} has a single row, "
+                "and at least 2 are needed: correct or remove that line."
             )
         runs[_label(value, runs)] = slice(start, stop)
         start = stop
@@ -54,7 +54,7 @@ def steps_of(table: Table, form: CsvForm, time: Integers, runs: Iterable[slice])
         if form.rest_until is not None and time[run.start] < round(form.rest_until * 1e9):
             raise RecordingError(
                 f"{table.path}, line {table.lines[run.start]}: the run begins at {column} = "
-                f"{table.cells[column][run.start]}, before --rest-until {form.rest_until:g}; that option is for rows "
+                f"{table.cells[column][run.start]}, before --rest-until {form.rest_until:g}: that option is for rows "
                 "that begin after the first voltage was applied."
             )
         if np.all(steps > 0):
@@ -65,6 +65,6 @@ def steps_of(table: Table, form: CsvForm, time: Integers, runs: Iterable[slice])
         hint = f"where {form.split} changes" if form.split else "where a column changes that --split names"
         raise RecordingError(
             f"{table.path}, line {table.lines[row]}: time {what} ({column} is {here} after {before}); "
-            f"it may start again only {hint}."
+            f"it may restart only {hint}."
         )
     return np.concatenate([np.diff(time[run]) for run in runs])

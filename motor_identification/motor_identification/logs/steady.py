@@ -39,7 +39,7 @@ def read_steady(form: CsvForm, info: Info, voltage: Floats, speed: Floats, runs:
     """
     window = form.speed_window or WINDOW
     if window > LONGEST:
-        raise RecordingError(f"Steady speeds are means over at most {LONGEST:g} s here: correct --speed-window.")
+        raise RecordingError(f"A steady speed may be the mean over {LONGEST:g} s at most: reduce --speed-window.")
     unit = UNITS[Kind.SPEED][form.unit] or 1.0
     info = replace(
         info,
@@ -49,12 +49,11 @@ def read_steady(form: CsvForm, info: Info, voltage: Floats, speed: Floats, runs:
         speed_lag=0.5 * window,
         edges_per_revolution=form.edges_per_revolution or _edges(form, window * unit),
     )
-    assumed = "" if form.speed_window else " (assumed; else say --speed-window)"
+    assumed = "" if form.speed_window else " (assumed; otherwise: --speed-window)"
     findings = (
-        f"Steady states in the order of the rows, a stair of {HOLD:g} s each; a speed is a mean over {window:g} s"
-        f"{assumed}.",
-        "They tell friction from gain, but nothing of inertia or delay: identify them together with the same motor in "
-        "motion.",
+        f"Each row becomes a stair of {HOLD:g} s; its speed is the mean over the last {window:g} s{assumed}.",
+        "Steady states separate friction from gain, but do not show inertia or delay: fit them together with a "
+        "recording of the same motor in motion.",
     )
     return Steady(tuple(_stairs(voltage[run], speed[run] * unit) for run in runs), info, findings)
 

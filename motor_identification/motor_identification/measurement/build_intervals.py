@@ -30,8 +30,8 @@ def intervals_of(recording: Recording) -> Intervals:
     intervals = _READERS[recording.info.measurement](recording)
     if len(intervals.first) < 3:
         raise RecordingError(
-            f"{recording.uri} shows only {len(intervals.first)} stretches of motion: record longer, or with more "
-            "voltage."
+            f"{recording.uri} shows only {len(intervals.first)} intervals of motion: record longer, or with a "
+            "higher voltage."
         )
     return intervals
 

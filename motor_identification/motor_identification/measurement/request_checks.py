@@ -13,9 +13,9 @@ def refuse_nonsense(recordings: Sequence[Recording], effects: tuple[str, ...]) -
     for name in effects:
         effect = EFFECT_BY_NAME.get(name)  # unknown names are refused where effects are normalised
         if effect is not None and not effect.fitted:
-            raise ModelError(f"{name} is recognised in every fit and left out, not fitted: drop it from the effects.")
+            raise ModelError(f"{name} is detected in every fit and cannot be fitted: remove it from the effects.")
         if effects.count(name) > 1:
-            raise ModelError(f"'{name}' is named twice: name every effect once.")
+            raise ModelError(f"'{name}' is given twice: name every effect once.")
         if effect is not None and effect.on_disc:
             _check_edges(recordings, name)
 
@@ -24,6 +24,6 @@ def _check_edges(recordings: Sequence[Recording], effect: str) -> None:
     for recording in recordings:
         if recording.info.measurement is Measurement.SPEED:
             raise ModelError(
-                f"{effect} needs a recording that counts edges, and {recording.uri} has speeds only: drop it from the "
-                "effects."
+                f"{effect} needs a recording with encoder counts, and {recording.uri} has speeds only: remove it from "
+                "the effects."
             )

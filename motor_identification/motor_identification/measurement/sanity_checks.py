@@ -67,17 +67,17 @@ def check_counts(recording: Recording) -> Recording:
     if jump is not None:
         before, here = (int(recording.edge_count[k]) for k in (jump - 1, jump))
         raise RecordingError(
-            f"{recording.uri}: edge_count jumps from {before} to {here} at {time[jump]:.3f} s, which no motor does: "
-            "the counter wraps or was reset; unwrap it where it is recorded, or use a part without (--start, --stop)."
+            f"{recording.uri}: edge_count jumps from {before} to {here} at {time[jump]:.3f} s: the counter "
+            "wrapped or was reset. Unwrap it before it is recorded, or use a part without the jump (--start, --stop)."
         )
     if not sampled:
         _check_stamps(recording)
     ratio = speed_over_count(recording)
     if ratio is not None and not 1.0 / AGREE < ratio < AGREE:
-        said = f"{ratio:.3g} times" if ratio > 1.0 else f"1/{1.0 / max(ratio, 1e-9):.3g} of"
+        said = f"{ratio:.3g} ×" if ratio > 1.0 else f"1/{1.0 / max(ratio, 1e-9):.3g} of"
         raise RecordingError(
-            f"{recording.uri}: speed is {said} what edge_count says: report speed in rad/s, and set "
-            "edges_per_revolution to the counts of one turn."
+            f"{recording.uri}: the reported speed is {said} the speed from edge_count. Report speed in rad/s, "
+            "and set edges_per_revolution to the counts per revolution."
         )
     return recording
 
@@ -88,5 +88,5 @@ def _check_stamps(recording: Recording) -> None:
     if np.count_nonzero(strange) > STRANGE * len(fresh):
         raise RecordingError(
             f"{recording.uri}: {np.count_nonzero(strange)} of {len(fresh)} edge_time values lie outside the sample "
-            "that counted the edge: stamp edges with the clock of sample_time, or set measurement to counts."
+            "that counted the edge. Stamp edges with the clock of sample_time, or set measurement to counts."
         )

@@ -90,7 +90,7 @@ def test_a_place_that_is_not_ours_is_a_sentence(tmp_path: Path) -> None:
     try:
         with pytest.raises(RecordingError, match=r"\(Permission denied\): choose a place that you may write to\."):
             BagWriter(tmp_path / "other")
-        with pytest.raises(RecordingError, match=r"cannot be read \(Permission denied\): see to whom it belongs"):
+        with pytest.raises(RecordingError, match=r"cannot be read \(Permission denied\): check its owner"):
             read_recording(bag)
     finally:
         os.seteuid(user)

@@ -144,7 +144,7 @@ def test_messages_come_in_time_order_and_disorder_beyond_repair_is_told() -> Non
 
     times = [3, 1, 2, 2, 5, 4]
     assert [row[2] for row in in_time_order(map(message, times), "bag")] == [1, 2, 2, 3, 4, 5]
-    with pytest.raises(RecordingError, match="bag is not in the order"):
+    with pytest.raises(RecordingError, match="bag: the messages are not in the order of their log times"):
         list(in_time_order(map(message, [*range(1, 30_000), 0]), "bag"))
 
 

@@ -94,8 +94,8 @@ def restarted(samples: list[Sample]) -> list[Sample]:
 BAD = {
     "never moves": (stopped, "the motor never moves"),
     "not a number": (without_numbers, "10 voltage values that are not numbers (the first at 1.500 s)"),
-    "no voltage": (undriven, "no voltage other than 0"),
-    "one sample": (lambda samples: samples[:1], "holds 1 samples"),
+    "no voltage": (undriven, "is always 0"),
+    "one sample": (lambda samples: samples[:1], "is too short (samples: 1)"),
     "restarted": (restarted, "the plant's clock stands still or steps back"),
 }
 
@@ -189,7 +189,7 @@ def test_a_bag_that_was_cut_off_is_read_up_to_the_cut_and_that_is_said(
     file.write_bytes(file.read_bytes()[: int(0.6 * file.stat().st_size)])
     assert identify([str(cut), "--effects", "coulomb_friction"]) == 0
     out = capsys.readouterr().out
-    assert "cut off: read" in out
+    assert "is cut off: 1170 samples, 5.85 s" in out
     values = {row.split()[0]: float(row.split()[1]) for row in out.splitlines() if row[:2] in ("kv", "ka", "ks")}
     assert values["kv"] == pytest.approx(PAPER_KV, rel=0.01)
 

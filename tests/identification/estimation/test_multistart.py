@@ -213,7 +213,7 @@ def test_what_the_data_leave_open_is_agreed_in_cost_and_spread_in_place() -> Non
 
 def test_nowhere_a_number_is_an_error() -> None:
     nowhere = landscape(lambda x: np.full_like(x, np.nan))
-    with pytest.raises(MotorError, match="no motor in the search box gives a finite motion"):
+    with pytest.raises(MotorError, match="no parameters in the search range give a finite simulation"):
         search(nowhere, SearchConfig(epochs=5))
 
 

@@ -35,10 +35,10 @@ def test_a_run_from_rest_begins_when_its_voltage_came(tmp_path: Path) -> None:
     assert (begin.sample_time, begin.voltage, begin.speed, begin.edge_count) == (0, 5.0, 0.0, 0)
     assert [sample.sample_time for sample in log.runs[0].samples] == [0, 12_000_000, 17_000_000, 22_000_000]
     assert first.speed > 0.0  # a difference that is not known, and so not at the beginning
-    assert "The motor stood until 0 s: the bag begins then" in log.findings[-1]
+    assert "The motor stands until 0 s: the bag begins then" in log.findings[-1]
     at_once = read(tmp_path, LATE, replace(ANGLE, rest_until=0.012)).runs[0].samples
     assert len(at_once) == 3 and at_once[0].speed == 0.0 and at_once[0].sample_time == 12_000_000
-    with pytest.raises(RecordingError, match=r"line 2: the run begins at t = 0.012, before --rest-until 0.02; that"):
+    with pytest.raises(RecordingError, match=r"line 2: the run begins at t = 0.012, before --rest-until 0.02: that"):
         read(tmp_path, LATE, replace(ANGLE, rest_until=0.02))
 
 
@@ -52,10 +52,10 @@ def test_every_run_of_a_split_log_begins_from_rest(tmp_path: Path) -> None:
 def test_a_voltage_that_was_applied_before_its_row(tmp_path: Path) -> None:
     usual = read(tmp_path, LATE, ANGLE)
     assert [sample.voltage for sample in usual.runs[0].samples] == [5.0, 5.0, 4.0]
-    assert "taken to be applied from its time until the next row (else say --voltage-before)" in usual.findings[-1]
+    assert "applied from its time until the next row (otherwise: --voltage-before)" in usual.findings[-1]
     before = read(tmp_path, LATE, replace(ANGLE, voltage_before=True))
     assert [sample.voltage for sample in before.runs[0].samples] == [5.0, 4.0, 4.0]
-    assert "from the row before until its own time" in before.findings[-1]
+    assert "from the time of the row before until its own" in before.findings[-1]
     rested = read(tmp_path, [(0.012, 3, 0), *LATE[1:]], replace(ANGLE, voltage_before=True, rest_until=0.0))
     assert [sample.voltage for sample in rested.runs[0].samples] == [3.0, 5.0, 4.0, 4.0]
     split = [*((*row, "a") for row in LATE), *((*row, "b") for row in LATE)]
@@ -71,16 +71,16 @@ def test_a_static_curve_is_a_stair_whose_ends_are_compared(tmp_path: Path) -> No
     assert [sample.speed for sample in samples] == pytest.approx([0.0, *map(radians, (100, 260, 421, -420))])
     assert np.all(np.diff([sample.sample_time for sample in samples]) == 20_000_000_000)
     assert (log.info.measurement, log.info.speed_window, log.info.speed_lag) == (Measurement.SPEED, 0.5, 0.25)
-    assert "log.csv: 4 steady states, at most 3 V." in log.findings[0] and "nothing of inertia" in log.findings[2]
+    assert "log.csv: 4 steady states, up to 3 V." in log.findings[0] and "do not show inertia" in log.findings[2]
     intervals = intervals_of(check(recording_of(samples, log.info, "static")))
     assert np.array_equal(intervals.time[intervals.last], [20.0, 40.0, 60.0, 80.0])
     assert np.allclose(intervals.duration, 0.5) and np.degrees(intervals.speed) == pytest.approx([100, 260, 421, -420])
     assert np.degrees(intervals.sigma) == pytest.approx(360 / 2800 / 0.5 / np.sqrt(6.0), rel=1e-6)
     assumed = read(tmp_path, rows, STATIC, "u,y")
-    assert "a mean over 1 s (assumed; else say --speed-window)" in assumed.findings[1]
+    assert "the mean over the last 1 s (assumed; otherwise: --speed-window)" in assumed.findings[1]
     by_count = read(tmp_path, rows, replace(STATIC, count_quantum=0.36), "u,y")
     assert by_count.info.edges_per_revolution == 1000  # 0.36 deg/s over 1 s
-    with pytest.raises(RecordingError, match="means over at most 5 s here: correct --speed-window"):
+    with pytest.raises(RecordingError, match="the mean over 5 s at most: reduce --speed-window"):
         read(tmp_path, rows, replace(STATIC, speed_window=6.0), "u,y")
 
 
@@ -97,7 +97,7 @@ def test_positions_that_jump_are_refused_with_their_line(tmp_path: Path, case: s
     angle = np.arange(120) * 7
     rows = [(f"{0.005 * k:.3f}", 5, value) for k, value in enumerate(WRAPPED[case](angle))]
     with pytest.raises(
-        RecordingError, match=r"line \d+: y jumps from \d+ to \d+, which no motor does: it wraps"
+        RecordingError, match=r"line \d+: y jumps from \d+ to \d+: the counter wrapped or was reset"
     ) as bad:
         read(tmp_path, rows, ANGLE)
     assert str(bad.value).endswith(".") and "\n" not in str(bad.value)
@@ -114,10 +114,10 @@ def test_speeds_in_a_mistaken_unit_are_seen_by_their_steps(tmp_path: Path, unit:
     rows = [(f"{0.02 * k:.2f}", 2, f"{count * (20 + 7 * k % 17):.6f}") for k in range(60)]
     right = replace(SPEED, edges_per_revolution=2800, speed_window=0.02)
     assert "is 6.429 deg/s." in " ".join(read(tmp_path, rows, right).findings)
-    with pytest.raises(RecordingError, match=rf"come in steps of 6.429 {unit}, but one count of 2800 .* check --unit"):
+    with pytest.raises(RecordingError, match=rf"change in steps of 6.429 {unit}, but one count .2800 .* check --unit"):
         read(tmp_path, rows, replace(right, unit=unit))
     slower = [(time, volts, f"{radians(float(value)):.9f}") for time, volts, value in rows]
-    with pytest.raises(RecordingError, match="come in steps of 0.1122 deg/s, but one count of 2800"):
+    with pytest.raises(RecordingError, match="change in steps of 0.1122 deg/s, but one count .2800"):
         read(tmp_path, slower, right)
 
 

@@ -49,9 +49,9 @@ def test_speeds_are_means_over_the_period_before_the_stamp_unless_said_otherwise
     assert (log.info.max_voltage, log.info.edges_per_revolution, log.info.single_channel) == (3.0, 0, False)
     assert run.label == "" and run.duration == pytest.approx(0.04)
     text = " ".join(log.findings)
-    assert "3 rows, 0.04 s, sample period 20 ms (20 to 20 ms), at most 3 V" in text
-    assert "mean over 20 ms (assumed: one sample period; else say --speed-window)" in text
-    assert "10 ms before the row's time (assumed" in text and "noise floor, is not known" in text
+    assert "3 rows, 0.04 s, sample period 20 ms (20 to 20 ms), up to 3 V" in text
+    assert "mean over 20 ms (assumed: one sample period; otherwise: --speed-window)" in text
+    assert "10 ms before the row's time (assumed" in text and "The noise level is unknown: give the encoder" in text
 
 
 def test_what_is_said_is_not_assumed(read: Read) -> None:
@@ -60,12 +60,12 @@ def test_what_is_said_is_not_assumed(read: Read) -> None:
     assert (log.info.speed_window, log.info.speed_lag, log.info.edges_per_revolution) == (0.1, 0.0, 360)
     assert (log.info.max_voltage, log.info.name) == (12.0, "wheel")
     assert "assumed" not in " ".join(log.findings)
-    assert "One count of 360 per revolution within the window is 10 deg/s." in log.findings
+    assert "One count (360 per revolution) within the window is 10 deg/s." in log.findings
 
 
 def test_the_size_of_a_count_says_the_edges_behind_a_speed(read: Read) -> None:
     assert read(PLAIN, replace(SPEED, count_quantum=6.428571)).info.edges_per_revolution == 2800
-    with pytest.raises(RecordingError, match="2812.5 a revolution, not to 2800"):
+    with pytest.raises(RecordingError, match="come to 2812.5 per revolution, not 2800"):
         read(PLAIN, replace(SPEED, count_quantum=6.4, edges_per_revolution=2800))
 
 
@@ -96,7 +96,7 @@ def test_positions_and_counts_are_sampled_counts(read: Read, form: CsvForm, valu
     step = 0.02 * pi
     assert [sample.speed for sample in run.samples] == pytest.approx([step / 0.01, step / 0.01, -3 * step / 0.02])
     assert all(sample.edge_time == 0 and sample.edge_period == 0.0 for sample in run.samples)
-    assert not any("Beware" in finding for finding in log.findings)
+    assert not any("Caution" in finding for finding in log.findings)
 
 
 def test_the_size_of_a_count_is_seen_in_positions_and_told(read: Read) -> None:
@@ -104,21 +104,21 @@ def test_the_size_of_a_count_is_seen_in_positions_and_told(read: Read) -> None:
     log = read(table(*rows), ANGLE)
     assert log.info.edges_per_revolution == 400
     assert [sample.edge_count for sample in log.runs[0].samples] == [k * (k + 1) // 2 for k in range(20)]
-    assert any("one is 0.9 deg, 400 per revolution (assumed" in finding for finding in log.findings)
+    assert any("one count is 0.9 deg, 400 per revolution (assumed" in finding for finding in log.findings)
 
 
 def test_positions_without_steps_need_a_word(read: Read) -> None:
     smooth = table(*((0.01 * k, 1, 3.0 * k**1.37) for k in range(30)))
-    with pytest.raises(RecordingError, match="say --edges-per-revolution or --count-quantum"):
+    with pytest.raises(RecordingError, match="give --edges-per-revolution or --count-quantum"):
         read(smooth, ANGLE)
     log = read(smooth, replace(ANGLE, edges_per_revolution=360))
-    assert any("Beware" in finding and "--count-quantum" in finding for finding in log.findings)
+    assert any("Caution" in finding and "--count-quantum" in finding for finding in log.findings)
 
 
 def test_a_count_that_is_no_share_of_a_turn_is_refused(read: Read) -> None:
-    with pytest.raises(RecordingError, match="514.286 a revolution, not to a whole number"):
+    with pytest.raises(RecordingError, match="514.286 per revolution, not a whole number"):
         read(PLAIN, replace(ANGLE, count_quantum=0.7))
-    with pytest.raises(RecordingError, match="with --edges-per-revolution"):
+    with pytest.raises(RecordingError, match="give --edges-per-revolution"):
         read(PLAIN, replace(COUNT, edges_per_revolution=None))
 
 
@@ -166,8 +166,8 @@ def test_split_makes_a_run_of_every_change_and_lets_time_start_again(read: Read)
 @pytest.mark.parametrize(
     ("text", "complaint"),
     [
-        ("", "log.csv is empty: it takes"),
-        ("\n \n", "log.csv is empty: it takes"),
+        ("", "log.csv is empty: it needs"),
+        ("\n \n", "log.csv is empty: it needs"),
         ("t,u,y\n", "log.csv has 0 rows below its column names"),
         (table((0, 1, 2)), "log.csv has 1 rows below its column names"),
         (table((0, 1, 2), (1, 2, 3), header="t,u,speed"), "log.csv has no column y: name one of t, u, speed."),
@@ -178,13 +178,13 @@ def test_split_makes_a_run_of_every_change_and_lets_time_start_again(read: Read)
         (table((0, 1, 2), (1, 2, "inf")), "log.csv, line 3, column y: 'inf' is not a number"),
         (table((0, 1, 2), ("nan", 2, 3)), "log.csv, line 3, column t: 'nan' is not a number"),
         (table((0, 1, 2), ("1e99", 2, 3)), "log.csv, line 3, column t: '1e99' is not a number"),
-        ("t,u,y\n0,1,2\n\n1,2\n", "log.csv, line 4, column y: there is no number"),
-        ("t,u,y\n0,1,2\n1,,3\n", "log.csv, line 3, column u: there is no number"),
+        ("t,u,y\n0,1,2\n\n1,2\n", "log.csv, line 4, column y: the cell is empty"),
+        ("t,u,y\n0,1,2\n1,,3\n", "log.csv, line 3, column u: the cell is empty"),
         (table((0, 1, 2), (2, 1, 2), (1, 1, 2)), r"line 4: time runs backwards \(t is 1 after 2\); .* --split names"),
         (table((0, 1, 2), (2, 1, 2), ("2.0", 1, 2)), r"line 4: time stands still \(t is 2.0 after 2\)"),
         (table((0, 0, 2), (2, 0, 2)), "u is 0 in every row: check --voltage"),
-        (b"t,u,y\n0,1,\xff\n", "log.csv is not text in UTF-8"),
-        (PLAIN.encode("utf-16"), "log.csv is not text in UTF-8"),
+        (b"t,u,y\n0,1,\xff\n", "log.csv is not UTF-8 text"),
+        (PLAIN.encode("utf-16"), "log.csv is not UTF-8 text"),
     ],
 )
 def test_a_bad_file_is_refused_in_a_sentence(read: Read, text: str | bytes, complaint: str) -> None:

@@ -41,25 +41,27 @@ COUNTS = {
 def test_a_count_that_wraps_or_is_reset_is_refused_with_its_time(case: str) -> None:
     recording, _ = record(TRUTH, *profiles.step(10.0, 1.0), seed=0, single_channel=False)
     intervals_of(check(as_counts(recording)))
-    with pytest.raises(RecordingError, match=r"edge_count jumps from -?\d+ to -?\d+ at 0\.\d+ s, which no") as caught:
+    with pytest.raises(
+        RecordingError, match=r"edge_count jumps from -?\d+ to -?\d+ at 0\.\d+ s: the counter wrapped"
+    ) as caught:
         identify([check(as_counts(COUNTS[case](recording)))], Request())
     assert str(caught.value).endswith(".") and "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
-    ("factor", "said"), [(180 / np.pi, r"57\.\d times"), (60 / (2 * np.pi), r"9\.5\d times"), (np.pi / 180, r"1/5\d")]
+    ("factor", "said"), [(180 / np.pi, r"57\.\d ×"), (60 / (2 * np.pi), r"9\.5\d ×"), (np.pi / 180, r"1/5\d")]
 )
 @pytest.mark.parametrize("counts", [False, True])
 def test_a_speed_in_another_unit_than_the_counts_is_refused(factor: float, said: str, counts: bool) -> None:
     recording, _ = record(TRUTH, *profiles.random(12.0, 3.0), seed=0, single_channel=False)
     wrong = replace(recording, speed=recording.speed * factor)
-    with pytest.raises(RecordingError, match=f"speed is {said}.* what edge_count says: report speed in rad/s"):
+    with pytest.raises(RecordingError, match=f"speed is {said}.* the speed from edge_count. Report speed in rad/s"):
         identify([check(as_counts(wrong) if counts else wrong)], Request())
 
 
 def test_stamps_of_another_clock_are_refused() -> None:
     recording, _ = record(TRUTH, *profiles.step(10.0, 1.0), seed=0)
-    with pytest.raises(RecordingError, match="edge_time values lie outside the sample that counted the edge: stamp"):
+    with pytest.raises(RecordingError, match="edge_time values lie outside the sample that counted the edge. Stamp"):
         identify([check(replace(recording, edge_time=recording.edge_time - 3_000_000_000))], Request())
 
 
