@@ -31,7 +31,15 @@ SET_UP = (
     Row("slot_irregularity", 0.0, "scatter of the disc's flanks, share of a slot", "", 0.0, 0.2, read_only=True),
     Row("seed", 0, "of the disc, its starting angle, missed edges and faults", "", 0, 2**31 - 1, read_only=True),
     Row("bridge", "l298n", "bridge that the firmware is built for: l298n or tb6612", read_only=True),
-    Row("supply_voltage", 0.0, "that the board measures; 0: it does not", "V", 0.0, 20.0, read_only=True),
+    Row(
+        "supply_voltage",
+        0.0,
+        "voltage at full duty, which the board measures; 0: as max_voltage of the model, not measured",
+        "V",
+        0.0,
+        60.0,
+        read_only=True,
+    ),
 )
 FAULTS = (
     Row("bit_error_rate", 0.0, "share of bits that flip on the line, both ways", "", 0.0, 0.5),
@@ -52,7 +60,7 @@ PROGRAM = Program(
     "ros2 run motor_board board_emulator --ros-args -p link:=board -p model:=model.yaml",
     publishes=("/diagnostics",),
 )
-SUPPLY_FULL_SCALE = 20_000  # [mV] on A0's divider
+SUPPLY_FULL_SCALE = 60_000  # [mV] on A0's divider
 
 
 class BoardEmulator(Node):
@@ -63,6 +71,7 @@ class BoardEmulator(Node):
         values, faults = declare(self, SET_UP), declare(self, FAULTS)
         model = load(str(values["model"])) if values["model"] else paper_motor()
         edges, supply = int(values["edges_per_revolution"]), float(values["supply_voltage"])
+        model = replace(model, max_voltage=supply) if supply > 0.0 else model
         config = FirmwareConfig(
             bridge=str(values["bridge"]),
             edges_per_revolution=edges,

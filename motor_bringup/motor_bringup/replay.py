@@ -42,7 +42,7 @@ def session(told: Mapping[str, str]) -> Session:
     later = ("--start-offset", values["start"]) if values["start"] else ()
     again = ("--loop",) if values["loop"] == "true" else ()
     play = Program("motor_identification", "play", (bag, *later, *again), node=False)
-    return Session((simulated,), (play,), ready="simulating")
+    return Session((simulated,), (play,), ready="Simulating")
 
 
 def _as_recorded(info: Info) -> dict[str, Value]:

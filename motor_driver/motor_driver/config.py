@@ -18,15 +18,23 @@ class Config:
     sample_rate: float = 200.0  # [Hz]
     edges_per_revolution: int = 96
     single_channel: bool = True
-    max_voltage: float = 12.0  # [V] at full duty
+    max_voltage: float = 12.0  # [V] of the motor
+    supply_voltage: float = 0.0  # [V] at full duty, where the board does not measure it; 0: as max_voltage
     command_timeout: float = 0.1  # [s]
+    stall_time: float = 0.5  # [s] 0: the driver never stops the motor
     decay: Decay = Decay.BRAKE
     baud: int = BAUD
+    board_id: int | None = None  # None: any
 
     @property
     def silence(self) -> float:
         """[s] without telemetry after which the output is switched off."""
         return max(SILENCE, 1.5 / self.sample_rate)
+
+    @property
+    def full_voltage(self) -> float:
+        """[V] at full duty, as far as the parameters say."""
+        return self.supply_voltage or self.max_voltage
 
     def configure(self, board: Hello) -> Configure:
         """What to ask of this board."""
@@ -37,15 +45,21 @@ class Config:
     def refusal(self, board: Hello) -> str:
         """Why this board cannot be used as configured; empty if it can."""
         edges, channels = self.edges_per_revolution, 1 if self.single_channel else 2
+        if self.board_id not in (None, board.board_id):
+            number = f"number {board.board_id}" if board.board_id else "without a number"
+            return (
+                f"This is the board {number}, and the parameter board_id is {self.board_id}: plug the right board in, "
+                "set port or board_id, or flash its number (ros2 run motor_board flash --board-id)."
+            )
         if board.edges_per_revolution not in (0, edges):
             return (
-                f"the board was flashed for an encoder with {board.edges_per_revolution} edges per revolution, "
-                f"the parameter edges_per_revolution is {edges}: set it right, or flash the board again."
+                f"The board was flashed for an encoder with {board.edges_per_revolution} edges per revolution, and the "
+                f"parameter edges_per_revolution is {edges}: set the parameter, or flash the board again."
             )
         if board.channels != channels:
             return (
-                f"the board reads {board.channels} encoder channel(s), but single_channel is "
-                f"{str(self.single_channel).lower()}: set that parameter, or flash the board again."
+                f"The board reads {board.channels} encoder channel(s), and single_channel is "
+                f"{str(self.single_channel).lower()}: set the parameter, or flash the board again."
             )
         return ""
 
@@ -60,6 +74,6 @@ class Config:
             single_channel=self.single_channel,
             edge_resolution=tick / 1e9,
             sample_period=board.sample_period * tick / 1e9 if board else 1.0 / self.sample_rate,
-            max_voltage=self.max_voltage,
+            max_voltage=min(self.max_voltage, self.full_voltage),
             decay=Decay(board.decay).name.lower() if board else self.decay.name.lower(),
         )

@@ -13,10 +13,11 @@ from motor_driver.handshake import Handshake, reset_cause
 from motor_driver.protocol import Event, LinkCounters
 from motor_driver.readout import Readout
 from motor_driver.session import Session
-from motor_driver.wiring import Wiring
 from motor_model.sample import Info, Sample
+from motor_ros.motion_check import MotionCheck
 
-NO_LINK = "no link to the board yet"
+NO_LINK = "There is no link to the board yet."
+LOST = "the link to the board on {} was lost"
 HELD_UP = "the board heard no command for too long and switched off"
 
 
@@ -34,7 +35,7 @@ class Order:
     """What is to be done now."""
 
     data: bytes  # to the port
-    stop: str  # not empty: the user's wish is void, for this reason
+    stop: str  # not empty: the user's wish is void, for this reason, a clause
 
 
 class Driver:
@@ -44,10 +45,10 @@ class Driver:
         self.config = config
         self.session: Session | None = None  # while a port is open
         self.trouble = NO_LINK  # while there is no port
-        self.stopped = ""  # why the output was switched off, until the user switches it on
         self.board: Hello | None = None  # the latest that ran
-        self.wiring = Wiring(config.max_voltage, config.single_channel)
+        self.motion = self._nothing_seen()
         self.readings = self.resets = self.openings = 0
+        self.runs_begun = 0  # boards that have begun to run: each time voltages have to begin at 0 V
         self._readout: Readout | None = None
         self._anew = False  # the board that runs now was reset since the one before
         self._drift = 0.0
@@ -66,18 +67,31 @@ class Driver:
         was = self._counted
         return LinkCounters(was.good + now.good, was.bad + now.bad, was.lost + now.lost)
 
+    def _nothing_seen(self) -> MotionCheck:
+        config = self.config
+        return MotionCheck(config.max_voltage, config.single_channel, config.stall_time)
+
     @property
     def runs(self) -> bool:
         """Whether a board samples and is heard."""
         return self.session is not None and self.session.runs and not self.session.silent
+
+    @property
+    def supply(self) -> float:
+        """[V] at full duty, measured where the board can."""
+        return self._readout.supply if self._readout else self.config.full_voltage
 
     def refusal(self) -> str:
         """Why the output cannot be switched on now; empty if it can."""
         if self.session is None:
             return self.trouble
         if self.session.silent:
-            return f"no telemetry comes from {self.session.port}"
-        return "" if self.session.runs else f"the board on {self.session.port} has not answered yet"
+            return f"No telemetry comes from {self.session.port}."
+        return "" if self.session.runs else f"The board on {self.session.port} has not answered yet."
+
+    def unsuitable(self, now: int) -> bool:
+        """Whether the open port has no board that can be used."""
+        return self.session is not None and bool(self.session.handshake.problem(now))
 
     def opened(self, port: str, now: int) -> None:
         """A port was opened."""
@@ -88,7 +102,7 @@ class Driver:
         """The port is gone, or cannot be opened."""
         self.trouble = why
         if self.session and self.session.runs:
-            self._halt(why)
+            self._halt(LOST.format(self.session.port))
         self._counted, self.session = self.counters, None
 
     def received(self, data: bytes, now: int) -> list[Reading]:
@@ -109,13 +123,11 @@ class Driver:
             self._halt(f"no telemetry from {session.port} for {self.config.silence * 1e3:.0f} ms")
         stop, self._stop = self._stop, ""
         wish = wish and not stop
-        if wish:
-            self.stopped = ""
         duty = self._readout.duty(voltage) if self._readout else 0
         return Order(session.due(now, wish, duty) if session else b"", stop)
 
     def _halt(self, why: str) -> None:
-        self._stop = self.stopped = why
+        self._stop = why
 
     def _hear(self, session: Session, event: Event, now: int) -> list[Reading]:
         if isinstance(event, OtherVersion):
@@ -134,6 +146,7 @@ class Driver:
         if session.handshake.hear(hello):
             self._anew = self.board is not None and self.board.boot != hello.boot
             self.board = hello
+            self.runs_begun += 1
             session.begin(Exchange(self.config.baud, self._drift), now)
 
     def _reset(self, session: Session, cause: str) -> None:
@@ -143,7 +156,7 @@ class Driver:
 
     def _hear_telemetry(self, session: Session, frame: Telemetry, now: int) -> list[Reading]:
         if session.handshake.reset_in(frame):
-            self._reset(session, "by what, its lost hello would have said")
+            self._reset(session, "unknown cause")
         if session.exchange is None or self.board is None:
             return []
         restarted = False
@@ -157,7 +170,7 @@ class Driver:
             return []
         if restarted:
             self._readout.restart(frame, self.board, now)
-            self.wiring = Wiring(self.config.max_voltage, self.config.single_channel)
+            self.motion = self._nothing_seen()
         session.latest, session.heard, session.silent = frame, now, False
         if session.switch.hear(frame):
             self._halt(HELD_UP if frame.flags & Flag.TIMED_OUT else "the board switched off")
@@ -168,5 +181,7 @@ class Driver:
         if exchange.fit.fit:
             self._drift = exchange.fit.fit.drift
         sample = readout.sample(frame)
-        self.wiring = self.wiring.see(sample)
+        self.motion = self.motion.see(sample)
+        if self.motion.stop and frame.enabled:
+            self._halt(self.motion.stop)
         return Reading(sample, host, restarted)

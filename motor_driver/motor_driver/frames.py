@@ -178,7 +178,7 @@ class OtherVersion:
         if self.version > VERSION:
             cure = "update this workbench, or flash the board with its older firmware (ros2 run motor_board flash)"
         return ProtocolError(
-            f"the board on {where} speaks protocol version {self.version}, this driver version {VERSION}: {cure}."
+            f"The board on {where} speaks protocol version {self.version}, this driver version {VERSION}: {cure}."
         )
 
 

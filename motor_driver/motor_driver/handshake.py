@@ -68,8 +68,8 @@ class Handshake:
         if self._refusal or self.phase is Phase.RUN or now - self._opened < PATIENCE:
             return self._refusal
         return (
-            f"nothing on {self._port} answers as a motor board: flash it (ros2 run motor_board flash), and see that "
-            f"the parameter baud, {self._config.baud}, is that of its firmware."
+            f"Nothing on {self._port} answers as a motor board: flash it (ros2 run motor_board flash), or set the "
+            f"parameter baud ({self._config.baud}) to that of its firmware."
         )
 
     def _wanted(self) -> tuple[int, int, int]:

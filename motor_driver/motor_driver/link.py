@@ -18,6 +18,7 @@ from serial.tools import list_ports
 from motor_model.errors import MotorError
 
 LOOK_AGAIN = 0.1  # [s] for a port that is not there
+SEARCH_AGAIN = 2.0  # [s] between two rounds through all ports
 END = 0.5  # [s] that the thread may take to end
 MOST_READ = 4096  # [byte] at once
 
@@ -45,6 +46,8 @@ class Closed:
     why: str
 
 
+FAILED = "The serial port has failed ({}): see the cable, or end what else uses the port; retrying."
+
 Event: TypeAlias = Opened | Received | Closed
 
 
@@ -58,20 +61,22 @@ def ports() -> str:
     return f"the ports here are {', '.join(found)}" if found else "there is no serial port here at all"
 
 
-def chosen(port: str) -> str:
-    """The port to open: the one that was asked for, or else the only one on USB.
+def candidates(port: str, search: bool = False) -> list[str]:
+    """The ports that may be opened: the one that was asked for, or else the only one on USB; all of them to `search`.
 
     Raises:
-        PortError: it is not clear which.
+        PortError: there is none, or it is not clear which.
     """
     if port:
-        return port
-    found = [entry.device for entry in list_ports.comports() if entry.vid is not None]
-    if len(found) == 1:
-        return str(found[0])
-    if found:
-        raise PortError(f"there are several boards here: set the parameter port to one of {', '.join(sorted(found))}.")
-    raise PortError(f"no board is plugged in ({ports()}): plug it in, or set the parameter port.")
+        return [port]
+    found = sorted(str(entry.device) for entry in list_ports.comports() if entry.vid is not None)
+    if not found:
+        raise PortError(f"No board is plugged in ({ports()}): plug it in, or set the parameter port; retrying.")
+    if len(found) > 1 and not search:
+        raise PortError(
+            f"There are several boards here: set the parameter port to one of {', '.join(found)}, or board_id."
+        )
+    return found
 
 
 def open_port(port: str, baud: int) -> serial.Serial:
@@ -90,16 +95,16 @@ def open_port(port: str, baud: int) -> serial.Serial:
 
 
 def _cure(port: str, baud: int, number: int | None) -> str:
-    in_use = f"{port} is in use: end the other program (another motor_driver, a serial monitor) that has opened it."
+    in_use = "it is in use: end the other program that has opened it (another motor_driver, a serial monitor)"
     cures = {
-        errno.ENOENT: f"there is no {port}: plug the board in, or set the parameter port; {ports()}.",
-        errno.EACCES: f"no permission for {port}: add yourself to the group dialout (sudo usermod -aG dialout "
-        f"{_user()}), log out and in again.",
+        errno.ENOENT: f"there is none: plug the board in, or set the parameter port ({ports()})",
+        errno.EACCES: f"no permission: add yourself to the group dialout (sudo usermod -aG dialout {_user()}), "
+        "log out and in again",
         errno.EAGAIN: in_use,
         errno.EBUSY: in_use,
     }
-    other = f"{port} cannot be opened as a serial port with {baud} baud: set the parameters port and baud; {ports()}."
-    return cures.get(number, other) if number is not None else other
+    other = f"it is no serial port that can do {baud} baud: set the parameters port and baud ({ports()})"
+    return f"Cannot open serial port '{port}', {cures.get(number or 0, other)}; retrying."
 
 
 def _user() -> str:
@@ -112,15 +117,28 @@ def _user() -> str:
 class Link:
     """Keeps a port open. `wake` is called, in the link's thread, when there is something to `take`."""
 
-    def __init__(self, port: str, baud: int, wake: Callable[[], None]) -> None:
-        self._port, self._baud, self._wake = port, baud, wake
+    def __init__(self, port: str, baud: int, wake: Callable[[], None], search: bool = False) -> None:
+        """`search`: without a port's name every one on USB may be it; `pass_over` says that the open one is not."""
+        self._port, self._baud, self._wake, self._search = port, baud, wake, search and not port
+        self._passed: set[str] = set()  # ports of this round of the search
         self._events: deque[Event] = deque()
         self._open: serial.Serial | None = None
         self._lock = threading.Lock()  # of `_open`, between writing and closing
-        self._ended = threading.Event()
+        self._ended, self._passing = threading.Event(), threading.Event()
         self._end_read, self._end_write = os.pipe()
         self._thread = threading.Thread(target=self._run, name="serial", daemon=True)
         self._thread.start()
+
+    @property
+    def alive(self) -> bool:
+        """Whether the port is still looked after."""
+        return self._thread.is_alive()
+
+    def pass_over(self) -> None:
+        """The open port is not the one that is searched for."""
+        if self._search and self._open is not None and not self._passing.is_set():
+            self._passing.set()
+            os.write(self._end_write, b"\0")
 
     def take(self) -> list[Event]:
         """What has happened since the last call."""
@@ -142,33 +160,56 @@ class Link:
         told = ""
         while not self._ended.is_set():
             try:
-                port = chosen(self._port)
-                opened = open_port(port, self._baud)
-            except PortError as error:
-                if str(error) != told:
-                    told = str(error)
-                    self._tell(Closed(told))
+                self._use(self._next())
+                told = ""
+            except Exception as error:  # whatever it is (termios.error is no OSError), the port is opened again
+                why = str(error) if isinstance(error, PortError) else FAILED.format(f"{type(error).__name__}: {error}")
+                if why != told:
+                    told = why
+                    self._tell(Closed(why))
                 self._ended.wait(LOOK_AGAIN)
-                continue
-            told = ""
-            self._use(port, opened)
 
-    def _use(self, port: str, opened: serial.Serial) -> None:
-        """Read until the port is gone."""
-        with self._lock:
-            self._open = opened
-        self._tell(Opened(port, time.monotonic_ns()))
-        self._read(opened.fileno())
-        with self._lock:
-            self._open = None
-            with suppress(OSError):  # a port that is gone may not even be closed
-                opened.close()
-        if not self._ended.is_set():
-            self._tell(Closed(f"{port} is gone: plug the board in again; {ports()}."))
+    def _next(self) -> str:
+        """The port to try now; in a search each in turn.
+
+        Raises:
+            PortError: there is none, it is not clear which, or the search has been through all of them.
+        """
+        found = candidates(self._port, self._search)
+        left = [port for port in found if port not in self._passed]
+        if left:
+            return left[0]
+        self._passed.clear()
+        self._ended.wait(SEARCH_AGAIN)  # to open a port resets the board on it
+        raise PortError(f"None of {', '.join(found)} has the board with that board_id: plug it in; retrying.")
+
+    def _use(self, port: str) -> None:
+        """Open a port and read until it is gone."""
+        if self._search:
+            self._passed.add(port)
+        opened = open_port(port, self._baud)
+        try:
+            with self._lock:
+                self._open = opened
+            self._tell(Opened(port, time.monotonic_ns()))
+            self._read(opened.fileno())
+        finally:
+            with self._lock:
+                self._open = None
+                with suppress(OSError):  # a port that is gone may not even be closed
+                    opened.close()
+        if self._passing.is_set():
+            self._passing.clear()
+            self._tell(Closed(f"The board on {port} is not the one that is searched for."))
+        elif not self._ended.is_set():
+            self._passed.discard(port)
+            self._tell(Closed(f"The serial port {port} is gone: plug the board in again; retrying ({ports()})."))
 
     def _read(self, descriptor: int) -> None:
-        while not self._ended.is_set():
+        while not self._ended.is_set() and not self._passing.is_set():
             ready, _, _ = select.select([descriptor, self._end_read], [], [])
+            if self._end_read in ready:
+                os.read(self._end_read, MOST_READ)
             if descriptor not in ready:
                 continue
             try:

@@ -11,10 +11,11 @@ from motor_driver.parameters import PROGRAM, ROWS, config_of
 from motor_ros.gate import Gate
 from motor_ros.messages import time_message
 from motor_ros.parameters import declare
-from motor_ros.plant import Plant
+from motor_ros.plant import Plant, steady_timer
 from motor_ros.run import run
 
 WATCH_EVERY = 0.01  # [s]
+NO_THREAD = "The thread of the serial port has ended, which is a mistake in the driver: start it again, and report it."
 SETTLING = 100_000_000  # [ns] a clock that goes back further than this was set
 
 
@@ -27,13 +28,15 @@ class MotorDriver(Node):
         self._driver = Driver(config_of(values))
         self._was = status.tally(self._driver, time.monotonic_ns())
         self._said = ""
+        self._runs_begun = 0
         self._stamp = 0  # [ns] ROS time of the latest sample
         gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]))
         self._plant = Plant(self, self._driver.info, gate, self._driver.refusal, self._work)
         wake = self.create_guard_condition(self._work)
-        self._link = Link(str(values["port"]), int(values["baud"]), wake.trigger)
-        self.create_timer(WATCH_EVERY, self._work)
-        self.create_timer(1.0, self._on_second)
+        config = self._driver.config
+        self._link = Link(str(values["port"]), config.baud, wake.trigger, search=config.board_id is not None)
+        steady_timer(self, WATCH_EVERY, self._work)
+        steady_timer(self, 1.0, self._on_second)
 
     def close(self) -> None:
         """Switch the output off while the port is still open."""
@@ -51,6 +54,8 @@ class MotorDriver(Node):
         for event in self._link.take():
             for reading in self._hear(event):
                 self._publish(reading, to_ros)
+        if not self._link.alive and self._driver.trouble != NO_THREAD:
+            self._driver.closed(NO_THREAD)
         self._act()
 
     def _hear(self, event: Event) -> list[Reading]:
@@ -59,7 +64,6 @@ class MotorDriver(Node):
                 return self._driver.received(data, at)
             case Opened(port, at):
                 self._driver.opened(port, at)
-                self.get_logger().info(f"opened {port}")
             case Closed(why):
                 self._driver.closed(why)
                 self._say()
@@ -78,11 +82,17 @@ class MotorDriver(Node):
         self._plant.publish(reading.sample, time_message(self._stamp))
 
     def _act(self) -> None:
-        order = self._driver.step(time.monotonic_ns(), self._plant.gate.enabled, self._plant.voltage())
+        now = time.monotonic_ns()
+        if self._driver.runs_begun > self._runs_begun:
+            self._runs_begun = self._driver.runs_begun
+            self._plant.gate = self._plant.gate.come_up(now)
+            self.get_logger().info(status.connection(self._driver))
+        order = self._driver.step(now, self._plant.gate.enabled, self._plant.voltage())
         self._link.write(order.data)
         if order.stop:
-            self._plant.gate = self._plant.gate.enable(False)
-            self._say()
+            self._plant.stop(order.stop)
+        if self._driver.unsuitable(now):
+            self._link.pass_over()
 
     def _say(self) -> None:
         """Log what is wrong, once."""

@@ -9,10 +9,13 @@ from motor_ros.parameters import Row, Value
 from motor_ros.plant import SHARED_PARAMETERS, max_voltage_row
 from motor_ros.program import PLANT_PUBLISHES, Program
 
+MOST_ID = 65535
+
 ROWS = (
     *SHARED_PARAMETERS,
     max_voltage_row(),
     Row("port", "", "the board's serial port, such as /dev/ttyACM0; empty: the only one on USB", read_only=True),
+    Row("board_id", "", "number the board was flashed with; another is refused; empty: any board", read_only=True),
     Row("baud", BAUD, "of the serial port; the firmware's", "", 9600, 4_000_000, read_only=True),
     Row("decay", "brake", "what the bridge does in the off part of a PWM period: brake or coast", read_only=True),
 )
@@ -32,7 +35,7 @@ def config_of(values: Mapping[str, Value]) -> Config:
     """The driver's configuration.
 
     Raises:
-        MotorError: there is no such decay.
+        MotorError: there is no such decay, or no such board_id.
     """
     names = [decay.name.lower() for decay in Decay]
     if values["decay"] not in names:
@@ -43,7 +46,18 @@ def config_of(values: Mapping[str, Value]) -> Config:
         edges_per_revolution=int(values["edges_per_revolution"]),
         single_channel=bool(values["single_channel"]),
         max_voltage=float(values["max_voltage"]),
+        supply_voltage=float(values["supply_voltage"]),
+        board_id=_board_id(str(values["board_id"]).strip()),
+        stall_time=float(values["stall_time"]),
         command_timeout=float(values["command_timeout"]),
         decay=Decay[str(values["decay"]).upper()],
         baud=int(values["baud"]),
     )
+
+
+def _board_id(text: str) -> int | None:
+    if text and not (text.isascii() and text.isdigit() and int(text) <= MOST_ID):
+        raise MotorError(
+            f"board_id '{text}' is no number from 0 to {MOST_ID}: say the one that the board was flashed with."
+        )
+    return int(text) if text else None

@@ -9,6 +9,8 @@ from motor_model.sample import Sample
 from motor_model.sensing.speed_rule import SpeedState, revolution_share, single_channel_speed, speed_magnitude
 
 HALF, WRAP = 1 << 31, 1 << 32
+NO_SUPPLY = 3.0  # [V] measured below this, the supply is off
+MEMORY = 0.5  # [s] over which a measured supply is smoothed: its converter's step is 20 mV
 
 
 class Readout:
@@ -17,6 +19,8 @@ class Readout:
     def __init__(self, config: Config, board: Hello) -> None:
         self._config = config
         self._slot = revolution_share(config.edges_per_revolution)
+        self.supply = config.full_voltage  # [V] at full duty
+        self._measured = False
         self.clock = BoardClock(board.tick_ns)
         self._begin(board)
 
@@ -36,7 +40,8 @@ class Readout:
         self._count += steps - WRAP if steps >= HALF else steps
         if frame.edge_valid:
             self._edge_time = self.clock.before(frame.edge_time)
-        voltage = frame.duty / self._top * self._config.max_voltage
+        self._follow_supply(frame.supply)
+        voltage = frame.duty / self._top * self.supply
         period = frame.edge_period * self._tick / 1e9
         return Sample(
             sample_time=now,
@@ -54,7 +59,14 @@ class Readout:
         speed, self._speed_state = single_channel_speed(self._speed_state, magnitude, voltage, now)
         return speed
 
+    def _follow_supply(self, millivolts: int) -> None:
+        """Take the supply that the board measures for the voltage at full duty."""
+        if millivolts != NOT_MEASURED and millivolts * 1e-3 >= NO_SUPPLY:
+            share = min(1.0 / (MEMORY * self._config.sample_rate), 1.0) if self._measured else 1.0
+            self.supply += share * (millivolts * 1e-3 - self.supply)
+            self._measured = True
+
     def duty(self, voltage: float) -> int:
-        """What to command for a voltage [V], within what there is."""
-        share = min(max(voltage / self._config.max_voltage, -1.0), 1.0)
-        return round(share * self._top)
+        """What to command for a voltage [V]: no more than the motor's, and than the supply gives."""
+        limit = min(self._config.max_voltage, self.supply)
+        return round(min(max(voltage, -limit), limit) / self.supply * self._top)

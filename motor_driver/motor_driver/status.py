@@ -8,6 +8,7 @@ from motor_driver.frames import Hello
 from motor_driver.protocol import LinkCounters
 
 LEAST_RATE = 0.95  # of the requested one
+OTHER_SUPPLY = 0.1  # of supply_voltage: more than a divider's two resistors of 5 % are off
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,15 +35,28 @@ def problem(driver: Driver, was: Tally, now: int) -> str:
     steady = was.runs and driver.runs and was.openings == driver.openings
     sentences = (
         session.handshake.problem(now),
-        f"no telemetry comes from {session.port}: see its cable, or reset the board" if session.silent else "",
-        f"{driver.stopped}: the output is off until motor/enable is called with data: true" if driver.stopped else "",
-        driver.wiring.finding,
-        f"{rate:.0f} samples per second instead of {driver.config.sample_rate:.0f}"
+        f"No telemetry comes from {session.port}: see its cable, or reset the board." if session.silent else "",
+        capital(driver.motion.finding),
+        _supply(driver),
+        f"Only {rate:.0f} samples per second come instead of {driver.config.sample_rate:.0f}: close other programs, or "
+        "lower sample_rate."
         if steady and rate < LEAST_RATE * driver.config.sample_rate
         else "",
         _noise(driver.counters, was.link),
     )
     return next(filter(None, sentences), "")
+
+
+def connection(driver: Driver) -> str:
+    """What has just begun to run, as a sentence."""
+    board, config = driver.board, driver.config
+    if driver.session is None or board is None:
+        return ""
+    number = f", board_id {board.board_id}" if board.board_id else ""
+    return (
+        f"Connected to {driver.session.port}: firmware {_version(board)}{number}, {config.edges_per_revolution} edges "
+        f"per revolution, {driver.info.max_voltage:g} V."
+    )
 
 
 def values(driver: Driver, was: Tally, now: int) -> dict[str, str]:
@@ -56,6 +70,7 @@ def values(driver: Driver, was: Tally, now: int) -> dict[str, str]:
         "lost frames": counters.lost,
         "achieved rate [Hz]": f"{achieved(driver, was, now):.1f}",
         "requested rate [Hz]": f"{driver.config.sample_rate:.1f}",
+        "voltage at full duty [V]": f"{driver.supply:.2f}",
         "ports opened": driver.openings,
         "board resets": driver.resets,
         **_board(driver.board),
@@ -73,14 +88,32 @@ def _noise(counters: LinkCounters, was: LinkCounters) -> str:
     bad, lost = counters.bad - was.bad, counters.lost - was.lost
     if not bad and not lost:
         return ""
-    return f"{bad} damaged and {lost} lost frames in the last second: see cable, ground and the machine's load"
+    return f"{bad} damaged and {lost} lost frames in the last second: see cable, ground and the machine's load."
+
+
+def _supply(driver: Driver) -> str:
+    """A measured supply that is not what the parameter says."""
+    told, measured = driver.config.supply_voltage, driver.supply
+    if not told or abs(measured - told) <= OTHER_SUPPLY * told:
+        return ""
+    return (
+        f"The board measures a supply of {measured:.1f} V, and supply_voltage is {told:g} V: the measured one is used."
+    )
+
+
+def capital(sentence: str) -> str:
+    """A clause as a sentence."""
+    return f"{sentence[0].upper()}{sentence[1:]}." if sentence else ""
 
 
 def _board(board: Hello | None) -> dict[str, object]:
     if board is None:
         return {}
-    version = f"{board.firmware_major}.{board.firmware_minor}.{board.firmware_patch}"
-    return {"firmware": version, "board id": board.board_id}
+    return {"firmware": _version(board), "board id": board.board_id}
+
+
+def _version(board: Hello) -> str:
+    return f"{board.firmware_major}.{board.firmware_minor}.{board.firmware_patch}"
 
 
 def _clock(exchange: Exchange | None) -> dict[str, object]:

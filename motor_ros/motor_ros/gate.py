@@ -1,7 +1,31 @@
-"""What a plant lets through to the motor: nothing while disabled, nothing stale, nothing that is not a number."""
+"""What a plant lets through to the motor: nothing while off, stale or not a number, and only what begins at 0 V.
+
+    off      latched: by motor/enable with data: false, or by a stop; only motor/enable with data: true ends it
+    waiting  on, but the sender began before the plant came up: 0 V until it sends 0 V, or motor/enable
+    driven   the newest voltage of one sender; another's are left aside until that one has been silent for HOLD
+
+Times are ns on a clock that is never set.
+"""
 
 from dataclasses import dataclass, replace
 from math import isfinite
+
+from motor_ros.sender import Sender
+
+QUIET = 2_000_000_000  # [ns] without any voltage; where nobody counts, who sent before would have been heard by then
+PACE = 50_000_000, 500_000_000  # [ns] after its first command within which a sender's pace is judged
+HOLD = 500_000_000  # [ns] of silence after which another sender is obeyed: longer than a busy computer holds one up
+CONFLICT = 1_500_000_000  # [ns] for which a second sender is reported: longer than from one diagnostic to the next
+
+OFF = "The output is off: call motor/enable with data: true."
+STOPPED = "The output is off ({}): call motor/enable with data: true."
+WAITING = (
+    "{:.3g} V was already being sent on motor/voltage when the plant came up: the motor gets 0 V until 0 V is sent, or"
+    " motor/enable is called with data: true."
+)
+TWO_SENDERS = (
+    "More than one node sends motor/voltage{}: only {} is obeyed, until it has been silent for {:g} s; end the others."
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -10,19 +34,44 @@ class Gate:
 
     enabled: bool
     timeout: float  # [s] after which a command is stale
+    since: int = 0  # [ns] the plant came up, or its board did
+    stopped: str = ""  # why the output was switched off; empty: by the user, or never
+    begun: bool = False  # the voltages have started from 0 V, or were allowed by motor/enable
+    first: Sender | None = None  # the sender's first command that was heard since then
     command: float = 0.0  # [V]
     received: int | None = None  # [ns]
+    sender: Sender | None = None  # of that command
+    rival: str | None = None  # what another sender calls itself
+    rival_at: int = 0  # [ns] its latest command
     refused: int = 0  # commands that were not numbers
 
-    def take(self, voltage: float, now: int) -> "Gate":
-        """A command [V] arrives at `now` [ns]; one that is not a number stops the motor."""
+    def take(self, voltage: float, now: int, name: str = "", number: int | None = None) -> "Gate":
+        """A command [V] of a sender arrives at `now` [ns]; one that is not a number stops the motor.
+
+        `name` is the message's frame_id, `number` how many messages its publisher has sent, None if unknown.
+        """
         if not isfinite(voltage):
             return replace(self, command=0.0, received=None, refused=self.refused + 1)
-        return replace(self, command=voltage, received=now)
+        holder = self.sender
+        ours = holder is not None and holder.sent(name, number, now)
+        if holder is not None and now - holder.at <= HOLD and not ours:
+            return replace(self, rival=name, rival_at=now)
+        sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
+        first = self.first if ours and self.first is not None else sender
+        begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since)
+        return replace(self, command=voltage, received=now, sender=sender, first=first, begun=begun)
 
     def enable(self, on: bool) -> "Gate":
-        """Switch the output; a command from before the switch never acts."""
-        return replace(self, enabled=on, command=0.0, received=None)
+        """Switch the output, by the user's will; a command from before the switch never acts."""
+        return replace(self, enabled=on, begun=on, stopped="", command=0.0, received=None)
+
+    def stop(self, why: str) -> "Gate":
+        """Switch the output off for a reason, until the user switches it on."""
+        return replace(self.enable(False), stopped=why)
+
+    def come_up(self, now: int) -> "Gate":
+        """The plant can drive the motor from now [ns] on: voltages have to begin at 0 V again."""
+        return replace(self, since=now, begun=False, first=None, command=0.0, received=None)
 
     def fresh(self, now: int) -> bool:
         """Whether there is a command at `now` [ns] that is not too old."""
@@ -30,10 +79,41 @@ class Gate:
 
     def voltage(self, now: int) -> float:
         """[V] to apply at `now` [ns]."""
-        return self.command if self.enabled and self.fresh(now) else 0.0
+        return self.command if self.enabled and self.begun and self.fresh(now) else 0.0
+
+    def conflict(self, now: int) -> bool:
+        """Whether two senders have been heard just now [ns]."""
+        return self.rival is not None and now - self.rival_at <= CONFLICT
+
+    def problem(self, now: int, senders: str = "") -> str:
+        """What is wrong, as a sentence; empty if nothing is. `senders` names the nodes that can send."""
+        if self.stopped:
+            return STOPPED.format(self.stopped)
+        if self.conflict(now):
+            among = f" ({senders})" if senders else ""
+            obeyed = f"frame_id '{self.sender.name}'" if self.sender and self.sender.name != self.rival else "the first"
+            return TWO_SENDERS.format(among, obeyed, HOLD * 1e-9)
+        if self.enabled and not self.begun and self.fresh(now):
+            return WAITING.format(self.command)
+        return ""
 
     def state(self, now: int) -> str:
         """In words, for diagnostics."""
         if not self.enabled:
-            return "output off: call motor/enable with data: true"
+            return OFF
         return "driven" if self.fresh(now) else "waiting for motor/voltage, 0 V"
+
+
+def _began(first: Sender, number: int | None, now: int, since: int) -> bool:
+    """Whether a sender sent its very first command after `since` [ns]: `number` at `now`, and `first` was heard first.
+
+    At its pace it has sent the commands that were not heard, too.
+    """
+    if first.number is None or number is None:
+        return now == first.at and now - since >= QUIET
+    if first.number == 1:
+        return True
+    listened = now - first.at
+    if not PACE[0] <= listened <= PACE[1]:
+        return False
+    return first.at - (first.number - 1) * listened / max(number - first.number, 1) >= since

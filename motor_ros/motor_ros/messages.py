@@ -90,5 +90,6 @@ def voltage_message(voltage: float, stamp: Time, name: str) -> MotorVoltage:
 
 
 def time_message(nanoseconds: int) -> Time:
-    """Integer nanoseconds as a ROS time; no float in between, which would lose 240 ns."""
+    """Integer nanoseconds, 0 if negative, as a ROS time; no float in between, which would lose 240 ns."""
+    nanoseconds = max(nanoseconds, 0)
     return Time(sec=nanoseconds // 1_000_000_000, nanosec=nanoseconds % 1_000_000_000)

@@ -6,32 +6,61 @@ from math import tau
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 
 from motor_model.sample import Info, Sample
-from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
+from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
-from motor_ros.gate import Gate
+from motor_ros.gate import OFF, STOPPED, Gate
 from motor_ros.messages import info_message, speed_message
 from motor_ros.parameters import Row
+from motor_ros.voltage_input import VoltageInput
 
+STEADY = Clock(clock_type=ClockType.STEADY_TIME)
 SHARED_PARAMETERS = (
     Row("name", "motor", "the motor's name: frame_id of its samples, joint of joint_states", read_only=True),
     Row("sample_rate", 200.0, "samples per second", "Hz", 10.0, 1000.0, read_only=True),
     Row("edges_per_revolution", 96, "encoder edges of one polarity per turn", "", 1, 100_000, read_only=True),
     Row("single_channel", True, "the encoder has one channel and does not measure direction", read_only=True),
+    Row(
+        "supply_voltage",
+        0.0,
+        "voltage at full duty, where none is measured; 0: as max_voltage",
+        "V",
+        0.0,
+        100.0,
+        read_only=True,
+    ),
     Row("command_timeout", 0.1, "without a command for this long the motor gets 0 V", "s", 0.005, 10.0, read_only=True),
-    Row("enabled_at_start", True, "false: the output stays off until motor/enable", read_only=True),
+    Row(
+        "enabled_at_start",
+        True,
+        "true: the output is on as soon as voltages begin, at 0 V or from a new sender; false: off until motor/enable",
+        read_only=True,
+    ),
+    Row(
+        "stall_time",
+        0.5,
+        "half of max_voltage and more without an edge for this long, or against the motion, is a stop; 0: never",
+        "s",
+        0.0,
+        60.0,
+        read_only=True,
+    ),
 )
 
 
 def max_voltage_row(default: float = 12.0) -> Row:
     """The shared parameter whose default a model file may set."""
-    return Row(
-        "max_voltage", default, "voltage at full duty; commands are limited to it", "V", 0.1, 100.0, read_only=True
-    )
+    return Row("max_voltage", default, "the motor's; commands are limited to it", "V", 0.1, 100.0, read_only=True)
+
+
+def steady_timer(node: Node, period: float, callback: Callable[[], None]) -> None:
+    """Call back every `period` [s], whatever ROS time does: it may be simulated, or set."""
+    node.create_timer(period, callback, clock=STEADY)
 
 
 class Plant:
@@ -43,17 +72,20 @@ class Plant:
         info: Info,
         gate: Gate,
         refusal: Callable[[], str] = str,
-        changed: Callable[[], None] = lambda: None,
+        changed: Callable[[], None] | None = None,
     ) -> None:
-        """`refusal` says why the output cannot be switched on now, `changed` is called after a command or a switch."""
-        self._node, self.info, self.gate = node, info, gate
-        self._refusal, self._changed = refusal, changed
+        """`refusal` says why the output cannot be switched on now; `changed` is called after a command, at a switch.
+
+        Without `changed` commands are taken when `voltage` is asked for, and the node may have a quick executor.
+        """
+        self._node, self.info, self.gate = node, info, gate.come_up(time.monotonic_ns())
+        self._refusal, self._changed = refusal, changed or (lambda: None)
         self._angle, self._count = 0.0, 0
         self._speed = node.create_publisher(MotorSpeed, "motor/speed", qos.SPEED)
         self._info = node.create_publisher(MotorInfo, "motor/info", qos.INFO)
         self._joint = node.create_publisher(JointState, "joint_states", qos.JOINT_STATES)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
-        node.create_subscription(MotorVoltage, "motor/voltage", self._on_voltage, qos.VOLTAGE)
+        self._input = VoltageInput(node, self._on_voltage, polled=changed is None)
         node.create_service(SetBool, "motor/enable", self._on_enable)
         self.publish_info()
 
@@ -63,7 +95,15 @@ class Plant:
 
     def voltage(self) -> float:
         """[V] to apply now; the age of commands is judged by a clock that is never set."""
-        return self.gate.voltage(time.monotonic_ns())
+        self._input.poll()
+        limit = self.info.max_voltage
+        return min(max(self.gate.voltage(time.monotonic_ns()), -limit), limit)
+
+    def stop(self, why: str) -> None:
+        """Switch the output off until motor/enable; `why` is said."""
+        if self.gate.stopped != why:
+            self._node.get_logger().error(STOPPED.format(why))
+        self.gate = self.gate.stop(why)
 
     def recount(self) -> None:
         """The board has started anew and counts edges from 0 again."""
@@ -86,35 +126,44 @@ class Plant:
         self._joint.publish(joint)
 
     def diagnose(self, problem: str, values: dict[str, str]) -> None:
-        """Send one diagnostic status: OK if `problem` is empty, with the gate's state and these values."""
+        """Send one diagnostic status: OK if nothing is wrong, with the gate's state and these values."""
+        now = time.monotonic_ns()
+        message = " ".join(filter(None, (problem, self.gate.problem(now, self._input.senders(self._node)))))
+        level = DiagnosticStatus.WARN if message else DiagnosticStatus.OK
+        sender = self.gate.sender.name if self.gate.sender and self.gate.fresh(now) else ""
         status = DiagnosticStatus(
-            level=DiagnosticStatus.WARN if problem else DiagnosticStatus.OK,
+            level=DiagnosticStatus.ERROR if self.gate.stopped else level,
             name=f"{self._node.get_fully_qualified_name()}: {self.info.name}",
             hardware_id=self.info.name,
-            message=problem or self.gate.state(time.monotonic_ns()),
-            values=[KeyValue(key=key, value=value) for key, value in values.items()],
+            message=message or self.gate.state(now),
+            values=[KeyValue(key=key, value=value) for key, value in {**values, "voltage sender": sender}.items()],
         )
         array = DiagnosticArray(status=[status])
         array.header.stamp = self._node.get_clock().now().to_msg()
         self._diagnostics.publish(array)
 
-    def _on_voltage(self, message: MotorVoltage) -> None:
-        refused = self.gate.refused
-        self.gate = self.gate.take(message.voltage, time.monotonic_ns())
-        if self.gate.refused > refused:
+    def _on_voltage(self, voltage: float, sender: str, number: int | None) -> None:
+        now, before = time.monotonic_ns(), self.gate
+        self.gate = before.take(voltage, now, sender, number)
+        if self.gate.refused > before.refused:
             self._node.get_logger().error(
-                f"a voltage of {message.voltage} on motor/voltage stops the motor: send numbers.",
-                throttle_duration_sec=1.0,
+                f"{voltage} on motor/voltage is not a number: the motor gets 0 V.", throttle_duration_sec=1.0
             )
+        elif not before.problem(now) and (problem := self.gate.problem(now, self._input.senders(self._node))):
+            self._node.get_logger().warning(problem)
         self._changed()
 
     def _on_enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        was_on = self.gate.enabled
+        self._changed()  # a stop that is due comes before what is asked for now
         refusal = self._refusal() if request.data else ""
+        if request.data and was_on and not self.gate.enabled:
+            refusal = f"Just now, {self.gate.stopped}: look, then call again."
         if refusal:
-            response.success, response.message = False, f"the output stays off: {refusal}"
+            response.success, response.message = False, f"The output stays off. {refusal}"
             return response
         self.gate = self.gate.enable(request.data)
         self._changed()
         response.success = True
-        response.message = "output on" if request.data else "output off until motor/enable is called with data: true"
+        response.message = "The output is on." if request.data else OFF
         return response

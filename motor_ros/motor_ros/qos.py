@@ -10,6 +10,7 @@ def _reliable(depth: int, durability: DurabilityPolicy = DurabilityPolicy.VOLATI
 SPEED = _reliable(100)
 INFO = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
 VOLTAGE = _reliable(1)
+COMMANDS = _reliable(10)  # of motor/voltage, at the plant: a second sender does not push out what the first has sent
 REFERENCE = _reliable(1)
 CONTROL_STATE = _reliable(100)
 MODEL = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)

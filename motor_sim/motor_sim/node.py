@@ -1,5 +1,6 @@
 """The simulated motor: pretends to be the board, in real time, with an honest encoder."""
 
+import time
 from dataclasses import replace
 
 from rclpy.node import Node
@@ -9,8 +10,9 @@ from motor_model.parameters import paper_motor
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_ros.gate import Gate
 from motor_ros.messages import time_message
+from motor_ros.motion_check import MotionCheck
 from motor_ros.parameters import Row, declare
-from motor_ros.plant import SHARED_PARAMETERS, Plant, max_voltage_row
+from motor_ros.plant import SHARED_PARAMETERS, Plant, max_voltage_row, steady_timer
 from motor_ros.program import PLANT_PUBLISHES, Program
 from motor_ros.run import quick_executor, run
 
@@ -39,6 +41,10 @@ PROGRAM = Program(
     services=("motor/enable",),
 )
 MOST_BEHIND = 0.5  # [s] a process that was held up longer than this does not catch up
+HELD_UP = (
+    "The simulation was held up {} times in the last second, which is not real time: close other programs, or lower "
+    "sample_rate."
+)
 
 
 class MotorSim(Node):
@@ -49,33 +55,41 @@ class MotorSim(Node):
         values = declare(self, (*SHARED_PARAMETERS, *PARAMETERS))
         model = load(str(values["model"])) if values["model"] else paper_motor()
         limit = declare(self, (max_voltage_row(model.max_voltage),))["max_voltage"]
-        model = replace(model, max_voltage=float(limit))
+        limit, supply = float(limit), float(values["supply_voltage"]) or float(limit)
+        model = replace(model, max_voltage=supply)
         fields = ("name", "sample_rate", "edges_per_revolution", "single_channel")
         fields += ("edge_resolution", "slot_irregularity", "seed")
         config = BoardConfig(**{field: values[field] for field in fields})  # type: ignore[arg-type]
         self._board = SimulatedBoard(model, config)
         self._board.sample(0.0)  # compiled now, not in the first sample
         gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]))
-        self._plant = Plant(self, config.info(model), gate)
+        self._check = MotionCheck(limit, config.single_channel, float(values["stall_time"]))
+        self._plant = Plant(self, replace(config.info(model), max_voltage=min(limit, supply)), gate)
         self._period = round(1e9 / config.sample_rate)  # [ns]
-        self._next, self._late = self._plant.now() + self._period, 0
-        self.create_timer(1.0 / config.sample_rate, self._on_timer)
-        self.create_timer(1.0, self._on_second)
+        self._next, self._late = time.monotonic_ns() + self._period, 0
+        steady_timer(self, 1.0 / config.sample_rate, self._on_timer)
+        steady_timer(self, 1.0, self._on_second)
         effects = ", ".join(model.effects) or "no effects beyond kv and ka"
-        self.get_logger().info(f"simulating '{model.name}' ({effects}) at {config.sample_rate:g} Hz")
+        self.get_logger().info(
+            f"Simulating '{model.name}' ({effects}): {config.sample_rate:g} Hz, {min(limit, supply):g} V."
+        )
 
     def _on_timer(self) -> None:
-        now = self._plant.now()
-        if abs(now - self._next) > MOST_BEHIND * 1e9:
+        now = time.monotonic_ns()
+        to_ros = self._plant.now() - now
+        if now - self._next > MOST_BEHIND * 1e9:
             self._next, self._late = now, self._late + 1
         while self._next <= now:
             sample = self._board.sample(self._plant.voltage())
-            self._plant.publish(sample, time_message(self._next))
+            self._plant.publish(sample, time_message(self._next + to_ros))
+            self._check = self._check.see(sample)
+            if self._check.stop and self._plant.gate.enabled:
+                self._plant.stop(self._check.stop)
             self._next += self._period
 
     def _on_second(self) -> None:
         self._plant.diagnose(
-            f"held up {self._late} times: the machine is too busy to simulate in real time" if self._late else "",
+            HELD_UP.format(self._late) if self._late else "",
             {"true speed [rad/s]": f"{self._board.speed:.4f}", "true angle [rad]": f"{self._board.angle:.4f}"},
         )
         self._late = 0

@@ -76,7 +76,7 @@ def test_a_step_that_fails_ends_all_and_says_so(tmp_path: Path) -> None:
 def test_ctrl_c_ends_everything_and_the_bag_is_whole(tmp_path: Path) -> None:
     process = started("motor", tmp_path, "record:=bag")
     assert process.stdout is not None
-    while "simulating" not in process.stdout.readline():
+    while "Simulating" not in process.stdout.readline():
         assert process.poll() is None
     samples = 0
     while samples < 200:

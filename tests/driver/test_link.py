@@ -3,6 +3,7 @@
 import errno
 import os
 import pty
+import termios
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -15,7 +16,7 @@ from patience import PATIENCE
 
 from motor_board.port import Port
 from motor_driver import link
-from motor_driver.link import Closed, Event, Link, Opened, PortError, Received, chosen, open_port
+from motor_driver.link import Closed, Event, Link, Opened, PortError, Received, candidates, open_port
 
 
 class Listener:
@@ -24,7 +25,7 @@ class Listener:
     def __init__(self, path: Path) -> None:
         self.events: list[Event] = []
         self._told = threading.Event()
-        self.link = Link(str(path), 500_000, self._told.set)
+        self.link = Link(str(path) if path.name else "", 500_000, self._told.set, search=True)
 
     def wait(self, condition: Callable[[], bool], what: str) -> None:
         end = time.monotonic() + PATIENCE
@@ -69,7 +70,8 @@ def read(port: Port, count: int) -> bytes:
 def test_waits_for_a_port_reads_writes_and_comes_back(port: Port, listener: Listener, tmp_path: Path) -> None:
     (missing,) = listener.wait_for(Closed)
     assert isinstance(missing, Closed)
-    assert missing.why.startswith(f"there is no {tmp_path / 'port'}: plug the board in, or set the parameter port; the")
+    assert missing.why.startswith(f"Cannot open serial port '{tmp_path / 'port'}', there is none: plug the board in")
+    assert missing.why.endswith("retrying.")
     for count in (1, 2):
         port.plug()
         listener.wait_for(Opened, count)
@@ -98,7 +100,7 @@ def test_ends_within_half_a_second_and_frees_the_port(port: Port, listener: List
 def test_a_port_in_use_is_refused(port: Port, listener: Listener, tmp_path: Path) -> None:
     port.plug()
     listener.wait_for(Opened)
-    with pytest.raises(PortError, match=r"port is in use: end the other program \(another motor_driver, a serial mon"):
+    with pytest.raises(PortError, match=r"port', it is in use: end the other program that has opened it \(another"):
         open_port(str(tmp_path / "port"), 500_000)
 
 
@@ -113,7 +115,7 @@ def test_a_stuck_port_does_not_hold_up_the_writer(listener: Listener, port: Port
 
 def test_no_serial_port_and_no_permission(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").write_text("")
-    with pytest.raises(PortError, match="file cannot be opened as a serial port with 500000 baud"):
+    with pytest.raises(PortError, match="file', it is no serial port that can do 500000 baud"):
         open_port(str(tmp_path / "file"), 500_000)
 
     def refuse(*_: object, **__: object) -> None:
@@ -124,16 +126,16 @@ def test_no_serial_port_and_no_permission(tmp_path: Path, monkeypatch: pytest.Mo
     with pytest.raises(PortError) as error:
         open_port("/dev/ttyACM0", 500_000)
     assert str(error.value) == (
-        "no permission for /dev/ttyACM0: add yourself to the group dialout (sudo usermod -aG dialout ada), "
-        "log out and in again."
+        "Cannot open serial port '/dev/ttyACM0', no permission: add yourself to the group dialout (sudo usermod -aG "
+        "dialout ada), log out and in again; retrying."
     )
 
 
 @pytest.mark.parametrize(
     ("devices", "words"),
     [
-        ([], r"no board is plugged in \(there is no serial port here at all\): plug it in"),
-        ([("/dev/ttyS0", None)], r"no board is plugged in \(the ports here are /dev/ttyS0 \(n/a\)\)"),
+        ([], r"No board is plugged in \(there is no serial port here at all\): plug it in"),
+        ([("/dev/ttyS0", None)], r"No board is plugged in \(the ports here are /dev/ttyS0 \(n/a\)\)"),
         ([("/dev/ttyACM0", 1), ("/dev/ttyUSB0", 1)], "set the parameter port to one of /dev/ttyACM0, /dev/ttyUSB0"),
     ],
 )
@@ -143,11 +145,12 @@ def test_without_a_name_the_only_port_on_usb_is_taken(
     found = [SimpleNamespace(device=device, vid=vid, description="n/a") for device, vid in devices]
     monkeypatch.setattr(link.list_ports, "comports", lambda: found)
     with pytest.raises(PortError, match=words):
-        chosen("")
+        candidates("")
     found.append(SimpleNamespace(device="/dev/ttyACM7", vid=1, description="Uno"))
     if len(devices) < 2:
-        assert chosen("") == "/dev/ttyACM7"
-    assert chosen("/dev/mine") == "/dev/mine"
+        assert candidates("") == ["/dev/ttyACM7"]
+    assert candidates("/dev/mine") == ["/dev/mine"]
+    assert candidates("", search=True) == sorted(one.device for one in found if one.vid)
 
 
 def test_a_client_that_hangs_up_at_once_is_no_trouble(listener: Listener, tmp_path: Path) -> None:
@@ -161,3 +164,58 @@ def test_a_client_that_hangs_up_at_once_is_no_trouble(listener: Listener, tmp_pa
     (tmp_path / "port").unlink()
     listener.wait_for(Closed)
     assert listener.link._thread.is_alive()
+
+
+@pytest.mark.parametrize("error", [termios.error(5, "Input/output error"), RuntimeError("what nobody thought of")])
+def test_whatever_fails_is_said_and_the_port_is_opened_again(
+    listener: Listener, port: Port, monkeypatch: pytest.MonkeyPatch, error: Exception
+) -> None:
+    """`termios.error` is no OSError: a port that goes while it is being set up once ended the thread without a word."""
+
+    def fail(*_: object, **__: object) -> None:
+        raise error
+
+    listener.wait_for(Closed)
+    listener.events.clear()
+    with monkeypatch.context() as patched:
+        patched.setattr(serial, "Serial", fail)
+        port.plug()
+        (closed,) = listener.wait_for(Closed)
+    assert isinstance(closed, Closed) and type(error).__name__ in closed.why and str(error.args[-1]) in closed.why
+    assert closed.why.startswith("The serial port has failed (") and closed.why.endswith("retrying.")
+    listener.wait_for(Opened)
+    assert listener.link.alive
+
+
+def test_a_thread_that_has_ended_is_seen(listener: Listener, monkeypatch: pytest.MonkeyPatch) -> None:
+    listener.wait_for(Closed)
+    assert listener.link.alive
+    monkeypatch.setattr(threading, "excepthook", lambda _: None)
+
+    def end(*_: object) -> None:
+        raise SystemExit
+
+    monkeypatch.setattr(listener.link, "_use", end)
+    listener.link._thread.join(PATIENCE)
+    assert not listener.link.alive
+
+
+def test_a_search_goes_through_all_ports_on_usb(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    ports = [Port(tmp_path / name) for name in ("left", "right")]
+    devices = [str(tmp_path / name) for name in ("left", "right")]
+    found = [SimpleNamespace(device=device, vid=1, description="Nano") for device in devices]
+    monkeypatch.setattr(link.list_ports, "comports", lambda: found)
+    monkeypatch.setattr(link, "SEARCH_AGAIN", 0.01)
+    for port in ports:
+        port.plug()
+    listener = Listener(Path())
+    seen: list[str] = []
+    while len(seen) < 4:
+        listener.wait_for(Opened)
+        seen += [event.port for event in listener.events if isinstance(event, Opened)]
+        listener.events.clear()
+        listener.link.pass_over()
+    listener.link.close()
+    assert seen == [*devices, *devices]
+    for port in ports:
+        port.close()

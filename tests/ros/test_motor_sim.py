@@ -18,10 +18,11 @@ from motor_ros import qos
 from motor_ros.messages import time_message, voltage_message
 
 Start = Callable[..., "Popen[str]"]
+BEGIN = 20  # samples that are answered by 0 V
 
 
 class User:
-    """Sends a voltage after every sample, as a controller would."""
+    """Sends a voltage after every sample, as a controller would, and 0 V at first."""
 
     def __init__(self, bench: Bench) -> None:
         self.bench, self.voltage, self.sending = bench, 0.0, True
@@ -32,7 +33,8 @@ class User:
     def _on_sample(self, message: MotorSpeed) -> None:
         self.samples.append(message)
         if self.sending:
-            self._publisher.publish(voltage_message(self.voltage, time_message(0), "user"))
+            begun = len(self.samples) > BEGIN
+            self._publisher.publish(voltage_message(self.voltage if begun else 0.0, time_message(0), "user"))
 
     def until(self, condition: Callable[[MotorSpeed], bool], what: str) -> MotorSpeed:
         """The first new sample for which the condition holds."""
@@ -117,7 +119,7 @@ def test_loads_a_model_and_says_what_it_simulates(bench: Bench, start: Start, us
     bench.wait(lambda: bool(status), "diagnostics")
     assert status[-1].status[0].level == b"\x00" and "motor_sim" in status[-1].status[0].name
     _, err = end(process)
-    assert "simulating 'stiff' (coulomb_friction)" in err
+    assert "Simulating 'stiff' (coulomb_friction): 200 Hz, 9 V." in err
 
 
 @pytest.mark.parametrize(
@@ -143,3 +145,67 @@ def test_a_value_out_of_range_is_one_sentence(start: Start) -> None:
     out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, out) == (1, "")
     assert "sample_rate" in err and "10 to 1000 Hz" in err and err.count("\n") == 1
+
+
+def messages(status: list[DiagnosticArray]) -> str:
+    return status[-1].status[0].message if status else ""
+
+
+def test_a_voltage_that_flowed_before_the_start_waits_for_0_volt(bench: Bench, start: Start, user: User) -> None:
+    """The plant is started again under a sender that does not know of it."""
+    status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    first = start("motor_sim", "motor_sim")
+    user.voltage = 5.0
+    user.until(lambda sample: sample.voltage == 5.0, "motion")
+    first.kill()
+    start("motor_sim", "motor_sim")
+    bench.wait(lambda: "5 V was already being sent on motor/voltage" in messages(status), "what it waits for")
+    assert user.samples[-1].voltage == 0.0
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.until(lambda sample: sample.voltage == 5.0, "the output on")
+
+
+def test_two_senders_are_named_and_the_first_is_obeyed(bench: Bench, start: Start, user: User) -> None:
+    status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    start("motor_sim", "motor_sim")
+    user.voltage = 5.0
+    user.until(lambda sample: sample.voltage == 5.0, "motion")
+    other = User(bench)  # of the same name and pace
+    other.voltage = -9.0
+    bench.wait(lambda: len(other.samples) > 300 and "More than one node sends" in messages(status), "the conflict")
+    assert "(/bench, /bench): only the first is obeyed, until it has been silent for 0.5 s" in messages(status)
+    assert {sample.voltage for sample in other.samples[30:]} == {5.0}
+    user.sending = False
+    user.until(lambda sample: sample.voltage == -9.0, "the other one's turn")
+
+
+def test_a_blocked_motor_is_stopped(bench: Bench, start: Start, user: User, tmp_path: Path) -> None:
+    stiff = Parameters({"kv": PAPER_KV, "ka": 0.0055, "ks": 11.0}, ("coulomb_friction",), name="stiff")
+    save(tmp_path / "stiff.yaml", stiff)
+    status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    start("motor_sim", "motor_sim", "--ros-args", "-p", f"model:={tmp_path / 'stiff.yaml'}")
+    user.voltage = 9.0
+    user.until(lambda sample: sample.voltage == 9.0, "a voltage")
+    user.until(lambda sample: sample.voltage == 0.0, "the stop")
+    driven = [sample.sample_time for sample in user.samples if sample.voltage == 9.0]
+    assert 0.45 < (driven[-1] - driven[0]) * 1e-9 < 0.6
+    bench.wait(lambda: messages(status).startswith("The output is off (no edge ever, though driven with 9.0 V"), "why")
+    assert status[-1].status[0].level == b"\x02"
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.until(lambda sample: sample.voltage == 9.0, "another try")
+
+
+def test_a_motor_gets_its_own_voltage_from_a_higher_supply(bench: Bench, start: Start, user: User) -> None:
+    start("motor_sim", "motor_sim", "--ros-args", "-p", "max_voltage:=6.0", "-p", "supply_voltage:=24.0")
+    info = bench.hear(MotorInfo, "motor/info", qos.INFO)
+    user.voltage = 20.0
+    fast = user.until(lambda sample: sample.speed > 0.99 * 6.0 / PAPER_KV, "full speed")
+    assert (fast.voltage, info[0].max_voltage) == (6.0, 6.0)
+
+
+def test_simulated_ros_time_stops_nothing(bench: Bench, start: Start, user: User) -> None:
+    """Nobody publishes /clock: ROS time stands at 0, and the motor runs all the same."""
+    start("motor_sim", "motor_sim", "--ros-args", "-p", "use_sim_time:=true")
+    user.voltage = 5.0
+    user.until(lambda sample: sample.speed > 60.0, "motion")
+    assert user.samples[-1].header.stamp.sec == 0

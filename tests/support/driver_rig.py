@@ -25,6 +25,7 @@ class Rig:
     parameters: Parameters = field(default_factory=paper_motor)
     firmware: FirmwareConfig = field(default_factory=lambda: FirmwareConfig(edges_per_revolution=96))
     enabled: bool = True
+    cautious: bool = True  # the user begins with 0 V whenever a board has begun to run
     step: int = MS // 4  # [cycle] between two looks at the port
     emulator: Emulator = None  # type: ignore[assignment]  # of a rig before, or made
 
@@ -40,7 +41,7 @@ class Rig:
         self.voltage: float | None = None
         self.plugged, self.alive = False, True
         self._in, self._out = Wire(1), Wire(2)
-        self._asked = self._told = 0
+        self._asked = self._told = self._begun = self._said = 0
 
     @property
     def now(self) -> int:
@@ -108,12 +109,16 @@ class Rig:
         readings = self.driver.received(data, self.now) if data and self.plugged else []
         self.readings += readings
         if self.voltage is not None and self.now - self._told >= 5_000_000:
-            self._told = self.now
-            self.gate = self.gate.take(self.voltage, self.now)
+            self._told, self._said = self.now, self._said + 1
+            careful = self.cautious and not self.gate.begun
+            self.gate = self.gate.take(0.0 if careful else self.voltage, self.now, "user", self._said)
         if readings or self.now - self._asked > 10_000_000:
             self._asked = self.now
+            if self.driver.runs_begun > self._begun:
+                self._begun = self.driver.runs_begun
+                self.gate = self.gate.come_up(self.now)
             order = self.driver.step(self.now, self.gate.enabled, self.gate.voltage(self.now))
             if order.stop:
                 self.stops.append(order.stop)
-                self.gate = self.gate.enable(False)
+                self.gate = self.gate.stop(order.stop)
             self._in.send(order.data if self.plugged else b"", self.faults, self.now)

@@ -9,9 +9,11 @@ from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import time_message, voltage_message
 
+BEGIN = 20  # samples that are answered by 0 V
+
 
 class User:
-    """Sends a voltage after every sample, as a controller would."""
+    """Sends a voltage after every sample, as a controller would, and 0 V at first."""
 
     def __init__(self, bench: Bench) -> None:
         self.bench, self.voltage, self.sending = bench, 0.0, True
@@ -22,7 +24,8 @@ class User:
     def _on_sample(self, message: MotorSpeed) -> None:
         self.samples.append(message)
         if self.sending:
-            self._publisher.publish(voltage_message(self.voltage, time_message(0), "user"))
+            begun = len(self.samples) > BEGIN
+            self._publisher.publish(voltage_message(self.voltage if begun else 0.0, time_message(0), "user"))
 
     def until(self, condition: Callable[[MotorSpeed], bool], what: str) -> MotorSpeed:
         """The first new sample for which the condition holds."""

@@ -1,19 +1,25 @@
-"""What the samples say about motor, encoder and wiring: no edges, edges that stop, a direction that is the wrong one.
+"""Check that the motor moves as its voltage wants: no edges, edges that stop, a direction that is the wrong one.
 
 One channel cannot tell a motor that stands from an encoder that is not connected, but for two signs: a supply that is
 measured and missing, and edges that end at a speed from which no shaft stops within a slot. Nor does it show direction.
+
+A finding is a sentence for people. A stop is one that lasts for `stall_time` at a voltage from STRONG on: then the
+plant switches the motor off by itself, whoever sends the voltage. Simulated and real motor share this.
 """
 
 from dataclasses import dataclass, replace
 
 from motor_model.sample import Sample
 
-DRIVEN = 0.25  # of the full voltage: turns any motor that is meant for it
+DRIVEN = 0.25  # of the motor's voltage: turns any motor that is meant for it
+STRONG = 0.5  # of the motor's voltage: twice what any motor needs to break away, so that no slow ramp comes that far
 LONG = 500_000_000  # [ns] of driving one way without what should follow
 LITTLE = 3.0  # [V] of supply: no bridge works with less
 QUICK = 1.0 / 300.0  # [s] between edges; to stop within the next slot takes 3000 rad/s² with 96 of them
+SLOWER = 0.98  # of the speed at the beginning; a motor that is braked by STRONG keeps more only if its time constant
+# is over 50 times the stall time: du/dt = -(0.5 + 1)·speed/time constant at least, from top speed down
 
-NO_SUPPLY = "the motor does not turn: the supply is at {supply:.1f} V; switch it on, and join its ground to the board's"
+NO_SUPPLY = "the motor does not turn: its supply is at {supply:.1f} V; switch it on, and join its ground to the board's"
 NEVER = (
     "no edge ever, though driven with {voltage:.1f} V: the encoder is not connected (signal, supply, ground), or the "
     "motor does not turn (bridge, its supply, a blocked shaft)"
@@ -27,29 +33,40 @@ AGAINST = "the motor turns against its voltage: swap the motor's two wires, or t
 
 
 @dataclass(frozen=True, slots=True)
-class Wiring:
+class MotionCheck:
     """What was seen so far; every method returns the next state or reads it."""
 
-    max_voltage: float
+    max_voltage: float  # [V] of the motor
     single_channel: bool
+    stall_time: float = 0.5  # [s] 0: never stop the motor
     latest: Sample | None = None
     direction: int = 0  # of the voltage, 0 if it is small
+    strong: int = 0  # likewise, 0 if it is not strong
     still: int = 0  # [ns] driven in this direction without an edge since
     along: int = 0  # [ns] driven in this direction while turning against it since
+    strong_since: int = 0  # [ns] driven strongly in this direction since
+    begun: float = 0.0  # [rad/s] speed against the strong voltage since then, before it fell
+    begun_at: int = 0  # [ns]
     quick: bool = False  # the latest edges came in quick succession
 
-    def see(self, sample: Sample) -> "Wiring":
+    def see(self, sample: Sample) -> "MotionCheck":
         """The next sample of the same board since its start."""
-        strength = sample.voltage / self.max_voltage
-        direction = 0 if abs(strength) < DRIVEN else 1 if strength > 0.0 else -1
-        now, fresh = sample.sample_time, direction != self.direction
+        share, now = sample.voltage / self.max_voltage, sample.sample_time
+        direction, strong = _sign(share, DRIVEN), _sign(share, STRONG)
+        fresh, anew = direction != self.direction, strong != self.strong
         moved = self.latest is None or sample.edge_count != self.latest.edge_count
+        against = max(-sample.speed * strong, 0.0)
+        fell = anew or against == 0.0 or against < SLOWER * self.begun
         return replace(
             self,
             latest=sample,
             direction=direction,
+            strong=strong,
             still=now if fresh or moved else self.still,
             along=now if fresh or sample.speed * direction >= 0.0 else self.along,
+            strong_since=now if anew else self.strong_since,
+            begun=against if fell else self.begun,
+            begun_at=now if fell else self.begun_at,
             quick=0.0 < sample.edge_period < QUICK if moved else self.quick,
         )
 
@@ -61,9 +78,26 @@ class Wiring:
             return ""
         if not self.single_channel and sample.sample_time - self.along > LONG:
             return AGAINST
-        if sample.sample_time - self.still <= LONG:
+        return self._no_edges(sample) if sample.sample_time - self.still > LONG else ""
+
+    @property
+    def stop(self) -> str:
+        """Why the motor has to be switched off, as a sentence; empty if it may go on."""
+        sample, most = self.latest, self.stall_time * 1e9
+        if sample is None or self.strong == 0 or most == 0.0:
             return ""
+        backward = not self.single_channel and sample.speed * self.strong < 0.0
+        if backward and sample.sample_time - self.begun_at >= most:
+            return AGAINST
+        stalled = sample.sample_time - max(self.still, self.strong_since) >= most
+        return self._no_edges(sample) if stalled else ""
+
+    def _no_edges(self, sample: Sample) -> str:
         text = NEVER if sample.edge_count == 0 else CUT_OFF if self.quick else STALLED
         if sample.supply_voltage < LITTLE:  # false if it is not measured
             text = NO_SUPPLY
         return text.format(voltage=sample.voltage, supply=sample.supply_voltage)
+
+
+def _sign(share: float, least: float) -> int:
+    return 0 if abs(share) < least else 1 if share > 0.0 else -1

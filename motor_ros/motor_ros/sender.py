@@ -1,0 +1,34 @@
+"""Tell the senders of one topic apart: by what they call themselves, and by the numbers of their messages.
+
+rclpy passes on no identity of a publisher, but the number that the middleware has given each of its messages. One
+sender's numbers go up by one with each message it sends; a message whose number does not fit is somebody else's.
+"""
+
+from dataclasses import dataclass
+
+CLOSEST = 0.5  # of the time that as many messages took before: those of one sender come no closer together
+QUICKEST = 1_000_000  # [ns] between two commands, while that time is not known: no plant samples faster
+
+
+@dataclass(frozen=True, slots=True)
+class Sender:
+    """The latest message of a sender; `number` is None where the middleware does not count."""
+
+    name: str
+    number: int | None
+    at: int  # [ns] when it came
+    period: int = QUICKEST  # [ns] between the latest two with successive numbers
+
+    def sent(self, name: str, number: int | None, now: int) -> bool:
+        """Whether a message that comes at `now` [ns] is this sender's next one, or a later one."""
+        if name != self.name:
+            return False
+        if number is None or self.number is None:
+            return True
+        steps = number - self.number
+        return steps > 0 and now - self.at >= CLOSEST * self.period * (steps if steps > 1 else 0)
+
+    def after(self, number: int | None, now: int) -> "Sender":
+        """This sender after one more message."""
+        successive = number is not None and self.number is not None and number == self.number + 1
+        return Sender(self.name, number, now, max(now - self.at, QUICKEST) if successive else self.period)

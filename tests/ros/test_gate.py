@@ -1,0 +1,121 @@
+"""What a plant lets through: the newest command of one sender, on if it began at 0 V, 0 V in every other case."""
+
+from itertools import count
+from math import inf, nan
+
+import pytest
+
+from motor_ros.gate import CONFLICT, HOLD, QUIET, Gate
+
+MS = 1_000_000  # [ns]
+T0 = 5_000_000_000_000  # [ns]
+
+
+def gate(enabled: bool = True, timeout: float = 0.1) -> Gate:
+    return Gate(enabled, timeout).come_up(T0)
+
+
+def stream(plant: Gate, voltage: float, times: range, first: int, name: str = "") -> Gate:
+    """A sender that goes on; times in ms since T0."""
+    for number, at in zip(count(first), times, strict=False):
+        plant = plant.take(voltage, T0 + at * MS, name, number)
+    return plant
+
+
+@pytest.mark.parametrize("numbered", [True, False])
+def test_voltages_that_flowed_before_the_plant_came_up_wait_for_0_volt_or_enable(numbered: bool) -> None:
+    plant, at = gate(), 0
+    for at in range(0, 4000, 50):  # for longer than QUIET
+        plant = plant.take(6.0, T0 + at * MS, "", 500 + at // 50 if numbered else None)
+        assert plant.voltage(T0 + at * MS) == 0.0
+    assert plant.problem(T0 + at * MS).startswith("6 V was already being sent on motor/voltage when the plant came up")
+    now = T0 + at * MS
+    assert plant.enable(True).take(6.0, now + 50 * MS, "", 580 if numbered else None).voltage(now + 50 * MS) == 6.0
+    begun = plant.take(0.0, now + 50 * MS, "", 580 if numbered else None)
+    begun = begun.take(6.0, now + 100 * MS, "", 581 if numbered else None)
+    assert begun.voltage(now + 100 * MS) == 6.0 and begun.problem(now + 100 * MS) == ""
+
+
+@pytest.mark.parametrize("period", [1, 5, 50])
+@pytest.mark.parametrize(("start", "acts"), [(0, True), (5, True), (300, True), (-5, False), (-4000, False)])
+def test_a_sender_that_begins_while_the_plant_listens_acts(period: int, start: int, acts: bool) -> None:
+    """It begins so many ms after the plant has come up; its first ten commands are lost until it is found."""
+    lost = max(0, -start) // period + 10
+    heard = start + lost * period
+    for listened in (51, 600):
+        plant = stream(gate(), 6.0, range(heard, heard + listened, period), lost + 1)
+        assert plant.voltage(T0 + (heard + listened - 1) * MS) == (6.0 if acts else 0.0)
+    assert stream(gate(), 6.0, range(max(start, 0), 600, period), 1).voltage(T0 + 599 * MS) == 6.0  # none is lost
+
+
+@pytest.mark.parametrize(("after", "acts"), [(QUIET, True), (QUIET - 1, False)])
+def test_where_nobody_counts_it_takes_a_silence(after: int, acts: bool) -> None:
+    assert gate().take(6.0, T0 + after).voltage(T0 + after) == (6.0 if acts else 0.0)
+
+
+def test_a_board_that_comes_back_asks_for_a_beginning_again() -> None:
+    plant = stream(gate(), 6.0, range(0, 500, 5), 1)
+    assert plant.voltage(T0 + 495 * MS) == 6.0
+    plant = stream(plant.come_up(T0 + 500 * MS), 6.0, range(500, 4000, 5), 101)
+    assert plant.voltage(T0 + 3995 * MS) == 0.0
+
+
+def test_a_stop_ends_only_by_enable() -> None:
+    plant = stream(gate(), 6.0, range(0, 500, 5), 1).stop("the board was reset")
+    for voltage in (0.0, 6.0, nan, 0.0, 6.0):
+        plant = plant.take(voltage, T0 + 500 * MS, "", None)
+        assert plant.voltage(T0 + 500 * MS) == 0.0
+    now = T0 + 500 * MS
+    assert plant.problem(now) == "The output is off (the board was reset): call motor/enable with data: true."
+    assert plant.come_up(now).take(0.0, now).take(6.0, now).voltage(now) == 0.0  # a new board neither
+    on = plant.enable(True)
+    assert on.voltage(now) == 0.0 and on.take(6.0, now).voltage(now) == 6.0 and on.problem(now) == ""
+
+
+def test_off_at_the_start_is_off_until_enable() -> None:
+    plant = gate(enabled=False).take(0.0, T0).take(6.0, T0)
+    assert plant.voltage(T0) == 0.0 and plant.state(T0).startswith("The output is off")
+
+
+@pytest.mark.parametrize("name", ["", "experiment"])
+def test_the_first_of_two_senders_is_obeyed_until_it_is_silent(name: str) -> None:
+    """200 Hz and 20 Hz; the same frame_id or another one."""
+    plant, other = stream(gate(), 2.0, range(0, 500, 5), 1), 7
+    for at in range(500, 1000, 5):
+        plant = plant.take(2.0, T0 + at * MS, "", 101 + (at - 500) // 5)
+        if at % 50 == 0:
+            plant, other = plant.take(-9.0, T0 + at * MS + 1, name, other), other + 1
+        assert plant.voltage(T0 + at * MS + 1) == 2.0
+    now = T0 + 995 * MS
+    told = plant.problem(now, "/left, /right")
+    assert "More than one node sends motor/voltage (/left, /right)" in told
+    assert ("frame_id ''" in told) == bool(name)
+    assert plant.problem(now + CONFLICT) == ""
+    for silence, voltage in ((HOLD, 0.0), (HOLD + 1, -9.0)):
+        assert plant.take(-9.0, now + silence, name, other).voltage(now + silence) == voltage
+
+
+def test_messages_that_were_missed_are_no_second_sender() -> None:
+    plant = stream(gate(), 2.0, range(0, 500, 5), 1)
+    for at, number in ((505, 101), (550, 110), (551, 111), (600, 120), (650, 130)):
+        plant = plant.take(3.0, T0 + at * MS, "", number)
+        assert plant.voltage(T0 + at * MS) == 3.0
+    assert plant.problem(T0 + 650 * MS) == ""
+
+
+def test_a_number_that_runs_ahead_of_the_senders_pace_is_anothers() -> None:
+    plant = stream(gate(), 2.0, range(0, 500, 5), 1).take(-9.0, T0 + 501 * MS, "", 150)
+    assert plant.voltage(T0 + 501 * MS) == 2.0 and plant.problem(T0 + 501 * MS) != ""
+
+
+@pytest.mark.parametrize("number", [nan, inf, -inf])
+def test_what_is_not_a_number_is_0_volt_until_the_next_number(number: float) -> None:
+    plant = stream(gate(), 2.0, range(0, 50, 5), 1).take(number, T0 + 50 * MS, "", 11)
+    assert plant.voltage(T0 + 50 * MS) == 0.0 and plant.refused == 1
+    assert plant.take(2.0, T0 + 55 * MS, "", 12).voltage(T0 + 55 * MS) == 2.0
+
+
+@pytest.mark.parametrize(("age", "acts"), [(100 * MS, True), (100 * MS + 1, False)])
+def test_a_command_is_stale_after_the_time_out(age: int, acts: bool) -> None:
+    plant = gate().take(0.0, T0).take(4.0, T0)
+    assert plant.voltage(T0 + age) == (4.0 if acts else 0.0)
