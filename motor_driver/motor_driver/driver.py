@@ -14,7 +14,7 @@ from motor_driver.protocol import Event, LinkCounters
 from motor_driver.readout import Readout
 from motor_driver.session import Session
 from motor_model.sample import Info, Sample
-from motor_ros.motion_check import MotionCheck
+from motor_model.sensing.motion_check import MotionCheck
 
 NO_LINK = "There is no link to the board yet."
 LOST = "the link to the board on {} was lost"

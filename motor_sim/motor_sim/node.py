@@ -8,9 +8,9 @@ from rclpy.node import Node
 from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
+from motor_model.sensing.motion_check import MotionCheck
 from motor_ros.gate import Gate
 from motor_ros.messages import time_message
-from motor_ros.motion_check import MotionCheck
 from motor_ros.parameters import Row, declare
 from motor_ros.plant import SHARED_PARAMETERS, Plant, max_voltage_row, steady_timer
 from motor_ros.program import PLANT_PUBLISHES, Program
