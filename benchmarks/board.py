@@ -1,4 +1,4 @@
-"""The board's firmware on the emulated ATmega328P: size, interrupt load, the edge rate it stands, emulation speed.
+"""The board's firmware on the emulated ATmega328P: size, interrupt load, highest edge rate, speed of emulation.
 
 Cycle counts are the emulated processor's and the same on every machine; only the last table depends on the computer.
 """
@@ -139,7 +139,7 @@ def main() -> int:
     lines = ["# The board's firmware on the emulated ATmega328P (16 MHz)", "", *size(), *full_speed()]
     lost, table = edges(20_000)
     lines += ["## 1 kHz, 20,000 edges/s", "", *table, f"Edges lost: {lost} of {EDGES:,}.", ""]
-    lines += ["## The rate that it stands", "", f"| edges/s | lost of {EDGES:,} |", "|---:|---:|"]
+    lines += ["## Highest edge rate without loss", "", f"| edges/s | lost of {EDGES:,} |", "|---:|---:|"]
     for rate in (25_000, 30_000, 35_000, 40_000, 50_000):
         lines.append(f"| {rate:,} | {edges(rate)[0]} |")
         print(lines[-1], flush=True)

@@ -128,7 +128,7 @@ def claims(
         ("swing at most 1 %", f"{one.swing:.2%}", one.swing <= 0.01),
         ("3 rad/s within 10 %", f"{slow:.1%}", slow <= 0.1),
         (
-            f"no jump beyond the friction's {2.0 * BREAKAWAY:g} V, a tenth aside",
+            f"no voltage jump above twice the breakaway voltage, {2.0 * BREAKAWAY:g} V (+10 %)",
             f"{jump:.2f} V",
             jump <= 2.2 * BREAKAWAY,
         ),
@@ -159,10 +159,10 @@ def main() -> int:
     for (name, speed), (back, furthest, median) in loads.items():
         cells = f"{furthest:.2f} rad/s | {milliseconds(back)} | {milliseconds(median)}"
         lines.append(f"| {name} | {speed:g} rad/s | {cells} |")
-    lines += ["", "## The reference through zero", "", "| controller | ramp | largest voltage jump | RMS error |"]
+    lines += ["", "## Reference through zero", "", "| controller | ramp | largest voltage jump | RMS error |"]
     lines += ["|---|---:|---:|---:|"]
     lines += [f"| {n} | {a:g} rad/s² | {zeros[n, a][0]:.2f} V | {zeros[n, a][1]:.2f} rad/s |" for n, a in zeros]
-    lines += ["", "## What is promised", "", "| claim | measured | |", "|---|---:|---|"]
+    lines += ["", "## Requirements", "", "| claim | measured | |", "|---|---:|---|"]
     for loop in (SLOW, FAST):
         slow = max(found[loop.name, speed][0] for speed in (3.0, -3.0))
         lines += claims(loop, steps[loop.name], slow, loads, max(zeros[loop.name, a][0] for a in (100.0, 300.0)))

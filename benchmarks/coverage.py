@@ -2,9 +2,9 @@
 
 Every recording has another disc (1 % irregular slots), another starting angle and another disturbance; kv, ka, ks and
 delay are fitted to staircase and PRBS (10 s at 200 Hz, 4 µs timer). White residuals are those of timer and slots alone.
-Coloured ones come from a load that nobody models, as brushes, bearings and a supply make it: a random voltage of 0.1 V
-(under 1 % of the 12 V) that forgets itself within a correlation time (Ornstein-Uhlenbeck), behind the recorder's back;
-the motor's inertia colours it further.
+Coloured residuals come from an unmodelled random load, as brushes, bearings and a supply make it: an Ornstein-Uhlenbeck
+process with a standard deviation of 0.1 V (under 1 % of the 12 V) and the correlation time given; it is not recorded,
+and the motor's inertia colours it further.
 """
 
 import argparse

@@ -62,7 +62,7 @@ def claims(groups: dict[str, list[bool]], sizes: list[float]) -> list[str]:
     for group, good in groups.items():
         share = np.mean(good)
         promise = PROMISED.get(group)
-        holds = "" if promise is None else f" (promised at least {promise:.0%}: {_holds(bool(share >= promise))})"
+        holds = "" if promise is None else f" (required: at least {promise:.0%}: {_holds(bool(share >= promise))})"
         lines.append(f"- {group}: {sum(good)} of {len(good)}, {share:.1%}{holds}")
     if sizes:
         lines.append(f"- parameters of what was named: median relative error {np.median(sizes):.1e}")

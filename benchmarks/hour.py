@@ -1,6 +1,6 @@
 """From one minute to one hour at 200 Hz: time to read a bag beside the stock MCAP reader, to identify, and memory.
 
-One simulated motor with friction and a disc with 1 % irregular slots runs through the `rich` profile again and again,
+One simulated motor with friction and a disc with 1 % irregular slots runs through the `rich` profile repeatedly,
 at a new voltage each time; what it reports goes into bags of 1, 5, 15 and 60 minutes, flushed as often as `record`
 does. Every measurement is a process of its own (its peak memory is that of reading and fitting alone), the first one of
 each kind is not counted: it fills the caches.
@@ -154,7 +154,7 @@ def report(folder: Path) -> None:
     lines = [
         "# From one minute to one hour",
         "",
-        f"`rich` again and again at 200 Hz, kv, ka and ks of a motor with friction, 1 % irregular slots. {machine()}.",
+        f"`rich` repeated at 200 Hz, kv, ka and ks of a motor with friction, 1 % irregular slots. {machine()}.",
         "`identify` is the whole process, start and reading included; errors are relative, beside the standard errors "
         "that the fit states.",
         "",

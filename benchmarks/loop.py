@@ -161,7 +161,7 @@ def report(found: dict[str, Turns], rate: float) -> list[str]:
         )
     lines += [
         "",
-        f"p99 is the median of {len(found[ECHO].cpu)} turns'. Promised is at most {PROMISED} times an echo's:",
+        f"p99 is the median of {len(found[ECHO].cpu)} runs. Required: at most {PROMISED} times the echo's:",
         "",
     ]
     for name in (ECHO, QUICK_ECHO):

@@ -150,8 +150,9 @@ def loops(good: list[tuple[int, Motors]], irregularity: float, lines: list[str])
 
 LOOPS = [
     "",
-    "| rate | reference [rad/s] | stood | true motor | base, recorded voltages | found, recorded voltages | base, loop "
-    "| found, loop, regular disc | found, loop, disc seen | found, loop, true disc | kv + 1e-6, loop | apart after |",
+    "| rate | reference [rad/s] | at standstill | true motor | base, recorded voltages | found, recorded voltages "
+    "| base, loop | found, loop, regular disc | found, loop, disc seen | found, loop, true disc | kv + 1e-6, loop "
+    "| diverges after |",
     "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
 ]
 

@@ -93,7 +93,7 @@ def _friction(usual: float, slow: float, at_usual: Causes, at_slow: Causes) -> V
         f"{usual:g} rad/s. (Kp = 100 parts from simulation as much at {slow:g} rad/s, "
         f"{signed(at_slow.apart['hardware'][PAIRS[3]])}, by oscillating.)"
     )
-    return "simulation and experiment part notably at [10, 1], because of static friction", verdict, why
+    return "simulation and experiment differ notably at [10, 1], because of static friction", verdict, why
 
 
 def _holds(holds: bool) -> str:

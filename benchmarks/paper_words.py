@@ -5,7 +5,7 @@ from paper_loop import PAIRS, REFERENCES, Assumption
 from paper_study import Causes, Table
 
 SAYS = {
-    PAIRS[0]: "below 10 %; simulation and experiment part notably",
+    PAIRS[0]: "below 10 %; simulation and experiment differ notably",
     PAIRS[1]: "below 10 %",
     PAIRS[2]: "below 10 %, more than Kp = 10",
     PAIRS[3]: "below 10 %, more than Kp = 10",

@@ -42,14 +42,15 @@ SIZE = {
 HEAD = (
     "# Diagnosis: the smallest effects that are found",
     "",
-    f"{machine()}. Found in at least {NEEDED} of {MOTORS} random motors with a 28 s recording; sizes by halves.",
+    f"{machine()}. Found in at least {NEEDED} of {MOTORS} random motors with a 28 s recording; "
+    "sizes in steps of one half.",
     "",
     "| effect | smallest size | |",
     "|---|---|---|",
 )
 NOTE = """
-"or less": still found after ten halvings. A backlash is seen by the time that a motor without its load gains at every
-reversal, which falls only with the root of the angle; angle and share of the load are hardly told apart then.
+"or less": still found after ten halvings. A backlash shows in the time that a motor without its load gains at every
+reversal, which falls only with the square root of the angle; angle and load share are then strongly correlated.
 """
 BESIDE = {"torque_ripple": (FRICTION,)}  # without friction a motor swings on its ripple
 

@@ -135,7 +135,7 @@ def main() -> int:
     lines = [
         "# Real motors, diagnosed",
         "",
-        f"{machine()}. Logs recorded by others; effects from nothing but kv, ka.",
+        f"{machine()}. Logs recorded by others; the diagnosis starts from kv and ka.",
         "",
     ]
     found = {}

@@ -114,7 +114,7 @@ def report(run: Run) -> list[str]:
         f"| bare rclpy subscriber that counts the same raw messages | {peer:.1%} |",
         f"| recorder beside it | {record / max(peer, 1e-9):.2f} |",
         f"| `motor_sim` | {run.shares['motor_sim']:.1%} |",
-        f"| `play`: 99 % of {run.played} messages within | {run.late:.2f} ms of their time |",
+        f"| playback jitter, 99 % of {run.played} messages | {run.late:.2f} ms |",
         "",
         f"Load average of the last minute {run.load:.1f}.",
         "",

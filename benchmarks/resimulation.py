@@ -67,7 +67,7 @@ def main() -> int:
     lines = [
         "# Diagnosed models simulated again by the independent plant",
         "",
-        f"{machine()}; {options.motors} random motors a row; the largest distance from 1 of each ratio.",
+        f"{machine()}; {options.motors} random motors a row; each ratio's largest deviation from 1.",
         "",
         "| hidden | named | re-simulated / reported gap | true motor's / reported gap | reported gap / floor |",
         "|---|---:|---:|---:|---:|",
@@ -87,7 +87,8 @@ def main() -> int:
     inside = sum(0.98 < ratio < 1.02 for ratio in every)
     lines += [
         "",
-        f"- where it was named right: {inside} of {len(every)} within 2 %, from {min(every):.4f} to {max(every):.4f}",
+        f"- where the effect was named correctly: {inside} of {len(every)} within 2 %, from {min(every):.4f} to "
+        f"{max(every):.4f}",
     ]
     print(lines[-1])
     RESULTS.parent.mkdir(exist_ok=True)

@@ -47,7 +47,7 @@ HEAD = (
     "",
     "Seven parameters (kv, ka, ks, breakaway, Stribeck speed, dead zone, delay) of a motor with hidden friction, from",
     "28 s of the rich profile and 96 slots that are 1 % irregular: simulations of one motor (those for derivatives",
-    "counted) and time until the cost is within 1 % of the least. Ours goes on until it has seen that for itself, and",
+    "counted) and time until the cost is within 1 % of the least. Ours stops when it has verified that itself, and",
     "counts only if what it returns is within 1 %; a peer is stopped there, and where it stops by itself before, it is",
     f"started again elsewhere until {BUDGET} simulations are used up.",
 )

@@ -143,11 +143,11 @@ def report(run: Soak) -> list[str]:
     lines += [
         "",
         f"The peer sent {run.peers / run.seconds:.1f} samples/s. The motor went up to {listener.fastest:.0f} rad/s. "
-        f"The machine held the emulated board up {held} times for more than 40 ms; the output switched itself off "
+        f"The emulated board was delayed {held} times by more than 40 ms; its output switched off "
         f"{listener.stops} times. Load average of the last minute {run.load:.1f}.",
     ]
     if held:
-        lines += ["", "Each time the board's clock stood still: its rate says nothing then, repeat on a quiet machine."]
+        lines += ["", "The board's clock stood still each time, so its rate is not valid: repeat on a quiet machine."]
     said = [f"- The driver said {count} times: {text}" for text, count in listener.warnings.most_common(5)]
     return [*lines, "", *said, *([""] if said else [])]
 

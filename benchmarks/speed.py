@@ -110,7 +110,7 @@ def main() -> int:
     lines += [f"| {by} | {1e3 * span:.0f} ms | {span / ours:.1f} |" for by, span in found.items()]
     lines += [
         "",
-        f"Promised are at most 40 ms of compute: {'holds' if ours <= 0.04 else 'does not hold'}.",
+        f"Required: at most 40 ms of compute: {'holds' if ours <= 0.04 else 'does not hold'}.",
         "",
         "`identify` of a 28 s `rich` recording, five parameters, from the start of the process to its end:",
         "",
