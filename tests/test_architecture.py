@@ -45,7 +45,8 @@ BAGS = re.compile(r"motor_identification/bag/\w+\.py$")
 # Inside a package too: its rooms (folders, or files beside them) from the ground up; each may import those before it.
 ROOMS = {
     "motor_model": (
-        "compiled errors effect effects sample parameters model_file excitation dynamics sensing simulate warm_up"
+        "compiled errors text_table effect effects sample parameters model_file excitation dynamics sensing simulate "
+        "warm_up"
     ),
     "motor_control": ("checks filter controller tuning parameters warm_up preparation settings messages node cli"),
     "motor_identification": (

@@ -5,8 +5,9 @@ from math import isfinite
 from motor_control.tuning.design import Tuning
 from motor_control.tuning.speed_feedback import OBSERVER
 from motor_model.parameters import Parameters
+from motor_model.text_table import align_columns
 
-RIPPLE = "speed [rad/s]  shaft [%]  reported [%]  voltage [V]"
+RIPPLE = ("speed [rad/s]", "shaft [%]", "reported [%]", "voltage [V]")
 FRICTION = (
     "The model has {:.3g} V of friction, which these gains do not compensate. With '--speed-source observer' the "
     "feed-forward does."
@@ -33,9 +34,7 @@ def as_table(tuning: Tuning) -> str:
         ("overshoot, small step", f"{100 * tuning.step.overshoot:.1f}", "%"),
         (f"overshoot, 0 to {large.reference:.3g} rad/s", f"{100 * large.overshoot:.1f}", "% with the voltage limit"),
     )
-    width = max(len(name) for name, _, _ in rows) + 2
-    lines = [f"{name:{width}}{value:9}{unit}".rstrip() for name, value, unit in rows]
-    return "\n".join([*lines, "", *_ripple_lines(tuning), "", *_bound_lines(tuning)])
+    return "\n\n".join((align_columns(rows), _format_ripple(tuning), _format_bounds(tuning)))
 
 
 def cautions(tuning: Tuning, parameters: Parameters) -> list[str]:
@@ -52,24 +51,22 @@ def cautions(tuning: Tuning, parameters: Parameters) -> list[str]:
     return said
 
 
-def _ripple_lines(tuning: Tuning) -> list[str]:
+def _format_ripple(tuning: Tuning) -> str:
     encoder = tuning.sight.encoder
-    lines = [
+    title = (
         f"Steady-state ripple from encoder errors ({100 * encoder.slot_irregularity:.3g} % slots, "
-        f"{1e6 * encoder.edge_resolution:.3g} µs timer), peak to peak:",
-        RIPPLE,
+        f"{1e6 * encoder.edge_resolution:.3g} µs timer), peak to peak:"
+    )
+    rows = [
+        (f"{speed:.4g}", f"{100 * ripple.speed:.2f}", f"{100 * ripple.reported:.2f}", f"{ripple.voltage:.3f}")
+        for speed, ripple in tuning.ripples
     ]
-    for speed, ripple in tuning.ripples:
-        shaft, reported = 100 * ripple.speed, 100 * ripple.reported
-        lines.append(f"{speed:<15.4g}{shaft:<11.2f}{reported:<14.2f}{ripple.voltage:.3f}")
-    return lines
+    return f"{title}\n{align_columns([RIPPLE, *rows])}"
 
 
-def _bound_lines(tuning: Tuning) -> list[str]:
-    lines = ["Lower limits of the closed-loop time constant (cumulative):"]
-    width = max(len(bound.name) for bound in tuning.bounds) + 2
-    lines += [f"{bound.name:{width}}{1e3 * bound.time_constant:.3g} ms" for bound in tuning.bounds]
-    return lines
+def _format_bounds(tuning: Tuning) -> str:
+    rows = [(bound.name, f"{1e3 * bound.time_constant:.3g} ms") for bound in tuning.bounds]
+    return f"Lower limits of the closed-loop time constant (cumulative):\n{align_columns(rows)}"
 
 
 def _finite(value: float, form: str) -> str:

@@ -1,6 +1,5 @@
 """What the commands that diagnose share: a diagnosis with a progress bar, on the terminal and in files."""
 
-import json
 import os
 import threading
 from collections.abc import Callable
@@ -123,9 +122,7 @@ def write_model(diagnosis: "Diagnosis", path: Path) -> None:
 
 def write_json(diagnosis: "Diagnosis", path: Path) -> None:
     """Everything that was found, in the form that the interfaces promise."""
+    from motor_identification.reporting import json_values
     from motor_identification.reporting.diagnosis_json import diagnosis_to_json
 
-    try:
-        path.write_text(json.dumps(diagnosis_to_json(diagnosis), indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    except OSError as error:
-        raise MotorError(f"cannot write {path}: {error.strerror}.") from error
+    json_values.write_json(path, diagnosis_to_json(diagnosis))

@@ -1,7 +1,6 @@
 """`identify`: fit a motor model to bags."""
 
 import argparse
-import json
 import os
 import sys
 from datetime import datetime, timezone
@@ -92,6 +91,7 @@ def _present(options: argparse.Namespace, fit: "Fit") -> int:
     from motor_identification.reporting.fit_json import fit_to_json
     from motor_identification.reporting.fit_model_file import save_model
     from motor_identification.reporting.fit_text import describe_residual, format_fit, list_cautions
+    from motor_identification.reporting.json_values import write_json
 
     print(format_fit(fit))
     print(f"\n{describe_residual(fit)}; {fit.evaluations} simulations in {fit.duration:.2f} s")
@@ -102,17 +102,10 @@ def _present(options: argparse.Namespace, fit: "Fit") -> int:
         save_model(options.output, fit, created)
         print(f"model: {options.output}")
     if options.json:
-        _write_json(Path(options.json), fit_to_json(fit))
+        write_json(Path(options.json), fit_to_json(fit))
     if options.report:
         print(f"report: {_report(Path(options.report), fit, options, created)}")
     return 0
-
-
-def _write_json(path: Path, content: dict[str, object]) -> None:
-    try:
-        path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-    except OSError as error:
-        raise MotorError(f"cannot write {path}: {error.strerror}.") from error
 
 
 def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: str) -> Path:
@@ -121,6 +114,7 @@ def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: s
     from motor_identification.reporting.fit_json import fit_to_json
     from motor_identification.reporting.fit_model_file import save_model
     from motor_identification.reporting.html import Files, write_fit_report
+    from motor_identification.reporting.json_values import write_json
 
     try:
         directory.mkdir(parents=True, exist_ok=True)
@@ -129,7 +123,7 @@ def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: s
     source = _source(options)
     recordings = [source.read(bag) for bag in source.uris]
     draw_fit(recordings[0], fit, directory / "fit.png")
-    _write_json(directory / "fit.json", fit_to_json(fit))
+    write_json(directory / "fit.json", fit_to_json(fit))
     save_model(directory / "model.yaml", fit, created)
     files = Files(options.output or str(directory / "model.yaml"), source)
     return write_fit_report(fit, recordings, directory, files)

@@ -6,8 +6,8 @@ from motor_identification.discrepancy.missing_torque import describe_torque, sha
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.reporting.names import capitalize, effect_name, join_effects, join_names
 from motor_identification.reporting.numbers import format_quantity, format_ratio
-from motor_identification.reporting.text_table import align_columns
 from motor_identification.uncertainty.result import Fit
+from motor_model.text_table import align_columns
 
 GAP = "validation RMS error (gap)"
 TOO_SHORT = "The recording is too short to keep a part of it for validation: record more motion."

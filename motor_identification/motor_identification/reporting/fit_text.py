@@ -12,9 +12,9 @@ from motor_identification.reporting.numbers import (
     format_unit,
     format_value,
 )
-from motor_identification.reporting.text_table import align_columns
 from motor_identification.uncertainty.result import Fit
 from motor_model.effects import BASE, EFFECT_BY_NAME, EFFECTS
+from motor_model.text_table import align_columns
 
 SIGNIFICANT = 1e-3  # chance below which the residual's relation to the voltage is none
 VISIBLE = 0.15  # correlation with the voltage: explains 2 % of the residual's power

@@ -1,9 +1,12 @@
-"""Numbers and models in the JSON form that the interfaces promise; null where there is no number."""
+"""Write numbers and models in the JSON form that the interfaces promise; null where there is no number."""
 
+import json
 from math import isfinite
+from pathlib import Path
 from typing import Any
 
 from motor_identification.uncertainty.result import Fit
+from motor_model.errors import MotorError
 
 
 def to_number(value: float) -> float | None:
@@ -23,3 +26,15 @@ def to_model(fit: Fit) -> dict[str, Any]:
         "effects": list(fit.parameters.effects),
         "parameters": {name: to_estimate(value, fit.standard_errors[name]) for name, value in values.items()},
     }
+
+
+def write_json(path: Path, content: dict[str, Any]) -> None:
+    """Write a JSON file that a person can read too.
+
+    Raises:
+        MotorError: the file cannot be written.
+    """
+    try:
+        path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise MotorError(f"cannot write {path}: {error.strerror}.") from error
