@@ -19,8 +19,8 @@ from regression import regress
 from scipy.optimize import least_squares
 
 from motor_identification.estimation.problem import make_problem
-from motor_identification.identify import Request, identify
-from motor_identification.noise.slot_table import slot_index
+from motor_identification.identify import Request, SearchConfig, identify
+from motor_identification.noise.slot_table import index_slots
 from motor_identification.recording import Recording, check, recording_of
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters, paper_motor
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
@@ -49,7 +49,7 @@ def experiment(edges: int, irregularity: float, seed: int) -> Recording:
 
 def ours(recording: Recording) -> Floats:
     """Relative errors of kv and ka."""
-    fit = identify([recording], Request(particles=20))
+    fit = identify([recording], Request(search=SearchConfig(particles=20)))
     return np.array([fit.parameters.value("kv"), fit.parameters.value("ka")]) / TRUE - 1.0
 
 
@@ -89,7 +89,7 @@ def bound(recording: Recording, slots: bool) -> Floats:
     blur = np.append(data.blur[moving], data.blur[moving][-1])
     design = np.column_stack(columns)
     if slots:
-        index = slot_index(data, problem.angles(place)[0])
+        index = index_slots(data, problem.angles(place)[0])
         slot = np.append(index.first[moving], index.last[moving][-1])
         seen = np.unique(slot)
         design = np.column_stack([design[:, :2], (slot[:, None] == seen).astype(float)])

@@ -22,7 +22,7 @@ import numpy as np
 from machine import machine
 from numpy.typing import NDArray
 
-from motor_identification.identify import Request, identify
+from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import check, recording_of
 from motor_model.excitation import profile
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
@@ -77,7 +77,7 @@ def score(job: tuple[Scenario, int]) -> Floats:
     board = SimulatedBoard(motor, config)
     samples = [board.sample(float(volts)) for volts in command + hidden]
     recording = check(replace(recording_of(samples, config.info(motor), f"{seed}"), voltage=command))
-    fit = identify([recording], Request(EFFECTS, particles=16, epochs=30))
+    fit = identify([recording], Request(EFFECTS, SearchConfig(particles=16, epochs=30)))
     errors = np.array([fit.parameters.value(name) - true for name, true in TRUE.items()])
     sure = np.array([fit.standard_errors[name] for name in TRUE])
     return np.concatenate([errors / sure, errors / np.array(list(TRUE.values()))])

@@ -8,7 +8,7 @@ from paper_loop import FREE, HARDWARE, Bench
 
 from motor_identification.estimation.swarm import SwarmConfig, minimise
 from motor_identification.experiment import make_plan, simulate_plan
-from motor_identification.identify import Request, identify
+from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import Recording, check, recording_of
 from motor_model.excitation import profile
 from motor_model.parameters import Parameters
@@ -53,13 +53,13 @@ def by_swarm(recording: Recording) -> Fit:
         return np.array([_rms(recording, *np.exp(place)) for place in places])
 
     found = minimise(costs, low, high, SWARM)
-    kv, ka = np.exp(found.place)
+    kv, ka = np.exp(found.theta)
     return Fit("the paper's fit", float(kv), float(ka), found.cost)
 
 
 def by_edges(recording: Recording) -> Fit:
     """Ours: the same two coefficients from the times of the edges."""
-    fit = identify([recording], Request(particles=20)).parameters
+    fit = identify([recording], Request(search=SearchConfig(particles=20))).parameters
     kv, ka = fit.value("kv"), fit.value("ka")
     return Fit("ours", kv, ka, _rms(recording, kv, ka))
 
@@ -85,7 +85,7 @@ def with_friction(irregularity: float) -> dict[str, float]:
     plan = make_plan(profile("rich"), 10.0, HARDWARE.max_voltage, 1.0 / config.sample_rate)
     samples = [sample for _, sample in simulate_plan(plan, HARDWARE, config)]
     recording = check(recording_of(samples, config.info(HARDWARE), "rich"))
-    fit = identify([recording], Request(("static_friction",), particles=20)).parameters
+    fit = identify([recording], Request(("static_friction",), SearchConfig(particles=20))).parameters
     return {name: fit.value(name) / value - 1.0 for name, value in HARDWARE.values.items()}
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import differential_evolution, least_squares
 
-from motor_identification.estimation.objective import Landscape
+from motor_identification.estimation.objective import Objective
 
 Floats = NDArray[np.float64]
 
@@ -35,22 +35,22 @@ class Enough(Exception):
 class Meter:
     """Counts every simulation of one motor, from any thread, and notes when the goal was reached."""
 
-    def __init__(self, landscape: Landscape, goal: float, budget: int, stop_at_goal: bool = True):
-        self.dimensions, self.goal, self.budget, self.stop_at_goal = len(landscape.low), goal, budget, stop_at_goal
-        self._landscape, self._lock, self._begun = landscape, Lock(), perf_counter()
+    def __init__(self, objective: Objective, goal: float, budget: int, stop_at_goal: bool = True):
+        self.dimensions, self.goal, self.budget, self.stop_at_goal = len(objective.low), goal, budget, stop_at_goal
+        self._objective, self._lock, self._begun = objective, Lock(), perf_counter()
         self.evaluations, self.best, self.elapsed = 0, np.inf, 0.0
         self.reached: tuple[int, float] | None = None  # evaluations, seconds
         self.improved: list[tuple[int, float]] = []  # evaluations, best cost
 
     def residuals(self, places: Floats) -> Floats:
         """Places (S, D) of the unit box → (S, I)."""
-        found = self._landscape.residuals(places)
+        found = self._objective.residuals(places)
         self._note(np.einsum("si,si->s", found, found))
         return found
 
     def costs(self, places: Floats) -> Floats:
         """Places (S, D) of the unit box → (S,)."""
-        costs = self._landscape.costs(places)
+        costs = self._objective.costs(places)
         self._note(costs)
         return costs
 
@@ -68,15 +68,15 @@ class Meter:
             raise Enough
 
 
-def in_unit_box(landscape: Landscape) -> Landscape:
-    """The same landscape with every unknown from 0 to 1: nobody is held up by a box of odd proportions."""
-    low, span = landscape.low, landscape.high - landscape.low
+def in_unit_box(objective: Objective) -> Objective:
+    """The same objective with every unknown from 0 to 1: nobody is held up by a box of odd proportions."""
+    low, span = objective.low, objective.high - objective.low
     return replace(
-        landscape,
+        objective,
         low=np.zeros(len(low)),
         high=np.ones(len(low)),
-        costs=lambda x: landscape.costs(low + span * np.asarray(x)),
-        residuals=lambda x: landscape.residuals(low + span * np.asarray(x)),
+        costs=lambda x: objective.costs(low + span * np.asarray(x)),
+        residuals=lambda x: objective.residuals(low + span * np.asarray(x)),
     )
 
 

@@ -19,12 +19,13 @@ from machine import machine
 from peers import Meter, Peer
 from search_figure import Floats, Run, Table, draw
 
-from motor_identification.estimation.least_squares import Speeds, descend
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.global_search import COARSE_INTERVAL
+from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.multistart import SearchConfig, search
-from motor_identification.estimation.objective import Landscape, landscape_of
+from motor_identification.estimation.objective import Objective, make_objective
 from motor_identification.estimation.problem import make_problem
 from motor_identification.experiment import make_plan, simulate_plan
-from motor_identification.identify import COARSE
 from motor_identification.recording import check, recording_of
 from motor_model.excitation import profile
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
@@ -57,31 +58,30 @@ COLUMNS = (
 )
 
 
-def made(values: dict[str, float]) -> tuple[Landscape, float]:
+def made(values: dict[str, float]) -> tuple[Objective, float]:
     """What a search sees, and the least cost, which is where least squares leads from the truth."""
     motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA, **values}, EFFECTS)
     config = BoardConfig(slot_irregularity=0.01, seed=1)
     plan = make_plan(profile("rich"), None, 12.0, 1.0 / config.sample_rate)
     samples = [sample for _, sample in simulate_plan(plan, motor, config)]
     whole = make_problem([check(recording_of(samples, config.info(motor), "rich"))], EFFECTS, os.cpu_count() or 1)
-    problem, unknowns = whole.coarse(COARSE), whole.unknowns
+    problem, unknowns = whole.coarsen(COARSE_INTERVAL), whole.unknowns
     truth = np.array([motor.value(name) for name in unknowns.names])
     truth[unknowns.logarithmic] = np.log(truth[unknowns.logarithmic])
-    place, _ = descend(problem, Speeds(problem), truth)
-    return peers.in_unit_box(landscape_of(problem)), float(problem.costs(place[None])[0])
+    return peers.in_unit_box(make_objective(problem)), fit_speeds(Estimate(problem, truth)).cost
 
 
-def ours(landscape: Landscape, least: float, seed: int) -> Run:
+def ours(objective: Objective, least: float, seed: int) -> Run:
     """Our search, until it stops by itself; what it returns has to be within 1 %."""
-    meter = Meter(landscape, GOAL * least, 10 * BUDGET, stop_at_goal=False)
-    found = search(replace(landscape, costs=meter.costs, residuals=meter.residuals), SearchConfig(seed=seed))
+    meter = Meter(objective, GOAL * least, 10 * BUDGET, stop_at_goal=False)
+    found = search(replace(objective, costs=meter.costs, residuals=meter.residuals), SearchConfig(seed=seed))
     assert found.evaluations == meter.evaluations
     return _run(meter, found.cost <= meter.goal)
 
 
-def theirs(peer: Peer, landscape: Landscape, least: float, seed: int) -> Run:
+def theirs(peer: Peer, objective: Objective, least: float, seed: int) -> Run:
     """A peer, until it reached the goal or used up its evaluations."""
-    meter = Meter(landscape, GOAL * least, BUDGET)
+    meter = Meter(objective, GOAL * least, BUDGET)
     peers.run(peer, meter, seed)
     return _run(meter, meter.reached is not None)
 
@@ -93,13 +93,13 @@ def _run(meter: Meter, success: bool) -> Run:
 
 def measured(values: dict[str, float], starts: int, peer_starts: int) -> tuple[Table, float]:
     """All searches of one motor, and the least cost."""
-    landscape, least = made(values)
-    landscape.costs(np.full((4, len(landscape.low)), 0.5))  # loads the compiled cost
-    table = {OURS: [ours(landscape, least, seed) for seed in range(starts)]}
+    objective, least = made(values)
+    objective.costs(np.full((4, len(objective.low)), 0.5))  # loads the compiled cost
+    table = {OURS: [ours(objective, least, seed) for seed in range(starts)]}
     print(_row(OURS, table[OURS]), flush=True)
     for name, peer in (TRF | LIBRARIES).items():
         count = starts if name in TRF else peer_starts
-        table[name] = [theirs(peer, landscape, least, seed) for seed in range(count)]
+        table[name] = [theirs(peer, objective, least, seed) for seed in range(count)]
         print(_row(name, table[name]), flush=True)
     return table, least
 

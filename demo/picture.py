@@ -6,8 +6,8 @@ import matplotlib
 import numpy as np
 
 from motor_identification.bag import read_recording
-from motor_identification.estimation.residual import residuals
-from motor_identification.measurement.build_intervals import intervals_of
+from motor_identification.estimation.residual import compute_residuals
+from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.reporting.fit_figure import REFERENCE, draw_overlay
 from motor_model.parameters import Parameters
 from motor_model.simulate import simulate
@@ -20,10 +20,10 @@ from matplotlib.axes import Axes  # noqa: E402
 def _overlay(axes: Axes, bag: Path, model: Parameters) -> float:
     """Draw one recording and the model over it; returns the residual's time-weighted RMS [rad/s]."""
     recording = read_recording(str(bag))
-    data, start = intervals_of(recording), float(recording.speed[0])
+    data, start = make_intervals(recording), float(recording.speed[0])
     draw_overlay(axes, recording, data, model, start)
     motion = simulate(model, recording.time, recording.voltage, data.time, start)
-    return float(np.sqrt(np.average(residuals(data, motion.angle) ** 2, weights=data.duration)))
+    return float(np.sqrt(np.average(compute_residuals(data, motion.angle) ** 2, weights=data.duration)))
 
 
 def draw_demo(directory: Path, model: Parameters, references: list[tuple[float, float]], path: Path) -> None:

@@ -20,15 +20,15 @@ class Stage:
     gap: float  # [rad/s] of the best model so far
 
 
-@dataclass
-class Telling:
+@dataclass(frozen=True)
+class ProgressReporter:
     """Progress out, stop in."""
 
     progress: Callable[[Stage], None]
     stopped: Callable[[], bool]
 
-    def __call__(self, text: str, share: float, best_effect: str, gap: float) -> None:
-        """Say how far it is.
+    def report(self, text: str, share: float, best_effect: str, gap: float) -> None:
+        """Report how far it is.
 
         Raises:
             Stopped: so that was what the caller wanted.

@@ -7,15 +7,17 @@ import pytest
 from plant import profiles, record
 
 from motor_identification.diagnose import Stage, Stopped, diagnose
-from motor_identification.diagnosis.candidate_model import judged
-from motor_identification.diagnosis.effect_test import FALSE_ALARMS, threshold
+from motor_identification.diagnosis.candidate_model import validate_model
+from motor_identification.diagnosis.effect_test import likelihood_threshold
 from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.diagnosis.thresholds import FALSE_ALARM_RATE
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import make_problem
 from motor_identification.experiment import make_plan, simulate_plan
-from motor_identification.measurement.build_intervals import intervals_of
-from motor_identification.noise.likelihood import Noise, likely_noise, log_likelihood
+from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.noise.likelihood import Noise, estimate_noise, log_likelihood
 from motor_identification.recording import Recording, check, recording_of
-from motor_identification.validation.held_out import keep_out
+from motor_identification.validation.hold_out import make_hold_out
 from motor_model.effects import EFFECTS
 from motor_model.errors import ModelError, RecordingError
 from motor_model.excitation import profile
@@ -59,7 +61,7 @@ def test_a_hidden_effect_is_named_and_sized(effect: str) -> None:
     assert finding.gap_before == pytest.approx(found.gap_before, rel=0.1)
     assert found.gap_before > 2.0 * found.noise_floor
     assert 0.8 < found.gap_after / found.noise_floor < 1.25
-    assert finding.evidence > 100.0 > threshold() and finding.ambiguous_with == ()
+    assert finding.evidence > 100.0 > likelihood_threshold() and finding.ambiguous_with == ()
     others = {other.effect: other for other in finding.alternatives}
     assert set(others) <= {effect.name for effect in EFFECTS} and effect not in others
     assert all(other.evidence < finding.evidence - 100.0 for other in others.values())
@@ -146,21 +148,20 @@ def test_a_single_step_cannot_tell_and_says_what_would() -> None:
 
 def test_a_part_of_one_recording_is_kept_out_of_every_fit() -> None:
     recording = made({"ks": 0.4}, profiles.rich(), 6)
-    kept = keep_out([recording], [])
     problem = make_problem([recording], ("coulomb_friction",))
-    place = np.array([np.log(BASE["kv"]), np.log(BASE["ka"]), 0.4])
-    model = judged(kept, problem, place)
+    theta = np.array([np.log(BASE["kv"]), np.log(BASE["ka"]), 0.4])
+    model = validate_model(make_hold_out([recording], []), Estimate(problem, theta))
     (scored,) = model.held.scored
     assert 0.2 < scored.mean() < 0.3
     found = diagnose([recording])
     assert [one.effect for one in found.findings] == ["coulomb_friction"]
-    (fitted,), (judge,) = found.after.problem.intervals, found.after.scored
+    (fitted,), (judge,) = found.after.intervals, found.after.scored
     assert 0.2 < judge.sum() / len(fitted.first) < 0.3
 
 
 def test_the_stop_rule_keeps_its_word() -> None:
     """A likelihood ratio on unseen data exceeds e^k with a chance of at most e^−k; here: a false wave."""
-    data = intervals_of(made({}, profiles.step(8.0, 0.5), 7))
+    data = make_intervals(made({}, profiles.step(8.0, 0.5), 7))
     data = replace(data, slack=0.0 * data.slack)
     random = np.random.default_rng(0)
     truth, wrong = Noise(0.01, 0.0), 0.003 * data.slot * np.sin(np.arange(len(data.first)) / 30.0)
@@ -171,9 +172,9 @@ def test_the_stop_rule_keeps_its_word() -> None:
     for level in (1.0, 2.0, 3.0):
         assert np.mean(-ratios > level) < np.exp(-level)
     assert np.mean(ratios) > 0.5  # and it was a model that differs
-    assert threshold() == pytest.approx(np.log(len(EFFECTS) / FALSE_ALARMS))
-    found = likely_noise([(data, np.diff(edges[0]))])
-    assert 0.006 < found.share < 0.016 and found.growth == 0.0
+    assert likelihood_threshold() == pytest.approx(np.log(len(EFFECTS) / FALSE_ALARM_RATE))
+    found = estimate_noise([(data, np.diff(edges[0]))])
+    assert 0.006 < found.share < 0.016 and found.drift == 0.0
 
 
 def test_progress_stop_and_refusals() -> None:

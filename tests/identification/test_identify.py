@@ -8,7 +8,7 @@ from fits import BASE, how_sure, made, off, quick
 from plant import profiles, record
 from recorded import as_counts, as_speed
 
-from motor_identification.identify import Request, identify
+from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import check
 from motor_identification.reporting.fit_text import list_cautions
 from motor_identification.uncertainty.result import Fit
@@ -19,7 +19,9 @@ from motor_model.excitation import PROFILES
 def papers() -> list[Fit]:
     """The paper's experiment, 10 V for 1 s, from 20 starting angles of the disc."""
     return [
-        identify([made({}, profiles.step(10.0, 1.0), start_angle=0.0033 * k, seed=k)], Request(seed=k))
+        identify(
+            [made({}, profiles.step(10.0, 1.0), start_angle=0.0033 * k, seed=k)], Request(search=SearchConfig(seed=k))
+        )
         for k in range(20)
     ]
 
@@ -41,10 +43,10 @@ def test_the_papers_experiment(papers: list[Fit]) -> None:
 
 def test_the_search_tells_how_it_went(papers: list[Fit]) -> None:
     for fit in papers:
-        trace = fit.search.trace
+        trace = fit.search.rms
         assert np.all(np.diff(trace) <= 0.0) and 3 <= len(trace) < 60
         assert trace[0] > 3.0 * trace[-1] and trace[-1] < 5.0
-        assert fit.search.agreed and 2 <= fit.search.agreeing <= fit.search.descents
+        assert fit.search.agreed and 2 <= fit.search.agreeing <= len(fit.search.descents)
         assert 40 < fit.evaluations < 1000
 
 
@@ -81,7 +83,7 @@ FOUND = {
 @pytest.mark.parametrize("case", FOUND)
 def test_what_was_hidden_is_found(case: str, irregularity: float) -> None:
     values, drive, effects, near = FOUND[case]
-    fit = identify([made(values, drive, seed=5, irregularity=irregularity)], Request(effects, seed=1))
+    fit = identify([made(values, drive, seed=5, irregularity=irregularity)], Request(effects, SearchConfig(seed=1)))
     errors = off(fit, values)
     assert max(map(abs, errors.values())) < near * (1.0 if irregularity == 0.0 else 10.0), errors
     assert max(map(abs, errors.values())) > 1e-9

@@ -7,7 +7,7 @@ import pytest
 from fits import made, quick
 from plant import profiles
 
-from motor_identification.identify import Request, identify
+from motor_identification.identify import SearchConfig, identify
 from motor_identification.recording import check
 from motor_model.errors import ModelError, MotorError, RecordingError
 
@@ -75,4 +75,4 @@ def test_requests_that_cannot_be_met_are_refused() -> None:
         with pytest.raises(
             MotorError, match="particles must be at least 2, epochs at least 1, and the seed not negative"
         ):
-            Request(**wrong)
+            SearchConfig(**wrong)

@@ -6,15 +6,16 @@ from pathlib import Path
 import numpy as np
 
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis.candidate_model import LASTING
 from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.diagnosis.thresholds import LASTING_INTERVAL
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import make_problem
-from motor_identification.estimation.whitened_fit import Refined, learn
+from motor_identification.estimation.whitened_fit import make_whitened
 from motor_identification.identify import Request, identify
 from motor_identification.logs import CsvForm, Kind, read_log
 from motor_identification.recording import Recording, check, recording_of
 from motor_identification.reporting.fit_text import summarize_fit
-from motor_identification.uncertainty.recording_consistency import dissents, sentence_of
+from motor_identification.uncertainty.recording_consistency import compare_recordings, describe_dissent
 from motor_identification.uncertainty.result import Fit
 from motor_model.simulate import simulate
 
@@ -64,12 +65,12 @@ def contradictions(recordings: list[Recording], fit: Fit) -> list[str]:
     unknowns = problem.unknowns
     values = np.array([fit.parameters.values[name] for name in unknowns.names])
     logarithmic = unknowns.logarithmic[: len(values)]
-    place = np.where(logarithmic, np.log(np.where(logarithmic, values, 1.0)), values)
-    place = np.concatenate([place, np.array(fit.start_speeds)[unknowns.turning]])
-    found = dissents(Refined(problem, learn(problem, place)), place)
+    theta = np.where(logarithmic, np.log(np.where(logarithmic, values, 1.0)), values)
+    theta = np.concatenate([theta, np.array(fit.start_speeds)[unknowns.turning]])
+    found = compare_recordings(make_whitened(Estimate(problem, theta)))
     assert [one.uri for one in found] == [recording.uri for recording in recordings]
     for one in found:
-        assert sentence_of(one).startswith(
+        assert describe_dissent(one).startswith(
             f"{one.uri}: joint fit {one.common:.3g} rad/s RMS, separate fit {one.own:.3g}: the recordings disagree."
         )
     return [one.uri for one in found if one.disagrees]
@@ -223,5 +224,5 @@ def test_diagnosis_of_steps_both_ways_by_a_coarse_encoder() -> None:
     assert named == {"coulomb_friction": ("dead_zone",), "direction_asymmetry": ()}
     values = found.model.parameters.values
     assert 0.22 < values["ks"] < 0.30 and 0.94 < values["reverse_gain"] < 0.97
-    before, after = (held.joined(LASTING).gap for held in (found.before, found.after))
+    before, after = (held.joined(LASTING_INTERVAL).gap for held in (found.before, found.after))
     assert 0.33 < before < 0.38 and 0.17 < after < 0.21

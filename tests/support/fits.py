@@ -2,7 +2,7 @@
 
 from plant import profiles, record
 
-from motor_identification.identify import Request
+from motor_identification.identify import Request, SearchConfig
 from motor_identification.recording import Recording, check
 from motor_identification.uncertainty.result import Fit
 from motor_model.parameters import PAPER_KA, PAPER_KV
@@ -29,4 +29,4 @@ def how_sure(fit: Fit, values: Values) -> list[float]:
 
 
 def quick(*effects: str, seed: int = 0) -> Request:
-    return Request(effects, particles=30, epochs=60, seed=seed)
+    return Request(effects, SearchConfig(particles=30, epochs=60, seed=seed))

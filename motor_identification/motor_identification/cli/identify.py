@@ -62,13 +62,14 @@ def main(args: list[str] | None = None) -> int:
 def _identify(options: argparse.Namespace) -> int:
     from tqdm import tqdm
 
-    from motor_identification.identify import Request
+    from motor_identification.identify import Request, SearchConfig
     from motor_identification.service.job import Job, run_job
 
     effects = tuple(name.strip() for name in options.effects.split(",") if name.strip())
     report = [os.path.join(options.report, name) for name in REPORT_FILES] if options.report else []
     check_outputs(filter(None, (options.output, options.json, *report)), options.force, options.report)
-    request = Request(effects, options.particles, options.epochs, options.seed, os.cpu_count() or 1)
+    search = SearchConfig(options.particles, options.epochs, options.seed)
+    request = Request(effects, search, os.cpu_count() or 1)
     job = Job(_source(options), request)
     with tqdm(total=100, desc="search", delay=2.0, disable=None, bar_format="{desc} {bar} {percentage:3.0f} %") as bar:
 

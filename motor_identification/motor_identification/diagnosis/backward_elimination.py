@@ -1,89 +1,95 @@
-"""The way back: what was found early has to hold its own beside all that was found later, or goes."""
+"""Backward elimination: what was selected early has to be needed beside all that was selected later, or goes."""
 
 from dataclasses import replace
 
-from motor_identification.diagnosis.candidate_model import Model, Trial, judged
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
 from motor_identification.diagnosis.effect_test import (
-    MARGIN,
-    STANDS_IN,
-    as_in_the_table,
-    lacking,
-    size,
-    threshold,
-    tried,
+    count_parameters,
+    likelihood_threshold,
+    list_candidates,
+    sort_by_table,
+    try_effects,
 )
-from motor_identification.diagnosis.forward_selection import Step, Way
-from motor_identification.estimation.least_squares import Speeds, descend
-from motor_identification.estimation.parameter_space import carried
-from motor_identification.progress import Telling
+from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.parameter_space import map_theta
+from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 
-RIVALS = 3  # that are tried in a finding's place
 
-
-def without_stand_ins(way: Way) -> Way:
-    """Where the gap stays above the floor, nothing is named that may only stand in for what is not in the table.
+def drop_stand_ins(selection: Selection) -> Selection:
+    """Drop what may only stand in for an effect that is not in the table, where the gap stays above the floor.
 
     That is every finding that leaves a visible part of what it should explain, and what was found after it; a line in
     the spectrum over the angle is its own evidence.
     """
-    if way.model.at_floor:
-        return way
-    for i, step in enumerate(way.steps):
-        if step.explains < STANDS_IN and not EFFECT_BY_NAME[step.found.effect].periodic:
-            return replace(way, steps=way.steps[:i], model=step.before)
-    return way
+    if selection.model.at_floor:
+        return selection
+    for i, step in enumerate(selection.steps):
+        if step.explains < thresholds.STAND_IN_SHARE and not EFFECT_BY_NAME[step.found.effect].periodic:
+            return replace(selection, steps=selection.steps[:i], model=step.before)
+    return selection
 
 
-def needed(way: Way, tell: Telling) -> Way:
-    """The findings that are needed beside all others, or what does better in their place; and their rivals now.
+def eliminate_backward(selection: Selection, reporter: ProgressReporter) -> Selection:
+    """Keep the findings that are needed beside all others, or what does better instead of them; and their rivals now.
 
     The last one too: fitted once more, the model may come to the same motion without it.
     """
-    for step in way.steps:
-        if any(one is step for one in way.steps):
-            tell(f"checking {step.found.effect}", 0.9, step.found.effect, way.model.held.gap)
-            way = _checked(way, step, tell)
-    return way
+    for step in selection.steps:
+        if any(one is step for one in selection.steps):
+            gap = selection.model.held.gap
+            reporter.report(f"checking {step.found.effect}", 0.9, step.found.effect, gap)
+            selection = _check_step(selection, step, reporter)
+    return selection
 
 
-def _checked(way: Way, step: Step, tell: Telling) -> Way:
-    """One finding against the model without it, and against others in its place."""
-    effect, current = step.found.effect, way.model
-    without = _without(way, effect)
-    if without.likelihood > current.likelihood - threshold():
-        return _replaced(way, step, None, without)
-    if step is way.steps[-1]:  # what could be in its place was tried beside it
-        return way
-    likely = [trial.effect for trial in step.trials if trial.effect != effect and trial.evidence > threshold()]
-    others = [name for name in likely if name in lacking(without.effects) and name not in current.effects][:RIVALS]
+def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressReporter) -> Selection:
+    """Test one finding against the model without it, and against others instead of it."""
+    effect, current = step.found.effect, selection.model
+    without = _refit_without(selection, effect)
+    if without.likelihood > current.likelihood - likelihood_threshold():
+        return _replace_step(selection, step, None, without)
+    if step is selection.steps[-1]:  # what could be in its place was tried beside it
+        return selection
+    likely = [test.effect for test in step.tests if test.effect != effect and test.evidence > likelihood_threshold()]
+    free = [name for name in list_candidates(without.effects) if name not in current.effects]
+    others = [name for name in likely if name in free][: thresholds.ELIMINATION_RIVALS]
     if not others:
-        return _replaced(way, step, replace(step, rivals=()), current)
+        return _replace_step(selection, step, replace(step, rivals=()), current)
 
-    def heard(trial: Trial) -> None:
-        tell(f"{trial.effect} in place of {effect}", 0.9, effect, current.held.gap)
+    def heard(test: CandidateTest) -> None:
+        reporter.report(f"{test.effect} in place of {effect}", 0.9, effect, current.held.gap)
 
-    trials = tried(without, way.kept, others, way.workers, heard)
-    for trial in trials:
-        grace = MARGIN if size(trial.effect) < size(effect) else -MARGIN
-        if trial.model.likelihood > current.likelihood - grace:
-            return _replaced(way, step, replace(step, found=trial, rivals=()), trial.model)
-    alike = [trial.effect for trial in trials if trial.model.likelihood > current.likelihood - MARGIN]
-    rivals = as_in_the_table(name for name in alike if size(name) <= size(effect))
-    return _replaced(way, step, replace(step, rivals=rivals), current)
+    tests = try_effects(without, selection.hold_out, others, selection.workers, heard)
+    better = next((test for test in tests if _replaces(test, effect, current)), None)
+    if better is not None:
+        return _replace_step(selection, step, replace(step, found=better, rivals=()), better.model)
+    alike = [test.effect for test in tests if test.model.likelihood > current.likelihood - thresholds.RIVAL_MARGIN]
+    rivals = sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
+    return _replace_step(selection, step, replace(step, rivals=rivals), current)
 
 
-def _without(way: Way, effect: str) -> Model:
-    """The last model without one effect, and without what there is only with it, fitted again."""
-    current = way.model
-    left = tuple(name for name in current.effects if name != effect and EFFECT_BY_NAME[name].implies != effect)
+def _replaces(test: CandidateTest, effect: str, current: Model) -> bool:
+    """Whether a test's model is better: more likely by the margin, or nearly as likely with fewer parameters."""
+    simpler = count_parameters(test.effect) < count_parameters(effect)
+    margin = -thresholds.RIVAL_MARGIN if simpler else thresholds.RIVAL_MARGIN
+    return test.model.likelihood > current.likelihood + margin
+
+
+def _refit_without(selection: Selection, effect: str) -> Model:
+    """Fit the last model again without one effect, and without what there is only with it."""
+    current = selection.model.estimate
+    left = tuple(name for name in selection.model.effects if name != effect and EFFECT_BY_NAME[name].implies != effect)
     smaller = current.problem.with_effects(left)
-    start = carried(current.problem.unknowns, current.place, smaller.unknowns, {})
-    place, _evaluations = descend(smaller, Speeds(smaller), start)
-    return judged(way.kept, smaller, place)
+    start = map_theta(current.problem.unknowns, current.theta, smaller.unknowns, {})
+    return validate_model(selection.hold_out, fit_speeds(Estimate(smaller, start, current.simulations)))
 
 
-def _replaced(way: Way, step: Step, by: Step | None, model: Model) -> Way:
-    """The way with another step, or none, in the place of one; steps that the model does not have go too."""
-    steps = [by if one is step else one for one in way.steps]
-    return replace(way, steps=tuple(one for one in steps if one and one.found.effect in model.effects), model=model)
+def _replace_step(selection: Selection, step: SelectionStep, by: SelectionStep | None, model: Model) -> Selection:
+    """Put another step, or none, instead of one; steps that the model does not have go too."""
+    steps = [by if one is step else one for one in selection.steps]
+    kept = tuple(one for one in steps if one and one.found.effect in model.effects)
+    return replace(selection, steps=kept, model=model)

@@ -1,41 +1,46 @@
-"""What a recording could not have shown: effects of a size that matters whose trace other parameters would imitate."""
+"""Detectability: what a recording could not have shown, effects of a size that matters that the model imitates."""
 
 import numpy as np
 
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.effect_fit import noticeable
-from motor_identification.diagnosis.effect_test import lacking, threshold
+from motor_identification.diagnosis.effect_fit import add_noticeable_effect
+from motor_identification.diagnosis.effect_test import likelihood_threshold, list_candidates
 from motor_identification.noise.likelihood import log_likelihood
 from motor_identification.recording import Floats
 from motor_model.effects import EFFECT_BY_NAME
 
 
-def undetectable(model: Model) -> tuple[str, ...]:
-    """Effects that a model lacks and that would not have been found in its recordings, had they been there.
+def find_undetectable(model: Model) -> tuple[str, ...]:
+    """Find the effects that a model lacks and that would not have been found in its recordings, had they been there.
 
     Each is added at a size that matters; what of its trace the model's own parameters cannot imitate, by least squares
     on the training data, is what there would have been to find.
     """
-    problem, place = model.problem, model.place
-    columns, without = problem.jacobian(place), problem.residuals(place)
-    root = np.sqrt(problem.weight)
-    weighted = root[:, None] * columns
+    problem, theta = model.estimate.problem, model.estimate.theta
+    columns, without = problem.jacobian(theta), problem.residuals(theta)
     hidden = []
-    for effect in lacking(model.effects):
+    for effect in list_candidates(model.effects):
         if EFFECT_BY_NAME[effect].periodic:
             continue
-        larger, there = noticeable(problem, place, effect)
-        trace = larger.residuals(there) - without
-        imitation = np.linalg.lstsq(weighted, root * trace, rcond=1e-9)[0]
-        left = trace - columns @ imitation
-        if _evidence(model, left) < threshold():
+        larger = add_noticeable_effect(model.estimate, effect)
+        trace = larger.problem.residuals(larger.theta) - without
+        left = remove_imitation(columns, trace, problem.weight)
+        if _expect_evidence(model, left) < likelihood_threshold():
             hidden.append(effect)
     return tuple(hidden)
 
 
-def _evidence(model: Model, left: Floats) -> float:
+def remove_imitation(columns: Floats, trace: Floats, weight: Floats) -> Floats:
+    """Remove from a trace (I,) what the columns (I, D) of a Jacobian imitate of it, by weighted least squares."""
+    root = np.sqrt(weight)
+    imitation = np.linalg.lstsq(root[:, None] * columns, root * trace, rcond=1e-9)[0]
+    return np.asarray(trace - columns @ imitation)
+
+
+def _expect_evidence(model: Model, left: Floats) -> float:
     """The logarithm of the likelihood ratio that a trace [rad/s] would bring."""
-    rows = zip(model.problem.intervals, model.problem.travelled(left), strict=True)
+    problem = model.estimate.problem
+    rows = zip(problem.intervals, problem.to_travel(left), strict=True)
     return sum(
         log_likelihood(data, 0.0 * part, model.noise) - log_likelihood(data, part, model.noise) for data, part in rows
     )

@@ -1,55 +1,55 @@
-"""An effect joins a fitted model: all parameters again by least squares, from a few values of its own.
+"""Fit one more effect: all parameters again by least squares, from a few start values of the effect's own.
 
-The rest of the model is near its place already; what an effect's own valley looks like decides how many are needed.
+The rest of the model is near its minimum already; the local minima along an effect's own parameters decide how many
+start values are needed.
 """
 
 from itertools import product
 
 import numpy as np
 
-from motor_identification.estimation.least_squares import LEAST_GAIN, Speeds, descend, gains
-from motor_identification.estimation.parameter_space import carried
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import LEAST_GAIN, fit_speeds, improves_fit
+from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.estimation.problem import Problem
 from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Floats
 from motor_model.effects import EFFECT_BY_NAME, normalised
 
-QUICK = 0.02  # [s] intervals of the quick look
-LOOK = 10  # iterations of it
+QUICK_INTERVAL = 0.02  # [s] of the intervals of a quick look from every start,
+QUICK_ITERATIONS, QUICK_TOLERANCE = 10, 1e-4  # which shall only tell the starts apart
+ITERATIONS, TOLERANCE = 20, 1e-8  # of the fit from the best of them
 
 
-def extended(problem: Problem, place: Floats, effect: str, least: float = 0.0) -> tuple[Problem, Floats, int] | None:
-    """The best fit with one more effect, from a fit (D,) without it: problem, place, simulations.
+def fit_with_effect(estimate: Estimate, effect: str, least: float = 0.0) -> Estimate | None:
+    """Fit a motor with one more effect, all parameters again, from a fit without it.
 
     None where a quick look from every start promises nothing, or, of a line in a spectrum, less than `least` of the sum
     of squared standard deviations.
     """
     if EFFECT_BY_NAME[effect].periodic:
-        return periodic_fit.added(problem, place, effect, max(least, LEAST_GAIN))
-    larger = problem.with_effects(normalised((*problem.unknowns.effects, effect)))
-    quick, bare = larger.coarse(QUICK), problem.coarse(QUICK)
-    best, start, evaluations = np.inf, place, 0
-    for begin in _starts(problem, place, larger):
-        there, more = descend(quick, Speeds(quick), begin, iterations=LOOK, tolerance=1e-4)
-        evaluations += more
-        cost = quick.cost(there)
+        return periodic_fit.add_periodic_effect(estimate, effect, max(least, LEAST_GAIN))
+    larger = estimate.problem.with_effects(normalised((*estimate.problem.unknowns.effects, effect)))
+    quick, bare = larger.coarsen(QUICK_INTERVAL), estimate.problem.coarsen(QUICK_INTERVAL)
+    best, start, spent = np.inf, estimate.theta, estimate.simulations
+    for begin in _list_starts(estimate, larger):
+        end = fit_speeds(Estimate(quick, begin, spent), iterations=QUICK_ITERATIONS, tolerance=QUICK_TOLERANCE)
+        spent, cost = end.simulations, end.cost
         if cost < best:
-            best, start = cost, there
-    before = bare.cost(place)
-    if not gains(before, best, len(bare.weight)):
+            best, start = cost, end.theta
+    if not improves_fit(estimate.on(bare).cost, best, len(bare.weight)):
         return None
-    end, more = descend(larger, Speeds(larger), start, iterations=20, tolerance=1e-8)
-    return larger, end, evaluations + more
+    return fit_speeds(Estimate(larger, start, spent), iterations=ITERATIONS, tolerance=TOLERANCE)
 
 
-def noticeable(problem: Problem, place: Floats, effect: str) -> tuple[Problem, Floats]:
-    """A fitted motor with one more effect, of a size that would matter to its user."""
-    larger = problem.with_effects(normalised((*problem.unknowns.effects, effect)))
-    return larger, _starts(problem, place, larger)[0]
+def add_noticeable_effect(estimate: Estimate, effect: str) -> Estimate:
+    """Add an effect to a fitted motor, of a size that would matter to its user; not fitted."""
+    larger = estimate.problem.with_effects(normalised((*estimate.problem.unknowns.effects, effect)))
+    return Estimate(larger, _list_starts(estimate, larger)[0], estimate.simulations)
 
 
-def _starts(problem: Problem, place: Floats, larger: Problem) -> list[Floats]:
-    old, new = problem.unknowns, larger.unknowns
+def _list_starts(estimate: Estimate, larger: Problem) -> list[Floats]:
+    old, new = estimate.problem.unknowns, larger.unknowns
     added = [spec for spec in new.specs if spec.name not in old.names]
     starts = []
     for shares in product(*(spec.starts for spec in added)):
@@ -58,6 +58,7 @@ def _starts(problem: Problem, place: Floats, larger: Problem) -> list[Floats]:
             sizes[spec.name] = share * new.extent.of(spec)
             if spec.at_least is not None:
                 least = spec.at_least
-                sizes[spec.name] += sizes[least] if least in sizes else float(place[old.names.index(least)])
-        starts.append(carried(old, place, new, {name: np.array(size) for name, size in sizes.items()}))
+                sizes[spec.name] += sizes[least] if least in sizes else float(estimate.theta[old.names.index(least)])
+        values = {name: np.array(size) for name, size in sizes.items()}
+        starts.append(map_theta(old, estimate.theta, new, values))
     return starts

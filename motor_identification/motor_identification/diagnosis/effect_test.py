@@ -1,22 +1,20 @@
-"""One step of a diagnosis: every effect that a model lacks is tried, and judged on data that no fit has seen."""
+"""Test effects: add every effect that a model lacks, and judge each on data that no fit has seen."""
 
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from math import log
+from math import log, sqrt, tau
 
-from motor_identification.diagnosis.candidate_model import Model, Trial, judged
-from motor_identification.diagnosis.effect_fit import extended
-from motor_identification.validation.held_out import Kept
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
+from motor_identification.diagnosis.effect_fit import fit_with_effect
+from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
 
-FALSE_ALARMS = 0.01  # chance that a complete model is given an effect that it does not have
-MARGIN = 5.0  # of log likelihood by which a finding has to beat another effect, else both are named
-TIE = 0.5  # of log likelihood within which the more common effect is taken, the one that is earlier in the table
-STANDS_IN = 0.95  # of the excess: what explains less and leaves the gap above the floor may stand in for another effect
+Heard = Callable[[CandidateTest], None]  # told of each test as it is done
 
 
-def lacking(effects: Sequence[str]) -> list[str]:
-    """The effects a model can be given next: what it does not have, whose own condition it has."""
+def list_candidates(effects: Sequence[str]) -> list[str]:
+    """List the effects a model can be given next: what it does not have, whose own condition it has."""
     return [
         effect.name
         for effect in EFFECT_BY_NAME.values()
@@ -24,82 +22,90 @@ def lacking(effects: Sequence[str]) -> list[str]:
     ]
 
 
-def tried(
-    current: Model,
-    kept: Kept,
-    effects: Sequence[str],
-    workers: int,
-    heard: Callable[[Trial], None],
-    least: float = 0.0,
-) -> list[Trial]:
-    """Every effect added to a model, best first; `heard` is told of each as it is done.
+def try_effects(
+    current: Model, hold_out: HoldOut, effects: Sequence[str], workers: int, heard: Heard, least: float = 0.0
+) -> list[CandidateTest]:
+    """Fit and validate a model with each of some effects more, best first.
 
     A periodic effect is not fitted where its spectrum promises less than `least`.
     """
 
-    def one(effect: str) -> Trial:
-        larger = extended(current.problem, current.place, effect, least)
-        if larger is None:
-            trial = Trial(effect, current, current)
-        elif EFFECT_BY_NAME[effect].periodic:  # it may turn the shaft back where the model without it does not
-            own = kept.redirected(*larger[:2])
-            trial = Trial(effect, judged(own, current.problem, current.place), judged(own, *larger[:2]))
-        else:
-            trial = Trial(effect, current, judged(kept, *larger[:2]))
-        heard(trial)
-        return trial
+    def one(effect: str) -> CandidateTest:
+        test = _try_effect(current, hold_out, effect, least)
+        heard(test)
+        return test
 
     with ThreadPoolExecutor(max(workers, 1)) as pool:
-        return sorted(pool.map(one, effects), key=lambda trial: -trial.evidence)
+        return sorted(pool.map(one, effects), key=lambda test: -test.evidence)
 
 
-def threshold() -> float:
+def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) -> CandidateTest:
+    larger = fit_with_effect(current.estimate, effect, least)
+    if larger is None:
+        return CandidateTest(effect, current, current)
+    if EFFECT_BY_NAME[effect].periodic:  # it may turn the shaft back where the model without it does not
+        own = hold_out.correct_directions(larger)
+        return CandidateTest(effect, validate_model(own, current.estimate), validate_model(own, larger))
+    return CandidateTest(effect, current, validate_model(hold_out, larger))
+
+
+def likelihood_threshold() -> float:
     """What the logarithm of the likelihood ratio has to exceed, by Markov's inequality for all effects together."""
-    return log(len(EFFECT_BY_NAME) / FALSE_ALARMS)
+    return log(len(EFFECT_BY_NAME) / thresholds.FALSE_ALARM_RATE)
 
 
-def accepted(trials: Sequence[Trial]) -> Trial | None:
-    """The trial that is a finding, if there is one: likely, and relevant to the gap; of equals the most common."""
-    best = next((trial for trial in trials if _convinces(trial)), None)
+def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
+    """Choose the finding among tests, best first, if there is one: likely, and relevant; of equals the most common."""
+    best = next((test for test in tests if _is_finding(test)), None)
     if best is None:
         return None
     equals = [
-        trial
-        for trial in trials
-        if trial.evidence > best.evidence - TIE and size(trial.effect) <= size(best.effect) and _convinces(trial)
+        test
+        for test in tests
+        if test.evidence > best.evidence - thresholds.TIE_LIKELIHOOD
+        and count_parameters(test.effect) <= count_parameters(best.effect)
+        and _is_finding(test)
     ]
-    return min(equals, key=lambda trial: list(EFFECT_BY_NAME).index(trial.effect))
+    return min(equals, key=lambda test: list(EFFECT_BY_NAME).index(test.effect))
 
 
-def _convinces(trial: Trial) -> bool:
-    return trial.evidence > threshold() and trial.relevant and _visible(trial)
+def _is_finding(test: CandidateTest) -> bool:
+    return test.evidence > likelihood_threshold() and test.relevant and _exceeds_chance_harmonic(test)
 
 
-def size(effect: str) -> int:
-    """Number of parameters of an effect."""
+def count_parameters(effect: str) -> int:
+    """Count the parameters of an effect."""
     return len(EFFECT_BY_NAME[effect].parameters)
 
 
-def _visible(trial: Trial) -> bool:
+def _exceeds_chance_harmonic(test: CandidateTest) -> bool:
     """Whether an eccentricity is more than the first harmonic that random slots have by chance."""
-    effect = EFFECT_BY_NAME[trial.effect]
+    effect = EFFECT_BY_NAME[test.effect]
     if not effect.on_disc:
         return True
-    unknowns = trial.model.problem.unknowns
-    size = float(trial.model.place[unknowns.names.index(effect.parameters[0].name)])
-    slot = max(data.slot for data in trial.model.problem.intervals)
-    chance = trial.model.noise.share * slot * (2.0 * slot / 6.2832) ** 0.5
-    return bool(size > 5.0 * chance)
+    estimate = test.model.estimate
+    size = float(estimate.theta[estimate.problem.unknowns.names.index(effect.parameters[0].name)])
+    slot = max(data.slot for data in estimate.problem.intervals)
+    return is_beyond_chance(size, slot, test.model.noise.share)
 
 
-def rivals(found: Trial, trials: Sequence[Trial]) -> tuple[str, ...]:
-    """Effects that explain as much as a finding does, and with no more parameters."""
-    least = max(found.evidence - MARGIN, threshold())
-    alike = [trial.effect for trial in trials if trial.effect != found.effect and trial.evidence > least]
-    return as_in_the_table(name for name in alike if size(name) <= size(found.effect))
+def is_beyond_chance(eccentricity: float, slot: float, share: float) -> bool:
+    """Whether an eccentricity [rad] is beyond the first harmonic of a disc whose slots [rad] are random by a share.
+
+    Of N = 2π/slot independent offsets of standard deviation σ, a harmonic's amplitude has the mean square 4σ²/N: σ²·2/N
+    for each of sine and cosine.
+    """
+    return eccentricity > thresholds.CHANCE_HARMONIC * share * slot * sqrt(2.0 * slot / tau)
 
 
-def as_in_the_table(names: Iterable[str]) -> tuple[str, ...]:
-    """Effects in the table's order: it does not depend on the last digit of a likelihood."""
+def find_rivals(found: CandidateTest, tests: Sequence[CandidateTest]) -> tuple[str, ...]:
+    """Find the effects that explain as much as a finding does, and with no more parameters."""
+    least = max(found.evidence - thresholds.RIVAL_MARGIN, likelihood_threshold())
+    alike = [test.effect for test in tests if test.effect != found.effect and test.evidence > least]
+    return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(found.effect))
+
+
+def sort_by_table(names: Iterable[str]) -> tuple[str, ...]:
+    """Sort effects in the table's order: it does not depend on the last digit of a likelihood."""
     given = set(names)
     return tuple(name for name in EFFECT_BY_NAME if name in given)

@@ -1,173 +1,176 @@
-"""The way up: effects join a model one after the other, each taken because held-out motion speaks for it."""
+"""Forward selection: effects join a model one after the other, each because held-out motion speaks for it.
+
+This is the first half of a stepwise selection (M. Efroymson, 1960); `backward_elimination` is the other.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import sqrt
 
-from motor_identification.diagnosis.candidate_model import Model, Trial, explained, judged
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import CandidateTest, Model, share_explained, validate_model
 from motor_identification.diagnosis.effect_test import (
-    STANDS_IN,
-    accepted,
-    lacking,
-    rivals,
-    size,
-    threshold,
-    tried,
+    choose_finding,
+    count_parameters,
+    find_rivals,
+    likelihood_threshold,
+    list_candidates,
+    try_effects,
 )
-from motor_identification.estimation.direction_correction import redirected
-from motor_identification.estimation.least_squares import Speeds, descend, typical
-from motor_identification.estimation.miscounts import cleaned, find_miscounted, without_tails
-from motor_identification.estimation.problem import Problem
-from motor_identification.progress import Telling
-from motor_identification.recording import Floats
-from motor_identification.validation.held_out import Kept
+from motor_identification.estimation.direction_correction import correct_directions
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds, measure_scatter
+from motor_identification.estimation.miscounts import exclude_miscounts, find_miscounts, fit_robustly
+from motor_identification.progress import ProgressReporter
+from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
-
-MOST = 6  # findings
-NEAR = 3.0  # times the floor: where most intervals may only be spoilt by a few
-FIRST_OF_TWO = 3  # effects that are tried together with any other where none alone is a finding,
-BESIDE = 2  # and fewer than so many findings are there already: what is not in the table would cost minutes
-OTHER_WAYS = 2  # to begin
-NEARLY = 0.75  # of the evidence of the first finding: another way to begin
 
 
 @dataclass(frozen=True)
-class Step:
-    """A finding in the making."""
+class SelectionStep:
+    """One effect that was selected."""
 
     before: Model
-    found: Trial
-    trials: tuple[Trial, ...]  # all that were tried there, best first
+    found: CandidateTest
+    tests: tuple[CandidateTest, ...]  # of all effects that were tried there, best first
     rivals: tuple[str, ...]  # effects that would do as well
     explains: float  # share of the excess over the floor that it takes away; of two that were found together, both do
 
 
 @dataclass(frozen=True)
-class Way:
-    """Steps, where they lead, and what it is judged by; `workers` try effects at a time."""
+class Selection:
+    """The steps of a stepwise selection, the model they lead to, and what it is judged by."""
 
-    steps: tuple[Step, ...]
+    steps: tuple[SelectionStep, ...]
     model: Model
-    kept: Kept
-    workers: int
+    hold_out: HoldOut
+    workers: int  # effects that are tried at a time
+
+    def add(self, steps: Sequence[SelectionStep]) -> "Selection":
+        """Add steps, and fit the model that they lead to once more on corrected recordings."""
+        last = steps[-1].found.model
+        return begin_selection(last.estimate, self.hold_out, self.workers, (*self.steps, *steps))
 
 
-def settled(problem: Problem, place: Floats, kept: Kept) -> tuple[Model, Kept]:
-    """Directions judged by this model, miscounted intervals left out, and fitted again.
+def begin_selection(
+    estimate: Estimate, hold_out: HoldOut, workers: int, steps: tuple[SelectionStep, ...] = ()
+) -> Selection:
+    """Correct directions by an estimate, exclude miscounted intervals, fit again, and validate that.
 
     As long as the model lacks more, only few intervals are plainly off by whole slots. Where nothing else is left once
     all that look like it have gone, they were miscounted.
     """
-    problem = redirected(problem, place)
-    careful = problem.without(find_miscounted(problem, place))
-    place, _evaluations = descend(careful, Speeds(careful), place)
-    kept = kept.redirected(careful, place)
-    model = judged(kept, careful, place)
-    most = without_tails(problem, place)
-    if most is not None and typical(problem, most[0])[1] * sqrt(len(problem.weight)) < NEAR * model.floor:
-        clean, there, _evaluations = cleaned(problem, most[0])
-        rest = judged(kept, clean, there)
-        if rest.at_floor:
-            return rest, kept.redirected(clean, there)
-    return model, kept
+    directed = correct_directions(estimate)
+    careful = fit_speeds(directed.on(directed.problem.without(find_miscounts(directed))))
+    hold_out = hold_out.correct_directions(careful)
+    model = validate_model(hold_out, careful)
+    robust = fit_robustly(careful.on(directed.problem))
+    if robust is not None:
+        scatter = measure_scatter(robust).robust * sqrt(len(directed.problem.weight))
+        if scatter < thresholds.MISCOUNTED_GAP * model.floor:
+            clean = exclude_miscounts(robust)
+            rest = validate_model(hold_out, clean)
+            if rest.at_floor:
+                return Selection(steps, rest, hold_out.correct_directions(clean), workers)
+    return Selection(steps, model, hold_out, workers)
 
 
-def climbed(way: Way, tell: Telling, pairs: bool = True) -> Way:
-    """Effects added as long as one is found; where none is and a gap is left, two at once if there are `pairs`."""
+def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool = True) -> Selection:
+    """Add effects as long as one is found; where none is and a gap is left, two at once if `pairs` are allowed."""
     while True:
-        trials = _all_tried(way, tell)
-        best = accepted(trials)
-        if len(way.steps) >= MOST:
-            return way
+        tests = _try_all_effects(selection, reporter)
+        best = choose_finding(tests)
+        if len(selection.steps) >= thresholds.MOST_FINDINGS:
+            return selection
         if best is not None:
-            way = _taken(way, [Step(way.model, best, tuple(trials), rivals(best, trials), best.explains)])
+            step = SelectionStep(selection.model, best, tuple(tests), find_rivals(best, tests), best.explains)
+            selection = selection.add([step])
             continue
-        hopeful = pairs and len(way.steps) < BESIDE and not way.model.at_floor
-        pair = _pair(way, trials, tell) if hopeful else []
+        hopeful = pairs and len(selection.steps) < thresholds.PAIR_MOST_STEPS and not selection.model.at_floor
+        pair = _find_pair(selection, tests, reporter) if hopeful else []
         if not pair:
-            return way
-        further = climbed(_taken(way, pair), tell, pairs=False)
-        if not further.model.at_floor and pair[-1].explains <= STANDS_IN:
-            return way
-        way = further
+            return selection
+        further = select_forward(selection.add(pair), reporter, pairs=False)
+        if not further.model.at_floor and pair[-1].explains <= thresholds.STAND_IN_SHARE:
+            return selection
+        selection = further
 
 
-def _taken(way: Way, steps: Sequence[Step]) -> Way:
-    last = steps[-1].found.model
-    return Way((*way.steps, *steps), *settled(last.problem, last.place, way.kept), way.workers)
-
-
-def _all_tried(way: Way, tell: Telling) -> list[Trial]:
-    """Every effect that the model lacks, where a finding could be made at all.
+def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[CandidateTest]:
+    """Try every effect that the model lacks, where a finding could be made at all.
 
     Those that repeat with the angle only where others leave a gap; slots learnt without them hide it.
     """
-    number, current = len(way.steps) + 1, way.model
-    left = lacking(current.effects)
+    number, current = len(selection.steps) + 1, selection.model
+    left = list_candidates(current.effects)
     count = 0
 
-    def heard(trial: Trial) -> None:
+    def heard(test: CandidateTest) -> None:
         nonlocal count
         count += 1
         share = 0.1 + 0.8 * (1.0 - 0.5 ** (number - 1)) + 0.8 * 0.5**number * count / len(left)
-        tell(f"step {number}: {trial.effect}", share, trial.effect, min(trial.model.held.gap, current.held.gap))
+        gap = min(test.model.held.gap, current.held.gap)
+        reporter.report(f"step {number}: {test.effect}", share, test.effect, gap)
 
-    plain = [] if current.quiet else [effect for effect in left if not _periodic(effect)]
-    trials = tried(current, way.kept, plain, way.workers, heard)
-    best = accepted(trials)
+    plain = [] if current.quiet else [effect for effect in left if not _is_periodic(effect)]
+    tests = try_effects(current, selection.hold_out, plain, selection.workers, heard)
+    best = choose_finding(tests)
     if best is None or best.model.above_floor:
-        for effect in sorted(filter(_periodic, left), key=size):  # an eccentricity is a line in a ripple's spectrum too
-            least = max((trial.evidence for trial in trials), default=0.0)
-            trials += tried(current, way.kept, [effect], way.workers, heard, max(least, 0.0))
-    return sorted(trials, key=lambda trial: -trial.evidence)
+        periodic = filter(_is_periodic, left)
+        for effect in sorted(periodic, key=count_parameters):  # an eccentricity is a line in a ripple's spectrum too
+            least = max((test.evidence for test in tests), default=0.0)
+            tests += try_effects(current, selection.hold_out, [effect], selection.workers, heard, max(least, 0.0))
+    return sorted(tests, key=lambda test: -test.evidence)
 
 
-def _periodic(effect: str) -> bool:
+def _is_periodic(effect: str) -> bool:
     return EFFECT_BY_NAME[effect].periodic
 
 
-def _pair(way: Way, trials: Sequence[Trial], tell: Telling) -> list[Step]:
-    """The two effects that explain most together where neither does alone, as two steps; none if there are no such."""
-    current, found = way.model, []
-    likely = [trial for trial in trials if trial.evidence > threshold() and not _periodic(trial.effect)]
-    for i, first in enumerate(likely[:FIRST_OF_TWO]):
-        left = [effect for effect in lacking(first.model.effects) if not _periodic(effect)]
+def _find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: ProgressReporter) -> list[SelectionStep]:
+    """Find the two effects that explain most together where neither does alone, as two steps, if there are such."""
+    current, found = selection.model, []
+    likely = [test for test in tests if test.evidence > likelihood_threshold() and not _is_periodic(test.effect)]
+    for i, first in enumerate(likely[: thresholds.PAIR_PARTNERS]):
+        left = [effect for effect in list_candidates(first.model.effects) if not _is_periodic(effect)]
 
-        def heard(trial: Trial, first: Trial = first) -> None:
-            tell(f"{first.effect} with {trial.effect}", 0.5, trial.effect, trial.model.held.gap)
+        def heard(test: CandidateTest, first: CandidateTest = first) -> None:
+            reporter.report(f"{first.effect} with {test.effect}", 0.5, test.effect, test.model.held.gap)
 
-        seconds = tried(first.model, way.kept, left, way.workers, heard)
-        second = accepted(seconds)
+        seconds = try_effects(first.model, selection.hold_out, left, selection.workers, heard)
+        second = choose_finding(seconds)
         if second is None:
             continue
-        together = explained(current.held.gap, second.model.held.gap, second.model.floor)
+        together = share_explained(current.held.gap, second.model.held.gap, second.model.floor)
         steps = [
-            Step(current, first, tuple(trials), (), together),
-            Step(first.model, second, tuple(seconds), rivals(second, seconds), together),
+            SelectionStep(current, first, tuple(tests), (), together),
+            SelectionStep(first.model, second, tuple(seconds), find_rivals(second, seconds), together),
         ]
         found.append((second.model.likelihood, -i, steps))
     return max(found)[2] if found else []
 
 
-def by_another_way(way: Way, tell: Telling) -> Way:
-    """Where the gap stays above the floor, what was nearly taken first is taken instead, and all that follows from it.
+def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -> Selection:
+    """Select forward again from another first effect that was nearly as likely, where the gap stays above the floor.
 
-    While others are missing too, one effect can do as well as another, and the wrong one blocks the way; not one that
-    explains nearly everything.
+    While others are missing too, one effect can do as well as another, and the wrong one ends in a local minimum of the
+    selection; not one that explains nearly everything.
     """
-    if not way.steps or way.model.at_floor or way.steps[0].explains > STANDS_IN:
-        return way
-    first = way.steps[0]
-    likely = max(NEARLY * first.found.evidence, threshold())
-    others = [trial for trial in first.trials if trial is not first.found and trial.evidence > likely]
-    for trial in others[:OTHER_WAYS]:
-        left = tuple(name for name in first.rivals if name != trial.effect)
-        begun = Step(first.before, trial, first.trials, left, trial.explains)
-        start = Way((begun,), *settled(trial.model.problem, trial.model.place, way.kept), way.workers)
-        other = climbed(start, tell, pairs=False)
-        if other.model.held.gap < way.model.held.gap:
-            way = other
+    steps = selection.steps
+    if not steps or selection.model.at_floor or steps[0].explains > thresholds.STAND_IN_SHARE:
+        return selection
+    first = steps[0]
+    likely = max(thresholds.SECOND_START_EVIDENCE * first.found.evidence, likelihood_threshold())
+    others = [test for test in first.tests if test is not first.found and test.evidence > likely]
+    for test in others[: thresholds.SECOND_STARTS]:
+        rivals = tuple(name for name in first.rivals if name != test.effect)
+        begun = SelectionStep(first.before, test, first.tests, rivals, test.explains)
+        start = begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
+        other = select_forward(start, reporter, pairs=False)
+        if other.model.held.gap < selection.model.held.gap:
+            selection = other
         else:
-            rest = tuple(name for name in way.steps[0].rivals if name != trial.effect)
-            way = replace(way, steps=(replace(way.steps[0], rivals=rest), *way.steps[1:]))
-    return way
+            head, *tail = selection.steps
+            rest = tuple(name for name in head.rivals if name != test.effect)
+            selection = replace(selection, steps=(replace(head, rivals=rest), *tail))
+    return selection

@@ -1,4 +1,4 @@
-"""What a diagnosis returns: which effects were missing, what each of them explains, and what is left."""
+"""The result of a diagnosis: which effects were missing, what each of them explains, and what is left."""
 
 from dataclasses import dataclass
 from enum import Enum
@@ -54,7 +54,7 @@ class Diagnosis:
     noise_floor: float
     undetectable: tuple[str, ...]  # effects that this recording could not have shown
     suggested_experiment: str
-    before: HeldOut  # the baseline on held-out data; gives `problem`, `place`, `residuals`, what counts
+    before: HeldOut  # the baseline on held-out data
     after: HeldOut
     slot_share: float  # irregularity of the slots behind the noise floor, as a share of a slot
     bags: tuple[str, ...]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motor_identification.discrepancy.operating_conditions import Situations, situations
+from motor_identification.discrepancy.operating_conditions import OperatingConditions, find_conditions
 from motor_identification.recording import Floats, Integers
 from motor_identification.validation.held_out import HeldOut
 
@@ -18,19 +18,19 @@ MOST_RUNS = 40
 
 
 @dataclass(frozen=True)
-class Repeat:
+class AngleHarmonic:
     """A line at so many cycles a turn, in every run of the measured angle with a phase of its own."""
 
     cycles: int
     share: float  # of the excess (in squares); learnt on every other block of time, counted on the rest
 
 
-def repeat_of(held: HeldOut, share: float) -> Repeat | None:
+def find_angle_harmonic(held: HeldOut, share: float) -> AngleHarmonic | None:
     """The strongest line; None where there is none. `share`: irregularity behind the floor, of a slot.
 
     What moves slowly can be imitated by any wave; so a line has to explain more than waves that fall between the lines.
     """
-    seen = situations(held)
+    seen = find_conditions(held)
     squares = seen.duration * (held.residuals**2 - held.floors(share) ** 2)
     chosen = _longest_runs(seen)
     if not chosen or held.gap < PLAIN * held.floor(share):
@@ -40,13 +40,13 @@ def repeat_of(held: HeldOut, share: float) -> Repeat | None:
     imitated = max(_share(held, seen, squares, chosen, cycles - 0.5) for cycles in lines)
     best = int(np.argmax(explained))
     return (
-        Repeat(int(lines[best]), min(explained[best], 1.0))
+        AngleHarmonic(int(lines[best]), min(explained[best], 1.0))
         if explained[best] > CLEARER * max(imitated, CHANCE)
         else None
     )
 
 
-def _longest_runs(seen: Situations) -> list[Integers]:
+def _longest_runs(seen: OperatingConditions) -> list[Integers]:
     """Which intervals belong to each of the longest runs of the measured angle: from one to the next it may slip."""
     numbers, sizes = np.unique(seen.run, return_counts=True)
     longest = numbers[np.argsort(-sizes, kind="stable")[:MOST_RUNS]]
@@ -55,7 +55,7 @@ def _longest_runs(seen: Situations) -> list[Integers]:
     return [order[low:high] for low, high in bounds if high - low >= FEWEST]
 
 
-def _share(held: HeldOut, seen: Situations, squares: Floats, runs: list[Integers], cycles: float) -> float:
+def _share(held: HeldOut, seen: OperatingConditions, squares: Floats, runs: list[Integers], cycles: float) -> float:
     """Of the excess, what waves of so many cycles a turn explain in blocks of time that they were not learnt on."""
     size = np.abs(seen.speed) / max(float(np.abs(seen.speed).max(initial=0.0)), 1e-9)
     waves = np.column_stack([np.sin(cycles * seen.angle), np.cos(cycles * seen.angle)])
@@ -63,7 +63,9 @@ def _share(held: HeldOut, seen: Situations, squares: Floats, runs: list[Integers
     return max(_of_one_law(held, seen, squares, runs, waves * law[:, None]) for law in (size, 0.05 / (size + 0.05)))
 
 
-def _of_one_law(held: HeldOut, seen: Situations, squares: Floats, runs: list[Integers], waves: Floats) -> float:
+def _of_one_law(
+    held: HeldOut, seen: OperatingConditions, squares: Floats, runs: list[Integers], waves: Floats
+) -> float:
     explained = total = 0.0
     for run in runs:
         first = np.floor(seen.time[run] / BLOCK) % 2 == 0

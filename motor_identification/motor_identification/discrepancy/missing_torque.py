@@ -10,7 +10,7 @@ from math import tau
 
 import numpy as np
 
-from motor_identification.discrepancy.operating_conditions import Situations, situations
+from motor_identification.discrepancy.operating_conditions import OperatingConditions, find_conditions
 from motor_identification.recording import Bools, Floats, Integers
 from motor_identification.validation.held_out import HeldOut
 
@@ -23,7 +23,7 @@ NAMES = {"speed": "speed [rad/s]", "angle": "shaft angle [rad]", "time": "time [
 
 
 @dataclass(frozen=True)
-class Shape:
+class MissingTorque:
     """The missing torque in B bins, [V]; positive drives backward. NaN where a bin has too little time."""
 
     axis: str  # speed | angle | time
@@ -34,15 +34,15 @@ class Shape:
     seconds: Floats  # (B,)
 
 
-def shape_left(held: HeldOut) -> tuple[Shape, ...]:
+def estimate_missing_torque(held: HeldOut) -> tuple[MissingTorque, ...]:
     """What torque is missing over speed, and over angle and time of every recording."""
-    seen = situations(held)
+    seen = find_conditions(held)
     torque, good = _torque(held, seen)
     top = float(np.abs(seen.speed).max(initial=0.0)) or 1.0
     longest = float(seen.time.max(initial=0.0)) or 1.0
     block = np.floor(seen.time / BLOCK).astype(np.int64) + 1_000_000 * seen.recording
     shapes = [_shape("speed", -1, _even(-top, top, BINS + 1), seen.speed, torque, seen.duration, block, good)]
-    for number in range(len(held.problem.recordings)):
+    for number in range(len(held.recordings)):
         here = good & (seen.recording == number)
         for axis, edges, values in (
             ("angle", _even(0.0, tau, BINS), np.mod(seen.angle, tau)),
@@ -56,17 +56,13 @@ def _even(low: float, high: float, bins: int) -> Floats:
     return np.asarray(np.linspace(low, high, bins + 1), dtype=np.float64)
 
 
-def _torque(held: HeldOut, seen: Situations) -> tuple[Floats, Bools]:
+def _torque(held: HeldOut, seen: OperatingConditions) -> tuple[Floats, Bools]:
     """[V] in every interval that counts, and where it means anything: motor and simulation turn, and so do neighbours.
 
     The derivative is taken between the two neighbours, of all intervals, counted or not.
     """
-    problem = held.problem
-    left = problem.residuals(held.place)
     slopes, known = [], []
-    for data, part in zip(
-        problem.intervals, np.split(left, np.cumsum([len(d.first) for d in problem.intervals])[:-1]), strict=True
-    ):
+    for data, part in zip(held.intervals, held.residuals_of, strict=True):
         middle = 0.5 * (data.time[data.first] + data.time[data.last])
         fresh = data.fresh
         inner = np.zeros(len(part), dtype=bool)
@@ -75,7 +71,7 @@ def _torque(held: HeldOut, seen: Situations) -> tuple[Floats, Bools]:
         slope[1:-1] = (part[2:] - part[:-2]) / np.where(inner[1:-1], middle[2:] - middle[:-2], 1.0)
         slopes.append(slope)
         known.append(inner)
-    values = problem.unknowns.parameters(held.place, "").values
+    values = held.parameters.values
     turning = ~seen.still & (seen.speed * (seen.speed + held.residuals) > 0.0)
     torque = values["ka"] * np.concatenate(slopes)[held.counted] + values["kv"] * held.residuals
     return np.asarray(torque), turning & np.concatenate(known)[held.counted]
@@ -90,7 +86,7 @@ def _shape(
     duration: Floats,
     block: Integers,
     here: Bools,
-) -> Shape:
+) -> MissingTorque:
     bins = len(edges) - 1
     index = np.clip(np.searchsorted(edges, values[here], side="right") - 1, 0, bins - 1)
     _, which = np.unique(block[here], return_inverse=True)
@@ -105,10 +101,10 @@ def _shape(
         scatter = (
             np.sqrt(np.sum((sums - mean[:, None] * seconds) ** 2, axis=1) * count / np.maximum(count - 1, 1)) / total
         )
-    return Shape(axis, number, edges, np.where(enough, mean, np.nan), np.where(enough, scatter, np.nan), total)
+    return MissingTorque(axis, number, edges, np.where(enough, mean, np.nan), np.where(enough, scatter, np.nan), total)
 
 
-def describe_torque(shapes: tuple[Shape, ...]) -> str:
+def describe_torque(shapes: tuple[MissingTorque, ...]) -> str:
     """Describe the residual torque over the axis that shows most of it; empty if none is significant."""
     rows = [(_power(shape), shape) for shape in shapes if np.count_nonzero(_clear(shape)) >= SEVERAL]
     if not rows:
@@ -122,11 +118,11 @@ def describe_torque(shapes: tuple[Shape, ...]) -> str:
     return f"Residual torque over the {name}: {span}, largest near {middle:.2g} {unit}."
 
 
-def _clear(shape: Shape) -> Bools:
+def _clear(shape: MissingTorque) -> Bools:
     return np.nan_to_num(np.abs(shape.torque)) > CLEAR * np.nan_to_num(shape.error, nan=np.inf)
 
 
-def _power(shape: Shape) -> float:
+def _power(shape: MissingTorque) -> float:
     """[V²] mean square of the torque, less what its errors alone would show."""
     known = np.isfinite(shape.torque) & np.isfinite(shape.error)
     return float(np.average((shape.torque**2 - shape.error**2)[known], weights=shape.seconds[known]))

@@ -19,7 +19,7 @@ SMOOTHING = 0.0125  # [s] to either side of an interval over which its accelerat
 
 
 @dataclass(frozen=True)
-class Situations:
+class OperatingConditions:
     """One entry for every interval that counts, all of shape (I,), in the order of `HeldOut.residuals`."""
 
     speed: Floats  # [rad/s] signed, measured; 0 at a standstill
@@ -34,20 +34,19 @@ class Situations:
     still: Bools  # no edge came: the motor moved less than a slot
 
 
-def situations(held: HeldOut) -> Situations:
+def find_conditions(held: HeldOut) -> OperatingConditions:
     """What the motor was doing in every interval that counts."""
-    problem = held.problem
-    rows = zip(problem.recordings, problem.intervals, problem.angles(held.place), strict=True)
+    rows = zip(held.recordings, held.intervals, held.angles, strict=True)
     parts = [_of_one(number, recording, data, angle) for number, (recording, data, angle) in enumerate(rows)]
-    return Situations(
+    return OperatingConditions(
         **{
             field.name: np.concatenate([getattr(part, field.name) for part in parts])[held.counted]
-            for field in fields(Situations)
+            for field in fields(OperatingConditions)
         }
     )
 
 
-def _of_one(number: int, recording: Recording, data: Intervals, angle: Floats) -> Situations:
+def _of_one(number: int, recording: Recording, data: Intervals, angle: Floats) -> OperatingConditions:
     start, end = data.time[data.first], data.time[data.last]
     middle = 0.5 * (start + end)
     track: Track = make_track(data, angle)
@@ -56,7 +55,7 @@ def _of_one(number: int, recording: Recording, data: Intervals, angle: Floats) -
     since, acceleration = np.empty(len(middle)), np.empty(len(middle))
     since[order] = _since(start[order], end[order], data.speed[order], data.slack[order] > 0.0)
     acceleration[order] = _slope(middle[order], np.abs(data.speed[order]))
-    return Situations(
+    return OperatingConditions(
         speed=data.speed,
         acceleration=acceleration,
         since=since,

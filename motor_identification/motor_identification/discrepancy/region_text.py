@@ -1,11 +1,11 @@
 """Describe where the error of a model is largest: the condition, the size beside the noise floor, the share of it."""
 
-from motor_identification.discrepancy.angle_harmonics import Repeat, repeat_of
-from motor_identification.discrepancy.worst_regions import Region, worst
+from motor_identification.discrepancy.angle_harmonics import AngleHarmonic, find_angle_harmonic
+from motor_identification.discrepancy.worst_regions import Region, find_worst_regions
 from motor_identification.validation.held_out import HeldOut
 
-AT_FLOOR = 1.1  # times the floor: nothing to find
-TELLING = 0.3  # share of the excess that has to repeat with the angle, to be worth saying before anything else
+LOCATABLE_GAP = 1.1  # times the floor: below, no region is worse than chance makes it
+REPEATING_SHARE = 0.3  # share of the excess that has to repeat with the angle, to be worth saying before anything else
 
 
 def describe_error(held: HeldOut, share: float) -> str:
@@ -16,13 +16,13 @@ def describe_error(held: HeldOut, share: float) -> str:
     if not held.counted.any():
         return "no motion was kept for validation"
     floor = held.floor(share)
-    if held.gap <= AT_FLOOR * floor:
+    if held.gap <= LOCATABLE_GAP * floor:
         return f"the error is at the noise floor everywhere ({_size(held.gap, floor)})"
-    repeat = repeat_of(held, share)
-    if repeat is not None and repeat.share > TELLING:
+    repeat = find_angle_harmonic(held, share)
+    if repeat is not None and repeat.share > REPEATING_SHARE:
         excess = f"about {100 * repeat.share:.0f} % of the excess error"
         return f"the error repeats {_often(repeat)} per revolution ({_size(held.gap, floor)}; {excess})"
-    said = f"largest error {describe_region(worst(held, share, 1)[0])}"
+    said = f"largest error {describe_region(find_worst_regions(held, share, 1)[0])}"
     return said if repeat is None else f"{said}; a part of it repeats {_often(repeat)} per revolution"
 
 
@@ -47,5 +47,5 @@ def _size(gap: float, floor: float) -> str:
     return f"RMS {gap:.3g} rad/s, {f'{ratio:.2g}' if ratio < 99.5 else f'{ratio:.0f}'} × the noise floor"
 
 
-def _often(repeat: Repeat) -> str:
+def _often(repeat: AngleHarmonic) -> str:
     return "once" if repeat.cycles == 1 else f"{repeat.cycles} times"

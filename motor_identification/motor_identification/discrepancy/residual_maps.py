@@ -10,7 +10,7 @@ from math import inf, tau
 
 import numpy as np
 
-from motor_identification.discrepancy.operating_conditions import Situations, situations
+from motor_identification.discrepancy.operating_conditions import OperatingConditions, find_conditions
 from motor_identification.recording import Bools, Floats
 from motor_identification.validation.held_out import HeldOut
 
@@ -25,7 +25,7 @@ class Axis:
     name: str
     label: str
     unit: str
-    values: Callable[[Situations], Floats]  # (I,); NaN: not on this map
+    values: Callable[[OperatingConditions], Floats]  # (I,); NaN: not on this map
     edges: Callable[[Floats], Floats]  # of the bins, from the finite values
     along: bool = False
     of_recording: bool = False  # a map for each recording, since it begins anew in each
@@ -84,14 +84,14 @@ AXES = (
 )  # fmt: skip
 
 
-def maps(held: HeldOut, share: float) -> tuple[Map, ...]:
+def map_residuals(held: HeldOut, share: float) -> tuple[Map, ...]:
     """The residual over every axis; `share` is the irregularity of the slots behind the floor, as a share of a slot."""
-    seen = situations(held)
+    seen = find_conditions(held)
     floors = held.floors(share)
     made = []
     for axis in AXES:
         values = axis.values(seen)
-        numbers = range(len(held.problem.recordings)) if axis.of_recording else (-1,)
+        numbers = range(len(held.recordings)) if axis.of_recording else (-1,)
         edges = axis.edges(values[np.isfinite(values)])
         for number in numbers:
             here = (seen.recording == number) if number >= 0 else np.ones(len(values), dtype=bool)
@@ -100,11 +100,18 @@ def maps(held: HeldOut, share: float) -> tuple[Map, ...]:
 
 
 def _map(
-    axis: Axis, number: int, edges: Floats, values: Floats, here: Bools, seen: Situations, left: Floats, floors: Floats
+    axis: Axis,
+    number: int,
+    edges: Floats,
+    values: Floats,
+    here: Bools,
+    seen: OperatingConditions,
+    left: Floats,
+    floors: Floats,
 ) -> Map:
     bins = len(edges) - 1
     index = np.clip(np.searchsorted(edges, values[here], side="right") - 1, 0, bins - 1)
-    bias = along(seen, left) if axis.along else left
+    bias = project_on_motion(seen, left) if axis.along else left
     seconds: Floats = np.bincount(index, seen.duration[here], bins).astype(np.float64)
 
     def mean(what: Floats) -> Floats:
@@ -114,6 +121,6 @@ def _map(
     return Map(axis, number, edges, np.sqrt(mean(left**2)), np.sqrt(mean(floors**2)), mean(bias), seconds)
 
 
-def along(seen: Situations, left: Floats) -> Floats:
+def project_on_motion(seen: OperatingConditions, left: Floats) -> Floats:
     """[rad/s] residuals counted along the motion: positive where the simulation is too fast."""
     return np.where(seen.still, np.abs(left), left * np.sign(seen.speed))

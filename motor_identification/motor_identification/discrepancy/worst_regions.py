@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motor_identification.discrepancy.operating_conditions import Situations, situations
+from motor_identification.discrepancy.operating_conditions import OperatingConditions, find_conditions
 from motor_identification.recording import Bools, Floats
 from motor_identification.validation.held_out import HeldOut
 
@@ -38,11 +38,11 @@ class _Condition:
     inside: Bools
 
 
-def worst(held: HeldOut, share: float, count: int = 3) -> tuple[Region, ...]:
+def find_worst_regions(held: HeldOut, share: float, count: int = 3) -> tuple[Region, ...]:
     """The worst regions that do not overlap, the worst first; none only where no motion is held out."""
     if not held.counted.any():
         return ()
-    seen = situations(held)
+    seen = find_conditions(held)
     squares = held.weight * (held.residuals**2 - held.floors(share) ** 2)
     conditions = list(_conditions(held, seen))
     open_, found = np.ones(len(squares), dtype=bool), list[Region]()
@@ -58,13 +58,13 @@ def worst(held: HeldOut, share: float, count: int = 3) -> tuple[Region, ...]:
 
 
 def _worst_of(
-    held: HeldOut, share: float, seen: Situations, squares: Floats, conditions: list[_Condition], open_: Bools
+    held: HeldOut, share: float, seen: OperatingConditions, squares: Floats, conditions: list[_Condition], open_: Bools
 ) -> Region:
     """The condition, or two on different axes, whose share of the excess is most above its share of the time."""
     inside = np.array([one.inside & open_ for one in conditions], dtype=np.float64)
     excess = (inside * squares) @ inside.T / max(float(squares @ open_), 1e-300)
     time = (inside * held.weight) @ inside.T / max(float(held.weight @ open_), 1e-300)
-    contrast = contrasts(np.clip(excess, 0.0, 1.0), time)
+    contrast = measure_contrast(np.clip(excess, 0.0, 1.0), time)
     axes = np.array([one.axis for one in conditions])
     of_recording = (axes[:, None] == "recording") | (axes[None, :] == "recording")
     contrast = np.where(of_recording, contrast - UNPHYSICAL, contrast)
@@ -80,7 +80,7 @@ def _worst_of(
     return _region(held, share, seen, squares, chosen, open_)
 
 
-def contrasts(excess: Floats, time: Floats) -> Floats:
+def measure_contrast(excess: Floats, time: Floats) -> Floats:
     """[nat] Kullback-Leibler divergence of where the excess is from where the time is; 0 where there is less of it."""
     tiny = 1e-12
     inner = excess * np.log((excess + tiny) / (time + tiny))
@@ -89,7 +89,7 @@ def contrasts(excess: Floats, time: Floats) -> Floats:
 
 
 def _region(
-    held: HeldOut, share: float, seen: Situations, squares: Floats, chosen: list[_Condition], open_: Bools
+    held: HeldOut, share: float, seen: OperatingConditions, squares: Floats, chosen: list[_Condition], open_: Bools
 ) -> Region:
     inside = np.all([one.inside for one in chosen], axis=0) & open_
     weight = held.weight[inside]
@@ -115,11 +115,11 @@ def _joined(chosen: list[_Condition]) -> str:
     return ", ".join((first, *(words.removeprefix("at ") for words in others)))
 
 
-def _conditions(held: HeldOut, seen: Situations) -> Iterator[_Condition]:
+def _conditions(held: HeldOut, seen: OperatingConditions) -> Iterator[_Condition]:
     """Everything that a region may be said to be, in the order in which two of them are said."""
     size, moving = np.abs(seen.speed), ~seen.still
     yield _Condition("speed", "at standstill", seen.still)
-    for limit in thresholds(size):
+    for limit in choose_thresholds(size):
         yield _Condition("speed", f"at |ω| < {limit:g} rad/s", moving & (size < limit))
         yield _Condition("speed", f"at |ω| > {limit:g} rad/s", size > limit)
     yield _Condition("direction", "in forward motion", seen.speed > 0.0)
@@ -131,24 +131,24 @@ def _conditions(held: HeldOut, seen: Situations) -> Iterator[_Condition]:
     yield from _driven(seen, moving)
     for limit in MOMENTS:
         yield _Condition("since", f"within {limit:g} s after a standstill or reversal", moving & (seen.since < limit))
-    for limit in thresholds(seen.time):
+    for limit in choose_thresholds(seen.time):
         yield _Condition("time", f"at t > {limit:g} s", seen.time > limit)
         yield _Condition("time", f"at t < {limit:g} s", seen.time < limit)
-    if len(held.problem.recordings) > 1:
-        for number, recording in enumerate(held.problem.recordings):
+    if len(held.recordings) > 1:
+        for number, recording in enumerate(held.recordings):
             yield _Condition("recording", f"in {recording.uri}", seen.recording == number)
 
 
-def _driven(seen: Situations, moving: Bools) -> Iterator[_Condition]:
+def _driven(seen: OperatingConditions, moving: Bools) -> Iterator[_Condition]:
     size = np.abs(seen.voltage)
     yield _Condition("voltage", "at u = 0", moving & (size == 0.0))
     yield _Condition("voltage", "while the voltage opposes the motion", seen.voltage * seen.speed < 0.0)
-    for limit in thresholds(size):
+    for limit in choose_thresholds(size):
         yield _Condition("voltage", f"at |u| < {limit:g} V", moving & (size < limit))
         yield _Condition("voltage", f"at |u| > {limit:g} V", moving & (size > limit))
 
 
-def thresholds(values: Floats) -> list[float]:
+def choose_thresholds(values: Floats) -> list[float]:
     """Shares of the largest value, rounded to two digits."""
     top = float(values.max(initial=0.0))
     return sorted({float(f"{share * top:.2g}") for share in SHARES if share * top > 0.0})

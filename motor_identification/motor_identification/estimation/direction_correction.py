@@ -1,4 +1,4 @@
-"""Which way a single-channel motor turned, from the motion that a first fit has found: the encoder does not say.
+"""Correct the directions of a single-channel encoder, which it does not measure, by the motion that a fit has found.
 
 The reported sign comes late, and where the bridge is slow or a load drives, it can be wrong for many edges. A fitted
 model knows better wherever it is surely moving.
@@ -9,37 +9,40 @@ from math import sqrt
 
 import numpy as np
 
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
-from motor_identification.measurement.build_intervals import intervals_between, intervals_of_changes
-from motor_identification.measurement.edges import edges_of
+from motor_identification.measurement.build_intervals import make_count_intervals, make_edge_intervals
+from motor_identification.measurement.edges import extract_edges
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.measurement.sampled_counts import changes_of, in_runs
+from motor_identification.measurement.sampled_counts import extract_count_changes, number_runs
 from motor_identification.recording import Floats, Integers, Recording
 from motor_model.sample import Measurement
 from motor_model.simulate import NOWHERE, roll_out
 
-SURELY = 4.0  # times the fit's residual that the simulated speed must have for its sign to count
-LESS, ROUNDS = 0.5, 4  # of the residual: where it falls below that, directions are judged once more
+SURE_SPEED = 4.0  # times the fit's residual that the simulated speed must have for its sign to count
+WORTH_ANOTHER_ROUND = 0.5  # of the residual before: where it falls below that, directions are chosen once more,
+MOST_ROUNDS = 4  # so often at most
 
 
-def redirected(problem: Problem, place: Floats) -> Problem:
-    """The same problem with every edge's direction judged by the motion at a fitted place (D,).
+def correct_directions(estimate: Estimate) -> Estimate:
+    """Choose every edge's direction by the motion of an estimate, whose θ stays as it is.
 
     As long as stretches are read the wrong way, the residual is theirs, and much is left open; once they are out of it,
     the rest is judged by what it really is.
     """
-    rms = sqrt(problem.cost(place))
-    for _ in range(ROUNDS):
-        problem = _read_again(problem, place, SURELY * rms)
-        before, rms = rms, sqrt(problem.cost(place))
-        if not rms < LESS * before:
+    rms = sqrt(estimate.cost)
+    for _ in range(MOST_ROUNDS):
+        estimate = estimate.on(_read_again(estimate, SURE_SPEED * rms))
+        before, rms = rms, sqrt(estimate.cost)
+        if not rms < WORTH_ANOTHER_ROUND * before:
             break
-    return problem
+    return estimate
 
 
-def _read_again(problem: Problem, place: Floats, surely: float) -> Problem:
-    """The same problem with the sign of the simulated speed wherever it exceeds `surely` [rad/s]."""
-    vectors, starts = problem.unknowns.decode(place[None])
+def _read_again(estimate: Estimate, surely: float) -> Problem:
+    """Read the recordings with the sign of the simulated speed wherever it exceeds `surely` [rad/s]."""
+    problem = estimate.problem
+    vectors, starts = problem.unknowns.decode(estimate.theta[None])
     intervals = []
     for r, (recording, data) in enumerate(zip(problem.recordings, problem.intervals, strict=True)):
         reader = _READERS.get(recording.info.measurement)
@@ -48,7 +51,7 @@ def _read_again(problem: Problem, place: Floats, surely: float) -> Problem:
             continue
         motion = _Motion(vectors[0, r], float(starts[0, r]), problem.commands[r])
         intervals.append(reader(recording, motion, surely))
-    return problem.read_again(tuple(intervals))
+    return problem.with_intervals(tuple(intervals))
 
 
 @dataclass(frozen=True)
@@ -68,22 +71,24 @@ class _Motion:
 
 
 def _edges_again(recording: Recording, motion: _Motion, surely: float) -> Intervals:
-    edges = edges_of(recording)
-    direction = judged(edges.direction, motion.speed_at(edges.time), surely)
-    return intervals_between(recording, replace(edges, direction=direction))
+    edges = extract_edges(recording)
+    direction = choose_directions(edges.direction, motion.speed_at(edges.time), surely)
+    return make_edge_intervals(recording, replace(edges, direction=direction))
 
 
 def _counts_again(recording: Recording, motion: _Motion, surely: float) -> Intervals:
-    changes = changes_of(recording)
-    way = judged(changes.way, motion.speed_at(recording.time[changes.sample]), surely)
-    return intervals_of_changes(recording, in_runs(changes.sample, way))
+    changes = extract_count_changes(recording)
+    way = choose_directions(changes.way, motion.speed_at(recording.time[changes.sample]), surely)
+    return make_count_intervals(recording, number_runs(changes.sample, way))
 
 
 _READERS = {Measurement.EDGES: _edges_again, Measurement.COUNTS: _counts_again}
 
 
-def judged(reported: Integers, simulated: Floats, surely: float) -> Integers:
-    """Directions of edges (E,): the simulated speed's sign where it exceeds `surely` [rad/s]; below that the reported
-    one where both agree, else 0 for open."""
+def choose_directions(reported: Integers, simulated: Floats, surely: float) -> Integers:
+    """Choose directions of edges (E,): the simulated speed's sign where it exceeds `surely` [rad/s].
+
+    Below that the reported one where both agree, else 0 for open.
+    """
     sign = np.sign(simulated).astype(np.int64)
     return np.where(np.abs(simulated) > surely, sign, np.where(sign == reported, reported, 0))

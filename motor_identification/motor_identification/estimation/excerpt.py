@@ -24,7 +24,7 @@ ANYWHERE = frozenset(effect.name for effect in EFFECTS if effect.anywhere)
 BEGINNING = frozenset(effect.name for effect in EFFECTS if effect.periodic)
 
 
-def excerpt(problem: Problem, longest: float = LONG) -> Problem:
+def take_excerpt(problem: Problem, longest: float = LONG) -> Problem:
     """A problem with the same unknowns and at most so many seconds of motion; the same one if it is short enough.
 
     Join intervals before (`Problem.coarse`), not after: joining starts at the recording's beginning again. Each piece

@@ -1,81 +1,157 @@
-"""Least squares from a place in the box: the end of a search that a swarm began."""
+"""Least squares from a start in the box: where every descent to a local minimum ends, whatever its residuals.
 
+One solver serves all of them (SciPy's trust region reflective algorithm): the output error of a fit, its whitened
+residuals, the descents of a global search, the nuisance parameters of held-out recordings.
+"""
+
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from scipy.optimize import least_squares
 
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
-from motor_identification.recording import Floats
+from motor_identification.recording import Bools, Floats
 
-LEAST_GAIN = 4.0  # of a sum of squared standard deviations, for a closer look
+LEAST_GAIN = 4.0  # squared standard deviations: chance alone gains 1 by a parameter more, and 4 in one case of 20
+INNER_MARGIN = 1e-9  # of the box: the solver takes no start on a wall
+ROBUST_SIGMA = 1.4826  # standard deviation of a normal distribution over the median of its absolute values
 
 
 class Residuals(Protocol):
     """Something least squares can minimise."""
 
-    def residuals(self, place: Floats) -> Floats:
+    def residuals(self, theta: Floats) -> Floats:
         """(D,) → any number of residuals."""
 
-    def jacobian(self, place: Floats) -> Floats:
+    def jacobian(self, theta: Floats) -> Floats:
         """Their derivative, one column for each unknown."""
 
 
 @dataclass(frozen=True)
-class Speeds:
-    """The swarm's cost as residuals: mean speeds weighted by the root of their share of the time."""
+class Box:
+    """Where the unknowns may lie, shape (D,) each; `periodic` ones have no walls, their ends are the same value."""
+
+    low: Floats
+    high: Floats
+    periodic: Bools | None = None
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """When the solver stops: relative changes of cost and unknowns, scaled gradient, and iterations at most."""
+
+    cost: float = 1e-8
+    unknowns: float = 1e-8
+    gradient: float = 1e-8
+    iterations: int = 60
+
+
+@dataclass(frozen=True)
+class LocalMinimum:
+    """Where a descent ended, the sum of squares there, and how often it asked for residuals and derivatives."""
+
+    theta: Floats  # (D,)
+    cost: float
+    residual_calls: int
+    jacobian_calls: int
+
+
+def minimise_squares(
+    residuals: Callable[[Floats], Floats],
+    jacobian: Callable[[Floats], Floats] | None,
+    start: Floats,
+    box: Box,
+    tolerance: Tolerance,
+    step: float | None = None,
+    robust_scale: float = np.inf,
+) -> LocalMinimum:
+    """Minimise a sum of squares within a box from a start (D,), by trust region reflective least squares.
+
+    Without a `jacobian` it is had by forward differences of relative size `step`. Residuals far above `robust_scale`
+    count by their size, not by its square (soft L1 loss): a few false ones do not pull.
+    """
+    span = box.high - box.low
+    free = np.zeros(len(span), dtype=bool) if box.periodic is None else box.periodic
+    robust = bool(np.isfinite(robust_scale))
+    end = least_squares(
+        residuals,
+        np.clip(start, box.low + INNER_MARGIN * span, box.high - INNER_MARGIN * span),
+        jac="2-point" if jacobian is None else jacobian,
+        diff_step=step,
+        bounds=(np.where(free, -np.inf, box.low), np.where(free, np.inf, box.high)),
+        x_scale=span,
+        ftol=tolerance.cost,
+        xtol=tolerance.unknowns,
+        gtol=tolerance.gradient,
+        max_nfev=tolerance.iterations,
+        loss="soft_l1" if robust else "linear",
+        f_scale=robust_scale if robust else 1.0,
+    )
+    theta = np.where(free, box.low + (end.x - box.low) % span, end.x)
+    return LocalMinimum(theta, float(2.0 * end.cost), int(end.nfev), int(end.njev or 0))
+
+
+@dataclass(frozen=True)
+class SpeedResiduals:
+    """The output error as residuals: mean speeds weighted by the root of their share of the time."""
 
     problem: Problem
 
-    def residuals(self, place: Floats) -> Floats:
-        """Weighted residuals at a place (D,), shape (I,)."""
-        return np.asarray(np.sqrt(self.problem.weight) * self.problem.residuals(place))
+    def residuals(self, theta: Floats) -> Floats:
+        """Weighted residuals at θ (D,), shape (I,)."""
+        return np.asarray(np.sqrt(self.problem.weight) * self.problem.residuals(theta))
 
-    def jacobian(self, place: Floats) -> Floats:
+    def jacobian(self, theta: Floats) -> Floats:
         """Their derivative, shape (I, D)."""
-        return np.asarray(np.sqrt(self.problem.weight)[:, None] * self.problem.jacobian(place))
+        return np.asarray(np.sqrt(self.problem.weight)[:, None] * self.problem.jacobian(theta))
 
 
-def descend(
-    problem: Problem,
+def fit_speeds(
+    start: Estimate, robust_scale: float = np.inf, iterations: int = 60, tolerance: float = 1e-12
+) -> Estimate:
+    """Minimise the output error in mean speeds from an estimate; see `fit_residuals`."""
+    return fit_residuals(start, SpeedResiduals(start.problem), robust_scale, iterations, tolerance)
+
+
+def fit_residuals(
+    start: Estimate,
     target: Residuals,
-    place: Floats,
-    most: float = np.inf,
+    robust_scale: float = np.inf,
     iterations: int = 60,
     tolerance: float = 1e-12,
-) -> tuple[Floats, int]:
-    """Least squares (trust region reflective) from a place, kept if it is not improved; and the simulations.
-
-    Residuals far above `most` count by their size, not by its square (SciPy's soft_l1): a few false ones do not pull.
-    """
-    low, high = problem.unknowns.low, problem.unknowns.high
-    margin = 1e-9 * (high - low)
-    robust = bool(np.isfinite(most))
-    solution = least_squares(
+) -> Estimate:
+    """Minimise the squares of `target` from an estimate, which is kept if they are not improved."""
+    theta, unknowns = start.theta, start.problem.unknowns
+    minimum = minimise_squares(
         target.residuals,
-        np.clip(place, low + margin, high - margin),
-        jac=target.jacobian,
-        bounds=(low, high),
-        x_scale=high - low,
-        ftol=tolerance,
-        xtol=tolerance,
-        gtol=0.01 * tolerance,
-        max_nfev=iterations,
-        loss="soft_l1" if robust else "linear",
-        f_scale=most if robust else 1.0,
+        target.jacobian,
+        theta,
+        Box(unknowns.low, unknowns.high),
+        Tolerance(tolerance, tolerance, 0.01 * tolerance, iterations),
+        robust_scale=robust_scale,
     )
-    evaluations = int(solution.nfev + 2 * len(place) * (solution.njev or 0)) + 1
-    better = robust or 2.0 * solution.cost <= float(np.sum(target.residuals(place) ** 2))
-    return np.asarray(solution.x if better else place), evaluations
+    better = np.isfinite(robust_scale) or minimum.cost <= float(np.sum(target.residuals(theta) ** 2))
+    simulations = minimum.residual_calls + 2 * len(theta) * minimum.jacobian_calls + 1
+    return Estimate(start.problem, minimum.theta if better else theta, start.simulations + simulations)
 
 
-def gains(before: float, after: float, count: int) -> bool:
+def improves_fit(before: float, after: float, count: int) -> bool:
     """Whether a cost fell by more than LEAST_GAIN squared standard deviations of so many residuals."""
     return (before - after) * count >= LEAST_GAIN * after
 
 
-def typical(problem: Problem, place: Floats) -> tuple[float, float]:
-    """The scatter of the weighted mean speeds at a place: their root mean square, and by the middle half alone."""
-    residuals = Speeds(problem).residuals(place)
-    return float(np.sqrt(np.mean(residuals**2))), 1.4826 * float(np.median(np.abs(residuals)))
+@dataclass(frozen=True)
+class Scatter:
+    """How far weighted speed residuals scatter: root mean square, and the standard deviation of the middle half."""
+
+    rms: float
+    robust: float
+
+
+def measure_scatter(estimate: Estimate) -> Scatter:
+    """Measure the scatter of the weighted speed residuals of an estimate."""
+    residuals = SpeedResiduals(estimate.problem).residuals(estimate.theta)
+    return Scatter(float(np.sqrt(np.mean(residuals**2))), ROBUST_SIGMA * float(np.median(np.abs(residuals))))

@@ -1,42 +1,43 @@
-"""When a search from many starts is over: independent descents end at one cost, and hardly a valley is left unseen."""
+"""The stopping rule of a multi-start search: descents agree, and hardly a local minimum is left unseen."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from motor_identification.estimation.objective import Floats, Landscape
+from motor_identification.estimation.objective import Floats, Objective
 
-AGREE = 0.01  # of the cost
-UNSEEN = 0.05  # share of the descents that would end in a valley not seen yet, at which the search is over
+SAME_COST = 0.01  # of the cost: descents this close ended in one local minimum
+UNSEEN_SHARE = 0.05  # of further descents that would end in a local minimum not seen yet, at which the search is over
 
 
 @dataclass(frozen=True)
 class Descent:
-    """Where least squares ended."""
+    """The local minimum in which least squares ended."""
 
-    place: Floats  # (D,)
+    theta: Floats  # (D,)
     cost: float
     evaluations: int
-    swarm: int  # number of the swarm from whose places it began
+    swarm: int  # number of the swarm from whose particles it began
 
 
-def alike(descents: list[Descent], landscape: Landscape) -> list[Descent]:
-    """Those that ended at the least cost."""
-    limit = (1.0 + AGREE) * min(descent.cost for descent in descents) + landscape.nothing
+def select_agreeing(descents: Sequence[Descent], objective: Objective) -> list[Descent]:
+    """Select the descents that ended at the least cost."""
+    limit = (1.0 + SAME_COST) * min(descent.cost for descent in descents) + objective.negligible
     return [descent for descent in descents if descent.cost <= limit]
 
 
-def agreed(descents: list[Descent], landscape: Landscape) -> bool:
-    """Whether more descents would hardly find a lower cost.
+def meets_stopping_rule(descents: Sequence[Descent], objective: Objective) -> bool:
+    """Decide whether more descents would hardly find a lower local minimum.
 
     Where noise explains the best cost, there is no lower one: two descents are enough. Elsewhere, of n descents that
-    ended in w valleys, a share of w(w + 1)/(n(n − 1)) more would be expected to end in valleys not seen yet
+    ended in w local minima, a share of w(w + 1)/(n(n − 1)) more would be expected to end in minima not seen yet
     (C. Boender, A. Rinnooy Kan, Mathematical Programming 37, 1987).
     """
-    agreeing = len(alike(descents, landscape))
-    if min(descent.cost for descent in descents) <= max(landscape.explained, landscape.nothing):
+    agreeing = len(select_agreeing(descents, objective))
+    if min(descent.cost for descent in descents) <= max(objective.noise_cost, objective.negligible):
         return agreeing >= 2
-    rest, valleys = sorted(descent.cost for descent in descents), 0
+    rest, minima = sorted(descent.cost for descent in descents), 0
     while rest:
-        limit = (1.0 + AGREE) * rest[0] + landscape.nothing
-        rest, valleys = [cost for cost in rest if cost > limit], valleys + 1
+        limit = (1.0 + SAME_COST) * rest[0] + objective.negligible
+        rest, minima = [cost for cost in rest if cost > limit], minima + 1
     count = len(descents)
-    return agreeing >= 2 and valleys * (valleys + 1) <= UNSEEN * count * (count - 1)
+    return agreeing >= 2 and minima * (minima + 1) <= UNSEEN_SHARE * count * (count - 1)

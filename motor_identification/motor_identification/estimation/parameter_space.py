@@ -1,4 +1,4 @@
-"""The unknowns of a fit: where a search looks, and how a place in that box becomes a motor and its initial state."""
+"""The parameter space of a fit: the box that is searched, and how θ in it becomes a motor and its initial state."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.measurement.initial_speed import initial_speed
+from motor_identification.measurement.initial_speed import estimate_initial_speed
 from motor_identification.recording import Floats, Recording
 from motor_model.effect import ParameterSpec
 from motor_model.effects import INDEX, normalised, specs_of
@@ -45,12 +45,12 @@ class Unknowns:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the physical parameters, in the order of a place; initial speeds come after them."""
+        """Names of the physical parameters, in the order of θ; initial speeds come after them."""
         return tuple(spec.name for spec in self.specs)
 
     @cached_property
     def columns(self) -> NDArray[np.int64]:
-        """Where in a place each recording has each parameter, shape (R, number of parameters)."""
+        """Where in θ each recording has each parameter, shape (R, number of parameters)."""
         columns = np.tile(np.arange(len(self.specs)), (len(self.turning), 1))
         own = np.flatnonzero([spec.of_recording for spec in self.specs])
         more = len(self.turning) - 1
@@ -64,42 +64,42 @@ class Unknowns:
         flags[: len(self.specs)] = [spec.logarithmic for spec in self.specs]
         return flags
 
-    def decode(self, places: Floats) -> tuple[Floats, Floats]:
-        """Places (S, D) → parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
-        values = np.where(self.logarithmic, np.exp(np.where(self.logarithmic, places, 0.0)), places)
-        vectors = np.tile(neutral(self.max_voltage), (len(places), len(self.turning), 1))
+    def decode(self, thetas: Floats) -> tuple[Floats, Floats]:
+        """Decode θ (S, D) → parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
+        values = np.where(self.logarithmic, np.exp(np.where(self.logarithmic, thetas, 0.0)), thetas)
+        vectors = np.tile(neutral(self.max_voltage), (len(thetas), len(self.turning), 1))
         vectors[:, :, [INDEX[name] for name in self.names]] = values[:, self.columns]
         for spec in self.specs:
             if spec.at_least is not None:
                 own, least = INDEX[spec.name], INDEX[spec.at_least]
                 vectors[:, :, own] = np.maximum(vectors[:, :, own], vectors[:, :, least])
-        starts = np.zeros((len(places), len(self.turning)))
+        starts = np.zeros((len(thetas), len(self.turning)))
         starts[:, self.turning] = values[:, len(self.low) - int(self.turning.sum()) :]
         return vectors, starts
 
-    def parameters(self, place: Floats, name: str) -> Parameters:
-        """The motor at one place (D,), as the first recording has it."""
-        vector = self.decode(place[None])[0][0, 0]
+    def parameters(self, theta: Floats, name: str) -> Parameters:
+        """The motor at θ (D,), as the first recording has it."""
+        vector = self.decode(theta[None])[0][0, 0]
         values = {spec: float(vector[INDEX[spec]]) for spec in self.names}
         return Parameters(values, self.effects, self.max_voltage, name)
 
-    def value_errors(self, place: Floats, place_errors: Floats) -> dict[str, float]:
-        """Standard errors of the parameters from those of the place: a logarithm's is a relative one."""
-        values = np.exp(np.where(self.logarithmic, place, 0.0))
-        scaled = np.where(self.logarithmic, values * place_errors, place_errors)
+    def value_errors(self, theta: Floats, theta_errors: Floats) -> dict[str, float]:
+        """Standard errors of the parameters from those of θ: a logarithm's is a relative one."""
+        values = np.exp(np.where(self.logarithmic, theta, 0.0))
+        scaled = np.where(self.logarithmic, values * theta_errors, theta_errors)
         return {name: float(scaled[i]) for i, name in enumerate(self.names)}
 
 
-def carried(old: Unknowns, place: Floats, new: Unknowns, values: Mapping[str, Floats]) -> Floats:
-    """A place (D,) among other unknowns of the same recordings; `values` has what only these have, per recording."""
+def map_theta(old: Unknowns, theta: Floats, new: Unknowns, values: Mapping[str, Floats]) -> Floats:
+    """Map θ (D,) to other unknowns of the same recordings; `values` has what only these have, per recording."""
     moved = np.zeros(len(new.low))
     for i, name in enumerate(new.names):
         if name in old.names:
-            moved[new.columns[:, i]] = place[old.columns[:, old.names.index(name)]]
+            moved[new.columns[:, i]] = theta[old.columns[:, old.names.index(name)]]
         else:
             moved[new.columns[:, i]] = np.log(values[name]) if new.specs[i].logarithmic else values[name]
     starts = int(new.turning.sum())
-    moved[len(moved) - starts :] = place[len(place) - starts :]
+    moved[len(moved) - starts :] = theta[len(theta) - starts :]
     return np.clip(moved, new.low, new.high)
 
 
@@ -111,11 +111,11 @@ def _reach(speed: Floats) -> float:
 
 def _turning_speeds(recordings: Sequence[Recording]) -> Floats:
     """[rad/s] at the first sample of recordings that begin on a moving motor, 0 of the others, shape (R,)."""
-    return np.array([initial_speed(recording) for recording in recordings])
+    return np.array([estimate_initial_speed(recording) for recording in recordings])
 
 
-def unknowns_of(recordings: Sequence[Recording], effects: tuple[str, ...]) -> Unknowns:
-    """The unknowns of these effects, in a box scaled by the largest voltage, the largest speed and the duration.
+def make_unknowns(recordings: Sequence[Recording], effects: tuple[str, ...]) -> Unknowns:
+    """Make the unknowns of these effects, in a box scaled by the largest voltage, the largest speed and the duration.
 
     The initial speed of a motor that already turns at the first sample is searched around what it shows there.
 

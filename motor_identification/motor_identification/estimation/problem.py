@@ -1,4 +1,4 @@
-"""A fitting problem: recordings and a set of unknowns, as a cost for a swarm and residuals for least squares."""
+"""The fitting problem: recordings and unknowns θ, with the output error as a cost and as residuals."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -6,12 +6,13 @@ from functools import cached_property
 
 import numpy as np
 
-from motor_identification.estimation.parameter_space import Unknowns, unknowns_of
-from motor_identification.estimation.residual import of_swarm
-from motor_identification.measurement.build_intervals import intervals_of
-from motor_identification.measurement.intervals import Intervals, joined, without
+from motor_identification.estimation.parameter_space import Unknowns, make_unknowns
+from motor_identification.estimation.residual import simulate_residuals
+from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.measurement.intervals import Intervals, exclude_intervals, join_intervals
 from motor_identification.measurement.measured_angle import Track, make_track
-from motor_identification.measurement.request_checks import refuse_nonsense
+from motor_identification.measurement.request_checks import check_effects
+from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.progress import Stopped
 from motor_identification.recording import Bools, Floats, Recording
 from motor_model.effects import INDEX
@@ -25,7 +26,7 @@ STEP = 1e-7  # of the box, for derivatives: 1e-5 of it turns a ripple's phase by
 
 @dataclass(frozen=True)
 class Problem:
-    """What is minimised: the time-weighted mean square of (simulated − measured) mean speed over all intervals.
+    """The output error to minimise: the time-weighted mean square of (simulated − measured) mean speed, all intervals.
 
     Several recordings of one motor share its parameters; each has an initial speed of its own. Arrays over I intervals
     have the recordings one after the other.
@@ -37,7 +38,7 @@ class Problem:
     workers: int = 1
     coarseness: float = 1.0  # of the simulation, see `motor.py`
     tracks: tuple[Track, ...] = ()  # the measured angle of every recording, for what is periodic in it
-    spared: Callable[[Intervals], Bools] | None = None  # marks intervals of a recording that no fit may see
+    kept_out: TimeBlocks | None = None  # blocks of every recording that no fit may see
     stopped: Callable[[], bool] | None = None  # asked before every simulation
 
     @cached_property
@@ -58,44 +59,46 @@ class Problem:
 
     def with_effects(self, effects: tuple[str, ...]) -> "Problem":
         """The problem with other unknowns."""
-        return replace(self, unknowns=unknowns_of(self.recordings, effects))
+        return replace(self, unknowns=make_unknowns(self.recordings, effects))
 
-    def anchored(self, place: Floats, effects: tuple[str, ...]) -> "Problem":
-        """The problem with other effects, on the measured angle; a fitted place (D,) bridges its gaps."""
-        rows = zip(self.intervals, self.angles(place), strict=True)
+    def on_measured_angle(self, theta: Floats, effects: tuple[str, ...]) -> "Problem":
+        """The problem with other effects, on the measured angle; a fitted θ (D,) bridges its gaps."""
+        rows = zip(self.intervals, self.angles(theta), strict=True)
         tracks = tuple(make_track(data, angle) for data, angle in rows)
         return replace(self.with_effects(effects), tracks=tracks)
 
-    def coarse(self, duration: float) -> "Problem":
+    def coarsen(self, duration: float) -> "Problem":
         """The same problem with intervals joined to this length [s] where they follow each other: quicker to search."""
-        return replace(self, intervals=tuple(joined(data, duration) for data in self.intervals), coarseness=COARSENESS)
+        return replace(
+            self, intervals=tuple(join_intervals(data, duration) for data in self.intervals), coarseness=COARSENESS
+        )
 
     def without(self, bad: tuple[Bools, ...]) -> "Problem":
         """The same problem without the marked intervals of every recording."""
-        kept = tuple(without(data, marks) for data, marks in zip(self.intervals, bad, strict=True))
+        kept = tuple(exclude_intervals(data, marks) for data, marks in zip(self.intervals, bad, strict=True))
         return replace(self, intervals=kept)
 
-    def sparing(self, spared: Callable[[Intervals], Bools]) -> "Problem":
-        """The same problem without the intervals that this marks, now and whenever its intervals are read again."""
-        return replace(self.without(tuple(spared(data) for data in self.intervals)), spared=spared)
+    def keeping_out(self, blocks: TimeBlocks) -> "Problem":
+        """The same problem without these blocks of its recordings, now and whenever its intervals are read again."""
+        return replace(self.without(tuple(blocks.mark(data) for data in self.intervals)), kept_out=blocks)
 
-    def read_again(self, intervals: tuple[Intervals, ...]) -> "Problem":
+    def with_intervals(self, intervals: tuple[Intervals, ...]) -> "Problem":
         """The same problem with its recordings' intervals read in another way."""
         again = replace(self, intervals=intervals)
-        return again if self.spared is None else again.sparing(self.spared)
+        return again if self.kept_out is None else again.keeping_out(self.kept_out)
 
     def split(self, rows: Floats) -> list[Floats]:
         """What is for all intervals, shape (I, …), recording by recording."""
         ends = np.cumsum([len(data.first) for data in self.intervals])
         return np.split(rows, ends[:-1])
 
-    def travelled(self, speeds: Floats) -> tuple[Floats, ...]:
+    def to_travel(self, speeds: Floats) -> tuple[Floats, ...]:
         """[rad] of every recording, from mean speeds [rad/s] in all intervals, shape (I,)."""
         return tuple(part * data.duration for part, data in zip(self.split(speeds), self.intervals, strict=True))
 
-    def increments(self, place: Floats) -> tuple[Floats, ...]:
-        """Simulated minus measured travel [rad] in the intervals of every recording, at one place (D,)."""
-        return self.travelled(self.residuals(place))
+    def increments(self, theta: Floats) -> tuple[Floats, ...]:
+        """Simulated minus measured travel [rad] in the intervals of every recording, at one θ (D,)."""
+        return self.to_travel(self.residuals(theta))
 
     @cached_property
     def weight(self) -> Floats:
@@ -108,18 +111,18 @@ class Problem:
         """[rad/s] measured mean speeds, shape (I,)."""
         return np.concatenate([data.speed for data in self.intervals])
 
-    def evaluate(self, places: Floats) -> Floats:
-        """Residuals (S, I) [rad/s] at places (S, D)."""
-        return self.evaluate_vectors(*self.unknowns.decode(places))
+    def evaluate(self, thetas: Floats) -> Floats:
+        """Residuals (S, I) [rad/s] at θ (S, D)."""
+        return self.evaluate_vectors(*self.unknowns.decode(thetas))
 
     def evaluate_vectors(self, vectors: Floats, starts: Floats) -> Floats:
         """The same for parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
-        self.go_on()
+        self.raise_if_stopped()
         vectors[:, :, INDEX["coarseness"]] = self.coarseness
-        return of_swarm(vectors, starts, self.commands, self.anchors, self.intervals, self.workers)
+        return simulate_residuals(vectors, starts, self.commands, self.anchors, self.intervals, self.workers)
 
-    def go_on(self) -> None:
-        """Nothing, unless the computation was told to stop.
+    def raise_if_stopped(self) -> None:
+        """Do nothing, unless the computation was told to stop.
 
         Raises:
             Stopped: so it was.
@@ -127,21 +130,22 @@ class Problem:
         if self.stopped is not None and self.stopped():
             raise Stopped("the diagnosis was stopped.")
 
-    def costs(self, places: Floats) -> Floats:
-        """The swarm's cost: places (S, D) → time-weighted mean squares (S,) [rad²/s²]."""
-        return np.asarray(self.evaluate(places) ** 2 @ self.weight)
+    def costs(self, thetas: Floats) -> Floats:
+        """The swarm's cost: θ (S, D) → time-weighted mean squares (S,) [rad²/s²]."""
+        return np.asarray(self.evaluate(thetas) ** 2 @ self.weight)
 
-    def cost(self, place: Floats) -> float:
-        """[rad²/s²] of one place (D,)."""
-        return float(self.costs(place[None])[0])
+    def cost(self, theta: Floats) -> float:
+        """[rad²/s²] of one θ (D,)."""
+        return float(self.costs(theta[None])[0])
 
-    def residuals(self, place: Floats) -> Floats:
-        """[rad/s] of one place (D,), shape (I,)."""
-        return np.asarray(self.evaluate(place[None])[0])
+    def residuals(self, theta: Floats) -> Floats:
+        """[rad/s] of one θ (D,), shape (I,)."""
+        return np.asarray(self.evaluate(theta[None])[0])
 
-    def angles(self, place: Floats) -> tuple[Floats, ...]:
-        """[rad] what the disc shows at the times of every recording's intervals, simulated at one place (D,)."""
-        vectors, starts = self.unknowns.decode(place[None])
+    def angles(self, theta: Floats) -> tuple[Floats, ...]:
+        """[rad] what the disc shows at the times of every recording's intervals, simulated at one θ (D,)."""
+        self.raise_if_stopped()
+        vectors, starts = self.unknowns.decode(theta[None])
         angles = []
         for r, ((time, voltage), data) in enumerate(zip(self.commands, self.intervals, strict=True)):
             angle, speed = np.empty(len(data.time)), np.empty(len(data.time))
@@ -150,36 +154,41 @@ class Problem:
             angles.append(angle)
         return tuple(angles)
 
-    def jacobian(self, place: Floats) -> Floats:
+    def jacobian(self, theta: Floats) -> Floats:
         """Derivative of the residuals over the unknowns, central differences, shape (I, D)."""
         steps = STEP * (self.unknowns.high - self.unknowns.low)
-        columns = np.empty((len(place), len(self.weight)))
+        columns = np.empty((len(theta), len(self.weight)))
         share = max(self.workers, 1)  # a few unknowns at a time keep all cores busy and an hour's residuals in memory
-        for i in range(0, len(place), share):
+        for i in range(0, len(theta), share):
             some = np.diag(steps)[i : i + share]
-            residuals = self.evaluate(np.concatenate([place + some, place - some]))
+            residuals = self.evaluate(np.concatenate([theta + some, theta - some]))
             np.subtract(residuals[: len(some)], residuals[len(some) :], out=columns[i : i + share])
             columns[i : i + share] /= (2.0 * steps[i : i + share])[:, None]
         return columns.T
 
 
-def make_problem(recordings: Sequence[Recording], effects: tuple[str, ...], workers: int = 1) -> Problem:
-    """The problem of fitting kv, ka and these effects to recordings of one motor.
+def make_problem(
+    recordings: Sequence[Recording],
+    effects: tuple[str, ...],
+    workers: int = 1,
+    stopped: Callable[[], bool] | None = None,
+) -> Problem:
+    """Make the problem of fitting kv, ka and these effects to recordings of one motor.
 
     Raises:
         ModelError: an effect is not in the table, or is none that can be fitted.
         RecordingError: a recording has no usable motion, or the motor moves without any voltage.
     """
-    refuse_nonsense(recordings, effects)
+    check_effects(recordings, effects)
     for recording in recordings:
         if not np.any(recording.voltage):
             raise RecordingError(f"{recording.uri}: the voltage is always 0; record with the motor driven.")
-    intervals = tuple(intervals_of(recording) for recording in recordings)
-    unknowns = unknowns_of(recordings, effects)
+    intervals = tuple(make_intervals(recording) for recording in recordings)
+    unknowns = make_unknowns(recordings, effects)
     count = sum(len(data.first) for data in intervals)
     if count <= len(unknowns.low):
         raise RecordingError(
             f"{len(unknowns.low)} unknowns cannot be fitted to {count} intervals of motion: record longer, or fit "
             "fewer effects."
         )
-    return Problem(tuple(recordings), intervals, unknowns, workers)
+    return Problem(tuple(recordings), intervals, unknowns, workers, stopped=stopped)

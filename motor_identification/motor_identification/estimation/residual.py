@@ -29,7 +29,7 @@ def fill_residuals(
             residual[i] = travel / duration - speed[i]
 
 
-def residuals(intervals: Intervals, angle: Floats) -> Floats:
+def compute_residuals(intervals: Intervals, angle: Floats) -> Floats:
     """Simulated minus measured mean speed [rad/s], shape (I,), from the simulated angle [rad] at `intervals.time`."""
     residual = np.empty(len(intervals.first))
     fill_residuals(angle, intervals.time, intervals.first, intervals.last, intervals.speed, intervals.slack, residual)
@@ -58,7 +58,7 @@ def fill_swarm(
         fill_residuals(angle, time, first, last, speed, slack, residuals[s])
 
 
-def of_swarm(
+def simulate_residuals(
     vectors: Floats,
     starts: Floats,
     commands: Sequence[tuple[Floats, Floats]],

@@ -1,12 +1,12 @@
-"""Particle swarm: finds the minimum of a cost over a box; knows nothing about motors.
+"""Particle swarm optimisation: find the minimum of a cost over a box; knows nothing about motors.
 
-A ring of neighbours shares its best place, inertia and pulls are Clerc and Kennedy's constriction values:
+A ring of neighbours shares the best θ it knows, inertia and pulls are Clerc and Kennedy's constriction values:
 
     v ← χ v + c·r1·(own best − x) + c·r2·(neighbours' best − x),   x ← x + v,   χ = 0.7298, c = 1.49618
 
 (M. Clerc, J. Kennedy, IEEE Trans. Evol. Comput. 6(1), 2002; ring: Kennedy & Mendes, CEC 2002.) The ring keeps several
-valleys alive for longer than one global best does. A particle that leaves the box is put back on its wall and loses the
-velocity that carried it out, so that a minimum on the wall is found and nothing outside is ever evaluated.
+local minima alive for longer than one global best does. A particle that leaves the box is put back on its wall and
+loses the velocity that carried it out, so that a minimum on the wall is found and nothing outside is ever evaluated.
 """
 
 from collections.abc import Callable
@@ -16,22 +16,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
-Cost = Callable[[Floats], Floats]  # places (S, D) → costs (S,)
+Cost = Callable[[Floats], Floats]  # θ (S, D) → costs (S,)
 Progress = Callable[[int, float], None]  # epoch, best cost so far
 
 INERTIA = 0.7298
 PULL = 1.49618
 FASTEST = 0.5  # of the box per epoch
-ON_BOUND = 1e-6  # of the box
 
 
 @dataclass(frozen=True, slots=True)
 class SwarmConfig:
     """How to search; `stall` epochs without an improvement by `tolerance` (relative) end it early, 0 never does."""
 
-    particles: int = 50
-    epochs: int = 200
-    seed: int = 0
+    particles: int
+    epochs: int
+    seed: int
     neighbours: int = 2  # on each side of the ring
     stall: int = 40
     tolerance: float = 1e-9
@@ -39,33 +38,31 @@ class SwarmConfig:
 
 @dataclass(frozen=True)
 class SwarmResult:
-    """The best place found; `places` and `costs` are every particle's own best, best first."""
+    """The best θ found; `thetas` and `costs` are every particle's own best, best first."""
 
-    place: Floats  # (D,)
+    theta: Floats  # (D,)
     cost: float
-    on_bound: NDArray[np.bool_]  # (D,)
     trace: Floats  # best cost after each epoch, the first entry before any
     evaluations: int
-    places: Floats  # (S, D)
+    thetas: Floats  # (S, D)
     costs: Floats  # (S,)
 
 
 def minimise(
-    cost: Cost, low: Floats, high: Floats, config: SwarmConfig | None = None, progress: Progress | None = None
+    cost: Cost, low: Floats, high: Floats, config: SwarmConfig, progress: Progress | None = None
 ) -> SwarmResult:
-    """Search the box low..high, both of shape (D,), for the least cost; a cost that is not a number counts as infinite.
+    """Minimise a cost over the box low..high, both of shape (D,); one that is not a number counts as infinite.
 
     Raises:
         ValueError: the box is empty or not finite, or there are fewer than two particles.
     """
-    config = config or SwarmConfig()
     low, high = _checked_box(low, high)
     if config.particles < 2:
         raise ValueError("a swarm has at least two particles")
     random = np.random.default_rng(config.seed)
 
     def evaluate(x: Floats) -> Floats:
-        costs = np.asarray(cost(_places(low, high, x)), dtype=np.float64)
+        costs = np.asarray(cost(_scale_to_box(low, high, x)), dtype=np.float64)
         return np.where(np.isfinite(costs), costs, np.inf)
 
     x = _latin_hypercube(random, config.particles, len(low))
@@ -74,17 +71,17 @@ def minimise(
     trace, stalled = [float(best_cost.min())], 0
     for epoch in range(config.epochs):
         leader = best[_ring_leaders(best_cost, config.neighbours)]
-        x, velocity = _flown(random, x, velocity, best, leader)
+        x, velocity = _fly(random, x, velocity, best, leader)
         costs = evaluate(x)
         better = costs < best_cost
         best[better], best_cost[better] = x[better], costs[better]
         trace.append(float(best_cost.min()))
-        stalled = 0 if _improved(trace[-2], trace[-1], config.tolerance) else stalled + 1
+        stalled = 0 if _is_better(trace[-2], trace[-1], config.tolerance) else stalled + 1
         if progress is not None:
             progress(epoch + 1, trace[-1])
         if config.stall and stalled >= config.stall:
             break
-    return _result(_places(low, high, best), best, best_cost, np.array(trace))
+    return _result(_scale_to_box(low, high, best), best_cost, np.array(trace))
 
 
 def _checked_box(low: Floats, high: Floats) -> tuple[Floats, Floats]:
@@ -95,35 +92,33 @@ def _checked_box(low: Floats, high: Floats) -> tuple[Floats, Floats]:
     return low, high
 
 
-def _places(low: Floats, high: Floats, x: Floats) -> Floats:
-    """Where x in the unit box is in the box; rounding does not carry it outside."""
+def _scale_to_box(low: Floats, high: Floats, x: Floats) -> Floats:
+    """Scale x in the unit box to the box; rounding does not carry it outside."""
     return np.asarray(np.clip(low + (high - low) * x, low, high))
 
 
-def _improved(before: float, after: float, tolerance: float) -> bool:
+def _is_better(before: float, after: float, tolerance: float) -> bool:
     """Whether a cost fell by more than a share of its size, whatever its sign; from none to any is progress too."""
     return after < before - (tolerance * abs(before) if np.isfinite(before) else 0.0)
 
 
-def _result(places: Floats, best: Floats, costs: Floats, trace: Floats) -> SwarmResult:
-    """The outcome; `best` is `places` in the unit box."""
+def _result(thetas: Floats, costs: Floats, trace: Floats) -> SwarmResult:
+    """The outcome, the best particle first."""
     order = np.argsort(costs, kind="stable")
-    top = best[order[0]]
     return SwarmResult(
-        place=places[order[0]],
+        theta=thetas[order[0]],
         cost=float(costs[order[0]]),
-        on_bound=(top < ON_BOUND) | (top > 1.0 - ON_BOUND),
         trace=trace,
-        evaluations=len(best) * len(trace),
-        places=places[order],
+        evaluations=len(thetas) * len(trace),
+        thetas=thetas[order],
         costs=costs[order],
     )
 
 
-def _flown(
+def _fly(
     random: np.random.Generator, x: Floats, velocity: Floats, best: Floats, leader: Floats
 ) -> tuple[Floats, Floats]:
-    """Places and velocities one epoch later; strays are put on the wall they crossed and stopped there."""
+    """Move particles by one epoch; strays are put on the wall they crossed and stopped there."""
     own, others = random.random(x.shape), random.random(x.shape)
     velocity = INERTIA * velocity + PULL * (own * (best - x) + others * (leader - x))
     velocity = np.clip(velocity, -FASTEST, FASTEST)
@@ -132,7 +127,7 @@ def _flown(
 
 
 def _latin_hypercube(random: np.random.Generator, particles: int, dimensions: int) -> Floats:
-    """Places in the unit box such that every row of every axis holds one."""
+    """Spread particles in the unit box such that every row of every axis holds one."""
     rows = np.array([random.permutation(particles) for _ in range(dimensions)]).T
     return np.asarray((rows + random.random((particles, dimensions))) / particles)
 

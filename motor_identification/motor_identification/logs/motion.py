@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.csv_form import UNITS, CsvForm, Kind
 from motor_identification.logs.csv_table import Table
-from motor_identification.measurement.sanity_checks import jump_of
+from motor_identification.measurement.sanity_checks import find_count_jump
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement
 
@@ -43,7 +43,7 @@ def read_motion(form: CsvForm, info: Info, table: Table, time: Integers, voltage
         return _mean_speeds(form, info, values)
     motion = _counts(form, info, time, values, runs)
     for run in runs:
-        jump = jump_of((time[run] - time[run.start]) * 1e-9, motion.counts[run], voltage[run])
+        jump = find_count_jump((time[run] - time[run.start]) * 1e-9, motion.counts[run], voltage[run])
         if jump is not None:
             raise _jumped(form, table, run.start + jump)
     return motion

@@ -9,17 +9,17 @@ from math import sqrt, tau
 
 import numpy as np
 
-from motor_identification.measurement.edges import Edges, edges_of, turned_one_way
-from motor_identification.measurement.intervals import Intervals, indexed, with_still
-from motor_identification.measurement.sampled_counts import Changes, changes_of, fixes_of
+from motor_identification.measurement.edges import Edges, extract_edges, mark_one_way
+from motor_identification.measurement.intervals import Intervals, append_standstills, index_intervals
+from motor_identification.measurement.sampled_counts import Changes, extract_count_changes, locate_fixes
 from motor_identification.measurement.sanity_checks import check_counts
-from motor_identification.measurement.standstill import standing_at_edges, standing_at_turns
+from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals
 from motor_identification.recording import Recording
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
 
 
-def intervals_of(recording: Recording) -> Intervals:
+def make_intervals(recording: Recording) -> Intervals:
     """What the recording says about the motion.
 
     Raises:
@@ -37,18 +37,18 @@ def intervals_of(recording: Recording) -> Intervals:
 
 
 def _from_edges(recording: Recording) -> Intervals:
-    return intervals_between(recording, edges_of(recording))
+    return make_edge_intervals(recording, extract_edges(recording))
 
 
-def intervals_between(recording: Recording, edges: Edges) -> Intervals:
+def make_edge_intervals(recording: Recording, edges: Edges) -> Intervals:
     """What stamped edges with known directions say about the motion."""
     slot = tau / recording.info.edges_per_revolution
-    good = turned_one_way(edges)
+    good = mark_one_way(edges)
     first, last = edges.only(np.flatnonzero(good)), edges.only(np.flatnonzero(good) + 1)
     speed = last.direction * np.abs(last.count - first.count) * slot / (last.time - first.time)
     # A stamp is uniform over a tick τ: its standard deviation is τ/√12, and that of the angle ω times as much.
     blur = np.abs(speed) * recording.info.edge_resolution / sqrt(12.0)
-    moving = indexed(
+    moving = index_intervals(
         first.time,
         last.time,
         speed,
@@ -57,17 +57,17 @@ def intervals_between(recording: Recording, edges: Edges) -> Intervals:
         slot=slot,
         left_out=int(np.count_nonzero(~good)),
     )
-    return with_still(moving, standing_at_edges(recording, edges, ~good), slot)
+    return append_standstills(moving, find_standstills_at_edges(recording, edges, ~good), slot)
 
 
 def _from_counts(recording: Recording) -> Intervals:
-    return intervals_of_changes(recording, changes_of(recording))
+    return make_count_intervals(recording, extract_count_changes(recording))
 
 
-def intervals_of_changes(recording: Recording, changes: Changes) -> Intervals:
+def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
     """What counts read at the samples say, as mean speeds between the instants at which they fix the angle."""
     slot = tau / recording.info.edges_per_revolution
-    fixes = fixes_of(recording, changes)
+    fixes = locate_fixes(recording, changes)
     good = (np.diff(fixes.run) == 0) & (fixes.way[1:] != 0) & (np.diff(fixes.time) > 0.0)
     begin, end = np.flatnonzero(good), np.flatnonzero(good) + 1
     start, stop = fixes.time[begin], fixes.time[end]
@@ -75,8 +75,8 @@ def intervals_of_changes(recording: Recording, changes: Changes) -> Intervals:
     # An interval's end is the next one's start; where a run begins, both ends have the larger blur.
     fresh = np.diff(begin, prepend=-2) != 1
     blur = slot * np.where(fresh, np.maximum(fixes.blur[begin], fixes.blur[end]), fixes.blur[end])
-    moving = indexed(start, stop, speed, blur, left_out=int(np.count_nonzero(~good)))
-    return with_still(moving, standing_at_turns(recording, changes), slot)
+    moving = index_intervals(start, stop, speed, blur, left_out=int(np.count_nonzero(~good)))
+    return append_standstills(moving, find_standstills_at_reversals(recording, changes), slot)
 
 
 def _from_speed(recording: Recording) -> Intervals:
@@ -89,7 +89,7 @@ def _from_speed(recording: Recording) -> Intervals:
     # Where it is a mean of counts, the angle at either end of the window is truncated to one.
     count = tau / info.edges_per_revolution if info.edges_per_revolution and info.speed_window else 0.0
     start, end = np.round(np.maximum(start[inside], 0.0), 9), np.round(end[inside], 9)
-    return indexed(start, end, speed=recording.speed[inside], blur=np.full(len(start), count / sqrt(12.0)))
+    return index_intervals(start, end, speed=recording.speed[inside], blur=np.full(len(start), count / sqrt(12.0)))
 
 
 _READERS = {Measurement.EDGES: _from_edges, Measurement.COUNTS: _from_counts, Measurement.SPEED: _from_speed}

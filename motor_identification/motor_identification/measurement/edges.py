@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motor_identification.measurement.timestamp_checks import possible, smooth
+from motor_identification.measurement.timestamp_checks import mark_possible, mark_smooth
 from motor_identification.recording import Bools, Floats, Integers, Recording
 
 
@@ -25,7 +25,7 @@ class Edges:
         return Edges(self.time[which], self.count[which], self.direction[which])
 
 
-def edges_of(recording: Recording) -> Edges:
+def extract_edges(recording: Recording) -> Edges:
     """All edges since the first sample that a recording reports, but for those whose stamps are wrong.
 
     A stamp is the timer's last tick before the edge, so that half a tick is added.
@@ -35,17 +35,17 @@ def edges_of(recording: Recording) -> Edges:
     steps = np.diff(count[fresh], prepend=count[0])
     latest = (stamp[fresh] - recording.sample_time[0]) * 1e-9 + 0.5 * info.edge_resolution
     period = recording.edge_period[fresh]
-    direction = reported_directions(recording.speed[fresh])
-    right = possible(recording, fresh, latest)
-    right[right] = smooth(latest[right], _passed(count[fresh][right] - count[0]))
+    direction = read_directions(recording.speed[fresh])
+    right = mark_possible(recording, fresh, latest)
+    right[right] = mark_smooth(latest[right], _passed(count[fresh][right] - count[0]))
     second = right & (np.abs(steps) >= 2) & (period > 0.0) & (latest - period > 0.0)
-    second[second] = possible(recording, fresh[second], (latest - period)[second])
+    second[second] = mark_possible(recording, fresh[second], (latest - period)[second])
     time = np.concatenate([(latest - period)[second], latest[right]])
     numbers = np.concatenate([(count[fresh] - np.sign(steps))[second], count[fresh][right]]) - count[0]
     edges = Edges(time, numbers, np.concatenate([direction[second], direction[right]]))
     edges = edges.only(np.argsort(time, kind="stable"))
-    edges = edges.only(smooth(edges.time, _passed(edges.count)))
-    return turned_at_the_slowest(edges, recording) if info.single_channel else edges
+    edges = edges.only(mark_smooth(edges.time, _passed(edges.count)))
+    return move_reversals_to_slowest(edges, recording) if info.single_channel else edges
 
 
 def _passed(count: Integers) -> Integers:
@@ -53,13 +53,13 @@ def _passed(count: Integers) -> Integers:
     return np.asarray(np.abs(np.diff(count, prepend=0)).cumsum())
 
 
-def reported_directions(speed: Floats) -> Integers:
+def read_directions(speed: Floats) -> Integers:
     """The reported signs at samples with a fresh edge; the first edge ever has none and takes the next one's."""
     sign = np.sign(speed).astype(np.int64)
     return np.where(sign == 0, np.append(sign[1:], 0), sign)
 
 
-def turned_at_the_slowest(edges: Edges, recording: Recording) -> Edges:
+def move_reversals_to_slowest(edges: Edges, recording: Recording) -> Edges:
     """Move each change of sign back to where the motor really turned: its slowest interval.
 
     A single channel's reported sign changes only after the speed has visibly risen again, a few edges late. The motor
@@ -93,7 +93,7 @@ def _opposed_since(recording: Recording, time: Floats, new_direction: Integers) 
     return opposed
 
 
-def turned_one_way(edges: Edges) -> Bools:
+def mark_one_way(edges: Edges) -> Bools:
     """Between which successive edges, shape (E − 1,), the disc is known to have turned one way."""
     here, there = edges.direction[:-1], edges.direction[1:]
     return np.asarray((here == there) & (here != 0) & (np.diff(edges.time) > 0.0))

@@ -7,8 +7,8 @@ the first sample does not tell: a board that was just switched on has seen no ed
 
 import numpy as np
 
-from motor_identification.measurement.edges import edges_of, reported_directions
-from motor_identification.measurement.sampled_counts import changes_of, fixes_of
+from motor_identification.measurement.edges import extract_edges, read_directions
+from motor_identification.measurement.sampled_counts import extract_count_changes, locate_fixes
 from motor_identification.recording import Floats, Recording
 from motor_model.sample import Measurement
 
@@ -19,7 +19,7 @@ NEAR = 0.75  # slots that the parabola may lead beside the middle of the slot in
 BENT = 0.05  # of the slots up to the last of those edges: as much beside, since no motion is a parabola
 
 
-def initial_speed(recording: Recording) -> float:
+def estimate_initial_speed(recording: Recording) -> float:
     """[rad/s] of a motor that already turned at the first sample; 0 for one that stood, or may have."""
     info, reported = recording.info, float(recording.speed[0])
     if info.measurement is Measurement.SPEED:
@@ -35,10 +35,10 @@ def initial_speed(recording: Recording) -> float:
 def _passed(recording: Recording) -> tuple[Floats, Floats]:
     """When [s] the disc was where [slots], at the first edges or changes of the count."""
     if recording.info.measurement is Measurement.EDGES:
-        edges = edges_of(recording)
+        edges = extract_edges(recording)
         time, place = edges.time, np.abs(edges.count).astype(np.float64)
     else:
-        fixes = fixes_of(recording, changes_of(recording))
+        fixes = locate_fixes(recording, extract_count_changes(recording))
         time, place = fixes.time[fixes.time > 0.0], fixes.place[fixes.time > 0.0]
     return time[:POINTS], place[:POINTS]
 
@@ -69,5 +69,5 @@ def _way(recording: Recording) -> int:
     if not recording.info.single_channel:
         steps = np.diff(recording.edge_count)
         return int(np.sign(steps[np.flatnonzero(steps)[0]])) if np.any(steps) else 0
-    signs = reported_directions(recording.speed)
+    signs = read_directions(recording.speed)
     return int(signs[np.flatnonzero(signs)[0]]) if np.any(signs) else 0

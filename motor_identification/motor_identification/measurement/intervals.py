@@ -55,7 +55,7 @@ class Intervals:
         return np.asarray(~follows)
 
 
-def indexed(
+def index_intervals(
     start: Floats,
     end: Floats,
     speed: Floats,
@@ -81,11 +81,11 @@ def indexed(
     )
 
 
-def with_still(moving: Intervals, still: tuple[Floats, Floats], slack: float) -> Intervals:
+def append_standstills(moving: Intervals, still: tuple[Floats, Floats], slack: float) -> Intervals:
     """Together with times [s] in which the motor moved less than `slack` [rad], at the end of the list."""
     start, end = still
     blank = np.zeros(len(start))
-    return indexed(
+    return index_intervals(
         np.concatenate([moving.time[moving.first], start]),
         np.concatenate([moving.time[moving.last], end]),
         speed=np.concatenate([moving.speed, blank]),
@@ -97,7 +97,7 @@ def with_still(moving: Intervals, still: tuple[Floats, Floats], slack: float) ->
     )
 
 
-def without(intervals: Intervals, bad: Bools) -> Intervals:
+def exclude_intervals(intervals: Intervals, bad: Bools) -> Intervals:
     """The intervals that are not marked; shape of `bad`: (I,)."""
     good = ~bad
     return replace(
@@ -112,7 +112,7 @@ def without(intervals: Intervals, bad: Bools) -> Intervals:
     )
 
 
-def joined(intervals: Intervals, duration: float) -> Intervals:
+def join_intervals(intervals: Intervals, duration: float) -> Intervals:
     """The intervals with those that follow each other joined until each is at least `duration` [s] long.
 
     A mean speed over many slots says as much about the motor as those over its parts, but for what happens within it.
@@ -125,7 +125,7 @@ def joined(intervals: Intervals, duration: float) -> Intervals:
     end = np.append(begin[1:], len(group)) - 1
     travel = np.add.reduceat(intervals.speed * intervals.duration, begin)
     start_time, end_time = intervals.time[intervals.first[begin]], intervals.time[intervals.last[end]]
-    return indexed(
+    return index_intervals(
         start_time,
         end_time,
         speed=travel / (end_time - start_time),

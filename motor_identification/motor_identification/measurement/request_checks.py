@@ -8,7 +8,7 @@ from motor_model.errors import ModelError
 from motor_model.sample import Measurement
 
 
-def refuse_nonsense(recordings: Sequence[Recording], effects: tuple[str, ...]) -> None:
+def check_effects(recordings: Sequence[Recording], effects: tuple[str, ...]) -> None:
     """Raise a ModelError for effects that no fit can have, or none of these recordings."""
     for name in effects:
         effect = EFFECT_BY_NAME.get(name)  # unknown names are refused where effects are normalised

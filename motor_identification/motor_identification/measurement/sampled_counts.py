@@ -18,7 +18,7 @@ from math import sqrt
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from motor_identification.measurement.edges import Edges, reported_directions, turned_at_the_slowest
+from motor_identification.measurement.edges import Edges, move_reversals_to_slowest, read_directions
 from motor_identification.recording import Bools, Floats, Integers, Recording
 
 STANDARD = 1.0 / sqrt(12.0)  # standard deviation of what is uniform over 1
@@ -58,24 +58,24 @@ class Changes:
         return len(self.sample)
 
 
-def changes_of(recording: Recording) -> Changes:
+def extract_count_changes(recording: Recording) -> Changes:
     """All changes of the count, in runs of one direction."""
     steps = np.diff(recording.edge_count)
     sample = np.flatnonzero(steps) + 1
     way = np.sign(steps[sample - 1])
     if recording.info.single_channel:
         middle = 0.5 * (recording.time[sample] + recording.time[sample - 1])
-        edges = Edges(middle, recording.edge_count[sample], reported_directions(recording.speed[sample]))
-        way = turned_at_the_slowest(edges, recording).direction
-    return in_runs(sample, way)
+        edges = Edges(middle, recording.edge_count[sample], read_directions(recording.speed[sample]))
+        way = move_reversals_to_slowest(edges, recording).direction
+    return number_runs(sample, way)
 
 
-def in_runs(sample: Integers, way: Integers) -> Changes:
+def number_runs(sample: Integers, way: Integers) -> Changes:
     """Changes at these samples (C,) in these directions (C,), numbered by runs of one direction."""
     return Changes(sample, way, np.cumsum(np.diff(way, prepend=way[:1]) != 0))
 
 
-def fixes_of(recording: Recording, changes: Changes) -> Fixes:
+def locate_fixes(recording: Recording, changes: Changes) -> Fixes:
     """Every instant at which the counts say where the disc was; `changes` are those of the recording."""
     time = recording.time
     if not len(changes):
@@ -100,7 +100,7 @@ def fixes_of(recording: Recording, changes: Changes) -> Fixes:
     order, which = np.argsort(at, kind="stable"), np.concatenate([k, c])
     run, way = changes.run[follows[which]], changes.way[follows[which]]
     fixes = Fixes(at[order], place[order], blur[order], run[order], way[order], rate[which][order])
-    return replace(fixes, blur=np.hypot(fixes.blur, stamp_jitter(fixes) * fixes.rate))
+    return replace(fixes, blur=np.hypot(fixes.blur, estimate_stamp_jitter(fixes) * fixes.rate))
 
 
 def _within(changes: Changes, follows: Integers, samples: int) -> Bools:
@@ -145,7 +145,7 @@ def _rates(time: Floats, turned: Integers, changes: Changes) -> Rates:
     return Rates(np.clip(carried, 0.25 * mean, 4.0 * mean), growth)
 
 
-def stamp_jitter(fixes: Fixes) -> float:
+def estimate_stamp_jitter(fixes: Fixes) -> float:
     """[s] standard deviation of the samples' stamps, from how far fixes lie beside a parabola through their neighbours.
 
     0 where that is no more than counting itself leaves. It takes a dozen windows of a motor fast enough to tell.

@@ -5,7 +5,7 @@ from math import tau
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from motor_identification.measurement.timestamp_checks import possible
+from motor_identification.measurement.timestamp_checks import mark_possible
 from motor_identification.recording import Floats, Integers, Recording
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
@@ -19,7 +19,7 @@ STRANGE = 0.6  # share of stamps that cannot be right, from which on all of them
 AGREE = 3.0  # factor between speed and count beyond which they do not mean the same; 2π, 9.5 and 57.3 are beyond
 
 
-def jump_of(time: Floats, count: Integers, voltage: Floats) -> int | None:
+def find_count_jump(time: Floats, count: Integers, voltage: Floats) -> int | None:
     """The first sample whose count has jumped while the voltage did not; None without one. Arrays of shape (K,).
 
     A wrap, a reset or a misread count is off for one sample, or for a sample and back. A motor that starts or turns
@@ -38,7 +38,7 @@ def jump_of(time: Floats, count: Integers, voltage: Floats) -> int | None:
     return int(jumps[0]) + 1 if len(jumps) else None
 
 
-def speed_over_count(recording: Recording) -> float | None:
+def compare_speed_with_count(recording: Recording) -> float | None:
     """How many times the speed is what the count says, in the middle of the recording's moving parts; None if unknown.
 
     Both are without sign, so that a single channel's doubt about it does not matter.
@@ -63,7 +63,7 @@ def check_counts(recording: Recording) -> Recording:
             by more than any error of measurement.
     """
     time, sampled = recording.time, recording.info.measurement is Measurement.COUNTS
-    jump = jump_of(time, recording.edge_count, recording.voltage) if sampled else None
+    jump = find_count_jump(time, recording.edge_count, recording.voltage) if sampled else None
     if jump is not None:
         before, here = (int(recording.edge_count[k]) for k in (jump - 1, jump))
         raise RecordingError(
@@ -72,7 +72,7 @@ def check_counts(recording: Recording) -> Recording:
         )
     if not sampled:
         _check_stamps(recording)
-    ratio = speed_over_count(recording)
+    ratio = compare_speed_with_count(recording)
     if ratio is not None and not 1.0 / AGREE < ratio < AGREE:
         said = f"{ratio:.3g} ×" if ratio > 1.0 else f"1/{1.0 / max(ratio, 1e-9):.3g} of"
         raise RecordingError(
@@ -84,7 +84,7 @@ def check_counts(recording: Recording) -> Recording:
 
 def _check_stamps(recording: Recording) -> None:
     fresh = np.flatnonzero(np.diff(recording.edge_count)) + 1
-    strange = ~possible(recording, fresh, (recording.edge_time[fresh] - recording.sample_time[0]) * 1e-9)
+    strange = ~mark_possible(recording, fresh, (recording.edge_time[fresh] - recording.sample_time[0]) * 1e-9)
     if np.count_nonzero(strange) > STRANGE * len(fresh):
         raise RecordingError(
             f"{recording.uri}: {np.count_nonzero(strange)} of {len(fresh)} edge_time values lie outside the sample "

@@ -9,7 +9,7 @@ from motor_identification.recording import Bools, Floats, Recording
 MATTERS = 0.1  # [s] without an edge before the lack of edges is evidence
 
 
-def standing_at_edges(recording: Recording, edges: Edges, open_ones: Bools) -> tuple[Floats, Floats]:
+def find_standstills_at_edges(recording: Recording, edges: Edges, open_ones: Bools) -> tuple[Floats, Floats]:
     """Start and end [s] of the times before the first and after the last edge, and from edge to next edge at a turn.
 
     `open_ones`, shape (E − 1,), marks the intervals between edges that say nothing of speed.
@@ -29,7 +29,7 @@ def _until_the_first(recording: Recording) -> float:
     return float(recording.time[counted[0] - 1] if len(counted) else recording.time[-1])
 
 
-def standing_at_turns(recording: Recording, changes: Changes) -> tuple[Floats, Floats]:
+def find_standstills_at_reversals(recording: Recording, changes: Changes) -> tuple[Floats, Floats]:
     """Start and end [s] of the times around a turn in which the count does not change."""
     turned = np.flatnonzero(np.diff(changes.run) != 0)
     start, end = recording.time[changes.sample[turned]], recording.time[changes.sample[turned + 1] - 1]

@@ -18,14 +18,14 @@ AROUND = 5  # edges on either side that say what is usual
 EVEN = 0.5  # of what a stamp is off: how unevenly the neighbours may turn beside
 
 
-def possible(recording: Recording, sample: Integers, time: Floats) -> Bools:
+def mark_possible(recording: Recording, sample: Integers, time: Floats) -> Bools:
     """Whether edges that are new in `sample` (E,) can have come at `time` (E,) [s] since the first sample."""
     margin = LATE * recording.info.sample_period + recording.info.edge_resolution
     before = recording.time[np.maximum(sample - 1, 0)]
     return np.asarray((time > before - margin) & (time <= recording.time[sample] + margin))
 
 
-def smooth(time: Floats, count: Integers) -> Bools:
+def mark_smooth(time: Floats, count: Integers) -> Bools:
     """Which edges (E,), in order of their counts, are stamped when a disc that turns evenly would show them."""
     size = len(time)
     if size < 2 * AROUND + 1:

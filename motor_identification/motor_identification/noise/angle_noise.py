@@ -1,4 +1,4 @@
-"""What the encoder alone leaves in the angles, and the whitening that makes residuals independent with variance 1.
+"""Whiten angle increments with a scalar Kalman filter: what the encoder leaves, as residuals of variance 1.
 
 Two successive intervals share an edge, so that their errors are correlated: what one gains the other loses. Seen from
 the angle there is no such thing. Along a run of intervals the simulated angle minus the measured one is
@@ -14,13 +14,17 @@ For q = 0 this is least squares on the angle with a free offset for every run, f
 ways to fit an encoder are the ends of one. Being linear, the filter is applied to Jacobians as well.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, log
 
 import numpy as np
 
+from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Bools, Floats
 from motor_model.compiled import compiled
+
+STANDSTILL_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
 
 
 @dataclass(frozen=True)
@@ -36,6 +40,18 @@ class AngleNoise:
     duration: Floats  # [s]
 
 
+def make_angle_noise(data: Intervals, flank_sigma: float, least_blur: float) -> AngleNoise:
+    """Make the noise of one recording's angles from timer tick (or sampling) and irregular flanks.
+
+    flank_sigma: [rad] standard deviation of the flanks. least_blur: [rad] the tick's share where the encoder claims to
+    have none.
+    """
+    still = data.slack > 0.0
+    variance = np.maximum(data.blur, least_blur) ** 2 + flank_sigma**2
+    end = np.where(still, (STANDSTILL_BLUR * data.slack) ** 2, variance)
+    return AngleNoise(data.fresh, np.where(still, 0.0, variance), end, data.duration)
+
+
 @dataclass(frozen=True)
 class Whitening:
     """The filter's gains and scales for one noise; apply it with `whiten`. Arrays of shape (I,)."""
@@ -47,14 +63,14 @@ class Whitening:
 
 @compiled
 def fill_gains(
-    fresh: Bools, start: Floats, end: Floats, duration: Floats, growth: float, gain: Floats, scale: Floats
+    fresh: Bools, start: Floats, end: Floats, duration: Floats, drift: float, gain: Floats, scale: Floats
 ) -> None:
-    """Kalman gains K and 1/√S of every interval; `growth` is q [rad²/s]."""
+    """Kalman gains K and 1/√S of every interval; `drift` is q [rad²/s]."""
     variance = 0.0
     for k in range(len(fresh)):
         if fresh[k]:
             variance = start[k]
-        predicted = variance + growth * duration[k]
+        predicted = variance + drift * duration[k]
         total = predicted + end[k]
         gain[k] = predicted / total
         scale[k] = 1.0 / np.sqrt(total)
@@ -62,17 +78,17 @@ def fill_gains(
 
 
 @compiled
-def surprise(
-    fresh: Bools, start: Floats, end: Floats, duration: Floats, growth: float, increments: Floats, most: float
+def score_innovations(
+    fresh: Bools, start: Floats, end: Floats, duration: Floats, drift: float, increments: Floats, most: float
 ) -> tuple[float, float]:
-    """Σ ν²/S and Σ ln S of increments [rad] under a growth q [rad²/s]: minus twice their logarithmic likelihood.
+    """Σ ν²/S and Σ ln S of increments [rad] under a drift q [rad²/s]: minus twice their logarithmic likelihood.
 
     No interval adds more than `most` to the first: an outlier must not decide.
     """
     squares, logarithms, product = 0.0, 0.0, 1.0
     variance, carried = 0.0, 0.0
     for k in range(len(fresh)):
-        predicted = (start[k] if fresh[k] else variance) + growth * duration[k]
+        predicted = (start[k] if fresh[k] else variance) + drift * duration[k]
         total = predicted + end[k]
         innovation = increments[k] + (0.0 if fresh[k] else carried)
         squares += min(innovation * innovation / total, most)
@@ -103,10 +119,10 @@ def fill_adjoint(fresh: Bools, gain: Floats, scale: Floats, white: Floats, incre
         carried = 0.0 if fresh[k] else (1.0 - gain[k - 1]) * increments[k]
 
 
-def make_whitening(noise: AngleNoise, growth: float) -> Whitening:
-    """The filter for a noise and a growth q [rad²/s] of what the model does not know."""
+def make_whitening(noise: AngleNoise, drift: float) -> Whitening:
+    """The filter for a noise and a drift q [rad²/s] of what the model does not know."""
     gain, scale = np.empty(len(noise.fresh)), np.empty(len(noise.fresh))
-    fill_gains(noise.fresh, noise.start, noise.end, noise.duration, growth, gain, scale)
+    fill_gains(noise.fresh, noise.start, noise.end, noise.duration, drift, gain, scale)
     return Whitening(noise.fresh, gain, scale)
 
 
@@ -117,24 +133,37 @@ def whiten(whitening: Whitening, increments: Floats) -> Floats:
     return white
 
 
-def adjoint(whitening: Whitening, white: Floats) -> Floats:
+def whiten_adjoint(whitening: Whitening, white: Floats) -> Floats:
     """The transpose of `whiten`, shape (I,) → (I,)."""
     increments = np.empty(len(white))
     fill_adjoint(whitening.fresh, whitening.gain, whitening.scale, np.ascontiguousarray(white), increments)
     return increments
 
 
-def likely_growth(noise: AngleNoise, increments: Floats) -> float:
-    """The growth q [rad²/s] under which these residual increments [rad] are most likely; 0 where none is needed.
+def log_likelihood_of(noise: AngleNoise, drift: float, increments: Floats, clip: float = inf) -> float:
+    """Logarithmic likelihood of increments [rad] (I,) under a drift q [rad²/s], without the Gaussian's constant.
 
-    The likelihood of a Gaussian process from its innovations (Schweppe 1965), over q on a grid of half decades.
+    The likelihood of a Gaussian process from its innovations (Schweppe, IEEE Trans. Inf. Theory 11, 1965); no interval
+    counts with more than `clip` squared standard deviations.
     """
-    scale = float(np.mean(increments**2) / np.mean(noise.duration)) if len(increments) else 0.0
-    candidates = [0.0, *(scale * 10.0 ** (-0.5 * i) for i in range(20))]
-    best, chosen = inf, 0.0
-    for growth in candidates:
-        squares, logarithms = surprise(noise.fresh, noise.start, noise.end, noise.duration, growth, increments, inf)
-        cost = squares + logarithms
-        if cost < best - log(len(increments) + 1.0):
-            best, chosen = cost, growth
-    return chosen
+    squares, logarithms = score_innovations(
+        noise.fresh, noise.start, noise.end, noise.duration, drift, np.ascontiguousarray(increments), clip
+    )
+    return -0.5 * float(squares + logarithms)
+
+
+def estimate_drift(
+    noises: Sequence[AngleNoise], increments: Sequence[Floats], grid: Sequence[float], clip: float = inf
+) -> float:
+    """Estimate the drift q [rad²/s] of the simulated angle by maximum likelihood on a grid; 0 where none is needed.
+
+    A drift has to be worth its price, the logarithm of the number of intervals (as in the Bayesian information
+    criterion). Noises and increments [rad] are of every recording.
+    """
+    price = log(sum(map(len, increments)) + 1.0)
+
+    def score(drift: float) -> float:
+        rows = zip(noises, increments, strict=True)
+        return sum(log_likelihood_of(noise, drift, part, clip) for noise, part in rows) - price * (drift > 0.0)
+
+    return max((0.0, *grid), key=score)

@@ -15,7 +15,7 @@ FARTHEST = 16  # slots
 PRICE = 5.0  # of a slip by one slot from one run to the next, in natural logarithms of likelihood
 
 
-def aligned(table: SlotTable, white: Floats, offsets: Floats) -> SlotIndex:
+def align_slots(table: SlotTable, white: Floats, offsets: Floats) -> SlotIndex:
     """Where every run most likely was under a table's offsets [rad] (2N,), from whitened residuals (I,)."""
     index = table.index
     n = index.size // 2

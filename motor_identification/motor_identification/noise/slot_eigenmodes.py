@@ -56,7 +56,7 @@ class Modes:
         return out
 
 
-def modes_of(gram: Floats, seen: Bools, first_harmonic: bool) -> Modes:
+def compute_eigenmodes(gram: Floats, seen: Bools, first_harmonic: bool) -> Modes:
     """The modes of AᵀA (2N, 2N), given which entries were seen, and whether the table may have a first harmonic."""
     forbidden = _forbidden(len(gram) // 2, first_harmonic)
     groups = _groups(gram, seen)

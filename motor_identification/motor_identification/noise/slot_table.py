@@ -16,7 +16,7 @@ import numpy as np
 
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.angle_noise import Whitening
-from motor_identification.noise.slot_eigenmodes import Modes, modes_of
+from motor_identification.noise.slot_eigenmodes import Modes, compute_eigenmodes
 from motor_identification.noise.slot_normal_equations import fill_explained, fill_gram, fill_scores
 from motor_identification.recording import Bools, Floats, Integers
 from motor_model.compiled import compiled
@@ -36,7 +36,7 @@ class SlotIndex:
         return np.asarray(with_blank[self.last] - with_blank[self.first])
 
 
-def slot_index(intervals: Intervals, angle: Floats) -> SlotIndex:
+def index_slots(intervals: Intervals, angle: Floats) -> SlotIndex:
     """Follow the disc through a recording; where runs are broken, the simulated angle [rad] bridges the gap."""
     n = round(2.0 * np.pi / intervals.slot)
     known = intervals.edge[:, 0] >= 0
@@ -132,7 +132,7 @@ class SlotTable:
     @cached_property
     def modes(self) -> Modes:
         """AᵀA in the prior's own coordinates."""
-        return modes_of(self.gram, self.seen > 0, self.first_harmonic)
+        return compute_eigenmodes(self.gram, self.seen > 0, self.first_harmonic)
 
 
 @dataclass(frozen=True)
@@ -157,7 +157,7 @@ class Projection:
         return np.concatenate([left, coordinates / np.sqrt(self.variance)])
 
 
-def likely_variance(table: SlotTable, white: Floats, guess: float, most: float, rounds: int) -> float:
+def estimate_slot_variance(table: SlotTable, white: Floats, guess: float, most: float, rounds: int) -> float:
     """The variance σ² [rad²] of the seen slots' offsets for whitened residuals (I,), by expectation maximisation.
 
     It stays below `most` [rad²]: what is beyond any real disc is an error of the model, and shall not pass for noise.

@@ -1,82 +1,112 @@
-"""Effects periodic in the angle: added to a fit of all others, on measured angles, from where their spectrum points."""
+"""Add effects periodic in the angle to a fit of all others, on measured angles, from where their spectrum points."""
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from motor_identification.estimation.direction_correction import redirected
-from motor_identification.estimation.least_squares import Speeds, descend, gains
-from motor_identification.estimation.parameter_space import carried
-from motor_identification.estimation.problem import Problem
+from motor_identification.estimation.direction_correction import correct_directions
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds, improves_fit
+from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.measurement.measured_angle import Track
-from motor_identification.periodic.ripple_spectrum import ripple_of, ripples
-from motor_identification.periodic.simulated_angle_fit import adrift
+from motor_identification.periodic.ripple_spectrum import find_ripples, fit_ripple
+from motor_identification.periodic.simulated_angle_fit import fit_on_simulated_angle
 from motor_identification.recording import Floats
 from motor_model.effects import EFFECT_BY_NAME
 
 ROUNDS = 2  # the second time, the motor that bridges the gaps of the measured angle has the effect already
-ITERATIONS = 25  # of a descent
+ITERATIONS, TOLERANCE = 25, 1e-8  # of a descent on measured angles
 
 Tracks = tuple[Track, ...]
-Start = tuple[Tracks, Mapping[str, Floats]]  # measured angles, and an effect's values in every recording
 
 
-def without_periodic(effects: tuple[str, ...]) -> tuple[str, ...]:
-    """The effects that do not repeat with the angle."""
+@dataclass(frozen=True)
+class Start:
+    """Where a periodic effect is fitted from: measured angles, and its values in every recording."""
+
+    tracks: Tracks
+    values: Mapping[str, Floats]
+
+    @property
+    def cycles(self) -> float:
+        """[1/rev] of the line in the spectrum over the angle."""
+        return float(self.values.get("ripple_cycles", np.array(1.0)))
+
+
+def drop_periodic_effects(effects: tuple[str, ...]) -> tuple[str, ...]:
+    """Drop the effects that repeat with the angle."""
     return tuple(name for name in effects if not EFFECT_BY_NAME[name].periodic)
 
 
-def add_periodic(problem: Problem, place: Floats, effects: tuple[str, ...]) -> tuple[Problem, Floats, int]:
-    """Extend a fit without periodic effects, its problem and place (D,), by those among `effects`; and simulations."""
-    evaluations = 0
+def add_periodic_effects(estimate: Estimate, effects: tuple[str, ...]) -> Estimate:
+    """Extend a fit without periodic effects by those among `effects`."""
     for effect in _STARTS:
         if effect in effects:
-            larger = added(problem, place, effect)
-            if larger is not None:
-                problem, place, more = larger
-                evaluations += more
-    return problem, place, evaluations
+            estimate = add_periodic_effect(estimate, effect) or estimate
+    return estimate
 
 
-def added(bare: Problem, place: Floats, effect: str, least: float = 0.0) -> tuple[Problem, Floats, int] | None:
+def add_periodic_effect(bare: Estimate, effect: str, least: float = 0.0) -> Estimate | None:
     """Extend a fit by one periodic effect; with `least`, None where nothing speaks for it.
 
     That is where its spectrum promises less than `least` squared standard deviations, or a fit on measured angles gains
     nothing. From there it is fitted on the simulated angle, and once more where the spectrum then points elsewhere.
     """
-    effects, evaluations = (*bare.unknowns.effects, effect), 0
-    choices: list[tuple[float, Problem, Floats]] = []
-    tracks = bare.anchored(place, effects).tracks
-    before, without = np.inf, bare.cost(place)  # number of cycles that was tried; cost without the effect
-    promise = least
+    effects = (*bare.problem.unknowns.effects, effect)
+    fits: list[Estimate] = []
+    tracks = measure_angles(bare, effects)
+    cycles_before, cost_without = np.inf, bare.cost
+    promise, spent = least, bare.simulations
     for _ in range(ROUNDS):
-        begin = _STARTS[effect](bare, place, tracks, promise)
-        if begin is None:
+        start = _STARTS[effect](bare, tracks, promise)
+        if start is None or abs(start.cycles - cycles_before) * _turned(start.tracks) < 1.0:  # or the same line again
             break
-        tracks, values = begin
-        cycles = float(values.get("ripple_cycles", np.array(1.0)))
-        if abs(cycles - before) * _turned(tracks) < 1.0:  # the same line again
+        cycles_before, promise = start.cycles, 0.0
+        begin = _begin(replace(bare, simulations=spent), effects, start)
+        held = fit_speeds(begin, iterations=ITERATIONS, tolerance=TOLERANCE)
+        spent = held.simulations
+        if least > 0.0 and not improves_fit(cost_without, held.cost, len(held.problem.weight)):
             break
-        before, promise = cycles, 0.0
-        trial = replace(bare.with_effects(effects), tracks=tracks)
-        start = carried(bare.unknowns, place, trial.unknowns, values)
-        end, more = descend(trial, Speeds(trial), start, iterations=ITERATIONS, tolerance=1e-8)
-        evaluations += more
-        if least > 0.0 and not gains(without, trial.cost(end), len(trial.weight)):
-            break
-        mended = carried(bare.unknowns, carried(trial.unknowns, end, bare.unknowns, {}), trial.unknowns, values)
-        held = redirected(trial, end)
-        loose, there, more = adrift(replace(held, tracks=()), effect, (start, mended), _turned(tracks))
-        evaluations += more
-        choices += [(one.cost(at), one, at) for one, at in ((held, end), (loose, there))]
-        _cost, best, end = min(choices, key=lambda one: one[0])
-        bare = replace(bare, intervals=best.intervals, tracks=best.tracks if bare.tracks else ())
-        place, tracks = carried(best.unknowns, end, bare.unknowns, {}), best.anchored(end, effects).tracks
-    if not choices:
-        return None
-    _cost, best, end = min(choices, key=lambda one: one[0])
-    return best, end, evaluations
+        fits += _fit_freely(bare, begin, held, effect, start)
+        spent = fits[-1].simulations
+        best = _best(fits)
+        bare = _without_effect(bare, best)
+        tracks = measure_angles(best, effects)
+    return replace(_best(fits), simulations=spent) if fits else None
+
+
+def _begin(bare: Estimate, effects: tuple[str, ...], start: Start) -> Estimate:
+    """An estimate with more effects, not fitted yet, on measured angles."""
+    trial = replace(bare.problem.with_effects(effects), tracks=start.tracks)
+    theta = map_theta(bare.problem.unknowns, bare.theta, trial.unknowns, start.values)
+    return Estimate(trial, theta, bare.simulations)
+
+
+def _fit_freely(bare: Estimate, begin: Estimate, held: Estimate, effect: str, start: Start) -> list[Estimate]:
+    """The fit on the measured angle, with directions by its own motion, and the one on the simulated angle."""
+    unknowns, without = held.problem.unknowns, bare.problem.unknowns
+    mended = map_theta(without, map_theta(unknowns, held.theta, without, {}), unknowns, start.values)
+    directed = correct_directions(held)
+    free = directed.on(replace(directed.problem, tracks=()))
+    return [directed, fit_on_simulated_angle(free, effect, (begin.theta, mended), _turned(start.tracks))]
+
+
+def _without_effect(bare: Estimate, best: Estimate) -> Estimate:
+    """The motor without the effect, as the best fit with it has all else."""
+    problem = replace(bare.problem, intervals=best.problem.intervals)
+    problem = replace(problem, tracks=best.problem.tracks if problem.tracks else ())
+    theta = map_theta(best.problem.unknowns, best.theta, problem.unknowns, {})
+    return Estimate(problem, theta, bare.simulations)
+
+
+def _best(fits: Sequence[Estimate]) -> Estimate:
+    return min(fits, key=lambda fit: fit.cost)
+
+
+def measure_angles(estimate: Estimate, effects: tuple[str, ...]) -> Tracks:
+    """Measure the angle through every recording, its gaps bridged by an estimate, for a fit of other effects."""
+    return estimate.problem.on_measured_angle(estimate.theta, effects).tracks
 
 
 def _turned(tracks: Tracks) -> float:
@@ -84,23 +114,23 @@ def _turned(tracks: Tracks) -> float:
     return max(float(np.ptp(track.angle)) for track in tracks)
 
 
-def phases(bare: Problem, place: Floats, effect: str, cycles: float, tracks: Tracks = ()) -> Start:
-    """Measured angles and phases under which a known periodic effect fits recordings best; see `added`.
+def estimate_phases(bare: Estimate, effect: str, cycles: float, tracks: Tracks = ()) -> Start:
+    """Estimate measured angles and phases under which a known periodic effect fits recordings best.
 
     Without `tracks` a motor that lacks the effect bridges the gaps of the measured angle.
     """
-    tracks = tracks or bare.anchored(place, bare.unknowns.effects).tracks
+    tracks = tracks or measure_angles(bare, bare.problem.unknowns.effects)
     if effect == "torque_ripple":
-        ripple = ripple_of(bare, place, tracks, cycles)
-        return ripple.tracks, {"ripple_phase": np.array(ripple.phases)}
-    tracks, wave = _eccentricity(bare, place, tracks, 0.0)
-    return tracks, {"eccentricity_phase": wave["eccentricity_phase"]}
+        ripple = fit_ripple(bare, tracks, cycles)
+        return Start(ripple.tracks, {"ripple_phase": np.array(ripple.phases)})
+    wave = _start_eccentricity(bare, tracks, 0.0)
+    return Start(tracks, {"eccentricity_phase": wave.values["eccentricity_phase"]})
 
 
-def _eccentricity(problem: Problem, place: Floats, tracks: Tracks, _least: float) -> Start:
-    """The first harmonic of what a fit leaves over the angle, by least squares."""
+def _start_eccentricity(bare: Estimate, tracks: Tracks, _least: float) -> Start:
+    """Fit the first harmonic of what an estimate leaves over the angle, by least squares."""
     waves = []
-    for data, track, increments in zip(problem.intervals, tracks, problem.increments(place), strict=True):
+    for data, track, increments in zip(bare.problem.intervals, tracks, bare.increments, strict=True):
         angle, root = track.at(data.time), 1.0 / np.sqrt(data.duration)
         sine, cosine = (
             np.diff(shape(angle)[np.stack([data.first, data.last])], axis=0)[0] for shape in (np.sin, np.cos)
@@ -109,16 +139,16 @@ def _eccentricity(problem: Problem, place: Floats, tracks: Tracks, _least: float
         design = (np.column_stack([sine, cosine]) * root[:, None])[moving]
         waves.append(complex(*np.linalg.lstsq(design, -(increments * root)[moving], rcond=None)[0]))
     size = np.full(len(waves), np.mean(np.abs(waves)))
-    return tracks, {"eccentricity": size, "eccentricity_phase": np.asarray(np.angle(waves), dtype=np.float64)}
+    return Start(tracks, {"eccentricity": size, "eccentricity_phase": np.asarray(np.angle(waves), dtype=np.float64)})
 
 
-def _ripple(problem: Problem, place: Floats, tracks: Tracks, least: float) -> Start | None:
-    """The best line of the spectrum, if there is one."""
-    lines = ripples(problem, place, tracks, least)
+def _start_ripple(bare: Estimate, tracks: Tracks, least: float) -> Start | None:
+    """Find the best line of the spectrum, if there is one."""
+    lines = find_ripples(bare, tracks, least)
     if not lines:
         return None
     values = {"ripple_voltage": np.array(lines[0].amplitude), "ripple_cycles": np.array(lines[0].cycles)}
-    return lines[0].tracks, {**values, "ripple_phase": np.array(lines[0].phases)}
+    return Start(lines[0].tracks, {**values, "ripple_phase": np.array(lines[0].phases)})
 
 
-_STARTS = {"encoder_eccentricity": _eccentricity, "torque_ripple": _ripple}
+_STARTS = {"encoder_eccentricity": _start_eccentricity, "torque_ripple": _start_ripple}

@@ -1,4 +1,4 @@
-"""Ripple: a load periodic in the shaft angle, searched where no swarm finds it, in a spectrum of narrow lines.
+"""Find torque ripple, a load periodic in the shaft angle, as a line in the residual's spectrum over the angle.
 
 A load sin(cθ + φ) of 1 V moves the speed of a fitted motor by a linear response that is had in closed form between two
 measured angles; the residual's part along it, for any number of cycles c a turn, is a periodogram over the angle (over
@@ -14,11 +14,11 @@ from math import tau
 
 import numpy as np
 
-from motor_identification.estimation.problem import Problem
-from motor_identification.estimation.whitened_fit import Encoder, learn
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.whitened_fit import Encoder, learn_encoders
 from motor_identification.measurement.measured_angle import Track
 from motor_identification.periodic.linear_response import Course
-from motor_identification.periodic.run_alignment import align
+from motor_identification.periodic.run_alignment import align_runs
 from motor_identification.recording import Floats, Integers
 from motor_model.compiled import compiled
 from motor_model.effects import SPEC_BY_NAME
@@ -53,28 +53,28 @@ class _Run:
     transient: Floats  # whitened increments that an initial speed of every counted run makes, of length 1 in each
 
 
-def ripples(problem: Problem, place: Floats, tracks: Sequence[Track], least: float = 0.0) -> list[Ripple]:
-    """The most likely ripples in what a fitted place (D,) leaves on measured angles, best first, each another line.
+def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0) -> list[Ripple]:
+    """Find the most likely ripples in what an estimate leaves on measured angles, best first, each another line.
 
     None where the spectrum promises less than `least` of the sum of white squares.
     """
-    runs = _runs(problem, place, tracks)
+    problem, runs = estimate.problem, _make_runs(estimate, tracks)
     spec = SPEC_BY_NAME["ripple_cycles"]
     turns = max(np.ptp(np.concatenate([run.course.start, run.course.end])) for run in runs) / tau
     width = 1.0 / (FINENESS * min(BLOCK, max(turns, 1.0)))
     rough = np.arange(spec.low, spec.high, width)
     blocks = [_blocks(run) for run in runs]
-    spectrum = _spectrum(runs, rough, blocks, problem.go_on)
+    spectrum = _spectrum(runs, rough, blocks, problem.raise_if_stopped)
     if spectrum.max() - 2.0 * sum(int(block.max()) + 1 for block in blocks) < least:
         return []
     around = np.arange(-REACH * width, REACH * width, 1.0 / (FINENESS * max(turns, 1.0)))
     likely = [rough[peak] + around for peak in _peaks(spectrum, PEAKS)]
     counted = [run.course.run for run in runs]
-    likely.sort(key=lambda fine: -_spectrum(runs, fine, counted, problem.go_on).max())
-    found = []
+    likely.sort(key=lambda fine: -_spectrum(runs, fine, counted, problem.raise_if_stopped).max())
+    found, slots = [], [data.slot for data in problem.intervals]
     for fine in likely[:CANDIDATES]:
-        problem.go_on()
-        lines = [_line(runs, tracks, cycles, problem) for cycles in fine]
+        problem.raise_if_stopped()
+        lines = [_fit_line(runs, tracks, cycles, slots) for cycles in fine]
         found.append(max(lines, key=lambda line: line.explained))
     chance = CHANCE * sum(int(run.course.run.max()) + BASE for run in runs) if least > 0.0 else 0.0
     return sorted((line for line in found if line.explained > max(least, chance)), key=lambda line: -line.explained)
@@ -103,28 +103,30 @@ def _powers(run: _Run, cycles: Floats, block: Integers, go_on: Callable[[], None
     return np.asarray(np.divide(parts, sizes, where=sizes > 0.0, out=np.zeros_like(parts)).sum(axis=1))
 
 
-def ripple_of(problem: Problem, place: Floats, tracks: Sequence[Track], cycles: float) -> Ripple:
-    """The most likely ripple of so many cycles a turn."""
-    return _line(_runs(problem, place, tracks), tracks, cycles, problem)
+def fit_ripple(estimate: Estimate, tracks: Sequence[Track], cycles: float) -> Ripple:
+    """Fit the most likely ripple of so many cycles a turn."""
+    slots = [data.slot for data in estimate.problem.intervals]
+    return _fit_line(_make_runs(estimate, tracks), tracks, cycles, slots)
 
 
-def _line(runs: Sequence[_Run], tracks: Sequence[Track], cycles: float, problem: Problem) -> Ripple:
-    """The best ripple of so many cycles, with every recording's slips."""
+def _fit_line(runs: Sequence[_Run], tracks: Sequence[Track], cycles: float, slots: Sequence[float]) -> Ripple:
+    """Fit a ripple of so many cycles, with every recording's slips; `slots` [rad] of every recording's disc."""
     weights, straightened, explained = [], [], 0.0
-    for run, track, data in zip(runs, tracks, problem.intervals, strict=True):
-        aligned = align(_sums(run, cycles, run.course.run), cycles * data.slot)
+    for run, track, slot in zip(runs, tracks, slots, strict=True):
+        aligned = align_runs(_sums(run, cycles, run.course.run), cycles * slot)
         weights.append(aligned.weight)
         explained += aligned.explained
-        straightened.append(track.slipped(np.asarray(aligned.slips * data.slot)))
+        straightened.append(track.slipped(np.asarray(aligned.slips * slot)))
     amplitude, phases = float(np.mean(np.abs(weights))), tuple(float(np.angle(weight)) for weight in weights)
     return Ripple(cycles, amplitude, phases, tuple(straightened), explained)
 
 
-def _runs(problem: Problem, place: Floats, tracks: Sequence[Track]) -> list[_Run]:
-    problem = problem.without(tuple(np.abs(data.speed) < SLOW * np.abs(data.speed).max() for data in problem.intervals))
-    values = problem.unknowns.parameters(place, "").values
+def _make_runs(estimate: Estimate, tracks: Sequence[Track]) -> list[_Run]:
+    slow = tuple(np.abs(data.speed) < SLOW * np.abs(data.speed).max() for data in estimate.problem.intervals)
+    estimate = estimate.on(estimate.problem.without(slow))
+    values = estimate.parameters.values
     runs = []
-    rows = zip(problem.intervals, tracks, problem.increments(place), learn(problem, place), strict=True)
+    rows = zip(estimate.problem.intervals, tracks, estimate.increments, learn_encoders(estimate), strict=True)
     for data, track, increments, encoder in rows:
         angle, begun = track.at(data.time), data.time[data.first]
         course = Course(

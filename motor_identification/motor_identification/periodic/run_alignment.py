@@ -29,7 +29,7 @@ class Aligned:
     explained: float
 
 
-def align(sums: Floats, turn: float) -> Aligned:
+def align_runs(sums: Floats, turn: float) -> Aligned:
     """The ripple and the slips that explain most; `turn` [rad] is what a slip of one slot turns the ripple's phase by.
 
     sums: for every run ss, sc, cc, sw, cw with s and c the responses to sine and cosine, w the residual; shape (B, 5).

@@ -7,8 +7,8 @@ import numpy as np
 
 from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.discrepancy.worst_regions import Region
-from motor_identification.estimation.residual import residuals
-from motor_identification.measurement.build_intervals import intervals_of
+from motor_identification.estimation.residual import compute_residuals
+from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.uncertainty.result import Fit
@@ -41,9 +41,8 @@ class Curves:
 
 def held_out_curves(held: HeldOut, share: float, number: int, regions: tuple[Region, ...]) -> Curves:
     """A model on recording `number` of its held-out data; `share` is the irregularity of the slots, of a slot."""
-    problem = held.problem
-    data, angle = problem.intervals[number], problem.angles(held.place)[number]
-    begin = sum(len(other.first) for other in problem.intervals[:number])
+    data, angle = held.intervals[number], held.angles[number]
+    begin = sum(len(other.first) for other in held.intervals[:number])
     part = slice(begin, begin + len(data.first))
     marked = []
     for region in regions:
@@ -58,7 +57,7 @@ def fit_curves(recording: Recording, fit: Fit) -> Curves:
     number = fit.uris.index(recording.uri) if recording.uri in fit.uris else -1
     start = fit.start_speeds[number] if number >= 0 else 0.0
     share = fit.slot_irregularity[number] if number >= 0 else nan
-    data = intervals_of(recording)
+    data = make_intervals(recording)
     motion = simulate(fit.parameters, recording.time, recording.voltage, data.time, start)
     everywhere = np.ones(len(data.first), dtype=bool)
     return _curves(data, motion.angle, 0.0 if isnan(share) else share, everywhere, ())
@@ -73,7 +72,7 @@ def _curves(data: Intervals, angle: Floats, share: float, scored: Bools, regions
         duration=data.duration[order],
         measured=data.speed[order],
         simulated=((angle[data.last] - angle[data.first]) / data.duration)[order],
-        residual=residuals(data, angle)[order],
+        residual=compute_residuals(data, angle)[order],
         floor=np.sqrt(data.floor_squared(share * data.slot))[order],
         still=(data.slack > 0.0)[order],
         scored=scored[order],
@@ -84,7 +83,7 @@ def _curves(data: Intervals, angle: Floats, share: float, scored: Bools, regions
 def find_largest_change(diagnosis: Diagnosis) -> tuple[int, float, float]:
     """Find the recording and the 3 s in which a diagnosis changes the squared error most; without one, the worst."""
     best = (-np.inf, 0, 0.0)
-    for number, recording in enumerate(diagnosis.before.problem.recordings):
+    for number, recording in enumerate(diagnosis.before.recordings):
         starts = _starts(recording.duration)
         before = _squares(held_out_curves(diagnosis.before, 0.0, number, ()), starts)
         after = _squares(held_out_curves(diagnosis.after, 0.0, number, ()), starts)

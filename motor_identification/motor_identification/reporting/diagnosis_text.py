@@ -1,8 +1,8 @@
 """A diagnosis in words: one to three sentences, and the table of gaps with the evidence for every effect."""
 
-from motor_identification.diagnosis.candidate_model import AT_FLOOR, LASTING
 from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict
-from motor_identification.discrepancy.missing_torque import describe_torque, shape_left
+from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, LASTING_INTERVAL
+from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.reporting.names import capitalize, effect_name, join_effects, join_names
 from motor_identification.reporting.numbers import format_quantity, format_ratio
@@ -23,10 +23,11 @@ def describe_gap_reduction(diagnosis: Diagnosis) -> str:
     """Say by how much the gap falls, beside the noise floor."""
     before, after = f"{diagnosis.gap_before:.3g}", f"{diagnosis.gap_after:.3g}"
     text = f"the {GAP} falls from {before} to {after} rad/s ({compare_with_floor(diagnosis)})"
-    if diagnosis.gap_before > AT_FLOOR * diagnosis.noise_floor:
+    if diagnosis.gap_before > EXPLAINED_GAP * diagnosis.noise_floor:
         return text
-    lasting = [f"{held.joined(LASTING).gap:.3g}" for held in (diagnosis.before, diagnosis.after)]
-    return f"{text}; averaged over {LASTING:g} s, which smooths the encoder's steps, from {' to '.join(lasting)} rad/s"
+    lasting = [f"{held.joined(LASTING_INTERVAL).gap:.3g}" for held in (diagnosis.before, diagnosis.after)]
+    average = f"averaged over {LASTING_INTERVAL:g} s, which smooths the encoder's steps"
+    return f"{text}; {average}, from {' to '.join(lasting)} rad/s"
 
 
 def compare_with_floor(diagnosis: Diagnosis) -> str:
@@ -62,7 +63,9 @@ def _nothing_missing(diagnosis: Diagnosis) -> str:
 
 def _unexplained(diagnosis: Diagnosis) -> str:
     worst = capitalize(describe_error(diagnosis.after, diagnosis.slot_share))
-    rest = " ".join(part for part in (f"{worst}.", describe_torque(shape_left(diagnosis.after)), UNMODELLED) if part)
+    rest = " ".join(
+        part for part in (f"{worst}.", describe_torque(estimate_missing_torque(diagnosis.after)), UNMODELLED) if part
+    )
     if diagnosis.findings:
         found = f"{_describe_findings(diagnosis)} {capitalize(describe_gap_reduction(diagnosis))}."
         return f"{found} Another effect, which is not in the table, is missing. {rest}"

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from motor_identification.measurement.build_intervals import intervals_of
+from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Recording
 from motor_identification.reporting.curves import Curves, fit_curves
@@ -61,7 +61,7 @@ def draw_fit(recording: Recording, fit: Fit, path: Path) -> None:
         axes.sharex(speed)
     head.axis("off")
     head.text(0.0, 1.0, format_fit(fit), transform=head.transAxes, family="monospace", fontsize=9, va="top")
-    draw_overlay(speed, recording, intervals_of(recording), fit.parameters, start)
+    draw_overlay(speed, recording, make_intervals(recording), fit.parameters, start)
     head.legend(*speed.get_legend_handles_labels(), loc="upper right", frameon=False)
     head.set_title(f"{recording.info.name}: {describe_residual(fit)}")
     voltage.step(recording.time, recording.voltage, where="post", color=VOLTAGE, linewidth=1)

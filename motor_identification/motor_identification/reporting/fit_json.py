@@ -37,7 +37,7 @@ def fit_to_json(fit: Fit) -> dict[str, Any]:
         "evaluations": fit.evaluations,
         "search": {
             "swarms": fit.search.swarms,
-            "descents": fit.search.descents,
+            "descents": len(fit.search.descents),
             "agreeing": fit.search.agreeing,
             "agreed": fit.search.agreed,
         },

@@ -4,7 +4,7 @@ from builtin_interfaces.msg import Time
 
 from motor_identification.bag import Source, Window
 from motor_identification.diagnose import Stage
-from motor_identification.identify import Request
+from motor_identification.identify import Request, SearchConfig
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 from motor_identification.reporting.fit_text import summarize_fit
 from motor_identification.service.job import DiagnosisJob, Job, Reported, notes_of
@@ -16,13 +16,8 @@ from motor_msgs.srv import Identify
 
 def job_of(request: Identify.Request, particles: int, epochs: int, seed: int, workers: int) -> Job:
     """What a request asks for; its zeros stand for the node's own parameters, given here."""
-    wanted = Request(
-        effects=tuple(request.effects),
-        particles=request.particles or particles,
-        epochs=request.epochs or epochs,
-        seed=request.seed or seed,
-        workers=workers,
-    )
+    search = SearchConfig(request.particles or particles, request.epochs or epochs, request.seed or seed)
+    wanted = Request(tuple(request.effects), search, workers)
     window = Window(request.start, request.stop)
     return Job(Source(tuple(request.bag_uris), request.topic_namespace, window), wanted)
 

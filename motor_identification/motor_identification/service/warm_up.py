@@ -1,7 +1,7 @@
 """Compile everything a fit needs ahead of time: `python -m motor_identification.service.warm_up`."""
 
 from motor_identification.experiment import make_plan, simulate_plan
-from motor_identification.identify import Request, identify
+from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import recording_of
 from motor_model import warm_up
 from motor_model.effects import EFFECTS
@@ -20,7 +20,7 @@ def main() -> None:
     samples = [sample for _, sample in simulate_plan(plan, motor, config)]
     recordings = [recording_of(samples, config.info(motor), "warm-up")]
     for effects in ((), PERIODIC):
-        identify(recordings, Request(effects, particles=4, epochs=1))
+        identify(recordings, Request(effects, SearchConfig(4, 1)))
 
 
 if __name__ == "__main__":

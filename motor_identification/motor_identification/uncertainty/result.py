@@ -1,30 +1,22 @@
-"""What an identification returns: a motor, how sure each of its numbers is, and all that limits them."""
+"""The result of an identification: a motor, how sure each of its numbers is, and all that limits them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from motor_identification.estimation.whitened_fit import Refined
-from motor_identification.recording import Floats
-from motor_identification.uncertainty.identifiability import not_told_apart, telling_apart
-from motor_identification.uncertainty.recording_consistency import dissents, sentence_of
-from motor_identification.uncertainty.standard_errors import certainty
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.multistart import SearchReport
+from motor_identification.estimation.whitened_fit import WhitenedFit
+from motor_identification.uncertainty.identifiability import find_confusable_effects, suggest_profile
+from motor_identification.uncertainty.recording_consistency import compare_recordings, describe_dissent
+from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_identification.uncertainty.whiteness import Whiteness
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 from motor_model.parameters import Parameters
 
-ON_BOUND = 1e-4  # of the box
-
-
-@dataclass(frozen=True)
-class SearchReport:
-    """How the global search went."""
-
-    trace: Floats  # [rad/s] best RMS after each epoch of a swarm and each descent
-    swarms: int  # each from a seed of its own
-    descents: int
-    agreeing: int  # descents that ended at the best cost
-    agreed: bool  # whether the search ended because of that; else it had used up its simulations
+ON_BOUND = 1e-4  # of the box: how near its edge a parameter counts as on it
+NO_VARIANCE = 1e-18  # of the largest speed squared: a measured speed that does not vary, but for rounding
 
 
 @dataclass(frozen=True)
@@ -51,42 +43,56 @@ class Fit:
     notes: tuple[str, ...]
 
 
-def judge(refined: Refined, place: Floats, search: SearchReport, evaluations: int) -> Fit:
-    """Everything a user should know about a fitted place (D,), but for how long it took."""
-    problem = refined.problem
+def summarise_fit(
+    fit: WhitenedFit, search: SearchReport, elapsed: Callable[[], float], notes: tuple[str, ...] = ()
+) -> Fit:
+    """Summarise a fit: everything a user should know about it, after its recordings' own notes also `notes`.
+
+    elapsed: [s] since the identification began, asked once everything else is known.
+    """
+    problem, theta = fit.problem, fit.theta
     unknowns, weight, speed = problem.unknowns, problem.weight, problem.speed
-    jacobian = refined.jacobian(place)
-    sure = certainty(refined, place, jacobian)
-    alike = not_told_apart(refined, place, jacobian, sure.errors, sure.not_identifiable)
-    cost = problem.cost(place)
-    span = unknowns.high - unknowns.low
-    at_wall = (place - unknowns.low < ON_BOUND * span) | (unknowns.high - place < ON_BOUND * span)
-    bounds = {name: bool(at_wall[i]) and _is_a_wall(name, at_low=place[i] < 0.5 * (unknowns.low + unknowns.high)[i])
-              for i, name in enumerate(unknowns.names)}  # fmt: skip
+    jacobian = fit.residuals.jacobian(theta)
+    sure = estimate_uncertainty(fit, jacobian)
+    alike = find_confusable_effects(fit, jacobian, sure.errors, sure.not_identifiable)
+    cost = fit.estimate.cost
     variance = float(np.sum(weight * (speed - np.sum(weight * speed)) ** 2))
     return Fit(
-        parameters=unknowns.parameters(place, problem.recordings[0].info.name),
-        standard_errors=unknowns.value_errors(place, sure.errors),
+        parameters=fit.estimate.parameters,
+        standard_errors=unknowns.value_errors(theta, sure.errors),
         correlations=sure.correlations_of(unknowns.names),
-        on_bound=bounds,
+        on_bound=find_bounds_hit(fit.estimate),
         not_identifiable=sure.not_identifiable,
         not_told_apart=alike,
-        suggested_experiment=_suggestion(sure.not_identifiable, alike),
+        suggested_experiment=_suggest_experiment(sure.not_identifiable, alike),
         residual_rms=float(np.sqrt(cost)),
-        noise_floor=refined.noise_floor,
-        r_squared=1.0 - cost / variance if variance > 1e-18 * float(np.max(speed**2)) else float("nan"),
+        noise_floor=fit.residuals.noise_floor,
+        r_squared=1.0 - cost / variance if variance > NO_VARIANCE * float(np.max(speed**2)) else float("nan"),
         whiteness=sure.whiteness,
-        slot_irregularity=tuple(encoder.irregularity for encoder in refined.encoders),
-        start_speeds=tuple(float(v) for v in unknowns.decode(place[None])[1][0]),
+        slot_irregularity=tuple(encoder.irregularity for encoder in fit.residuals.encoders),
+        start_speeds=tuple(float(v) for v in unknowns.decode(theta[None])[1][0]),
         search=search,
-        evaluations=evaluations,
-        duration=0.0,
+        evaluations=fit.estimate.simulations,
         uris=tuple(recording.uri for recording in problem.recordings),
         notes=(
             *(note for recording in problem.recordings for note in recording.notes),
-            *(sentence_of(one) for one in dissents(refined, place) if one.disagrees),
+            *(describe_dissent(one) for one in compare_recordings(fit) if one.disagrees),
+            *notes,
         ),
+        duration=elapsed(),
     )
+
+
+def find_bounds_hit(estimate: Estimate) -> dict[str, bool]:
+    """Find the parameters that ended on the edge of the search box."""
+    unknowns, theta = estimate.problem.unknowns, estimate.theta
+    span = unknowns.high - unknowns.low
+    at_wall = (theta - unknowns.low < ON_BOUND * span) | (unknowns.high - theta < ON_BOUND * span)
+    middle = 0.5 * (unknowns.low + unknowns.high)
+    return {
+        name: bool(at_wall[i]) and _is_a_wall(name, at_low=theta[i] < middle[i])
+        for i, name in enumerate(unknowns.names)
+    }
 
 
 def _is_a_wall(name: str, at_low: bool) -> bool:
@@ -95,11 +101,11 @@ def _is_a_wall(name: str, at_low: bool) -> bool:
     return not (at_low and spec.low == spec.off)
 
 
-def _suggestion(not_identifiable: tuple[str, ...], alike: dict[str, tuple[str, ...]]) -> str:
+def _suggest_experiment(not_identifiable: tuple[str, ...], alike: dict[str, tuple[str, ...]]) -> str:
     """The profile that would show what this recording cannot; empty if nothing is open."""
     for effect in EFFECT_BY_NAME.values():
         if any(spec.name in not_identifiable for spec in effect.parameters):
             return effect.shown_by
     if not_identifiable:
         return "staircase"
-    return telling_apart(rival for rivals in alike.values() for rival in rivals)
+    return suggest_profile(rival for rivals in alike.values() for rival in rivals)

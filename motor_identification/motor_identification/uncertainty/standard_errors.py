@@ -1,14 +1,14 @@
-"""How sure a fit is: standard errors and correlations that stay right where the residuals do not."""
+"""Estimate how sure a fit is: standard errors and correlations that stay right where the residuals do not."""
 
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.special import ndtri, stdtrit
 
-from motor_identification.estimation.whitened_fit import Refined
+from motor_identification.estimation.whitened_fit import WhitenedFit
 from motor_identification.recording import Bools, Floats, Integers
-from motor_identification.uncertainty.identifiability import independence, scales_of, shown
-from motor_identification.uncertainty.whiteness import Series, Whiteness, analyse
+from motor_identification.uncertainty.identifiability import mark_visible, measure_independence, scale_unknowns
+from motor_identification.uncertainty.whiteness import Series, Whiteness, analyse_whiteness
 
 BLOCKS = (20, 10)  # of equal time; the fewer where the more are not independent
 DEPENDENT = 1.645  # standard deviations of the products of neighbours, from which on blocks are not independent
@@ -21,8 +21,8 @@ LEVEL = 0.975  # quantile up to which an interval of ±1.96 standard errors shal
 
 
 @dataclass(frozen=True)
-class Certainty:
-    """Standard errors of a place (D,) (NaN where not identifiable), and which physical parameters are not.
+class Uncertainty:
+    """Standard errors of θ (D,) (NaN where not identifiable), and which physical parameters are not.
 
     `correlations` (D, D) has NaN rows and columns where the errors are NaN.
     """
@@ -38,8 +38,8 @@ class Certainty:
         return {name: dict(zip(names, map(float, row), strict=True)) for name, row in zip(names, rows, strict=True)}
 
 
-def certainty(refined: Refined, place: Floats, jacobian: Floats) -> Certainty:
-    """Judge a fitted place (D,) by the white residuals and their Jacobian (rows, D) there.
+def estimate_uncertainty(fit: WhitenedFit, jacobian: Floats) -> Uncertainty:
+    """Estimate the standard errors of a fit from its white residuals and their Jacobian (rows, D).
 
     Where the residuals pass for white (portmanteau test of `whiteness.py`), the covariance is (JᵀJ)⁻¹: it needs no
     estimate. Elsewhere, and where that cannot be tested (windows that overlap), it is that of the delete-one-block
@@ -55,21 +55,21 @@ def certainty(refined: Refined, place: Floats, jacobian: Floats) -> Certainty:
     More and shorter blocks, and a stationary (autoregressive) model of the residuals, were tried and cover less: a
     disturbance of the motor lasts long beside the time between edges, and is not stationary in the white residuals.
     """
-    scale = scales_of(refined.problem, place)
+    scale = scale_unknowns(fit.estimate)
     scaled = jacobian * scale
     root = _root(scaled)
-    white = refined.residuals(place)
-    whiteness = analyse(_series(refined, white))
+    white = fit.residuals.residuals(fit.theta)
+    whiteness = analyse_whiteness(_series(fit, white))
     covariance = root @ root.T
     errors = np.sqrt(np.diag(covariance))
     if not whiteness.p_value >= DOUBTFUL and len(white) >= BLOCKS[0] * LEAST_ROWS:
-        covariance, errors = _blocked(refined, scaled, white, root)
-    alone = independence(scaled)
-    unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE) | ~shown(refined.problem, place, scale)
-    names = tuple(name for name, bad in zip(refined.problem.unknowns.names, unsure, strict=False) if bad)
+        covariance, errors = _blocked(fit, scaled, white, root)
+    alone = measure_independence(scaled)
+    unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE) | ~mark_visible(fit.estimate, scale)
+    names = tuple(name for name, bad in zip(fit.problem.unknowns.names, unsure, strict=False) if bad)
     sigma = np.where(unsure, np.nan, np.sqrt(np.diag(covariance)))
     correlations = np.clip(covariance / np.outer(sigma, sigma), -1.0, 1.0)
-    return Certainty(np.where(unsure, np.nan, errors * scale), correlations, names, whiteness)
+    return Uncertainty(np.where(unsure, np.nan, errors * scale), correlations, names, whiteness)
 
 
 def _root(columns: Floats) -> Floats:
@@ -79,10 +79,10 @@ def _root(columns: Floats) -> Floats:
     return np.asarray(vectors * np.where(kept, 1.0 / np.sqrt(np.where(kept, values, 1.0)), 0.0))
 
 
-def _blocked(refined: Refined, columns: Floats, white: Floats, root: Floats) -> tuple[Floats, Floats]:
+def _blocked(fit: WhitenedFit, columns: Floats, white: Floats, root: Floats) -> tuple[Floats, Floats]:
     """Covariance (D, D) by the more blocks; errors (D,), by the fewer where the more depend on each other."""
     (covariance, errors, dependent), fewer = (
-        _jackknife(columns, white, root, _block_of(refined, blocks)) for blocks in BLOCKS
+        _jackknife(columns, white, root, _block_of(fit, blocks)) for blocks in BLOCKS
     )
     return covariance, np.where(dependent, np.maximum(errors, fewer[1]), errors)
 
@@ -91,7 +91,7 @@ def _jackknife(columns: Floats, white: Floats, root: Floats, block_of: Integers)
     """Covariance (D, D), errors (D,) widened for the blocks being few, and where neighbouring blocks are dependent.
 
     In the coordinates A = J R, AᵀA is the identity and G_b = A_bᵀA_b is what block b knows of each direction. Leaving
-    block b out moves the place by R m_b, m_b = (I − G_b)⁻¹ A_bᵀ r_b. Rows of block −1, the slot table's prior, are
+    block b out moves θ by R m_b, m_b = (I − G_b)⁻¹ A_bᵀ r_b. Rows of block −1, the slot table's prior, are
     independent of each other.
     """
     unit = columns @ root
@@ -126,28 +126,28 @@ def _freedom(direction: Floats, known: Floats, weight: Floats) -> float:
     return float(np.trace(spread)) ** 2 / square if square > 0.0 else 1.0
 
 
-def _lengths(refined: Refined) -> list[tuple[int, int]]:
+def _lengths(fit: WhitenedFit) -> list[tuple[int, int]]:
     """Of every recording: how many white residuals are of intervals, and how many of the slot table's prior."""
     return [
         (len(data.first), encoder.projection.table.index.size if encoder.projection is not None else 0)
-        for data, encoder in zip(refined.problem.intervals, refined.encoders, strict=True)
+        for data, encoder in zip(fit.problem.intervals, fit.residuals.encoders, strict=True)
     ]
 
 
-def _series(refined: Refined, white: Floats) -> tuple[Series, ...]:
+def _series(fit: WhitenedFit, white: Floats) -> tuple[Series, ...]:
     """The white residuals recording by recording."""
     series, row = [], 0
-    for r, (data, (intervals, table)) in enumerate(zip(refined.problem.intervals, _lengths(refined), strict=True)):
+    for r, (data, (intervals, table)) in enumerate(zip(fit.problem.intervals, _lengths(fit), strict=True)):
         middle = 0.5 * (data.time[data.first] + data.time[data.last])
-        series.append(Series(white[row : row + intervals], middle, data.fresh, *refined.problem.commands[r]))
+        series.append(Series(white[row : row + intervals], middle, data.fresh, *fit.problem.commands[r]))
         row += intervals + table
     return tuple(series)
 
 
-def _block_of(refined: Refined, blocks: int) -> Integers:
+def _block_of(fit: WhitenedFit, blocks: int) -> Integers:
     """Number of the block of equal time that each residual belongs to; −1 for those of the slot table."""
     parts, begun = [], 0.0
-    for data, (_, table) in zip(refined.problem.intervals, _lengths(refined), strict=True):
+    for data, (_, table) in zip(fit.problem.intervals, _lengths(fit), strict=True):
         parts += [begun + 0.5 * (data.time[data.first] + data.time[data.last]), np.full(table, -1.0)]
         begun += float(data.time[-1])
     middle = np.concatenate(parts)

@@ -48,7 +48,7 @@ class Whiteness:
     input_lag: float  # [s] by which the residual follows
 
 
-def analyse(series: tuple[Series, ...]) -> Whiteness:
+def analyse_whiteness(series: tuple[Series, ...]) -> Whiteness:
     """Both tests over all recordings together."""
     rho, pairs = autocorrelation(series, LAGS)
     known = pairs >= FEWEST

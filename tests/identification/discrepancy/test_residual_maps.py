@@ -1,6 +1,7 @@
 """Where a model is wrong: maps, words and torque, held against the plant's truth and against plain recomputation."""
 
 import re
+from dataclasses import replace
 from math import tau
 
 import numpy as np
@@ -8,14 +9,16 @@ import pytest
 from diagnosed import BASE, fitted, held
 from plant import profiles, record
 
-from motor_identification.discrepancy.missing_torque import Shape, describe_torque, shape_left
-from motor_identification.discrepancy.operating_conditions import situations
+from motor_identification.discrepancy.missing_torque import MissingTorque, describe_torque, estimate_missing_torque
+from motor_identification.discrepancy.operating_conditions import find_conditions
 from motor_identification.discrepancy.region_text import describe_error, describe_region
-from motor_identification.discrepancy.residual_maps import AXES, maps
-from motor_identification.discrepancy.worst_regions import contrasts, thresholds, worst
+from motor_identification.discrepancy.residual_maps import AXES, map_residuals
+from motor_identification.discrepancy.worst_regions import choose_thresholds, find_worst_regions, measure_contrast
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import make_problem
 from motor_identification.recording import Floats, check
-from motor_identification.validation.held_out import HeldOut, keep_out
+from motor_identification.validation.held_out import HeldOut
+from motor_identification.validation.hold_out import make_hold_out
 
 SHARE = 0.003  # of a slot: what the disc of `diagnosed` has
 FRICTION = {"ks": 0.4}
@@ -25,15 +28,15 @@ DISC = {"eccentricity": 0.03, "eccentricity_phase": 1.0}
 
 def missing(**hidden: float) -> HeldOut:
     """Held-out motion judged by the true kv and ka, so that what is hidden is all that is missing."""
-    problem, _, kept = fitted(**hidden)
-    return kept.judged(problem, np.log([BASE["kv"], BASE["ka"]]))
+    estimate, hold_out = fitted(**hidden)
+    return hold_out.validate(replace(estimate, theta=np.log([BASE["kv"], BASE["ka"]])))
 
 
 def test_situations_are_what_the_motor_did() -> None:
     recording, truth = record(BASE | FRICTION, *profiles.reversals(8.0), seed=3)
-    kept = keep_out([check(recording)], [check(recording)])
+    kept = make_hold_out([check(recording)], [check(recording)])
     problem = make_problem([check(recording)], ())
-    seen = situations(kept.judged(problem, np.log([BASE["kv"], BASE["ka"]])))
+    seen = find_conditions(kept.validate(Estimate(problem, np.log([BASE["kv"], BASE["ka"]]))))
     moving = ~seen.still
     assert np.sum(moving) > 200
     speed = np.interp(seen.time, truth.time, truth.speed)
@@ -53,7 +56,7 @@ def test_situations_are_what_the_motor_did() -> None:
 def test_the_angle_is_the_measured_one() -> None:
     """The disc is the same in every turn: the angle within a run advances as the truth does, to a fifth of a slot."""
     one = missing(**DISC)
-    seen = situations(one)
+    seen = find_conditions(one)
     recording, truth = record(
         BASE | DISC, *profiles.rich(9.0, seed=5), seed=2, disc_seed=1, irregularity=0.003
     )  # the held-out recording of `diagnosed`, with what really happened
@@ -67,9 +70,9 @@ def test_the_angle_is_the_measured_one() -> None:
 
 def test_maps_add_up_to_the_gap() -> None:
     one = held(**FRICTION)
-    drawn = maps(one, SHARE)
+    drawn = map_residuals(one, SHARE)
     assert {each.axis.name for each in drawn} == {axis.name for axis in AXES}
-    whole = float(np.concatenate([data.duration for data in one.problem.intervals])[one.counted].sum())
+    whole = float(np.concatenate([data.duration for data in one.intervals])[one.counted].sum())
     for each in drawn:
         known = each.seconds > 0.0
         assert np.array_equal(known, np.isfinite(each.gap)) and len(each.edges) == len(each.gap) + 1
@@ -83,8 +86,8 @@ def test_maps_add_up_to_the_gap() -> None:
 
 def test_a_bin_is_what_it_says() -> None:
     one = held(**FRICTION)
-    seen = situations(one)
-    speed = next(each for each in maps(one, SHARE) if each.axis.name == "speed")
+    seen = find_conditions(one)
+    speed = next(each for each in map_residuals(one, SHARE) if each.axis.name == "speed")
     k = int(np.searchsorted(speed.edges, 30.0)) - 1
     inside = (seen.speed >= speed.edges[k]) & (seen.speed < speed.edges[k + 1])
     weight = seen.duration[inside] / seen.duration[inside].sum()
@@ -97,7 +100,7 @@ def test_a_bin_is_what_it_says() -> None:
 
 
 def test_a_complete_model_is_at_the_floor_everywhere() -> None:
-    for each in maps(held(), SHARE):
+    for each in map_residuals(held(), SHARE):
         full = (each.seconds > 0.5) & (each.floor > 0.05)
         ratio = each.gap[full] / each.floor[full]
         assert len(ratio) >= 2 and ratio.min() > 0.6 and ratio.max() < 1.4
@@ -115,8 +118,8 @@ def test_where_says_what_can_be_recomputed() -> None:
     found = SENTENCE.fullmatch(describe_error(one, SHARE))
     assert found, describe_error(one, SHARE)
     limit, gap, times, excess, time, fast = map(float, found.groups())
-    data, marks = one.problem.intervals[0], one.scored[0]
-    left = one.problem.residuals(one.place)[marks]
+    data, marks = one.intervals[0], one.scored[0]
+    left = one.residuals_of[0][marks]
     seconds, speed, still = data.duration[marks], data.speed[marks], data.slack[marks] > 0.0
     floor = one.floors(SHARE)
     inside = ~still & (np.abs(speed) < limit)
@@ -152,9 +155,10 @@ def test_a_disc_is_seen_in_every_turn() -> None:
 
 def test_a_ripple_is_counted() -> None:
     """On a motor with friction, which is known: it stops on its ripple and does not swing there."""
-    problem, _, kept = fitted(ks=0.5, ripple_voltage=0.4, ripple_cycles=6.0, ripple_phase=0.5)
-    place = np.array([*np.log([BASE["kv"], BASE["ka"]]), 0.5])
-    said = describe_error(kept.judged(problem.with_effects(("coulomb_friction",)), place), SHARE)
+    estimate, hold_out = fitted(ks=0.5, ripple_voltage=0.4, ripple_cycles=6.0, ripple_phase=0.5)
+    theta = np.array([*np.log([BASE["kv"], BASE["ka"]]), 0.5])
+    sliding = Estimate(estimate.problem.with_effects(("coulomb_friction",)), theta)
+    said = describe_error(hold_out.validate(sliding), SHARE)
     found = re.match(
         r"the error repeats 6 times per revolution \(RMS [\d.]+ rad/s, .* about (\d+) % of the excess error\)", said
     )
@@ -163,7 +167,7 @@ def test_a_ripple_is_counted() -> None:
 
 def test_the_worst_regions_do_not_overlap() -> None:
     one = held(**FRICTION)
-    regions = worst(one, SHARE)
+    regions = find_worst_regions(one, SHARE)
     assert 1 <= len(regions) <= 3 and f"largest error {describe_region(regions[0])}" == describe_error(one, SHARE)
     assert np.max(np.sum([region.inside for region in regions], axis=0)) == 1
     assert sum(region.excess for region in regions) <= 1.0 + 1e-9
@@ -173,17 +177,17 @@ def test_the_worst_regions_do_not_overlap() -> None:
 
 
 def test_contrast_prefers_much_in_little() -> None:
-    much = contrasts(np.array([0.9, 0.9, 0.3, 0.5, 0.2]), np.array([0.1, 0.5, 0.1, 0.5, 0.4]))
+    much = measure_contrast(np.array([0.9, 0.9, 0.3, 0.5, 0.2]), np.array([0.1, 0.5, 0.1, 0.5, 0.4]))
     assert much[0] > much[1] > 0.0 and much[0] > much[2] > 0.0
     assert much[3] == pytest.approx(0.0) and much[4] == 0.0
-    assert thresholds(np.array([0.0, 123.4]))[0] == 1.2 and thresholds(np.zeros(2)) == []
+    assert choose_thresholds(np.array([0.0, 123.4]))[0] == 1.2 and choose_thresholds(np.zeros(2)) == []
 
 
-def shape(one: HeldOut, axis: str) -> Shape:
-    return next(each for each in shape_left(one) if each.axis == axis)
+def shape(one: HeldOut, axis: str) -> MissingTorque:
+    return next(each for each in estimate_missing_torque(one) if each.axis == axis)
 
 
-def within(one: Shape, truth: Floats, which: Floats) -> None:
+def within(one: MissingTorque, truth: Floats, which: Floats) -> None:
     """Known bins are within 3 % of 0.4 V, or 4 standard errors, of the truth."""
     known = np.isfinite(one.torque) & which.astype(bool)
     assert np.sum(known) >= 10
@@ -196,7 +200,7 @@ def test_missing_friction_has_the_shape_of_friction() -> None:
     one = shape(missing(**FRICTION), "speed")
     middle = 0.5 * (one.edges[1:] + one.edges[:-1])
     within(one, 0.4 * np.sign(middle), np.abs(middle) > 10.0)
-    words = describe_torque(shape_left(missing(**FRICTION)))
+    words = describe_torque(estimate_missing_torque(missing(**FRICTION)))
     found = re.fullmatch(r"Residual torque over the speed: (-[\d.]+) to ([\d.]+) V, largest near .*rad/s\.", words)
     assert found and -0.5 < float(found[1]) < -0.38 and 0.38 < float(found[2]) < 0.5
 
@@ -208,4 +212,4 @@ def test_a_missing_load_step_has_its_size_and_time() -> None:
 
 
 def test_nothing_is_left_of_a_complete_model() -> None:
-    assert describe_torque(shape_left(missing())) == ""
+    assert describe_torque(estimate_missing_torque(missing())) == ""

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from motor_identification.estimation.excerpt import LONG, PIECES, excerpt
+from motor_identification.estimation.excerpt import LONG, PIECES, take_excerpt
 from motor_identification.estimation.problem import Problem, make_problem
-from motor_identification.identify import Request, identify
+from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import Recording, check, recording_of
 from motor_model.excitation import profile
 from motor_model.parameters import Parameters
@@ -32,7 +32,7 @@ def long() -> Recording:
 
 
 def coarse(recordings: list[Recording], effects: tuple[str, ...] = EFFECTS) -> Problem:
-    return make_problem(recordings, effects).coarse(0.02)
+    return make_problem(recordings, effects).coarsen(0.02)
 
 
 def place_of(task: Problem, **values: float) -> np.ndarray:
@@ -42,7 +42,7 @@ def place_of(task: Problem, **values: float) -> np.ndarray:
 
 def test_pieces_are_short_begin_at_rest_and_are_simulated_as_the_whole_is(long: Recording) -> None:
     whole = coarse([long])
-    pieces = excerpt(whole)
+    pieces = take_excerpt(whole)
     assert len(pieces.intervals) == PIECES
     seen = sum(float(data.time[-1] - data.time[0]) for data in pieces.intervals)
     assert 0.9 * LONG < seen <= LONG + 0.1
@@ -53,7 +53,7 @@ def test_pieces_are_short_begin_at_rest_and_are_simulated_as_the_whole_is(long: 
 
 
 def test_the_excerpt_has_the_same_minimum(long: Recording) -> None:
-    pieces = excerpt(coarse([long]))
+    pieces = take_excerpt(coarse([long]))
     best = pieces.costs(place_of(pieces)[None])[0]
     for name, factor in (("kv", 1.01), ("kv", 0.99), ("ka", 1.05), ("ka", 0.95), ("ks", 1.05), ("ks", 0.95)):
         assert pieces.costs(place_of(pieces, **{name: factor * TRUE[name]})[None])[0] > 1.2 * best
@@ -61,20 +61,20 @@ def test_the_excerpt_has_the_same_minimum(long: Recording) -> None:
 
 def test_short_recordings_and_effects_that_happen_anywhere_are_searched_whole(long: Recording) -> None:
     short = coarse([recorded(1)])
-    assert excerpt(short) is short
+    assert take_excerpt(short) is short
     for effect in ("load_step", "warm_up"):
         whole = coarse([long], (*EFFECTS, effect))
-        assert excerpt(whole) is whole
+        assert take_excerpt(whole) is whole
 
 
 def test_phases_count_from_the_beginning_and_a_turning_motor_has_one_initial_speed(long: Recording) -> None:
     for recording, effects in ((long, (*EFFECTS, "torque_ripple")), (recorded(6, first=300), EFFECTS)):
-        pieces = excerpt(coarse([recording], effects))
+        pieces = take_excerpt(coarse([recording], effects))
         assert [float(data.time[0]) for data in pieces.intervals] == [0.0]
         assert 0.9 * LONG < pieces.intervals[0].time[-1] <= LONG + 0.1
     turning = coarse([recorded(6, first=300), long])
     assert list(turning.unknowns.turning) == [True, False]
-    pieces = excerpt(turning)
+    pieces = take_excerpt(turning)
     assert pieces.unknowns.turning.sum() == 1
     assert len(pieces.unknowns.low) == len(turning.unknowns.low)
     starts = pieces.unknowns.decode(np.append(place_of(short_of(pieces)), 12.5)[None])[1]
@@ -87,7 +87,7 @@ def short_of(task: Problem) -> Problem:
 
 
 def test_a_long_recording_is_identified(long: Recording) -> None:
-    fit = identify([long], Request(EFFECTS, particles=16))
+    fit = identify([long], Request(EFFECTS, SearchConfig(particles=16)))
     for name, true in TRUE.items():
         relative = fit.standard_errors[name] / true
         assert 1e-9 < relative < 1e-6

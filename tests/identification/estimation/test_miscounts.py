@@ -4,14 +4,15 @@ import numpy as np
 import pytest
 from plant import profiles, record
 
-from motor_identification.estimation.miscounts import find_miscounted
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.miscounts import find_miscounts
 from motor_identification.estimation.problem import make_problem
-from motor_identification.identify import Request, identify
+from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import check
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 TRUE = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.4}
-PLACE = np.array([np.log(PAPER_KV), np.log(PAPER_KA), 0.4])
+THETA = np.array([np.log(PAPER_KV), np.log(PAPER_KA), 0.4])
 
 
 @pytest.mark.parametrize("miss_rate", [0.0, 0.003, 0.02])
@@ -19,7 +20,7 @@ def test_every_miscounted_interval_is_marked_and_no_other(miss_rate: float) -> N
     recording, truth = record(TRUE | {"miss_rate": miss_rate}, *profiles.staircase(), irregularity=0.01, seed=3)
     problem = make_problem([check(recording)], ("coulomb_friction",))
     (data,) = problem.intervals
-    (marks,) = find_miscounted(problem, PLACE)
+    (marks,) = find_miscounts(Estimate(problem, THETA))
     start, end = data.time[data.first], data.time[data.last]
     missed = np.searchsorted(truth.missed_time, end) - np.searchsorted(truth.missed_time, start)
     missed[data.slack > 0.0] = 0
@@ -30,7 +31,7 @@ def test_every_miscounted_interval_is_marked_and_no_other(miss_rate: float) -> N
 @pytest.mark.parametrize("miss_rate", [0.003, 0.02])
 def test_the_motor_is_found_all_the_same_and_the_loss_is_said(miss_rate: float) -> None:
     recording, _ = record(TRUE | {"miss_rate": miss_rate}, *profiles.staircase(), irregularity=0.01, seed=4)
-    fit = identify([check(recording)], Request(("coulomb_friction",), particles=20))
+    fit = identify([check(recording)], Request(("coulomb_friction",), SearchConfig(particles=20)))
     for name, true in TRUE.items():
         assert fit.parameters.value(name) == pytest.approx(true, rel=2e-5)
     assert 0.008 < fit.slot_irregularity[0] < 0.012
@@ -41,7 +42,7 @@ def test_the_motor_is_found_all_the_same_and_the_loss_is_said(miss_rate: float) 
 def test_so_many_that_they_pull_the_first_fit_with_them() -> None:
     """3 % of the edges: every tenth interval is false, and a plain fit is off by 5 %."""
     recording, _ = record(TRUE | {"miss_rate": 0.03}, *profiles.staircase(12.0, 4, 0.25), irregularity=0.005, seed=0)
-    fit = identify([check(recording)], Request(("coulomb_friction",), particles=20))
+    fit = identify([check(recording)], Request(("coulomb_friction",), SearchConfig(particles=20)))
     for name, true in TRUE.items():
         assert fit.parameters.value(name) == pytest.approx(true, rel=3e-4)
     assert 0.9 < fit.residual_rms / fit.noise_floor < 1.15
@@ -49,5 +50,5 @@ def test_so_many_that_they_pull_the_first_fit_with_them() -> None:
 
 def test_nothing_is_left_out_of_a_clean_recording() -> None:
     recording, _ = record(TRUE, *profiles.staircase(), irregularity=0.01, seed=5)
-    fit = identify([check(recording)], Request(("coulomb_friction",), particles=20))
+    fit = identify([check(recording)], Request(("coulomb_friction",), SearchConfig(particles=20)))
     assert fit.notes == ()

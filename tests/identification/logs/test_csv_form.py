@@ -10,7 +10,7 @@ import pytest
 from motor_identification.bag import read_recording
 from motor_identification.cli.import_csv import main
 from motor_identification.logs import CsvForm, Kind, Log, read_log
-from motor_identification.measurement.build_intervals import intervals_of
+from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.recording import check, recording_of
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
@@ -72,7 +72,7 @@ def test_a_static_curve_is_a_stair_whose_ends_are_compared(tmp_path: Path) -> No
     assert np.all(np.diff([sample.sample_time for sample in samples]) == 20_000_000_000)
     assert (log.info.measurement, log.info.speed_window, log.info.speed_lag) == (Measurement.SPEED, 0.5, 0.25)
     assert "log.csv: 4 steady states, up to 3 V." in log.findings[0] and "do not show inertia" in log.findings[2]
-    intervals = intervals_of(check(recording_of(samples, log.info, "static")))
+    intervals = make_intervals(check(recording_of(samples, log.info, "static")))
     assert np.array_equal(intervals.time[intervals.last], [20.0, 40.0, 60.0, 80.0])
     assert np.allclose(intervals.duration, 0.5) and np.degrees(intervals.speed) == pytest.approx([100, 260, 421, -420])
     assert np.degrees(intervals.sigma) == pytest.approx(360 / 2800 / 0.5 / np.sqrt(6.0), rel=1e-6)

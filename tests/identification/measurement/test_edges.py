@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from plant import Truth, profiles, record
 from recorded import as_counts, as_speed
 
-from motor_identification.estimation.residual import residuals
-from motor_identification.measurement.build_intervals import intervals_of
-from motor_identification.measurement.edges import Edges, edges_of
+from motor_identification.estimation.residual import compute_residuals
+from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.measurement.edges import Edges, extract_edges
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Floats, Recording
 from motor_model.errors import RecordingError
@@ -50,7 +50,7 @@ def true_number(edges: Edges, truth: Truth) -> NDArray[np.int64]:
 def test_no_interval_that_is_kept_has_a_wrong_direction(motor: str, drive: str) -> None:
     for seed, irregularity in enumerate((0.0, 0.01)):
         recording, truth = record(MOTORS[motor], *DRIVES[drive], seed=seed, disc_seed=seed, irregularity=irregularity)
-        edges = edges_of(recording)
+        edges = extract_edges(recording)
         number = true_number(edges, truth)
         assert np.max(np.abs(truth.edge_time[number] - edges.time)) <= 0.5 * TICK + 2e-9
         assert np.array_equal(edges.count - edges.count[0], number - number[0])
@@ -66,10 +66,10 @@ def test_no_interval_that_is_kept_has_a_wrong_direction(motor: str, drive: str) 
 def test_two_channels_leave_out_only_the_interval_with_the_turn() -> None:
     for seed in range(4):
         recording, truth = record(MOTORS["friction"], *DRIVES["random"], seed=seed, single_channel=False)
-        edges = edges_of(recording)
+        edges = extract_edges(recording)
         number = true_number(edges, truth)
         assert np.array_equal(edges.direction, truth.edge_direction[number])
-        intervals = intervals_of(recording)
+        intervals = make_intervals(recording)
         turns = np.count_nonzero(np.diff(truth.edge_direction[number]))
         assert intervals.left_out == turns >= 4
 
@@ -79,7 +79,7 @@ def test_even_a_voltage_that_turns_all_the_time_leaves_most_directions_right(mil
     """What one channel cannot know, and how much of it: the plant's board follows the sign edge by edge."""
     drive = profiles.random(6.0, 5.0, hold=(0.01, 0.001 * milliseconds))
     recording, truth = record(BASE, *drive, seed=0)
-    edges = edges_of(recording)
+    edges = extract_edges(recording)
     number = true_number(edges, truth)
     kept = (edges.direction[1:] == edges.direction[:-1]) & (edges.direction[1:] != 0)
     wrong = kept & (truth.edge_direction[number[1:]] != edges.direction[1:])
@@ -94,8 +94,8 @@ def angle_at(truth: Truth, time: Floats) -> Floats:
 
 def scores(recording: Recording, truth: Truth) -> tuple[Intervals, Floats]:
     """The truth's residuals over their sigma, where there is one."""
-    intervals = intervals_of(recording)
-    residual = residuals(intervals, angle_at(truth, intervals.time))
+    intervals = make_intervals(recording)
+    residual = compute_residuals(intervals, angle_at(truth, intervals.time))
     known = intervals.sigma > 0.0
     return intervals, residual[known] / intervals.sigma[known]
 
@@ -128,7 +128,7 @@ def test_irregular_slots_score_above_the_timer() -> None:
 
 def test_intervals_follow_each_other_and_cover_the_motion() -> None:
     recording, truth = record(BASE, *DRIVES["random"], seed=3)
-    intervals = intervals_of(recording)
+    intervals = make_intervals(recording)
     moving = intervals.slack == 0.0
     begin, end = intervals.time[intervals.first[moving]], intervals.time[intervals.last[moving]]
     assert np.all(end > begin) and np.all(begin[1:] >= end[:-1])
@@ -140,15 +140,15 @@ def test_intervals_follow_each_other_and_cover_the_motion() -> None:
 def test_a_standing_motor_is_evidence_before_the_first_edge_and_after_the_last() -> None:
     drive = profiles.pieces([0.0, 8.0, 0.0], [0.5, 0.5, 1.5])
     recording, truth = record(BASE | {"ks": 0.5}, *drive, seed=0)
-    intervals = intervals_of(recording)
+    intervals = make_intervals(recording)
     still = np.flatnonzero(intervals.slack)
     assert len(still) == 2 and np.all(intervals.slack[still] == SLOT) and np.all(intervals.speed[still] == 0.0)
     assert intervals.time[intervals.first[still[0]]] == 0.0
     assert intervals.time[intervals.last[still[1]]] == recording.duration
-    creeping = residuals(intervals, 0.5 * intervals.time)[still]
+    creeping = compute_residuals(intervals, 0.5 * intervals.time)[still]
     assert creeping == pytest.approx(0.5 - SLOT / intervals.duration[still], rel=1e-9)  # all but the slot it may move
-    assert residuals(intervals, -0.5 * intervals.time)[still] == pytest.approx(-creeping, rel=1e-9)
-    assert np.all(residuals(intervals, 0.9 * SLOT * intervals.time / recording.duration)[still] == 0.0)
+    assert compute_residuals(intervals, -0.5 * intervals.time)[still] == pytest.approx(-creeping, rel=1e-9)
+    assert np.all(compute_residuals(intervals, 0.9 * SLOT * intervals.time / recording.duration)[still] == 0.0)
 
 
 def test_sampled_counts_are_known_to_a_slot() -> None:
@@ -175,12 +175,12 @@ def test_speeds_are_means_over_their_window(window: int) -> None:
 
 def test_degenerate_reports_leave_no_interval_rather_than_a_wrong_one() -> None:
     recording, truth = record(BASE, *profiles.step(10.0, 0.5), seed=1)
-    whole = intervals_of(recording)
+    whole = make_intervals(recording)
     for period in (0.0, np.nan, -1.0):
-        fewer = intervals_of(replace(recording, edge_period=np.full(len(recording), period)))
+        fewer = make_intervals(replace(recording, edge_period=np.full(len(recording), period)))
         assert 0 < len(fewer.first) < len(whole.first)  # the edge before the latest is not known then
         assert np.all(np.isfinite(fewer.speed)) and np.max(np.abs(fewer.speed)) < 160.0
     doubled = replace(recording, edge_time=np.repeat(recording.edge_time[::2], 2)[: len(recording)])
-    assert np.all(np.isfinite(intervals_of(doubled).speed))
+    assert np.all(np.isfinite(make_intervals(doubled).speed))
     with pytest.raises(RecordingError, match=r"9\d of 9\d edge_time values lie outside the sample that counted"):
-        intervals_of(replace(recording, edge_time=np.zeros(len(recording), dtype=np.int64)))
+        make_intervals(replace(recording, edge_time=np.zeros(len(recording), dtype=np.int64)))

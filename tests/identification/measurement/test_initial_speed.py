@@ -5,8 +5,8 @@ import pytest
 from plant import profiles, record
 from recorded import as_counts, as_speed
 
-from motor_identification.identify import Request, identify
-from motor_identification.measurement.initial_speed import initial_speed
+from motor_identification.identify import Request, SearchConfig, identify
+from motor_identification.measurement.initial_speed import estimate_initial_speed
 from motor_identification.recording import Recording, check
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
@@ -27,14 +27,14 @@ def begun(speed: float, seed: int, counts: bool, edges: int, delay: float = 0.0)
 @pytest.mark.parametrize("counts", [False, True])
 @pytest.mark.parametrize("edges", [24, 96, 500])
 def test_a_motor_that_stood_is_not_taken_to_turn(edges: int, counts: bool) -> None:
-    found = [initial_speed(begun(0.0, seed, counts, edges, 0.01 * (seed % 2))) for seed in range(20)]
+    found = [estimate_initial_speed(begun(0.0, seed, counts, edges, 0.01 * (seed % 2))) for seed in range(20)]
     assert np.count_nonzero(found) <= (1 if counts and edges == 24 else 0)
 
 
 @pytest.mark.parametrize("counts", [False, True])
 @pytest.mark.parametrize("edges", [24, 96, 500])
 def test_a_motor_that_turned_is_seen_and_its_speed_is_near(edges: int, counts: bool) -> None:
-    found = np.array([initial_speed(begun(80.0, seed, counts, edges)) for seed in range(20)])
+    found = np.array([estimate_initial_speed(begun(80.0, seed, counts, edges)) for seed in range(20)])
     assert np.count_nonzero(found) >= (14 if counts and edges == 24 else 17)
     assert np.median(np.abs(found[found != 0.0] / 80.0 - 1.0)) < 0.2
     assert np.all(found[found != 0.0] > 40.0) and np.all(found < 120.0)
@@ -43,9 +43,9 @@ def test_a_motor_that_turned_is_seen_and_its_speed_is_near(edges: int, counts: b
 def test_what_is_reported_is_believed_and_a_logged_speed_too() -> None:
     recording, _ = record(TRUTH, *profiles.step(10.0, 1.0), seed=0)
     part = recording.between(0.3, 1.0)
-    assert initial_speed(part) == part.speed[0] > 50.0
-    assert initial_speed(as_speed(recording)) == 0.0
-    assert initial_speed(as_speed(part)) == as_speed(part).speed[0]
+    assert estimate_initial_speed(part) == part.speed[0] > 50.0
+    assert estimate_initial_speed(as_speed(recording)) == 0.0
+    assert estimate_initial_speed(as_speed(part)) == as_speed(part).speed[0]
 
 
 @pytest.mark.parametrize("counts", [False, True])
@@ -55,7 +55,7 @@ def test_the_fit_of_a_motor_that_turned_finds_its_first_speed(counts: bool) -> N
         drive = profiles.pieces([6.0, 3.0, 9.0], 0.4)
         recording, _ = record(truth, *drive, seed=seed, start_speed=60.0, single_channel=not counts)
         recording = check(as_counts(recording) if counts else recording)
-        fit = identify([recording], Request(("coulomb_friction",), particles=30, epochs=40))
+        fit = identify([recording], Request(("coulomb_friction",), SearchConfig(particles=30, epochs=40)))
         assert fit.start_speeds[0] == pytest.approx(60.0, abs=0.5 if counts else 0.02)
         assert 0.8 < fit.residual_rms / fit.noise_floor < 1.15
         for name, value in fit.parameters.values.items():

@@ -8,9 +8,15 @@ import pytest
 from plant import Truth, profiles, record
 from recorded import as_counts
 
-from motor_identification.identify import Request, identify
-from motor_identification.measurement.build_intervals import intervals_of
-from motor_identification.measurement.sampled_counts import STANDARD, Fixes, changes_of, fixes_of, stamp_jitter
+from motor_identification.identify import Request, SearchConfig, identify
+from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.measurement.sampled_counts import (
+    STANDARD,
+    Fixes,
+    estimate_stamp_jitter,
+    extract_count_changes,
+    locate_fixes,
+)
 from motor_identification.recording import Floats, Recording, check
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
@@ -25,7 +31,7 @@ def counted(values: dict[str, float], drive: profiles.Profile, **how: float) -> 
 
 
 def fixed(recording: Recording) -> Fixes:
-    return fixes_of(recording, changes_of(recording))
+    return locate_fixes(recording, extract_count_changes(recording))
 
 
 def errors(fixes: Fixes, truth: Truth) -> Floats:
@@ -70,7 +76,7 @@ def test_the_blur_is_true_through_starts_stops_and_reversals(volts: float) -> No
 def test_runs_break_where_the_disc_turns_and_a_stand_in_between_is_evidence() -> None:
     drive = profiles.pieces([4.0, 0.0, -4.0, 0.0], [0.4, 0.5, 0.4, 0.5])
     recording, truth = counted(RUBBING, drive, seed=1)
-    intervals = intervals_of(recording)
+    intervals = make_intervals(recording)
     still = np.flatnonzero(intervals.slack)
     assert len(still) == 1 and intervals.slack[still[0]] == SLOT
     start, end = intervals.time[intervals.first[still[0]]], intervals.time[intervals.last[still[0]]]
@@ -86,7 +92,7 @@ def test_runs_break_where_the_disc_turns_and_a_stand_in_between_is_evidence() ->
 def test_standing_between_two_edges_of_different_directions_is_evidence_with_stamps_too() -> None:
     drive = profiles.pieces([4.0, 0.0, -4.0, 0.0], [0.4, 0.5, 0.4, 0.5])
     recording, truth = record(RUBBING, *drive, seed=1, single_channel=False)
-    intervals = intervals_of(recording)
+    intervals = make_intervals(recording)
     still = np.flatnonzero(intervals.slack)
     begin, end = intervals.time[intervals.first[still]], intervals.time[intervals.last[still]]
     assert len(still) == 2 and np.all(end - begin > 0.1) and end[1] == recording.duration
@@ -114,7 +120,7 @@ def test_jittering_stamps_are_noticed_and_measured(sigma: float) -> None:
     for seed in range(8):
         recording, truth = counted(RUBBING, profiles.pieces([4.0, 7.3, 11.1], 0.4), seed=seed)
         fixes = fixed(jittering(recording, truth, sigma, seed))
-        found.append(stamp_jitter(replace(fixes, blur=np.full(len(fixes), STANDARD))))
+        found.append(estimate_stamp_jitter(replace(fixes, blur=np.full(len(fixes), STANDARD))))
     assert np.median(found) == pytest.approx(sigma, rel=0.15, abs=1e-9)
 
 
@@ -142,7 +148,7 @@ def test_counts_alone_find_the_motor_without_bias_and_with_true_standard_errors(
     scores = []
     for seed in range(30):
         recording, _ = counted(truth, drive(seed), seed=seed, **how)
-        fit = identify([recording], Request(LATE, particles=30, epochs=40, seed=seed))
+        fit = identify([recording], Request(LATE, SearchConfig(particles=30, epochs=40, seed=seed)))
         scores.append([(v - truth[name]) / fit.standard_errors[name] for name, v in fit.parameters.values.items()])
     assert np.all(np.isfinite(scores))
     spread, bias = np.std(scores, axis=0), np.mean(scores, axis=0) / np.std(scores, axis=0)
@@ -156,7 +162,7 @@ def test_counts_are_used_to_the_bound_of_what_they_say() -> None:
     off = []
     for seed in range(10):
         recording, _ = counted(RUBBING, profiles.random(12.0, 4.0, seed=seed), seed=seed)
-        fit = identify([recording], Request(("coulomb_friction",), particles=30, epochs=40))
+        fit = identify([recording], Request(("coulomb_friction",), SearchConfig(particles=30, epochs=40)))
         off.append([fit.parameters.values[name] / BASE[name] - 1.0 for name in ("kv", "ka")])
     rms = np.sqrt(np.mean(np.square(off), axis=0))
     assert 2e-5 < rms[0] < 2e-4 and 5e-5 < rms[1] < 5e-4

@@ -8,10 +8,10 @@ import pytest
 from plant import profiles, record
 from recorded import as_counts
 
-from motor_identification.identify import Request, identify
-from motor_identification.measurement.build_intervals import intervals_of
-from motor_identification.measurement.edges import edges_of
-from motor_identification.measurement.sanity_checks import jump_of, speed_over_count
+from motor_identification.identify import Request, SearchConfig, identify
+from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.measurement.edges import extract_edges
+from motor_identification.measurement.sanity_checks import compare_speed_with_count, find_count_jump
 from motor_identification.recording import Recording, check
 from motor_model.errors import RecordingError
 from motor_model.parameters import PAPER_KA, PAPER_KV
@@ -25,8 +25,8 @@ def test_no_motion_of_a_motor_is_a_jump() -> None:
         for drive in (profiles.random(12.0, 3.0, seed=seed), profiles.reversals(12.0, 6, 0.2), profiles.step(12.0)):
             for edges in (24, 500):
                 recording, _ = record(TRUTH, *drive, seed=seed, edges=edges, single_channel=False)
-                assert jump_of(recording.time, recording.edge_count, recording.voltage) is None
-                assert 0.9 < (speed_over_count(recording) or 1.0) < 1.1
+                assert find_count_jump(recording.time, recording.edge_count, recording.voltage) is None
+                assert 0.9 < (compare_speed_with_count(recording) or 1.0) < 1.1
 
 
 COUNTS = {
@@ -40,7 +40,7 @@ COUNTS = {
 @pytest.mark.parametrize("case", COUNTS)
 def test_a_count_that_wraps_or_is_reset_is_refused_with_its_time(case: str) -> None:
     recording, _ = record(TRUTH, *profiles.step(10.0, 1.0), seed=0, single_channel=False)
-    intervals_of(check(as_counts(recording)))
+    make_intervals(check(as_counts(recording)))
     with pytest.raises(
         RecordingError, match=r"edge_count jumps from -?\d+ to -?\d+ at 0\.\d+ s: the counter wrapped"
     ) as caught:
@@ -88,9 +88,9 @@ def test_one_stamp_in_a_hundred_wrong_changes_nothing(how: str, irregularity: fl
         recording, _ = record(TRUTH, *drive, seed=seed, irregularity=irregularity)
         wrong, number = spoiled(recording, how, seed)
         assert number >= 5
-        lost = len(edges_of(recording).time) - len(edges_of(wrong).time)
+        lost = len(extract_edges(recording).time) - len(extract_edges(wrong).time)
         assert 0.3 * number <= lost <= 2 * number + 2  # a wrong stamp takes the edge before it along
-        fit = identify([check(wrong)], Request(("coulomb_friction",), particles=30, epochs=40))
+        fit = identify([check(wrong)], Request(("coulomb_friction",), SearchConfig(particles=30, epochs=40)))
         off = [(v - TRUTH[name]) / fit.standard_errors[name] for name, v in fit.parameters.values.items()]
         assert max(map(abs, off)) < 3.0
         near = [abs(v / TRUTH[name] - 1.0) for name, v in fit.parameters.values.items()]
@@ -105,7 +105,7 @@ def test_right_stamps_are_kept() -> None:
             recording, truth = record(
                 TRUTH, *profiles.random(12.0, 4.0, seed=seed), seed=seed, irregularity=irregularity
             )
-            assert len(edges_of(recording).time) >= 0.998 * (
+            assert len(extract_edges(recording).time) >= 0.998 * (
                 np.count_nonzero(np.diff(recording.edge_count))
                 + np.count_nonzero(np.abs(np.diff(recording.edge_count)) > 1)
             )

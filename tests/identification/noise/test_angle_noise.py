@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from motor_identification.noise.angle_noise import AngleNoise, adjoint, likely_growth, make_whitening, whiten
+from motor_identification.noise.angle_noise import AngleNoise, estimate_drift, make_whitening, whiten, whiten_adjoint
 
 COUNT = 400
 
@@ -18,7 +18,7 @@ def noise(random: np.random.Generator, runs: int = 5) -> AngleNoise:
 
 
 def increments(data: AngleNoise, growth: float, random: np.random.Generator) -> np.ndarray:
-    """What the model of `noise.py` draws: angle errors at the edges and a random walk, run by run."""
+    """What the model of `angle_noise.py` draws: angle errors at the edges and a random walk, run by run."""
     steps, before = np.empty(COUNT), 0.0
     for k in range(COUNT):
         if data.fresh[k]:
@@ -53,13 +53,14 @@ def test_the_adjoint_is_the_transpose(seed: int, growth: float) -> None:
     random = np.random.default_rng(seed)
     whitening = make_whitening(noise(random), growth)
     x, y = random.standard_normal(COUNT), random.standard_normal(COUNT)
-    assert y @ whiten(whitening, x) == pytest.approx(adjoint(whitening, y) @ x, rel=1e-9, abs=1e-9)
+    assert y @ whiten(whitening, x) == pytest.approx(whiten_adjoint(whitening, y) @ x, rel=1e-9, abs=1e-9)
 
 
 def test_the_drift_of_the_model_is_found_and_none_is_invented() -> None:
     random = np.random.default_rng(2)
     data = noise(random)
-    found = [likely_growth(data, increments(data, 300.0, random)) for _ in range(20)]
-    assert 100.0 < np.median(found) < 900.0
-    none = [likely_growth(data, increments(data, 0.0, random)) for _ in range(20)]
-    assert sum(growth > 0.0 for growth in none) <= 1
+    grid = [10.0**k for k in np.arange(-4.0, 6.0, 0.5)]
+    found = [estimate_drift([data], [increments(data, 300.0, random)], grid) for _ in range(20)]
+    assert 100.0 < np.median(found) < 900.0 and set(found) <= set(grid)
+    none = [estimate_drift([data], [increments(data, 0.0, random)], grid) for _ in range(20)]
+    assert sum(drift > 0.0 for drift in none) <= 1

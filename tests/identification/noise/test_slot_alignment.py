@@ -6,27 +6,28 @@ import numpy as np
 import pytest
 from plant import profiles, record
 
-from motor_identification.estimation.direction_correction import redirected
-from motor_identification.estimation.least_squares import Speeds, descend
-from motor_identification.estimation.problem import Problem, make_problem
-from motor_identification.estimation.whitened_fit import Encoder, learn
+from motor_identification.estimation.direction_correction import correct_directions
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.whitened_fit import Encoder, learn_encoders
 from motor_identification.noise.angle_noise import whiten
-from motor_identification.noise.slot_alignment import FARTHEST, aligned
+from motor_identification.noise.slot_alignment import FARTHEST, align_slots
 from motor_identification.noise.slot_table import SlotTable
 from motor_identification.recording import check
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 TRUE = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.4}
-PLACE = np.array([np.log(PAPER_KV), np.log(PAPER_KA), 0.4])
+THETA = np.array([np.log(PAPER_KV), np.log(PAPER_KA), 0.4])
 
 
 def reversing(irregularity: float) -> tuple[Encoder, np.ndarray, np.ndarray]:
     """What is learned of an encoder in nine runs, its whitened residuals, and its table [rad]."""
     recording, _ = record(TRUE, *profiles.reversals(8.0, 9, 0.3), irregularity=irregularity, seed=4, disc_seed=4)
     task = make_problem([check(recording)], ("coulomb_friction",))
-    (encoder,) = learn(task, PLACE)
+    (encoder,) = learn_encoders(Estimate(task, THETA))
     assert encoder.projection is not None
-    white = whiten(encoder.whitening, task.increments(PLACE)[0])
+    white = whiten(encoder.whitening, task.increments(THETA)[0])
     return encoder, white, encoder.projection.best(white)
 
 
@@ -47,7 +48,7 @@ def test_every_run_is_put_where_its_slots_are(slips: list[int]) -> None:
     assert encoder.projection is not None
     truth = encoder.projection.table.index
     table = slipped(encoder, slips)
-    found = aligned(table, white, offsets)
+    found = align_slots(table, white, offsets)
     assert np.array_equal(found.first, truth.first) and np.array_equal(found.last, truth.last)
     assert (found is table.index) == (slips == [0])
 
@@ -55,26 +56,24 @@ def test_every_run_is_put_where_its_slots_are(slips: list[int]) -> None:
 def test_a_perfect_disc_has_nothing_to_tell() -> None:
     encoder, white, offsets = reversing(0.0)
     table = slipped(encoder, [0, 3])
-    assert aligned(table, white, offsets) is table.index
+    assert align_slots(table, white, offsets) is table.index
 
 
-def swinging(irregularity: float) -> tuple[Problem, np.ndarray]:
+def swinging(irregularity: float) -> Estimate:
     """A fit that lacks a ripple, on which a motor without friction swings where it should stand."""
     values = {"kv": 0.06, "ka": 0.0059, "ripple_voltage": 0.3, "ripple_cycles": 11.626, "ripple_phase": 1.0}
     recording = check(record(values, *profiles.rich(12.0, 6), seed=6, irregularity=irregularity, disc_seed=9)[0])
-    bare = make_problem([recording], ())
-    place, _ = descend(bare, Speeds(bare), np.log([values["kv"], values["ka"]]))
-    bare = redirected(bare, place)
-    return bare, descend(bare, Speeds(bare), place)[0]
+    bare = fit_speeds(Estimate(make_problem([recording], ()), np.log([values["kv"], values["ka"]])))
+    return fit_speeds(correct_directions(bare))
 
 
 def test_slots_are_learned_through_swings_that_no_channel_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    problem, place = swinging(0.01)
-    (encoder,) = learn(problem, place)
+    estimate = swinging(0.01)
+    (encoder,) = learn_encoders(estimate)
     assert 0.009 < encoder.irregularity < 0.011
     monkeypatch.setattr(
-        "motor_identification.estimation.whitened_fit.aligned", lambda table, white, offsets: table.index
+        "motor_identification.estimation.whitened_fit.align_slots", lambda table, white, offsets: table.index
     )
-    (blurred,) = learn(problem, place)
+    (blurred,) = learn_encoders(estimate)
     assert blurred.irregularity < 0.8 * encoder.irregularity  # it takes the rest for drift
-    assert blurred.growth > encoder.growth
+    assert blurred.drift > encoder.drift

@@ -5,19 +5,20 @@ import pytest
 from plant import profiles, record
 from plant.encoder import Disc
 
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem, make_problem
-from motor_identification.estimation.whitened_fit import Encoder, learn
-from motor_identification.identify import Request, identify
-from motor_identification.measurement.intervals import joined
+from motor_identification.estimation.whitened_fit import Encoder, learn_encoders
+from motor_identification.identify import Request, SearchConfig, identify
+from motor_identification.measurement.intervals import join_intervals
 from motor_identification.noise.angle_noise import AngleNoise, make_whitening, whiten
 from motor_identification.noise.slot_eigenmodes import STIFF
-from motor_identification.noise.slot_table import Projection, SlotIndex, SlotTable, likely_variance
+from motor_identification.noise.slot_table import Projection, SlotIndex, SlotTable, estimate_slot_variance
 from motor_identification.recording import check, recording_of
 from motor_model.parameters import PAPER_KA, PAPER_KV, paper_motor
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
 TRUE = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.4}
-PLACE = np.array([np.log(PAPER_KV), np.log(PAPER_KA), 0.4])
+THETA = np.array([np.log(PAPER_KV), np.log(PAPER_KA), 0.4])
 
 
 def problem(seed: int, irregularity: float) -> tuple[Problem, Disc]:
@@ -27,10 +28,10 @@ def problem(seed: int, irregularity: float) -> tuple[Problem, Disc]:
 
 def learned(task: Problem) -> tuple[Encoder, np.ndarray]:
     """The encoder as learned at the true motor, and its table [rad]."""
-    (encoder,) = learn(task, PLACE)
+    (encoder,) = learn_encoders(Estimate(task, THETA))
     (data,) = task.intervals
     assert encoder.projection is not None
-    return encoder, encoder.projection.best(whiten(encoder.whitening, task.residuals(PLACE) * data.duration))
+    return encoder, encoder.projection.best(whiten(encoder.whitening, task.residuals(THETA) * data.duration))
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -38,7 +39,7 @@ def test_the_table_of_both_directions_is_recovered(seed: int) -> None:
     task, disc = problem(seed, 0.01)
     encoder, table = learned(task)
     assert 0.008 < encoder.irregularity < 0.012
-    assert encoder.growth == 0.0
+    assert encoder.drift == 0.0
     n = len(table) // 2
     slot = 2.0 * np.pi / n
     for half, flanks in ((table[:n], disc.begin), (table[n:], disc.end - 0.5)):
@@ -56,9 +57,9 @@ def test_a_perfect_disc_has_no_table() -> None:
 @pytest.mark.parametrize("irregularity", [0.0, 0.01])
 def test_residuals_of_the_truth_are_white(irregularity: float) -> None:
     task, _ = problem(5, irregularity)
-    (encoder,) = learn(task, PLACE)
+    (encoder,) = learn_encoders(Estimate(task, THETA))
     (data,) = task.intervals
-    white = encoder.white(task.residuals(PLACE) * data.duration)[: len(data.first)][data.slack == 0.0]
+    white = encoder.white(task.residuals(THETA) * data.duration)[: len(data.first)][data.slack == 0.0]
     assert 0.85 < np.sqrt(np.mean(white**2)) < 1.1
     assert abs(np.corrcoef(white[1:], white[:-1])[0, 1]) < 0.1
 
@@ -70,7 +71,7 @@ def test_irregular_slots_cost_little_accuracy() -> None:
         rows = []
         for seed in range(8):
             recording, _ = record(TRUE, *profiles.staircase(), irregularity=irregularity, seed=seed, disc_seed=seed)
-            fit = identify([check(recording)], Request(("coulomb_friction",), particles=16))
+            fit = identify([check(recording)], Request(("coulomb_friction",), SearchConfig(particles=16)))
             rows.append([fit.parameters.value(name) / true - 1.0 for name, true in TRUE.items()])
         errors[irregularity] = np.sqrt(np.mean(np.square(rows), axis=0))
     assert np.all(errors[0.01] < [1e-6, 4e-6, 1e-5])
@@ -81,7 +82,7 @@ def test_irregular_slots_cost_little_accuracy() -> None:
 def test_joined_intervals_keep_travel_time_and_edges() -> None:
     task, _ = problem(1, 0.0)
     (data,) = task.intervals
-    coarse = joined(data, 0.02)
+    coarse = join_intervals(data, 0.02)
     assert 3 * len(coarse.first) < len(data.first)
     assert np.sum(coarse.speed * coarse.duration) == pytest.approx(np.sum(data.speed * data.duration), rel=1e-12)
     assert coarse.duration.sum() == pytest.approx(data.duration.sum(), rel=1e-12)
@@ -165,16 +166,18 @@ def test_the_flanks_variance_is_that_of_expectation_maximisation() -> None:
         covariance = np.linalg.inv(columns.T @ columns + np.linalg.inv(small_prior(False)) / variance)
         mean = covariance @ columns.T @ white
         variance = float(np.mean((mean**2 + np.diag(covariance))[seen]))
-    assert likely_variance(table, white, 0.1 * SIGMA**2, 1.0, 6) == pytest.approx(variance, rel=1e-9)
+    assert estimate_slot_variance(table, white, 0.1 * SIGMA**2, 1.0, 6) == pytest.approx(variance, rel=1e-9)
     assert 0.1 * SIGMA**2 < variance < 4.0 * SIGMA**2
-    assert likely_variance(table, white, 0.1 * SIGMA**2, 0.5 * variance, 6) == 0.5 * variance
+    assert estimate_slot_variance(table, white, 0.1 * SIGMA**2, 0.5 * variance, 6) == 0.5 * variance
 
 
 def test_a_disc_of_a_thousand_slots_in_a_second_that_shows_a_third_of_them() -> None:
     config = BoardConfig(edges_per_revolution=1000, slot_irregularity=0.01, seed=2)
     board = SimulatedBoard(paper_motor(), config)
     samples = [board.sample(0.0 if k < 20 else 2.0) for k in range(220)]
-    fit = identify([check(recording_of(samples, config.info(paper_motor()), "step"))], Request(particles=16))
+    fit = identify(
+        [check(recording_of(samples, config.info(paper_motor()), "step"))], Request(search=SearchConfig(particles=16))
+    )
     assert 0.008 < fit.slot_irregularity[0] < 0.012
     for name, true, least, most in (("kv", PAPER_KV, 3e-7, 1e-6), ("ka", PAPER_KA, 3e-6, 1e-5)):
         relative = fit.standard_errors[name] / true

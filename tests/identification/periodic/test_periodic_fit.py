@@ -5,15 +5,16 @@ import pytest
 from plant import profiles, record
 from recorded import as_speed
 
-from motor_identification.estimation.direction_correction import redirected
-from motor_identification.estimation.least_squares import Speeds, descend
-from motor_identification.estimation.parameter_space import carried, unknowns_of
-from motor_identification.estimation.problem import Problem, make_problem
-from motor_identification.identify import Request, identify
+from motor_identification.estimation.direction_correction import correct_directions
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.parameter_space import make_unknowns, map_theta
+from motor_identification.estimation.problem import make_problem
+from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.measured_angle import make_track
-from motor_identification.periodic.periodic_fit import added
-from motor_identification.periodic.ripple_spectrum import ripples
-from motor_identification.periodic.run_alignment import align
+from motor_identification.periodic.periodic_fit import add_periodic_effect, measure_angles
+from motor_identification.periodic.ripple_spectrum import find_ripples
+from motor_identification.periodic.run_alignment import align_runs
 from motor_identification.recording import Floats, Recording, check
 from motor_model.effects import INDEX
 from motor_model.errors import ModelError
@@ -39,7 +40,7 @@ def test_a_ripple_in_two_recordings_with_a_phase_each() -> None:
         made(RIPPLE | {"ripple_phase": phase}, drive, seed)
         for seed, (phase, drive) in enumerate(zip(phases, drives, strict=True))
     ]
-    fit = identify(recordings, Request(("coulomb_friction", "torque_ripple"), particles=20, epochs=60))
+    fit = identify(recordings, Request(("coulomb_friction", "torque_ripple"), SearchConfig(particles=20, epochs=60)))
     for name, value in (BASE | RIPPLE).items():
         error = fit.parameters.value(name) - value
         assert abs(error) < 0.02 * value
@@ -47,17 +48,15 @@ def test_a_ripple_in_two_recordings_with_a_phase_each() -> None:
     assert abs(fit.parameters.value("ripple_cycles") - 5.3) < 0.01
     assert near(fit.parameters.value("ripple_phase"), phases[0]) < 0.3
     assert 0.8 < fit.residual_rms / fit.noise_floor < 1.5
-    without = identify(recordings, Request(("coulomb_friction",), particles=20, epochs=60))
+    without = identify(recordings, Request(("coulomb_friction",), SearchConfig(particles=20, epochs=60)))
     assert without.residual_rms > 1.3 * fit.residual_rms
 
 
-def without_ripple(recording: Recording, values: dict[str, float]) -> tuple[Problem, Floats, Floats]:
+def without_ripple(recording: Recording, values: dict[str, float]) -> tuple[Estimate, Floats]:
     """A fit that lacks only the ripple, and where it began."""
     bare = make_problem([recording], ("coulomb_friction",) if "ks" in values else ())
     guess = np.array([np.log(values["kv"]), np.log(values["ka"]), values.get("ks", 0.0)])[: len(bare.unknowns.low)]
-    place, _evaluations = descend(bare, Speeds(bare), guess)
-    bare = redirected(bare, place)
-    return bare, descend(bare, Speeds(bare), place)[0], guess
+    return fit_speeds(correct_directions(fit_speeds(Estimate(bare, guess)))), guess
 
 
 SWINGING = {"kv": 0.071, "ka": 0.0056, "ripple_voltage": 0.39, "ripple_cycles": 10.866, "ripple_phase": 0.4}
@@ -68,30 +67,29 @@ def test_a_ripple_is_followed_through_every_standstill(friction: float) -> None:
     """Without friction the shaft swings where it should stand, no edge says which way, and a fit takes it for noise."""
     values = SWINGING | ({"ks": friction} if friction else {})
     recording = check(record(values, *profiles.rich(12.0, 3), seed=3, irregularity=0.005)[0])
-    bare, place, guess = without_ripple(recording, values)
-    line = ripples(bare, place, bare.anchored(place, bare.unknowns.effects).tracks)[0]
+    bare, guess = without_ripple(recording, values)
+    line = find_ripples(bare, measure_angles(bare, bare.problem.unknowns.effects))[0]
     assert abs(line.cycles - 10.866) < 0.01
     assert 0.8 * 0.39 < line.amplitude < 1.1 * 0.39
 
-    found = added(bare, place, "torque_ripple", 4.0)
-    assert found is not None
-    problem, place, _evaluations = found
-    fitted = problem.unknowns.parameters(place, "").values
+    found = add_periodic_effect(bare, "torque_ripple", 4.0)
+    assert found is not None and found.simulations > bare.simulations + 100
+    fitted = found.parameters.values
     assert 1e-9 < abs(fitted["ripple_cycles"] - 10.866) < 1e-3
     assert abs(fitted["ripple_voltage"] / 0.39 - 1.0) < 0.01
     assert abs(fitted.get("ks", 0.0) - friction) < 1e-4
-    truth = carried(bare.unknowns, guess, problem.unknowns, {name: np.array(values[name]) for name in (
+    truth = map_theta(bare.problem.unknowns, guess, found.problem.unknowns, {name: np.array(values[name]) for name in (
         "ripple_voltage", "ripple_cycles", "ripple_phase")})  # fmt: skip
-    ended, best = problem.cost(place), problem.cost(truth)
-    assert 0.99 * best < ended < 1.02 * best < 0.5 * bare.cost(guess)
+    best = found.problem.cost(truth)
+    assert 0.99 * best < found.cost < 1.02 * best < 0.5 * bare.problem.cost(guess)
 
 
 def test_a_ripple_is_found_that_is_not_among_the_highest_lines_of_the_blocks() -> None:
     """A small one beside an irregular disc: in blocks of a few turns eleven other lines look more likely."""
     values = {"kv": 0.05004, "ka": 0.005761, "ripple_voltage": 0.26745, "ripple_cycles": 10.8622, "ripple_phase": -1.21}
     recording = check(record(values, *profiles.rich(12.0, 1002), seed=1002, irregularity=0.00525, disc_seed=195)[0])
-    bare, place, _guess = without_ripple(recording, values)
-    lines = ripples(bare, place, bare.anchored(place, ()).tracks, 4.0)
+    bare, _guess = without_ripple(recording, values)
+    lines = find_ripples(bare, measure_angles(bare, ()), 4.0)
     assert abs(lines[0].cycles - 10.8622) < 0.005
     assert 0.8 < lines[0].amplitude / 0.26745 < 1.1
 
@@ -99,7 +97,9 @@ def test_a_ripple_is_found_that_is_not_among_the_highest_lines_of_the_blocks() -
 def test_an_eccentric_disc() -> None:
     truth = {"ks": 0.3, "eccentricity": 0.03, "eccentricity_phase": 2.5}
     recording = made(truth, profiles.staircase(10.0, 4, 0.25), seed=3)
-    fit = identify([recording], Request(("coulomb_friction", "encoder_eccentricity"), particles=20, epochs=60))
+    fit = identify(
+        [recording], Request(("coulomb_friction", "encoder_eccentricity"), SearchConfig(particles=20, epochs=60))
+    )
     assert abs(fit.parameters.value("eccentricity") - 0.03) < 6e-4
     assert near(fit.parameters.value("eccentricity_phase"), 2.5) < 0.05
     assert abs(fit.parameters.value("kv") / PAPER_KV - 1.0) < 1e-4
@@ -109,20 +109,18 @@ def test_an_eccentric_disc() -> None:
 @pytest.mark.parametrize("size", [0.0, 0.002])
 def test_an_eccentricity_is_followed_where_a_fit_gains_by_it(size: float) -> None:
     recording = made({"eccentricity": size, "eccentricity_phase": 0.7}, profiles.staircase(10.0, 3, 0.3), seed=2)
-    bare = make_problem([recording], ())
-    place, _evaluations = descend(bare, Speeds(bare), np.log([PAPER_KV, PAPER_KA]))
-    bare = redirected(bare, place)
-    asked = added(bare, place, "encoder_eccentricity")
+    bare = correct_directions(fit_speeds(Estimate(make_problem([recording], ()), np.log([PAPER_KV, PAPER_KA]))))
+    asked = add_periodic_effect(bare, "encoder_eccentricity")
     assert asked is not None
-    found = added(bare, place, "encoder_eccentricity", 4.0)
+    found = add_periodic_effect(bare, "encoder_eccentricity", 4.0)
     assert (found is None) == (size == 0.0)
-    for problem, there, _evaluations in filter(None, (asked, found)):
-        assert abs(problem.unknowns.parameters(there, "").values["eccentricity"] - size) < 3e-4
+    for estimate in filter(None, (asked, found)):
+        assert abs(estimate.parameters.values["eccentricity"] - size) < 3e-4
 
 
 def test_every_recording_has_its_own_phase_and_load_step() -> None:
     recordings = [made({"ks": 0.3}, profiles.step(8.0, 0.4), seed) for seed in range(3)]
-    unknowns = unknowns_of(recordings, ("coulomb_friction", "load_step", "torque_ripple"))
+    unknowns = make_unknowns(recordings, ("coulomb_friction", "load_step", "torque_ripple"))
     own = ["step_time", "ripple_phase"]
     assert [unknowns.names.index(name) for name in own] == [4, 7]
     assert unknowns.columns.tolist() == [[0, 1, 2, 3, 4, 5, 6, 7], [0, 1, 2, 3, 8, 5, 6, 9], [0, 1, 2, 3, 10, 5, 6, 11]]
@@ -132,10 +130,10 @@ def test_every_recording_has_its_own_phase_and_load_step() -> None:
     changing = [name for name in INDEX if len(set(vectors[0, :, INDEX[name]])) > 1]
     assert changing == own
 
-    fewer = unknowns_of(recordings, ("coulomb_friction",))
-    back = carried(unknowns, place, fewer, {})
+    fewer = make_unknowns(recordings, ("coulomb_friction",))
+    back = map_theta(unknowns, place, fewer, {})
     assert np.array_equal(back, place[:3])
-    again = carried(fewer, back, unknowns, {
+    again = map_theta(fewer, back, unknowns, {
         "step_voltage": np.array(0.5), "step_time": np.array([0.1, 0.2, 0.3]), "ripple_voltage": np.array(0.1),
         "ripple_cycles": np.array(5.0), "ripple_phase": np.array([1.0, 2.0, -1.0]),
     })  # fmt: skip
@@ -173,7 +171,7 @@ def test_slips_between_runs_are_found(seed: int) -> None:
         white = design @ [here.real, here.imag] + random.standard_normal(60)
         gram, vector = design.T @ design, design.T @ white
         sums.append([gram[0, 0], gram[0, 1], gram[1, 1], *vector])
-    found = align(np.array(sums), turn)
+    found = align_runs(np.array(sums), turn)
     assert np.abs(found.slips - found.slips[0] - slips).max() <= 0.25  # one step
     assert abs(abs(found.weight) - 0.3) < 0.02
     assert 0.8 < found.explained / sum(np.array([0.3**2 * (s[0] + s[2]) / 2.0 for s in sums])) < 1.3
@@ -187,7 +185,7 @@ def test_no_other_slips_explain_more(seed: int) -> None:
     white = parts @ [0.3, -0.2] + random.standard_normal((3, 4))
     gram, vector = np.swapaxes(parts, 1, 2) @ parts, np.einsum("rij,ri->rj", parts, white)
     sums = np.column_stack([gram[:, 0, 0], gram[:, 0, 1], gram[:, 1, 1], vector])
-    found = align(sums, 0.9)
+    found = align_runs(sums, 0.9)
     slips = np.arange(-48, 49) / 4
     wave = found.weight * np.exp(1j * 0.9 * slips)
     ss, sc, cc, sw, cw = sums.T[:, :, None]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from plant import profiles, record
 
-from motor_identification.identify import Request, identify
+from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import Recording, check
 from motor_identification.reporting.fit_json import fit_to_json
 from motor_identification.reporting.fit_text import list_cautions
@@ -25,7 +25,7 @@ def made(values: dict[str, float], drive: profiles.Profile, seed: int = 0, irreg
 
 
 def fitted(recording: Recording, *effects: str) -> Fit:
-    return identify([recording], Request(effects, particles=24, epochs=40))
+    return identify([recording], Request(effects, SearchConfig(particles=24, epochs=40)))
 
 
 def disturbed(seed: int, volts: float = 0.1, memory: float = 0.1) -> Recording:

@@ -9,7 +9,7 @@ from plant import profiles, record
 from scipy.signal import lfilter
 from scipy.stats import kstest
 
-from motor_identification.identify import Request, identify
+from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import check
 from motor_identification.reporting.fit_json import fit_to_json
 from motor_identification.reporting.fit_text import (
@@ -19,7 +19,7 @@ from motor_identification.reporting.fit_text import (
     residual_follows_voltage,
 )
 from motor_identification.uncertainty.result import Fit
-from motor_identification.uncertainty.whiteness import Series, analyse, autocorrelation
+from motor_identification.uncertainty.whiteness import Series, analyse_whiteness, autocorrelation
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 COUNT, PERIOD = 2000, 0.005
@@ -43,7 +43,7 @@ def noise(seed: int, repeats: float = 0.0) -> np.ndarray:
 
 def test_chances_are_true_for_white_noise() -> None:
     """The portmanteau's p-values are uniform; Bonferroni's are rare, at most as rare as they say."""
-    found = [analyse((series(noise(seed), seed),)) for seed in range(200)]
+    found = [analyse_whiteness((series(noise(seed), seed),)) for seed in range(200)]
     assert kstest([one.p_value for one in found], "uniform").pvalue > 0.01
     assert sum(one.input_p_value < 0.1 for one in found) < 30
     assert 0.02 < np.median([abs(one.autocorrelation) for one in found]) < 0.08
@@ -51,14 +51,14 @@ def test_chances_are_true_for_white_noise() -> None:
 
 @pytest.mark.parametrize("repeats", [-0.6, 0.3, 0.9])
 def test_repetition_is_seen_and_measured(repeats: float) -> None:
-    found = analyse((series(noise(1, repeats)),))
+    found = analyse_whiteness((series(noise(1, repeats)),))
     assert found.p_value < 1e-6 and found.lag == 1
     assert found.autocorrelation == pytest.approx(repeats, abs=0.05)
 
 
 def test_slow_noise_is_not_taken_for_a_trace_of_the_voltage() -> None:
     """Both are slow, so that they correlate by chance: much more than white noise would."""
-    found = [analyse((series(noise(seed, 0.97), seed),)) for seed in range(100)]
+    found = [analyse_whiteness((series(noise(seed, 0.97), seed),)) for seed in range(100)]
     assert max(abs(one.input_correlation) for one in found) > 0.2
     assert sum(one.input_p_value < 0.01 for one in found) <= 3
 
@@ -68,7 +68,7 @@ def test_a_trace_of_the_voltage_is_seen_with_its_lag(face: object) -> None:
     base = series(noise(2))
     index = np.searchsorted(base.command_time, base.time - 0.04, side="right") - 1
     trace = face(np.where(index >= 0, base.command[np.maximum(index, 0)], 0.0))  # type: ignore[operator]
-    found = analyse((replace(base, white=base.white + 0.3 * (trace - trace.mean()) / trace.std()),))
+    found = analyse_whiteness((replace(base, white=base.white + 0.3 * (trace - trace.mean()) / trace.std()),))
     assert found.input_p_value < 1e-6 and found.input_lag == 0.04
     assert 0.2 < abs(found.input_correlation) < 0.4
 
@@ -85,10 +85,10 @@ def test_pairs_do_not_reach_over_gaps() -> None:
 
 
 def test_too_little_says_nothing() -> None:
-    nothing = analyse((series(noise(4), runs=COUNT),))
+    nothing = analyse_whiteness((series(noise(4), runs=COUNT),))
     assert isnan(nothing.p_value) and isnan(nothing.input_correlation)
     dead = series(noise(4))
-    found = analyse((replace(dead, command=0.0 * dead.command),))
+    found = analyse_whiteness((replace(dead, command=0.0 * dead.command),))
     assert isnan(found.input_p_value) and isnan(found.input_lag) and 0.0 < found.p_value < 1.0
 
 
@@ -96,7 +96,7 @@ def fitted(effects: tuple[str, ...], hidden: dict[str, float]) -> Fit:
     """A fit to a motor with friction and something more, on a staircase."""
     truth = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.4} | hidden
     recording = check(record(truth, *profiles.staircase(12.0, 4, 0.25), seed=1)[0])
-    return identify([recording], Request(effects, particles=30, epochs=60))
+    return identify([recording], Request(effects, SearchConfig(particles=30, epochs=60)))
 
 
 MISSING = {

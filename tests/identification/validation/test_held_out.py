@@ -7,46 +7,47 @@ import numpy as np
 import pytest
 from diagnosed import fitted, held
 
-from motor_identification.diagnosis.candidate_model import judged
-from motor_identification.measurement.intervals import without
+from motor_identification.diagnosis.candidate_model import validate_model
+from motor_identification.measurement.intervals import exclude_intervals
 from motor_identification.noise.likelihood import Noise, log_likelihood
-from motor_identification.validation.held_out import UNFORESEEN, HeldOut
+from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, HeldOut
 
 
 def alone(one: HeldOut, noise: Noise) -> float:
     """Under one drift."""
-    rows = zip(one.problem.intervals, one.problem.increments(one.place), one.scored, strict=True)
-    return sum(log_likelihood(without(data, ~scored), part[scored], noise) for data, part, scored in rows)
+    rows = zip(one.intervals, one.increments, one.scored, strict=True)
+    return sum(log_likelihood(exclude_intervals(data, ~scored), part[scored], noise) for data, part, scored in rows)
 
 
 @pytest.mark.parametrize("ks", [0.0, 0.4])
 def test_half_of_the_chances_are_the_training_datas_drift(ks: float) -> None:
     one, noise = held(ks=ks), Noise(0.003, 0.0)
-    slot = one.problem.intervals[0].slot
+    slot = one.intervals[0].slot
     own = alone(one, noise)
-    larger = [alone(one, replace(noise, growth=share * slot**2)) for share in UNFORESEEN]
+    larger = [alone(one, replace(noise, drift=share * slot**2)) for share in UNFORESEEN_DRIFTS]
     best = max(own, *larger)
     mixed = 0.5 * exp(own - best) + 0.5 * np.mean([exp(value - best) for value in larger])
     assert one.log_likelihood(noise) == pytest.approx(best + log(mixed), abs=1e-6)
     assert (best == own) == (ks == 0.0)  # friction that the model lacks makes it drift
-    assert best - log(2 * len(UNFORESEEN)) <= one.log_likelihood(noise) <= best
+    assert best - log(2 * len(UNFORESEEN_DRIFTS)) <= one.log_likelihood(noise) <= best
 
 
 def test_a_drift_beyond_all_others_is_the_only_one() -> None:
     one = held(ks=0.4)
-    noise = Noise(0.003, 2.0 * max(UNFORESEEN) * one.problem.intervals[0].slot ** 2)
+    noise = Noise(0.003, 2.0 * max(UNFORESEEN_DRIFTS) * one.intervals[0].slot ** 2)
     assert one.log_likelihood(noise) == alone(one, noise)
 
 
 def test_a_moment_that_nobody_could_predict_refutes_no_complete_model() -> None:
     """For a second of the motion to judge by, the angle drifts as it never did in the training data."""
-    problem, place, kept = fitted()
-    (data,) = kept.problem.intervals
+    estimate, hold_out = fitted()
+    (data,) = hold_out.problem.intervals
     moment = (data.time[data.first] > 5.0) & (data.time[data.first] < 6.0)
     random = np.random.default_rng(1).normal(size=len(moment)) * moment
     drift = replace(data, speed=data.speed + random * np.sqrt(5e-5 / data.duration))
-    kept = replace(kept, problem=replace(kept.problem, intervals=(drift,)))
-    complete, wrong = judged(kept, problem, place), judged(kept, problem, place + np.array([1e-4, 0.0]))
-    assert complete.noise.growth < 1e-3 * wrong.noise.growth  # in the training data
+    hold_out = replace(hold_out, problem=replace(hold_out.problem, intervals=(drift,)))
+    off = replace(estimate, theta=estimate.theta + np.array([1e-4, 0.0]))
+    complete, wrong = validate_model(hold_out, estimate), validate_model(hold_out, off)
+    assert complete.noise.drift < 1e-3 * wrong.noise.drift  # in the training data
     assert alone(complete.held, complete.noise) < alone(wrong.held, wrong.noise) - 100.0
     assert complete.likelihood > wrong.likelihood + 100.0

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from motor_identification.discrepancy.missing_torque import NAMES, Shape
+from motor_identification.discrepancy.missing_torque import NAMES, MissingTorque
 from motor_identification.discrepancy.residual_maps import Map
 from motor_identification.recording import Floats
 from motor_identification.reporting.html.svg import AFTER, BEFORE, FLOOR, svg_style, to_svg
@@ -90,7 +90,7 @@ def _label(axes: "Axes", one: Map, place: Floats) -> None:
         axes.set_xticks([0.0, np.pi, 2 * np.pi], ["0", "π", "2π"])
 
 
-def draw_shape(shape: Shape, recording: str) -> str:
+def draw_shape(shape: MissingTorque, recording: str) -> str:
     """Draw the residual torque over one axis, with 95 % intervals, as SVG."""
     with svg_style():
         from matplotlib import pyplot as plt

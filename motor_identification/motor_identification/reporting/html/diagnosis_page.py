@@ -1,10 +1,10 @@
 """The page of a diagnosis: everything its template shows, computed and worded."""
 
 from motor_identification.diagnosis.result import Diagnosis, Verdict
-from motor_identification.discrepancy.missing_torque import describe_torque, shape_left
+from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_region
-from motor_identification.discrepancy.residual_maps import maps
-from motor_identification.discrepancy.worst_regions import worst
+from motor_identification.discrepancy.residual_maps import map_residuals
+from motor_identification.discrepancy.worst_regions import find_worst_regions
 from motor_identification.reporting.curves import find_largest_change, held_out_curves
 from motor_identification.reporting.diagnosis_text import format_parameters, summarize_diagnosis
 from motor_identification.reporting.html.charts import draw_map, draw_shape
@@ -27,13 +27,13 @@ MOST_RECORDINGS = 3  # that get maps of their own
 
 def render_diagnosis(diagnosis: Diagnosis, files: Files) -> str:
     """Render the report of a diagnosis as HTML."""
-    regions = worst(diagnosis.before, diagnosis.slot_share)
+    regions = find_worst_regions(diagnosis.before, diagnosis.slot_share)
     show_regions = diagnosis.verdict is not Verdict.NOTHING_MISSING
     floor = diagnosis.noise_floor
     return fill_template(
         "diagnosis.html",
         d=diagnosis,
-        motor=diagnosis.model.parameters.name or diagnosis.after.problem.recordings[0].info.name,
+        motor=diagnosis.model.parameters.name or diagnosis.after.recordings[0].info.name,
         verdict=VERDICTS[diagnosis.verdict],
         summary=summarize_diagnosis(diagnosis),
         times_floor=format_ratio(diagnosis.gap_after / floor) if floor > 0.0 else "",
@@ -43,7 +43,7 @@ def render_diagnosis(diagnosis: Diagnosis, files: Files) -> str:
         pictures=_draw_pictures(diagnosis),
         maps=_draw_maps(diagnosis),
         shapes=_draw_shapes(diagnosis),
-        torque=describe_torque(shape_left(diagnosis.after)),
+        torque=describe_torque(estimate_missing_torque(diagnosis.after)),
         parameters=list_parameters(diagnosis.model, diagnosis.baseline),
         format_parameters=format_parameters,
         rank_alternatives=rank_alternatives,
@@ -57,10 +57,10 @@ def _draw_pictures(diagnosis: Diagnosis) -> list[Picture]:
     """The seconds that the diagnosis changes most, then the whole recording they are from."""
     share = diagnosis.slot_share
     number, start, stop = find_largest_change(diagnosis)
-    regions = worst(diagnosis.before, share) if diagnosis.verdict is not Verdict.NOTHING_MISSING else ()
+    regions = find_worst_regions(diagnosis.before, share) if diagnosis.verdict is not Verdict.NOTHING_MISSING else ()
     before = held_out_curves(diagnosis.before, share, number, regions)
     after = held_out_curves(diagnosis.after, share, number, ()) if diagnosis.findings else None
-    uri = diagnosis.after.problem.recordings[number].uri
+    uri = diagnosis.after.recordings[number].uri
     what = "the largest change" if after else "the largest error"
     part = before.between(start, stop), after and after.between(start, stop)
     return [
@@ -70,19 +70,19 @@ def _draw_pictures(diagnosis: Diagnosis) -> list[Picture]:
 
 
 def _draw_maps(diagnosis: Diagnosis) -> list[str]:
-    before = maps(diagnosis.before, diagnosis.slot_share)
-    after = maps(diagnosis.after, diagnosis.slot_share) if diagnosis.findings else (None,) * len(before)
+    before = map_residuals(diagnosis.before, diagnosis.slot_share)
+    after = map_residuals(diagnosis.after, diagnosis.slot_share) if diagnosis.findings else (None,) * len(before)
     pairs = zip(before, after, strict=True)
     return [draw_map(a, b, _uri(diagnosis, a.recording)) for a, b in pairs if a.recording < MOST_RECORDINGS]
 
 
 def _draw_shapes(diagnosis: Diagnosis) -> list[str]:
-    shapes = shape_left(diagnosis.after)
+    shapes = estimate_missing_torque(diagnosis.after)
     return [
         draw_shape(shape, _uri(diagnosis, shape.recording)) for shape in shapes if shape.recording < MOST_RECORDINGS
     ]
 
 
 def _uri(diagnosis: Diagnosis, number: int) -> str:
-    recordings = diagnosis.after.problem.recordings
+    recordings = diagnosis.after.recordings
     return recordings[number].uri if number >= 0 and len(recordings) > 1 else ""

@@ -41,7 +41,7 @@ def _left_out(diagnosis: Diagnosis) -> list[str]:
 
 
 def _noise_floor(diagnosis: Diagnosis) -> list[str]:
-    info = diagnosis.after.problem.recordings[0].info
+    info = diagnosis.after.recordings[0].info
     sensor, parts = diagnosis.after.floor(0.0), []
     if info.measurement is Measurement.EDGES and info.edge_resolution > 0.0:
         parts.append(f"{sensor:.3g} rad/s from the timer's tick of {1e6 * info.edge_resolution:.3g} µs")
@@ -65,4 +65,4 @@ def _validated_by(diagnosis: Diagnosis) -> str:
 
 
 def _notes(diagnosis: Diagnosis) -> tuple[str, ...]:
-    return tuple(note for recording in diagnosis.after.problem.recordings for note in recording.notes)
+    return tuple(note for recording in diagnosis.after.recordings for note in recording.notes)

@@ -1,0 +1,45 @@
+"""Estimate: a fitting problem with values for its unknowns, and what they cost to find; every stage of a fit maps one
+to the next."""
+
+from dataclasses import dataclass, replace
+
+from motor_identification.estimation.problem import Problem
+from motor_identification.recording import Floats
+from motor_model.parameters import Parameters
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A problem, the unknowns θ estimated for it, and the simulations of one motor that led there."""
+
+    problem: Problem
+    theta: Floats  # (D,)
+    simulations: int = 0
+
+    @property
+    def cost(self) -> float:
+        """[rad²/s²] the time-weighted mean square of the speed residuals (output error)."""
+        return self.problem.cost(self.theta)
+
+    @property
+    def increments(self) -> tuple[Floats, ...]:
+        """Simulated minus measured travel [rad] in the intervals of every recording."""
+        return self.problem.increments(self.theta)
+
+    @property
+    def angles(self) -> tuple[Floats, ...]:
+        """[rad] what the disc shows at the times of every recording's intervals."""
+        return self.problem.angles(self.theta)
+
+    @property
+    def parameters(self) -> Parameters:
+        """The motor, as the first recording has it."""
+        return self.problem.unknowns.parameters(self.theta, self.problem.recordings[0].info.name)
+
+    def on(self, problem: Problem) -> "Estimate":
+        """Apply the same θ to another problem with the same unknowns."""
+        return replace(self, problem=problem)
+
+    def spending(self, simulations: int) -> "Estimate":
+        """Count more simulations that led here."""
+        return replace(self, simulations=self.simulations + simulations)

@@ -1,0 +1,37 @@
+"""Search θ globally: a multi-start search of an excerpt of joined intervals, then least squares on everything."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.excerpt import take_excerpt
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.multistart import SearchConfig, SearchReport, search
+from motor_identification.estimation.objective import make_objective
+from motor_identification.estimation.problem import Problem
+
+COARSE_INTERVAL = (
+    0.02  # [s] length of the intervals that a search compares: many slots at speed, a part of a time constant
+)
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to fit, how hard to search, and on how many cores."""
+
+    effects: tuple[str, ...] = ()
+    search: SearchConfig = SearchConfig()
+    workers: int = 1
+
+
+def search_globally(
+    problem: Problem, config: SearchConfig, progress: Callable[[float], None] | None = None
+) -> tuple[Estimate, SearchReport]:
+    """Search the whole box on an excerpt of joined intervals, then fit all intervals by least squares from there."""
+    coarse = problem.coarsen(COARSE_INTERVAL)
+    excerpt = take_excerpt(coarse)
+    report = search(make_objective(excerpt), config, progress)
+    estimate = Estimate(excerpt, report.theta, report.evaluations)
+    if excerpt is not coarse:  # the rest of the way is shorter from the excerpt's own minimum
+        estimate = fit_speeds(estimate)
+    return fit_speeds(estimate.on(problem)), report

@@ -1,0 +1,24 @@
+"""Blocks of time: a recording cut into short stretches, every n-th of which serves another purpose than the rest."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from motor_identification.measurement.intervals import Intervals
+from motor_identification.recording import Bools
+
+LONGEST_BLOCK = 0.5  # [s]: a motor's time constants are shorter, so that a block shows what the motor does
+LEAST_BLOCKS = 12  # of a short recording: enough for three blocks of every fourth
+
+
+@dataclass(frozen=True)
+class TimeBlocks:
+    """The last of every so many blocks of a recording's time."""
+
+    every: int
+
+    def mark(self, data: Intervals) -> Bools:
+        """Mark the intervals that begin in these blocks, shape (I,)."""
+        length = min(LONGEST_BLOCK, data.time[-1] / LEAST_BLOCKS)
+        block = (data.time[data.first] // length).astype(np.int64)
+        return np.asarray(block % self.every == self.every - 1)

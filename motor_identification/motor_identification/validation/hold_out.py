@@ -1,0 +1,94 @@
+"""Hold-out: what a diagnosis keeps out of its fits to judge them by, other recordings or blocks of the same ones."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import ClassVar, TypeVar
+
+from motor_identification.estimation.direction_correction import correct_directions
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.miscounts import mark_miscounts
+from motor_identification.estimation.problem import Problem, make_problem
+from motor_identification.measurement.time_blocks import TimeBlocks
+from motor_identification.recording import Recording
+from motor_identification.validation.held_out import HeldOut
+from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
+
+Self = TypeVar("Self", bound="HoldOut")
+
+
+@dataclass(frozen=True)
+class HoldOut(ABC):
+    """Recordings to validate a fitted motor on, and the blocks of them that count in the gap."""
+
+    problem: Problem  # of these recordings, without effects
+    scored_blocks: ClassVar[TimeBlocks]
+
+    @abstractmethod
+    def apply(self, fitted: Estimate) -> Estimate:
+        """Apply a fitted motor to these recordings."""
+
+    @abstractmethod
+    def restrict(self, training: Problem) -> Problem:
+        """Take what counts in the gap out of a training problem."""
+
+    def validate(self, fitted: Estimate) -> HeldOut:
+        """Validate a fitted motor: simulate held-out motion, and mark what counts in the gap."""
+        here = self.apply(fitted)
+        intervals, increments = here.problem.intervals, here.increments
+        bad = tuple(mark_miscounts(data, part) for data, part in zip(intervals, increments, strict=True))
+        scored = tuple(self.scored_blocks.mark(data) & ~marks for data, marks in zip(intervals, bad, strict=True))
+        miscounted = int(sum(marks.sum() for marks in bad))
+        return HeldOut(here.problem.recordings, intervals, here.angles, here.parameters, scored, miscounted)
+
+    def correct_directions(self: Self, fitted: Estimate) -> Self:
+        """Read the held-out recordings again, with directions by the motion of a fitted motor."""
+        intervals = correct_directions(self.apply(fitted)).problem.intervals
+        return replace(self, problem=replace(self.problem, intervals=intervals))
+
+
+@dataclass(frozen=True)
+class OtherRecordings(HoldOut):
+    """Other recordings of the motor: every other block is for their nuisance parameters, the rest counts."""
+
+    scored_blocks = TimeBlocks(2)
+
+    def apply(self, fitted: Estimate) -> Estimate:
+        """Fit what belongs to these recordings on the blocks that do not count; the motor stays as it is."""
+        blocks = tuple(~self.scored_blocks.mark(data) for data in self.problem.intervals)
+        return fit_nuisance_parameters(self.problem, fitted, blocks)
+
+    def restrict(self, training: Problem) -> Problem:
+        """All of the training recordings: none of them is held out."""
+        return training
+
+
+@dataclass(frozen=True)
+class BlocksOfSame(HoldOut):
+    """Every fourth block of the training recordings themselves: what belongs to them is known from the fit."""
+
+    scored_blocks = TimeBlocks(4)
+
+    def apply(self, fitted: Estimate) -> Estimate:
+        """The same unknowns, on all blocks."""
+        here = replace(self.problem, unknowns=fitted.problem.unknowns, tracks=fitted.problem.tracks)
+        return fitted.on(here)
+
+    def restrict(self, training: Problem) -> Problem:
+        """Take every fourth block out."""
+        return training.keeping_out(self.scored_blocks)
+
+
+def make_hold_out(
+    recordings: Sequence[Recording],
+    validation: Sequence[Recording],
+    stopped: Callable[[], bool] | None = None,
+) -> HoldOut:
+    """Hold out `validation`, or every fourth block of the recordings themselves.
+
+    Raises:
+        RecordingError: a recording has no usable motion.
+    """
+    if validation:
+        return OtherRecordings(make_problem(validation, (), stopped=stopped))
+    return BlocksOfSame(make_problem(recordings, (), stopped=stopped))
