@@ -145,9 +145,9 @@ SMALL = {
 def test_standard_errors_are_true(case: str) -> None:
     """Over many small recordings the errors, in units of their standard errors, scatter by about 1."""
     values, drive, effects, how = SMALL[case]
-    scores = []
+    scores, request = [], Request(effects, SearchConfig(particles=30, epochs=40))
     for seed in range(30):
-        fit = identify([made(values, drive, seed=seed, disc_seed=seed, **how)], replace(quick(*effects), epochs=40))
+        fit = identify([made(values, drive, seed=seed, disc_seed=seed, **how)], request)
         scores.append(how_sure(fit, values))
     spread = np.std(scores, axis=0)
     assert np.all(spread > 0.6) and np.all(spread < 1.5), spread

@@ -95,7 +95,7 @@ def test_a_bad_command_is_one_sentence_before_anything_is_computed(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("motor_identification.diagnose.searched", None)  # nobody gets so far
+    monkeypatch.setattr("motor_identification.diagnose.search_globally", None)  # nobody gets so far
     names = {"bags": bags, "tmp": tmp_path}
     assert diagnose([argument.format(**names) for argument in arguments]) == 1
     out, err = capsys.readouterr()
