@@ -51,20 +51,36 @@ def assert_the_ladder(printed: str) -> None:
         assert [float(n) for n in theirs.groups()] == pytest.approx([float(n) for n in ours.groups()], rel=0.03)
 
 
-@pytest.mark.long
-def test_every_command_works_as_written(tmp_path: Path) -> None:
+# Blocks that need no node of another block run on their own: the board's, and what works on files alone.
+PARTS = {
+    "board": lambda block: bool(BOARD.search(block)),
+    "files": lambda block: bool(re.search(r"--model |import_csv|hidden", block)),
+    "live": lambda block: True,
+}
+
+
+def part_of(block: str) -> str:
+    """The first part to which a block of commands belongs."""
+    return next(name for name, belongs in PARTS.items() if belongs(block))
+
+
+def commands_of(part: str) -> list[str]:
+    """Those that are run here."""
+    lines = [line.split("  #")[0].strip() for block in BLOCKS if part_of(block) == part for line in block.splitlines()]
+    return [line for line in lines if line and line not in SCRIPTS]
+
+
+def run_all(commands: list[str], directory: Path) -> None:
+    """Run them one after the other; nodes run on beside what follows, and end with 0."""
     environment = {**os.environ, "ROS_DOMAIN_ID": str(free_domain()), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-    write_log(tmp_path / "log.csv")
     nodes = []
     try:
-        for command in COMMANDS:
-            if command in SCRIPTS or (BOARD.search(command) and not shutil.which("avr-gcc")):
-                continue
+        for command in commands:
             if NODES.match(command):
-                nodes.append(subprocess.Popen(command.split(), cwd=tmp_path, env=environment))
+                nodes.append(subprocess.Popen(command.split(), cwd=directory, env=environment))
                 continue
             done = subprocess.run(
-                ["bash", "-c", command], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120
+                ["bash", "-c", command], cwd=directory, env=environment, capture_output=True, text=True, timeout=120
             )
             assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
             assert "Traceback" not in done.stderr
@@ -77,8 +93,30 @@ def test_every_command_works_as_written(tmp_path: Path) -> None:
             node.send_signal(signal.SIGINT)
         for node in nodes:
             assert node.wait(PATIENCE) == 0
-    assert (tmp_path / "model.yaml").exists() and (tmp_path / "report" / "fit.png").stat().st_size > 20_000
+
+
+def test_every_command_belongs_to_a_part() -> None:
+    parts = {name: commands_of(name) for name in PARTS}
+    assert sorted(sum(parts.values(), [])) == sorted(set(COMMANDS) - set(SCRIPTS)) and min(map(len, parts.values())) > 2
+
+
+@pytest.mark.long
+def test_the_commands_with_a_running_motor_work_as_written(tmp_path: Path) -> None:
+    run_all(commands_of("live"), tmp_path)
+    assert (tmp_path / "model.yaml").exists() and (tmp_path / "gains.yaml").exists()
+
+
+@pytest.mark.long
+def test_the_commands_that_work_on_files_work_as_written(tmp_path: Path) -> None:
+    write_log(tmp_path / "log.csv")
+    run_all(commands_of("files"), tmp_path)
+    assert (tmp_path / "report" / "fit.png").stat().st_size > 20_000
     assert 100_000 < (tmp_path / "diagnosis" / "report.html").stat().st_size < 3_000_000
+
+
+@pytest.mark.skipif(not shutil.which("avr-gcc"), reason="no compiler for the board here")
+def test_the_commands_with_an_emulated_board_work_as_written(tmp_path: Path) -> None:
+    run_all(commands_of("board"), tmp_path)
 
 
 def test_the_environment_says_what_to_do_where_nothing_is_built(tmp_path: Path) -> None:
