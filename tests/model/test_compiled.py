@@ -34,21 +34,35 @@ for name in sys.argv[2:]:
 """
 
 
+def copy_sources(root: Path) -> Path:
+    """Copy the sources of the model and of what stands on it, without caches."""
+    for folder in PACKAGES:
+        shutil.copytree(folder, root / folder.name, ignore=shutil.ignore_patterns("__pycache__"))
+    return root
+
+
 @pytest.fixture
 def copy(tmp_path: Path) -> Path:
-    """Sources of the model and of what stands on it, without caches."""
-    for folder in PACKAGES:
-        shutil.copytree(folder, tmp_path / folder.name, ignore=shutil.ignore_patterns("__pycache__"))
-    return tmp_path
+    """Sources to be edited."""
+    return copy_sources(tmp_path)
+
+
+@pytest.fixture(scope="module")
+def before(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """The caches of sources that nobody has edited: the same in every process."""
+    root = copy_sources(tmp_path_factory.mktemp("unedited"))
+    found = caches(root)
+    assert caches(root) == found
+    return found
 
 
 def caches(root: Path) -> dict[str, str]:
-    """Where a process that starts now would keep the machine code of each of MODULES."""
+    """Where, under root, a process that starts now would keep the machine code of each of MODULES."""
     command = [sys.executable, "-c", ASK, str(root), *MODULES.values()]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     found = dict(zip(MODULES, done.stdout.split(), strict=True))
     assert Path(found["bridge"]).parent == root / "motor_model" / "dynamics" / "__pycache__"
-    return found
+    return {name: Path(cache).relative_to(root).as_posix() for name, cache in found.items()}
 
 
 def edit(root: Path, module: str, old: str, new: str) -> None:
@@ -85,31 +99,24 @@ def changed(before: dict[str, str], after: dict[str, str]) -> set[str]:
     ],
 )
 def test_an_edit_recompiles_all_that_depends_on_it(
-    copy: Path, module: str, old: str, new: str, recompiled: set[str]
+    copy: Path, before: dict[str, str], module: str, old: str, new: str, recompiled: set[str]
 ) -> None:
-    before = caches(copy)
-    assert caches(copy) == before
     edit(copy, module, old, new)
     assert changed(before, caches(copy)) == recompiled
 
 
-@pytest.mark.parametrize(
-    ("module", "old", "new"),
-    [
-        (
-            "motor_model.effects",
-            "more friction at low speed",
-            "greater friction at low speed",
-        ),  # what the table says to people
-        ("motor_model.effects", "starts=(0.03,)", "starts=(0.04,)"),  # what only a diagnosis reads
-        ("motor_model.dynamics.bridge", "The H-bridge", "The bridge of transistors"),  # a docstring beside a kernel
-        ("motor_identification.recording", "the motor never moves", "the motor never turns"),
-        ("motor_identification.reporting.fit_text", "residual", "rest"),
-    ],
-)
-def test_an_edited_sentence_recompiles_nothing(copy: Path, module: str, old: str, new: str) -> None:
-    before = caches(copy)
-    edit(copy, module, old, new)
+SENTENCES = [
+    ("motor_model.effects", "more friction at low speed", "greater friction at low speed"),  # what people read
+    ("motor_model.effects", "starts=(0.03,)", "starts=(0.04,)"),  # what only a diagnosis reads
+    ("motor_model.dynamics.bridge", "The H-bridge", "The bridge of transistors"),  # a docstring beside a kernel
+    ("motor_identification.recording", "the motor never moves", "the motor never turns"),
+    ("motor_identification.reporting.fit_text", "residual", "rest"),
+]
+
+
+def test_edited_sentences_recompile_nothing(copy: Path, before: dict[str, str]) -> None:
+    for module, old, new in SENTENCES:
+        edit(copy, module, old, new)
     assert changed(before, caches(copy)) == set()
 
 
