@@ -104,7 +104,8 @@ def test_the_reference_is_as_it_would_be_written_now() -> None:
         assert len(fields) > 1 and all(f"| `{field}` |" in page for field in fields), path
 
 
-def test_the_messages_of_the_troubleshooting_are_those_of_the_program() -> None:
+@pytest.mark.parametrize("page", ["docs/troubleshooting.md", "motor_driver/README.md"])
+def test_the_messages_of_the_troubleshooting_are_those_of_the_program(page: str) -> None:
     """Every quoted symptom is in the sources, … standing for what is filled in."""
     files = [
         *ROOT.glob("motor_*/motor_*/**/*.py"),
@@ -114,8 +115,8 @@ def test_the_messages_of_the_troubleshooting_are_those_of_the_program() -> None:
     ]
     source = "\n".join(path.read_text(encoding="utf-8") for path in files)
     source = re.sub(r"\{[^{}]*\}", "…", re.sub(r'"\s*\n\s*f?"', "", source))  # f-strings, as one line
-    page = (ROOT / "docs" / "troubleshooting.md").read_text(encoding="utf-8")
-    symptoms = [row.split("|")[1] for row in page.splitlines() if row.startswith("|")]
+    lines = (ROOT / page).read_text(encoding="utf-8").splitlines()
+    symptoms = [row.split("|")[1] for row in lines if row.startswith("|")]
     quoted = [words for symptom in symptoms for words in re.findall(r'"([^"]+)"', symptom)]
     assert len(quoted) > 15
     for words in quoted:

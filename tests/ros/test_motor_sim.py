@@ -13,6 +13,7 @@ from workbench import PATIENCE, Bench, end
 
 from motor_model.model_file import save
 from motor_model.parameters import PAPER_KV, Parameters
+from motor_model.sensing.motion_check import NEVER
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import time_message, voltage_message
@@ -189,7 +190,7 @@ def test_a_blocked_motor_is_stopped(bench: Bench, start: Start, user: User, tmp_
     user.until(lambda sample: sample.voltage == 0.0, "the stop")
     driven = [sample.sample_time for sample in user.samples if sample.voltage == 9.0]
     assert 0.45 < (driven[-1] - driven[0]) * 1e-9 < 0.6
-    bench.wait(lambda: messages(status).startswith("The output is off (no edge ever, though driven with 9.0 V"), "why")
+    bench.wait(lambda: messages(status).startswith(f"The output is off ({NEVER.format(voltage=9.0)}"), "why")
     assert status[-1].status[0].level == b"\x02"
     assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
     user.until(lambda sample: sample.voltage == 9.0, "another try")

@@ -29,6 +29,16 @@ def test_a_missing_supply_is_told_from_a_missing_encoder_where_it_is_measured(su
     assert words in seen(True, *(sample(0.1 * k, 0, 0.0, supply=supply) for k in range(8)))
 
 
+def test_an_encoder_that_is_unplugged_in_full_motion_is_told_from_a_motor_that_stalls() -> None:
+    still = [sample(0.1 * k, 9, 0.0) for k in range(1, 8)]
+    cut = seen(True, sample(0.0, 8, 90.0), replace(sample(0.05, 9, 90.0), edge_period=1.0 / 310.0), *still)
+    assert cut.startswith("edges ended within one slot at full motion, and 6.0 V brings none back: the encoder's cable")
+    stalled = seen(True, sample(0.0, 8, 90.0), replace(sample(0.05, 9, 90.0), edge_period=1.0 / 290.0), *still)
+    assert stalled == "no edges at 6.0 V: the motor is stalled, or the encoder's cable is off"
+    never = seen(True, *(sample(0.1 * k, 0, 0.0) for k in range(8)))
+    assert never.startswith("no edge ever, though driven with 6.0 V: the encoder is not connected")
+
+
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_two_channels_show_a_wrong_sign_and_one_cannot(sign: float) -> None:
     turning = [sample(0.1 * k, -round(sign) * k, -sign * 20.0, sign * 6.0) for k in range(8)]
