@@ -9,7 +9,7 @@ from subprocess import Popen
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
-from plant_user import User
+from plant_user import User, count_stop
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 from workbench import PATIENCE, Bench, end
@@ -93,15 +93,19 @@ def test_a_value_out_of_range_is_one_sentence(start_plant: Start) -> None:
     assert "sample_rate" in err and "10 to 1000 Hz" in err and err.count("\n") == 1
 
 
-def recorded(bench: Bench, start: Start, bag: Path, tries: int = 5) -> Path:
-    """A bag of an experiment; a busy machine holds the emulated board up, which is a stop; then he begins anew."""
-    process = start("motor_identification", "experiment", "ramps", "--output", bag)
-    _, err = process.communicate(timeout=60.0)
-    if "switch it on, motor/enable with data: true" in err and tries > 1:
+def recorded(bench: Bench, start: Start, directory: Path) -> Path:
+    """The bag of an experiment, begun anew after a stop: each is counted, and there may be few."""
+    stops = 0
+    while True:
+        bag = directory / f"bag_{stops}"
+        process = start("motor_identification", "experiment", "ramps", "--output", bag)
+        _, err = process.communicate(timeout=60.0)
+        if process.returncode == 0:
+            return bag
+        assert "switch it on, motor/enable with data: true" in err, err
+        stops += 1
+        count_stop(stops, "experiment")
         assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
-        return recorded(bench, start, bag.with_name(f"{bag.name}_again"), tries - 1)
-    assert process.returncode == 0, err
-    return bag
 
 
 @pytest.mark.long
@@ -112,7 +116,7 @@ def test_experiment_and_identification_find_the_motor(
     """A motor whose friction nobody told of, on the pins of the emulated board."""
     hidden = {"kv": 0.071, "ka": 0.0052, "ks": 0.4, "breakaway_voltage": 0.7, "stribeck_speed": 8.0}
     start_plant(Parameters(hidden, ("static_friction",)))
-    bag = recorded(bench, start, tmp_path / "bag")
+    bag = recorded(bench, start, tmp_path)
     process = start(
         "motor_identification",
         *("identify", bag, "--effects", "static_friction", "--json", tmp_path / "fit.json"),
