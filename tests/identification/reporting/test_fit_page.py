@@ -23,7 +23,7 @@ def text_of(html: str) -> str:
 @pytest.fixture(scope="module")
 def html(found: Diagnosis) -> str:
     """The fit with Coulomb friction, to the recording that it was found in."""
-    recordings = fitted(ks=0.4)[0].recordings
+    recordings = fitted(ks=0.4)[0].problem.recordings
     return render_fit(replace(found.model, notes=("<the bag> was cut off.",)), recordings, Files("found.yaml"))
 
 
@@ -53,20 +53,20 @@ def test_the_page_has_the_pictures(html: str) -> None:
 
 
 def test_it_is_written_where_it_was_asked_for(found: Diagnosis, tmp_path: Path) -> None:
-    recordings = fitted(ks=0.4)[0].recordings
+    recordings = fitted(ks=0.4)[0].problem.recordings
     path = write_fit_report(found.model, recordings, tmp_path / "new")
     assert path == tmp_path / "new" / "report.html" and path.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
 
 
 def test_without_noise_and_variance_there_are_no_numbers(found: Diagnosis) -> None:
     one = replace(found.model, noise_floor=0.0, r_squared=float("nan"))
-    text = text_of(render_fit(one, fitted(ks=0.4)[0].recordings, NO_FILES))
+    text = text_of(render_fit(one, fitted(ks=0.4)[0].problem.recordings, NO_FILES))
     assert "noise floor unknown" in text and "R² –" in text and "nan" not in text.split("How to go on")[0]
 
 
 def test_curves_leave_what_the_fit_leaves(found: Diagnosis) -> None:
     """The time-weighted RMS of what is drawn is the fit's own residual; the seconds with most of it are found."""
-    recording = fitted(ks=0.4)[0].recordings[0]
+    recording = fitted(ks=0.4)[0].problem.recordings[0]
     curves = fit_curves(recording, found.model)
     weight = curves.duration / curves.duration.sum()
     assert (weight @ curves.residual**2) ** 0.5 == pytest.approx(found.model.residual_rms, rel=0.05)
