@@ -56,6 +56,21 @@ class Plan:
         }
 
 
+def announce(plan: Plan, motor: str, max_voltage: float, limit: float | None) -> str:
+    """What is about to happen to a motor, and what limits it, in two or three sentences.
+
+    limit: [rad/s] the speed at which the experiment is stopped; None: there is none.
+    """
+    low, high = float(np.min(plan.commands)), float(np.max(plan.commands))
+    span = f"-{-low:.4g} to {high:.4g} V, both ways" if low < 0.0 < high else f"up to {max(high, -low):.4g} V, one way"
+    peak = "all that the plant has; less with --voltage" if plan.voltage == max_voltage else f"of {max_voltage:g} V"
+    speed = "is not limited (--speed)" if limit is None else f"is limited to {limit:g} rad/s"
+    return (
+        f"Driving '{motor}' through '{plan.profile.name}' for {plan.duration:.1f} s: {span} ({peak}). "
+        f"The speed {speed}. Ctrl-C stops the motor."
+    )
+
+
 def make_plan(profile: Profile, voltage: float | None, max_voltage: float, sample_period: float) -> Plan:
     """A plan for a plant; without a voltage it uses all the plant has.
 

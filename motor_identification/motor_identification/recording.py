@@ -60,10 +60,11 @@ class Recording:
         if not (0.0 <= start < end):
             raise RecordingError(f"--start {start:g} s must be before --stop {stop:g} s, and neither negative.")
         inside = (self.time >= start) & (self.time <= end)
+        if start >= self.duration:
+            raise RecordingError(f"{self.uri} is {self.duration:.3g} s long: --start {start:g} s is behind its end.")
         if np.count_nonzero(inside) < 2:
-            raise RecordingError(
-                f"{self.uri} has no samples from {start:g} to {stop:g} s: it is {self.duration:.3g} s long."
-            )
+            end = min(end, self.duration)
+            raise RecordingError(f"{self.uri} has fewer than two samples from {start:g} to {end:.4g} s: take more.")
         return self._select(inside)
 
     def _select(self, which: NDArray[np.bool_]) -> "Recording":

@@ -7,7 +7,7 @@ import pytest
 
 from motor_identification.bag import contents, read_recording
 from motor_identification.cli import experiment
-from motor_identification.experiment import LEAD, make_plan, simulate_plan, slowed
+from motor_identification.experiment import LEAD, announce, make_plan, simulate_plan, slowed
 from motor_model.errors import MotorError
 from motor_model.excitation import PROFILES
 from motor_model.model_file import save
@@ -32,6 +32,26 @@ def test_a_command_belongs_to_the_nearest_sample_and_ends() -> None:
     assert [plan.command(t) for t in (0.0, 0.0951, 0.0976, 0.1, 0.5)] == [0.0, 0.0, 12.0, 12.0, 12.0]
     assert plan.command(1.0949) == 12.0
     assert plan.command(1.105) is None and plan.command(-0.1) is None and plan.command(1e9) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "volts", "limit", "said"),
+    [
+        ("step", 5.0, None, "for 1.1 s: up to 5 V, one way (of 12 V). The speed is not limited (--speed)."),
+        (
+            "staircase",
+            None,
+            40.0,
+            "for 5.8 s: -12 to 12 V, both ways (all that the plant has; less with --voltage). "
+            "The speed is limited to 40 rad/s.",
+        ),
+    ],
+)
+def test_it_says_what_will_happen_and_what_limits_it(
+    name: str, volts: float | None, limit: float | None, said: str
+) -> None:
+    plan = make_plan(PROFILES[name], volts, 12.0, 0.005)
+    assert announce(plan, "wheel", 12.0, limit) == f"Driving 'wheel' through '{name}' {said} Ctrl-C stops the motor."
 
 
 @pytest.mark.parametrize("volts", [0.0, -3.0, 12.1, float("nan"), float("inf")])

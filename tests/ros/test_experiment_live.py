@@ -50,12 +50,16 @@ class Stand:
         self.plant.communicate()
 
     def experiment(
-        self, name: str, interrupt: Callable[[Driver], object] = lambda driver: False, limit: float | None = None
+        self,
+        name: str,
+        interrupt: Callable[[Driver], object] = lambda driver: False,
+        limit: float | None = None,
+        replace: bool = False,
     ) -> int:
         """Run one; `interrupt` is looked at all the time."""
         start_ros()
         driver = Driver(profile(name), 6.0, limit, "")
-        return drive(driver, str(self.bag), After(lambda: bool(interrupt(driver))))  # type: ignore[arg-type]
+        return drive(driver, str(self.bag), After(lambda: bool(interrupt(driver))), replace)  # type: ignore[arg-type]
 
     def new(self, count: int) -> list[MotorSpeed]:
         """So many samples of what is now: without those that have waited in the queue."""
@@ -71,6 +75,11 @@ class Stand:
     def assert_stopped(self) -> None:
         """No sample from now on has a voltage, and the plant would have gone on for long."""
         assert {sample.voltage for sample in self.new(20)} == {0.0}
+
+    def put_aside(self) -> None:
+        """The bag's name is free again; go on with what was recorded under another one."""
+        assert not self.bag.exists()
+        self.bag = self.bag.with_name(f"{self.bag.name}_incomplete")
 
     def recorded(self) -> float:
         """[s] in the bag; the plant had a voltage."""
@@ -100,8 +109,14 @@ def turning(driver: Driver) -> bool:
 def test_an_interrupt_and_what_the_bag_says_of_the_plan(stand: Stand, capsys: pytest.CaptureFixture[str]) -> None:
     assert stand.experiment("staircase", turning) == 130
     stand.assert_stopped()
+    stand.put_aside()
     assert 0.2 < stand.recorded() < 3.0
-    assert capsys.readouterr().out.startswith(f"{stand.bag}: interrupted, ")
+    said = capsys.readouterr().out.splitlines()
+    assert said[0] == (
+        "Driving 'motor' through 'staircase' for 5.8 s: -6 to 6 V, both ways (of 12 V). "
+        "The speed is not limited (--speed). Ctrl-C stops the motor."
+    )
+    assert said[1].startswith(f"{stand.bag}: interrupted, ")
     noted = contents(stand.bag).custom_data
     assert (noted["experiment.profile"], float(noted["experiment.voltage"])) == ("staircase", 6.0)
     assert (float(noted["experiment.duration"]), noted["experiment.source"]) == (5.85, "simulation")
@@ -116,6 +131,7 @@ def test_an_error_of_our_own(stand: Stand) -> None:
     with pytest.raises(ZeroDivisionError):
         stand.experiment("staircase", fail)
     stand.assert_stopped()
+    stand.put_aside()
     assert 0.2 < stand.recorded() < 3.0
 
 
@@ -133,6 +149,8 @@ def test_a_full_disk(stand: Stand) -> None:
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
     stand.assert_stopped()
+    stand.put_aside()
+    assert str(refusal.value).endswith(f"are kept. The recording up to then is in {stand.bag}.")
     kept = contents(stand.bag)
     assert kept.cut and kept.message_count > 100
     assert f"the {kept.message_count} messages recorded until then are kept" in str(refusal.value)
@@ -150,9 +168,10 @@ def test_a_speed_is_kept_without_a_model(stand: Stand, capsys: pytest.CaptureFix
 
 def test_a_motor_that_runs_faster_than_allowed(stand: Stand, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(speed_probe, "slowed", lambda plan, parameters, limit: plan)  # as if the ramp had misled us
-    with pytest.raises(MotorError, match=r"at 6 V, above --speed 40, and was stopped: give less --voltage\."):
+    with pytest.raises(MotorError, match=r"at 6 V, above --speed 40, and was stopped: give less --voltage\. The rec"):
         stand.experiment("step", limit=40.0)
     stand.assert_stopped()
+    stand.put_aside()
     speeds = read_recording(stand.bag).speed
     assert 40.0 < speeds.max() < 0.97 * 6.0 / PAPER_KV  # never got where the voltage would have taken it
 
@@ -183,7 +202,10 @@ def test_another_plant_and_another_voltage(stand: Stand) -> None:
             voltage.publish(MotorVoltage(voltage=1.0))
         return False
 
-    with pytest.raises(MotorError, match="something else sends motor/voltage too"):
+    with pytest.raises(
+        MotorError,
+        match=r"^Another node publishes motor/voltage: /bench\. End it, and start anew\. The rec.* in \S+two_inc",
+    ):
         stand.experiment("staircase", meddle)
     second = stand.bench.publisher(MotorSpeed, "motor/speed", qos.SPEED)
     stand.bag = stand.bag.with_name("three")
@@ -199,11 +221,22 @@ def test_a_bag_that_exists_moves_nothing(stand: Stand) -> None:
     with pytest.raises(MotorError, match="exists already"):
         stand.experiment("step")
     stand.assert_stopped()
+    assert stand.experiment("step", replace=True) == 0
+    assert stand.recorded() > 1.0
+
+
+def test_an_attempt_that_failed_leaves_its_name_to_the_next(stand: Stand) -> None:
+    names = []
+    for _attempt in range(2):
+        assert stand.experiment("step", turning) == 130
+        names += [path.name for path in stand.bag.parent.iterdir() if path.name not in names]
+    assert names == ["bag_incomplete", "bag_incomplete_2"]
+    assert stand.experiment("step") == 0 and stand.recorded() > 1.0
 
 
 def test_a_plant_that_is_switched_off_and_then_lost(stand: Stand) -> None:
     assert stand.bench.call(SetBool, "motor/enable", SetBool.Request(data=False)).success
-    with pytest.raises(MotorError, match="applies 0 V whatever it is sent: switch it on, motor/enable with data: true"):
+    with pytest.raises(MotorError, match=r"^The output is off: call motor/enable with data: true\. The rec"):
         stand.experiment("step")
     assert stand.bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
     stand.bag = stand.bag.with_name("lost")
@@ -213,6 +246,7 @@ def test_a_plant_that_is_switched_off_and_then_lost(stand: Stand) -> None:
             stand.plant.kill()
         return False
 
-    with pytest.raises(MotorError, match=r"the samples stopped after 0\.\d+ s: is the plant still running\? What was"):
+    with pytest.raises(MotorError, match=r"^The samples stopped after 0\.\d+ s: is the plant still running\? The rec"):
         stand.experiment("step", lose)
+    stand.put_aside()
     assert 0.2 < stand.recorded() < 1.1

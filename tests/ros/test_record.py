@@ -10,6 +10,7 @@ import pytest
 from bags_over_dds import DEEP, INFO, PERIOD, Start, sample
 from rclpy.duration import Duration
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.serialization import deserialize_message
 from std_msgs.msg import Float64
 from workbench import PATIENCE, Bench, end
 
@@ -92,6 +93,26 @@ def test_named_topics_in_a_namespace_and_best_effort(bench: Bench, start: Start,
         "/far": "reliable",
     }
     assert out.rstrip().endswith("; nothing came on /left/never")
+
+
+def test_a_reference_that_is_published_once_by_a_program_that_ends_is_recorded(
+    bench: Bench, start: Start, tmp_path: Path
+) -> None:
+    speed = bench.publisher(MotorSpeed, "motor/speed", DEEP)
+    record = start("motor_identification", "record", tmp_path / "bag")
+    bench.heard(speed)
+    say(speed, range(5))
+    for k in range(5):
+        reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+        bench.heard(reference)  # no sooner, and no later
+        reference.publish(Float64(data=float(k)))
+        assert reference.wait_for_all_acked(Duration(seconds=PATIENCE))
+        bench.node.destroy_publisher(reference)
+    written(bench, tmp_path / "bag", 10)
+    end(record)
+    data = [deserialize_message(row[3], Float64).data for row in messages(tmp_path / "bag", {"/motor/reference"})]
+    assert data == [0.0, 1.0, 2.0, 3.0, 4.0]
+    assert {topic.name for topic in topics(tmp_path / "bag")} == {"/motor/speed", "/motor/reference"}
 
 
 def test_all_topics(bench: Bench, start: Start, tmp_path: Path) -> None:

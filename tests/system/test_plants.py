@@ -102,7 +102,7 @@ def recorded(bench: Bench, start: Start, directory: Path) -> Path:
         _, err = process.communicate(timeout=60.0)
         if process.returncode == 0:
             return bag
-        assert "switch it on, motor/enable with data: true" in err, err
+        assert "output is off" in err, err
         stops += 1
         count_stop(stops, "experiment")
         assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success

@@ -5,8 +5,8 @@ from motor_identification.bag.motor import read_recording
 from motor_identification.bag.reader import contents, in_time_order, messages, topics
 from motor_identification.bag.repair import repair
 from motor_identification.bag.source import Source, Window
-from motor_identification.bag.topic import Qos, Topic, absolute_name
-from motor_identification.bag.writer import FLUSH_EVERY, BagWriter
+from motor_identification.bag.topic import Qos, Topic, absolute_name, named_topic
+from motor_identification.bag.writer import FLUSH_EVERY, BagWriter, check_new_bag
 
 __all__ = [
     "FLUSH_EVERY",
@@ -17,9 +17,11 @@ __all__ = [
     "Topic",
     "Window",
     "absolute_name",
+    "check_new_bag",
     "contents",
     "in_time_order",
     "messages",
+    "named_topic",
     "read_recording",
     "repair",
     "topics",

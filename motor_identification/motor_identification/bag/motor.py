@@ -25,7 +25,8 @@ def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.
 
     Args:
         uri: a rosbag2 directory (MCAP or sqlite3, compressed or not, with or without metadata.yaml) or a storage file.
-        topic_namespace: the namespace that the plant ran in; empty for none.
+        topic_namespace: the namespace that the plant ran in, `/` for none; empty: none, or the only one in the bag that
+            has a motor, which a note says then.
         start: [s] after the first sample; what lies outside of start and stop is not checked either.
         stop: [s] after the first sample; 0, 0 is all of it.
 
@@ -33,16 +34,16 @@ def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.
         RecordingError: no such bag, no bag, an empty one, one without this motor, one that identification cannot use.
     """
     bag = Bag(uri)
-    speed_topic, info_topic = absolute_name(topic_namespace, _SPEED), absolute_name(topic_namespace, _INFO)
-    try:
-        rows, infos = _read(bag, speed_topic, info_topic)
-    except Undecodable as error:
-        raise RecordingError(
-            f"{uri} cannot be read: {error}; record it again with this version of motor_msgs."
-        ) from error
+    rows, infos, info_topic = _motor(bag, topic_namespace)
+    notes: list[str] = []
+    only = _only_namespace(bag)
+    if len(rows) == 0 and not topic_namespace and only:
+        rows, infos, info_topic = _motor(bag, only)
+        notes = [f"{bag.uri} has one motor, in the namespace {only}: that one is used."]
     if len(rows) == 0:
-        raise _nothing(bag, speed_topic)
-    kept, notes = _without_repeats(rows, bag.uri)
+        raise _nothing(bag, absolute_name(topic_namespace, _SPEED))
+    kept, repeats = _without_repeats(rows, bag.uri)
+    notes = [*repeats, *notes]
     if bag.cut:
         span = float(kept["sample_time"][-1] - kept["sample_time"][0]) * 1e-9
         notes = [f"{uri} is cut off: {len(kept)} samples, {span:.2f} s up to the cut.", *notes]
@@ -50,6 +51,17 @@ def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.
         notes.append(f"{uri} lacks {', '.join(bag.missing)}, which its metadata.yaml lists: those samples are missing.")
     info = _info(infos, kept, info_topic, bag.uri, notes)
     return check(_recording(bag.uri, info, kept, tuple(notes)).between(start, stop))
+
+
+def _motor(bag: Bag, namespace: str) -> tuple[Rows, list[Info], str]:
+    """Samples and infos of the motor in a namespace, and the name of its info's topic."""
+    info_topic = absolute_name(namespace, _INFO)
+    try:
+        return *_read(bag, absolute_name(namespace, _SPEED), info_topic), info_topic
+    except Undecodable as error:
+        raise RecordingError(
+            f"{bag.uri} cannot be read: {error}; record it again with this version of motor_msgs."
+        ) from error
 
 
 def _read(bag: Bag, speed_topic: str, info_topic: str) -> tuple[Rows, list[Info]]:
@@ -100,12 +112,23 @@ def _nothing(bag: Bag, speed_topic: str) -> RecordingError:
     return RecordingError(f"{bag.uri} has no {speed_topic}: {_elsewhere(bag.topics.values())}")
 
 
+def _namespaces(topics: Iterable[Topic]) -> list[str]:
+    """The namespaces in a bag that have a motor, `/` for none."""
+    suffix = f"/{_SPEED}"
+    return sorted(topic.name[: -len(suffix)] or "/" for topic in topics if topic.name.endswith(suffix))
+
+
+def _only_namespace(bag: Bag) -> str:
+    """The namespace of the only motor in a bag that has been read; empty where there are several, or none."""
+    there = _namespaces(bag.topics.values())
+    return there[0] if len(there) == 1 else ""
+
+
 def _elsewhere(topics: Iterable[Topic]) -> str:
     """Where else in the bag a motor may be."""
-    suffix = f"/{_SPEED}"
-    others = sorted(topic.name[: -len(suffix)].strip("/") for topic in topics if topic.name.endswith(suffix))
+    others = _namespaces(topics)
     if others:
-        choices = " or ".join(f"--topic-namespace {namespace or '/'}" for namespace in others)
+        choices = " or ".join(f"--topic-namespace {namespace}" for namespace in others)
         return f"it has that of another namespace: say {choices}."
     names = sorted(topic.name for topic in topics)
     more = f" and {len(names) - 10} more" if len(names) > 10 else ""

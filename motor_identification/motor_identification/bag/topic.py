@@ -1,11 +1,14 @@
 """A topic in a bag: its name, its type, and how its publishers offered it."""
 
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from rosbags.interfaces import Qos as StoredQos
 from rosbags.rosbag2.errors import ReaderError
 from rosbags.rosbag2.metadata import parse_qos
+
+from motor_model.errors import RecordingError
 
 # What rosbag2 writes for "no limit": the largest duration that fits 64 bits of nanoseconds.
 _INFINITE = {"sec": 9223372036, "nsec": 854775807}
@@ -42,6 +45,21 @@ def absolute_name(namespace: str, name: str) -> str:
     """`motor/speed` in the namespace `left` (or `/left/`) is `/left/motor/speed`; a leading slash stays global."""
     parts = name.split("/") if name.startswith("/") else [*namespace.split("/"), *name.split("/")]
     return "/" + "/".join(part for part in parts if part)
+
+
+def named_topic(name: str, topics: Iterable[str]) -> str:
+    """The topic that a user means by a name: that one, or the only one that is it in some namespace.
+
+    Raises:
+        RecordingError: it is in several namespaces.
+    """
+    absolute, there = absolute_name("", name), sorted(topics)
+    if absolute in there or name.startswith("/"):
+        return absolute
+    candidates = [topic for topic in there if topic.endswith(absolute)]
+    if len(candidates) > 1:
+        raise RecordingError(f"{name} is {' or '.join(candidates)} in this bag: say which.")
+    return candidates[0] if candidates else absolute
 
 
 def load_profiles(text: str) -> tuple[Qos, ...]:

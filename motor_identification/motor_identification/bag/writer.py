@@ -12,9 +12,10 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import replace
+from dataclasses import replace as changed
 from importlib.metadata import version
 from io import BufferedWriter
+from itertools import count
 from pathlib import Path
 from types import TracebackType
 
@@ -28,6 +29,8 @@ from motor_identification.bag.topic import Qos, Topic
 from motor_model.errors import RecordingError
 
 FLUSH_EVERY = 0.5  # [s] what a kill -9 loses at most, if `flush` is called as often when no messages come
+EXISTS = "{} exists already and is left as it is: choose another name, or replace it with --force."
+STORAGE = (".mcap", ".db3")
 _CHUNK_SIZE = 256 * 1024  # [bytes] about 10 s of a motor's topics
 
 
@@ -35,15 +38,16 @@ class BagWriter:
     """A new bag, open for messages until `close`; a context manager.
 
     Where the disk refuses something, everything up to the last flush stays readable, and nothing is written any more.
+    With `replace`, a bag that is there already is removed first; what is no bag never is.
 
     Raises:
         RecordingError: something exists at the path already (it stays untouched), or it cannot be created or written.
     """
 
-    def __init__(self, path: str | Path) -> None:
+    def __init__(self, path: str | Path, replace: bool = False) -> None:
         self.path = Path(path)
         self.counts: Counter[str] = Counter()  # messages by topic
-        self._stream = _create(self.path)
+        self._stream = _create(self.path, replace)
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}  # by topic name
         self._topics: dict[int, Topic] = {}  # by channel
@@ -110,7 +114,7 @@ class BagWriter:
         if self._closed or self._refusal:
             return
         self._closed = True
-        topics = tuple(replace(topic, message_count=self.counts[topic.name]) for topic in self._topics.values())
+        topics = tuple(changed(topic, message_count=self.counts[topic.name]) for topic in self._topics.values())
         contents = Contents(topics, self._span, custom_data=self._noted)
         metadata = bag_metadata({Path(self._stream.name).name: contents}, "mcap")
         self.flush()
@@ -126,6 +130,18 @@ class BagWriter:
         self._closed = True
         self._stream.close()
         shutil.rmtree(self.path)
+
+    def set_aside(self) -> Path | None:
+        """Close, and free the bag's name for another attempt; returns where the bag is now, None if it was empty."""
+        self.close()
+        if self.message_count == 0 and not self._refusal:
+            self.discard()
+            return None
+        names = (f"{self.path.name}_incomplete{f'_{n}' if n > 1 else ''}" for n in count(1))
+        aside = next(path for path in map(self.path.with_name, names) if not path.exists())
+        with told(self.path):
+            self.path.rename(aside)
+        return aside
 
     def __enter__(self) -> "BagWriter":
         return self
@@ -155,10 +171,29 @@ class BagWriter:
         self._stream.raw.close()  # and not the stream, which would write what it still has in memory behind the end
 
 
-def _create(path: Path) -> BufferedWriter:
+def check_new_bag(path: Path, replace: bool = False) -> None:
+    """Refuse a path at which something exists, unless it is a bag that may be replaced.
+
+    Raises:
+        RecordingError: something is there.
+    """
+    if not (path.exists() or path.is_symlink()):
+        return
+    if not replace:
+        raise RecordingError(EXISTS.format(path))
+    if not path.is_dir() or path.is_symlink() or not all(map(_belongs_to_a_bag, path.iterdir())):
+        raise RecordingError(f"{path} is not a bag and is left as it is: choose another name.")
+
+
+def _belongs_to_a_bag(path: Path) -> bool:
+    return path.is_file() and (path.name == "metadata.yaml" or any(suffix in STORAGE for suffix in path.suffixes))
+
+
+def _create(path: Path, replace: bool) -> BufferedWriter:
     with told(path):
-        if path.exists() or path.is_symlink():
-            raise RecordingError(f"{path} exists already and is left as it is: choose another name, or move it away.")
+        check_new_bag(path, replace)
+        if path.exists():
+            shutil.rmtree(path)
         path.mkdir(parents=True)
         stream = (path / f"{path.resolve().name}_0.mcap").open("xb")
     with suppress(OSError):  # some file systems have no locks; `repair` must not take it for one that a crash left

@@ -12,7 +12,12 @@ _NAMES = (
 
 def add_plant_options(parser: argparse.ArgumentParser) -> None:
     """Add them to a command line."""
-    parser.add_argument("--voltage", type=positive, metavar="V", help="peak of the profile (default: all there is)")
+    parser.add_argument(
+        "--voltage",
+        type=positive,
+        metavar="V",
+        help="peak of the profile (default: the plant's max_voltage; many profiles go both ways)",
+    )
     parser.add_argument(
         "--speed",
         type=positive,

@@ -9,8 +9,10 @@ from motor_identification.cli._plant_options import add_plant_options
 from motor_model.excitation import PROFILES, profile
 from motor_model.parameters import paper_motor
 from motor_ros.command import CommandParser, shell
+from motor_ros.output_files import add_force_option
 
 if TYPE_CHECKING:
+    from motor_identification.bag import BagWriter
     from motor_identification.experiment import Plan
     from motor_model.parameters import Parameters
     from motor_model.sensing.board import BoardConfig
@@ -24,13 +26,14 @@ def parser() -> argparse.ArgumentParser:
         "experiment",
         "Drive the motor through a voltage profile and record it into a bag. Without --model the live "
         "plant (motor_sim or motor_driver) is driven; with --model a simulated motor runs offline, at full speed. "
-        "However a live experiment ends, the motor gets 0 V. The bag says which profile it was, under custom_data in "
-        "its metadata.yaml.",
+        "However a live experiment ends, the motor gets 0 V; a bag that is not complete is named "
+        "BAG_incomplete. The bag says which profile it was, under custom_data in its metadata.yaml.",
         f"profiles:\n{rows}",
     )
     parser.add_argument("profile", choices=list(PROFILES), metavar="PROFILE", help="one of the profiles below")
     parser.add_argument("--output", required=True, metavar="BAG", help="the bag to write; must not exist")
     add_plant_options(parser)
+    add_force_option(parser)
     return parser
 
 
@@ -48,10 +51,12 @@ def _live(options: argparse.Namespace) -> int:
     interrupt = Interrupt()
     start_ros()
     wanted = profile(options.profile)
-    return drive(Driver(wanted, options.voltage, options.speed, options.topic_namespace), options.output, interrupt)
+    driver = Driver(wanted, options.voltage, options.speed, options.topic_namespace)
+    return drive(driver, options.output, interrupt, options.force)
 
 
 def _offline(options: argparse.Namespace) -> int:
+    from motor_identification.bag import BagWriter
     from motor_identification.experiment import make_plan, slowed
     from motor_model.model_file import load
     from motor_model.sensing.board import BoardConfig
@@ -68,7 +73,7 @@ def _offline(options: argparse.Namespace) -> int:
         slot_irregularity=options.slot_irregularity,
         seed=options.seed,
     )
-    count = _write(options.output, plan, model, config)
+    count = _write(BagWriter(options.output, options.force), plan, model, config)
     print(
         f"{options.output}: {count} samples, {plan.duration:.2f} s of '{plan.profile.name}' with '{model.name}', "
         f"peak {plan.voltage:g} V"
@@ -76,19 +81,18 @@ def _offline(options: argparse.Namespace) -> int:
     return 0
 
 
-def _write(path: str, plan: "Plan", model: "Parameters", config: "BoardConfig") -> int:
+def _write(bag: "BagWriter", plan: "Plan", model: "Parameters", config: "BoardConfig") -> int:
     """Simulate into a bag with the topics, types and QoS of a live plant; returns the number of samples."""
     from rclpy.serialization import serialize_message
     from tqdm import tqdm
 
-    from motor_identification.bag import BagWriter
     from motor_identification.experiment import simulate_plan
     from motor_identification.live.qos_profiles import offered
     from motor_ros import qos
     from motor_ros.messages import info_message, speed_message, time_message, voltage_message
 
     begin, count = time.time_ns(), 0
-    with BagWriter(path) as writer:
+    with bag as writer:
         writer.note("experiment", {**plan.words(), "motor": model.name, "source": "simulation"})
         info = writer.topic("/motor/info", "motor_msgs/msg/MotorInfo", offered(qos.INFO))
         speed = writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed", offered(qos.SPEED))

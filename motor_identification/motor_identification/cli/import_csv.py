@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from motor_identification.logs.csv_form import UNITS, CsvForm, Kind
 from motor_ros.command import CommandParser, positive, shell
+from motor_ros.output_files import add_force_option
 
 if TYPE_CHECKING:
     from motor_identification.bag import BagWriter
@@ -29,7 +30,7 @@ def main(args: list[str] | None = None) -> int:
     """Entry point; returns the exit status."""
     options = parser().parse_args(args)
     form = _form(parser(), options)
-    return shell(lambda: _import(options.file, form, options.output))
+    return shell(lambda: _import(options.file, form, options.output, options.force))
 
 
 def parser() -> argparse.ArgumentParser:
@@ -59,6 +60,7 @@ def parser() -> argparse.ArgumentParser:
         help="a bag BAG_VALUE for every run of one value of this column; time may start again there",
     )
     add("--name", default="motor", help="the motor's name in the bag (default: motor)")
+    add_force_option(parser)
     _add_meaning(parser)
     return parser
 
@@ -135,19 +137,19 @@ def _form(parser: argparse.ArgumentParser, options: argparse.Namespace) -> CsvFo
     )
 
 
-def _import(file: Path, form: CsvForm, output: Path) -> int:
+def _import(file: Path, form: CsvForm, output: Path, force: bool) -> int:
     from motor_identification.logs import read_log
 
     log = read_log(file, form)  # all of it, before anything is written
     paths = [output.with_name(f"{output.name}_{run.label}") if form.split else output for run in log.runs]
-    write_bags(dict(zip(paths, log.runs, strict=True)), log.info, _offset(file, log.runs[0]))
+    write_bags(dict(zip(paths, log.runs, strict=True)), log.info, _offset(file, log.runs[0]), force)
     print(*log.findings, sep="\n")
     for path, run in zip(paths, log.runs, strict=True):
         print(f"{path}: {len(run.samples)} samples, {run.duration:.2f} s")
     return 0
 
 
-def write_bags(runs: "dict[Path, Run]", info: "Info", offset: int) -> None:
+def write_bags(runs: "dict[Path, Run]", info: "Info", offset: int, force: bool = False) -> None:
     """One bag a run, or none at all.
 
     Raises:
@@ -158,7 +160,7 @@ def write_bags(runs: "dict[Path, Run]", info: "Info", offset: int) -> None:
 
     writers: list[BagWriter] = []
     try:
-        writers.extend(BagWriter(path) for path in runs)
+        writers.extend(BagWriter(path, force) for path in runs)
         for writer, run in zip(writers, runs.values(), strict=True):
             _write(writer, run, info, offset)
             writer.close()
@@ -173,7 +175,7 @@ def _offset(file: Path, first: "Run") -> int:
     return 0 if first.samples[0].sample_time > _SINCE_1970 else file.stat().st_mtime_ns
 
 
-def _write(writer: "BagWriter", run: "Run", info: "Info", offset: int) -> None:
+def _write(writer: "BagWriter", run: "Run", info: "Info", offset: int, force: bool = False) -> None:
     from rclpy.serialization import serialize_message
 
     from motor_identification.live.qos_profiles import offered

@@ -42,7 +42,12 @@ def parser() -> argparse.ArgumentParser:
         metavar="S",
         help="leave out the first S seconds; what was latched in them (such as motor/info) is published all the same",
     )
-    parser.add_argument("--topics", nargs="+", metavar="TOPIC", help="only these (default: all)")
+    parser.add_argument(
+        "--topics",
+        nargs="+",
+        metavar="TOPIC",
+        help="only these (default: all); motor/voltage is /bench/motor/voltage where the bag has only that",
+    )
     parser.add_argument(
         "--remap", nargs="+", type=_renamed, default=[], metavar="OLD:=NEW", help="publish a topic under another name"
     )
@@ -65,15 +70,16 @@ def _renamed(text: str) -> tuple[str, str]:
 def _play(options: argparse.Namespace) -> int:
     import rclpy
 
-    from motor_identification.bag import absolute_name
+    from motor_identification.bag import absolute_name, named_topic
     from motor_identification.live.playback_schedule import Schedule
     from motor_identification.live.publishers import Publishers
     from motor_ros.run import Interrupt, start_ros
 
     interrupt = Interrupt()
     bag = _opened(options.bag, options.start_offset)
-    chosen = [absolute_name("", name) for name in options.topics] if options.topics else None
-    names = {absolute_name("", old): absolute_name("", new) for old, new in options.remap}
+    there = [topic.name for topic in bag.topics if topic.message_count]
+    chosen = [named_topic(name, there) for name in options.topics] if options.topics else None
+    names = {named_topic(old, there): absolute_name("", new) for old, new in options.remap}
     schedule = Schedule(options.rate)
     start_ros([])
     try:
@@ -169,7 +175,7 @@ def _summary(uri: str, schedule: "Schedule") -> str:
     if not schedule.played:
         return f"{uri}: nothing played"
     late = schedule.late_at_most(0.99) * 1e3
-    return f"{uri}: {schedule.played} messages played, 99 % of them within {late:.2f} ms of their time"
+    return f"{uri}: {schedule.played} messages played. Playback jitter: {late:.2f} ms (99 %)"
 
 
 if __name__ == "__main__":

@@ -6,30 +6,25 @@ import time
 from typing import TYPE_CHECKING
 
 from motor_ros.command import CommandParser, in_place, positive, shell
+from motor_ros.output_files import add_force_option
+from motor_ros.topics import TOPICS
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from rclpy.qos import QoSProfile
+
     from motor_identification.bag import BagWriter
     from motor_identification.live.recorder import Recorder
-
-# The topics of one motor, relative to its namespace.
-TOPICS = (
-    "motor/speed",
-    "motor/info",
-    "motor/voltage",
-    "motor/reference",
-    "motor/control_state",
-    "motor/model",
-    "joint_states",
-    "/diagnostics",
-)
 
 
 def parser() -> CommandParser:
     """The command line."""
+    names = ", ".join(topic.name for topic in TOPICS)
     parser = CommandParser(
         "motor_identification",
         "record",
-        f"Record topics into a bag until Ctrl-C, by default {', '.join(TOPICS)}. They may appear later; "
+        f"Record topics into a bag until Ctrl-C, by default {names}. They may appear later; "
         "the bag is a rosbag2 directory with MCAP storage. What is older than half a second survives whatever happens "
         "to this program, and a bag that was cut off is read as it is.",
     )
@@ -40,6 +35,7 @@ def parser() -> CommandParser:
         "--topic-namespace", default="", metavar="NS", help="the namespace of the motor (default: none)"
     )
     parser.add_argument("--duration", type=positive, metavar="S", help="end after so many seconds")
+    add_force_option(parser)
     return parser
 
 
@@ -55,12 +51,14 @@ def _record(options: argparse.Namespace) -> int:
     from motor_identification.bag import BagWriter, absolute_name
     from motor_ros.run import Interrupt
 
-    names = options.topics or TOPICS
-    topics = None if options.all else [absolute_name(options.topic_namespace, name) for name in names]
+    known = {absolute_name(options.topic_namespace, topic.name): topic for topic in TOPICS}
+    named = [absolute_name(options.topic_namespace, name) for name in options.topics]
+    topics = None if options.all else named or list(known)
+    expected = {name: (topic.type_name, topic.qos) for name, topic in known.items() if name in (topics or known)}
     interrupt = Interrupt()
-    with BagWriter(options.bag) as writer:
+    with BagWriter(options.bag, options.force) as writer:
         print(f"Recording {', '.join(topics or ['every topic'])} to {options.bag}; Ctrl-C ends it.", flush=True)
-        notes = _listen(writer, topics, interrupt, options.duration)
+        notes = _listen(writer, topics, expected, interrupt, options.duration)
         if writer.message_count == 0:
             writer.discard()
     in_place("")
@@ -73,7 +71,13 @@ def _record(options: argparse.Namespace) -> int:
     return 0
 
 
-def _listen(writer: "BagWriter", topics: list[str] | None, interrupt: object, duration: float | None) -> list[str]:
+def _listen(
+    writer: "BagWriter",
+    topics: list[str] | None,
+    expected: "Mapping[str, tuple[str, QoSProfile]]",
+    interrupt: object,
+    duration: float | None,
+) -> list[str]:
     """Record until the interrupt or for the duration [s]; returns notes about what could not be recorded."""
     import rclpy
 
@@ -83,7 +87,7 @@ def _listen(writer: "BagWriter", topics: list[str] | None, interrupt: object, du
     start_ros([])
     try:
         node = rclpy.create_node("record", enable_rosout=False, start_parameter_services=False)
-        recorder = Recorder(node, writer, topics)
+        recorder = Recorder(node, writer, topics, expected)
         node.create_timer(1.0, lambda: in_place(_progress(writer, recorder)))
         deadline = time.monotonic() + (duration or float("inf"))
         spin(node, lambda: bool(interrupt or recorder.refusal) or time.monotonic() >= deadline)

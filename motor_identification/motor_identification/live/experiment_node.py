@@ -2,6 +2,7 @@
 
 import time
 
+from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
@@ -20,6 +21,7 @@ LEAST = 0.02  # of max_voltage: a command that any bridge can follow
 TOO_FAST = 2  # samples in a row: a single one may be a flank that came early
 ARRIVAL = 0.5  # [s] for the last command to arrive
 LEAD = 0.1  # [s] of 0 V before the plan: a plant drives with what begins at 0 V
+OUTPUT_OFF = "The plant's output is off: call motor/enable with data: true"
 OURS = "experiment"  # frame_id of the voltages this command sends
 
 
@@ -46,10 +48,12 @@ class Driver(Node):
         self._asked = 0.0  # [V] the latest command
         self._deaf_since: float | None = None  # [s] monotonic time
         self._too_fast = 0
+        self.plant_says = ""  # what the plant's diagnostics said since its output is off
         self._voltage = self.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
         self.create_subscription(MotorSpeed, "motor/speed", self._on_sample, qos.SPEED)
         self.create_subscription(MotorVoltage, "motor/voltage", self._on_voltage, qos.VOLTAGE)
+        self.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, qos.DIAGNOSTICS)
 
     def follow(self, plan: Plan, enough: float | None = None) -> None:
         """Do what a plan says from now on; with `enough` it is a probe, kept in `samples`, that ends at that speed."""
@@ -74,7 +78,7 @@ class Driver(Node):
         if plants > 1:
             self.problem = f"{plants} nodes publish motor/speed: stop all but the plant that is to be driven."
         elif self.heard is not None and time.monotonic() - self.heard > SILENCE:
-            self.problem = f"the samples stopped after {self.elapsed:.2f} s: is the plant still running?"
+            self.problem = f"The samples stopped after {self.elapsed:.2f} s: is the plant still running?"
         return bool(self.problem)
 
     def _on_info(self, message: MotorInfo) -> None:
@@ -83,7 +87,7 @@ class Driver(Node):
             if self.info is None:
                 self.plan = make_plan(self.profile, self._wanted, info.max_voltage, info.sample_period)
             elif info != self.info:
-                self.problem = "motor/info has changed, so that the plan is for another plant: start anew."
+                self.problem = "motor/info has changed: the plan is for another plant; start anew."
             self.info = info
         except MotorError as error:
             self.problem = str(error)
@@ -110,26 +114,34 @@ class Driver(Node):
             self.send(command or 0.0)
 
     def _on_voltage(self, message: MotorVoltage) -> None:
-        if self._following and message.header.frame_id != OURS:
-            self.problem = "something else sends motor/voltage too (a controller with a reference?): stop it first."
+        if self._following and message.header.frame_id != OURS and not self.problem:
+            infos = self.get_publishers_info_by_topic(self._voltage.topic_name)
+            names = {f"{info.node_namespace.rstrip('/')}/{info.node_name}" for info in infos}
+            others = ", ".join(sorted(names - {self.get_fully_qualified_name()})) or "unknown"
+            self.problem = f"Another node publishes motor/voltage: {others}. End it, and start anew."
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        for status in message.status:
+            if self._deaf_since is not None and self.info and status.hardware_id == self.info.name:
+                self.plant_says = status.message
 
     def _watch(self, message: MotorSpeed) -> None:
         if message.sample_time <= self._latest:
             self.problem = (
-                f"the plant's clock stepped back after {self.elapsed:.2f} s: was it restarted, or are there two?"
+                f"The plant's clock stepped back after {self.elapsed:.2f} s: was it restarted, or are there two?"
             )
         self._too_fast = self._too_fast + 1 if abs(message.speed) > (self.limit or float("inf")) else 0
         if self._too_fast >= TOO_FAST:
             self.problem = self._beyond(abs(message.speed))
         if message.voltage != 0.0:
-            self._deaf_since = None
+            self._deaf_since, self.plant_says = None, ""
         elif self.info and abs(self._asked) > LEAST * self.info.max_voltage:
             self._deaf_since = self._deaf_since or time.monotonic()
             if time.monotonic() - self._deaf_since > DEAF:
-                self.problem = "the plant applies 0 V whatever it is sent: switch it on, motor/enable with data: true."
+                self.problem = f"{OUTPUT_OFF}."
 
     def _beyond(self, speed: float) -> str:
         return (
-            f"the motor ran at {speed:.4g} rad/s after {self.elapsed:.2f} s, at {self._asked:.3g} V, "
+            f"The motor ran at {speed:.4g} rad/s after {self.elapsed:.2f} s, at {self._asked:.3g} V, "
             f"above --speed {self.limit:g}, and was stopped: give less --voltage."
         )

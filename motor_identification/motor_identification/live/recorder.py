@@ -2,10 +2,11 @@
 
 import time
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from operator import itemgetter
+from types import MappingProxyType
 from typing import Any
 
 from rclpy.callback_groups import CallbackGroup
@@ -35,24 +36,35 @@ def _not_called(data: bytes) -> None:
 class Recorder:
     """Writes every message on the topics to the bag from now until `close`; runs on the node's own executor.
 
-    Topics need not exist yet. `topics` are absolute names; None is every topic that is not hidden. `counts` has the
-    messages by topic, `notes` sentences about topics that cannot be recorded. When the bag can no longer be written,
-    `refusal` says why and nothing more is recorded: whoever runs the node decides what to stop first.
+    Topics need not exist yet. `topics` are absolute names; None is every topic that is not hidden. `expected` has the
+    type and QoS of topics whose first message must not be missed, such as one that is published once by a program that
+    ends: they are listened to before anybody publishes. `counts` has the messages by topic, `notes` sentences about
+    topics that cannot be recorded. When the bag can no longer be written, `refusal` says why and nothing more is
+    recorded: whoever runs the node decides what to stop first.
     """
 
-    def __init__(self, node: Node, writer: BagWriter, topics: Sequence[str] | None) -> None:
+    def __init__(
+        self,
+        node: Node,
+        writer: BagWriter,
+        topics: Sequence[str] | None,
+        expected: Mapping[str, tuple[str, QoSProfile]] = MappingProxyType({}),
+    ) -> None:
         self.notes: list[str] = []
         self.refusal: RecordingError | None = None
         self._node = node
         self._writer = writer
         self._wanted = None if topics is None else frozenset(topics)
         self._subscriptions: dict[str, Subscription] = {}
-        self._channels: dict[str, int] = {}
+        self._channels: dict[str, int] = {}  # of topics that somebody publishes or has published
+        self._types: dict[str, str] = {}
         self._group = _NotWaitedFor()
         self._asked: dict[str, QoSProfile] = {}
         self._unusable: set[str] = set()
         rows = ((DRAIN_EVERY, self.drain), (LOOK_EVERY, self.look), (FLUSH_EVERY, self._flush))
         self._timers = [node.create_timer(period, callback) for period, callback in rows]
+        for topic, (type_name, profile) in expected.items():
+            self._subscribe(topic, type_name, to_hear([profile]))
         self.look()
 
     @property
@@ -75,20 +87,22 @@ class Recorder:
 
     def drain(self) -> None:
         """Write what has arrived, in the order in which it did."""
-        arrived: list[tuple[int, int, int, bytes]] = []  # received, channel, sent, data
+        with self._noticing():
+            for received, channel, sent, data in sorted(self._arrived(), key=itemgetter(0)):
+                self._writer.write(channel, received, data, sent)
+
+    def _arrived(self) -> Iterator[tuple[int, int, int, bytes]]:
+        """When each message was received, its channel, when it was sent, and its data."""
         for topic, subscription in self._subscriptions.items():
-            channel, room = self._channels[topic], DEPTH  # at most: who sends faster than we take must not hold us up
+            room = DEPTH  # at most: who sends faster than we take must not hold us up
             with subscription.handle:
                 while room > 0 and (taken := subscription.handle.take_message(subscription.msg_type, True)):
                     data, info = taken
                     # When DDS received it: waiting in this process does not count. Some middleware does not say.
                     received = info.get("received_timestamp") or time.time_ns()
-                    arrived.append((received, channel, info.get("source_timestamp") or received, data))
+                    channel = self._channel(topic, [self._asked[topic]])
+                    yield received, channel, info.get("source_timestamp") or received, data
                     room -= 1
-        arrived.sort(key=itemgetter(0))
-        with self._noticing():
-            for received, channel, sent, data in arrived:
-                self._writer.write(channel, received, data, sent)
 
     def close(self) -> None:
         """Write what has arrived and has not been taken yet, and stop."""
@@ -105,31 +119,37 @@ class Recorder:
         return not any(part.startswith("_") for part in topic.split("/"))  # hidden: actions and services use them
 
     def _hear(self, topic: str, type_name: str, publishers: list[QoSProfile]) -> None:
-        asked = self._asked.get(topic)
+        known = self._types.get(topic) == type_name
+        asked = self._asked.get(topic) if known else None
         fitting = to_hear(
             [*publishers, *([asked] if asked else [])]
         )  # never more than before: that would repeat latched
-        if fitting == asked:
-            return
+        if fitting != asked:
+            self.drain()
+            self._subscribe(topic, type_name, fitting)
+        if topic in self._subscriptions:
+            with self._noticing():
+                self._channel(topic, publishers)
+
+    def _subscribe(self, topic: str, type_name: str, profile: QoSProfile) -> None:
         message_class = message_type(type_name)
         if message_class is None:
             self._unusable.add(topic)
             self.notes.append(f"{topic} is not recorded: its type {type_name} is not installed here.")
             return
-        try:
-            channel = self._writer.topic(topic, type_name, offered(*publishers))
-        except RecordingError as error:
-            self.refusal = error
-            return
-        self.drain()
         before = self._subscriptions.pop(topic, None)
         if before is not None:
             self._node.destroy_subscription(before)
-        self._channels[topic] = channel
         self._subscriptions[topic] = self._node.create_subscription(
-            message_class, topic, _not_called, fitting, raw=True, callback_group=self._group
+            message_class, topic, _not_called, profile, raw=True, callback_group=self._group
         )
-        self._asked[topic] = fitting
+        self._asked[topic], self._types[topic] = profile, type_name
+
+    def _channel(self, topic: str, publishers: list[QoSProfile]) -> int:
+        """The topic's channel in the bag, opened for the first publishers that are known or heard."""
+        if topic not in self._channels:
+            self._channels[topic] = self._writer.topic(topic, self._types[topic], offered(*publishers))
+        return self._channels[topic]
 
     def _flush(self) -> None:
         with self._noticing():

@@ -12,7 +12,7 @@ from rosbags.rosbag2 import CompressionMode, StoragePlugin, Writer
 from motor_identification.bag import BagWriter, contents, in_time_order, messages, read_recording, topics
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement
-from motor_msgs.msg import MotorVoltage
+from motor_msgs.msg import MotorSpeed, MotorVoltage
 
 
 def test_what_was_written_is_read_bit_for_bit(tmp_path: Path) -> None:
@@ -184,8 +184,22 @@ def test_no_motor_in_the_bag(tmp_path: Path) -> None:
 
 
 def test_the_motor_is_in_another_namespace(tmp_path: Path) -> None:
-    assert "say --topic-namespace left/wheel." in refusal(write_bag(tmp_path / "far", SAMPLES[:20], "/left/wheel"))
+    far = write_bag(tmp_path / "far", SAMPLES[:200], "/left/wheel")
+    recording = read_recording(far)  # nobody has said which: there is only one
+    assert len(recording) == 200
+    assert recording.notes == (f"{far} has one motor, in the namespace /left/wheel: that one is used.",)
+    assert read_recording(far, "left/wheel").notes == ()
+    for asked in ("right", "/"):
+        assert "say --topic-namespace /left/wheel." in refusal(far, asked)
     assert "say --topic-namespace /." in refusal(write_bag(tmp_path / "here", SAMPLES[:20]), "right")
+
+
+def test_one_of_two_motors_has_to_be_named(tmp_path: Path) -> None:
+    with BagWriter(tmp_path / "two") as writer:
+        for namespace in ("left", "right"):
+            channel = writer.topic(f"/{namespace}/motor/speed", "motor_msgs/msg/MotorSpeed")
+            writer.write(channel, 1, serialize_message(MotorSpeed()))
+    assert "say --topic-namespace /left or --topic-namespace /right." in refusal(tmp_path / "two")
 
 
 def test_the_topic_of_another_type(tmp_path: Path) -> None:
