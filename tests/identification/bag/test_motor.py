@@ -9,7 +9,7 @@ from motor_bags import INFO, SAMPLES, assert_is, refusal, rewritten, write_bag
 from rclpy.serialization import serialize_message
 from rosbags.rosbag2 import CompressionMode, StoragePlugin, Writer
 
-from motor_identification.bag import BagWriter, contents, in_time_order, messages, read_recording, topics
+from motor_identification.bag import BagWriter, messages, read_recording, topics
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement
 from motor_msgs.msg import MotorSpeed, MotorVoltage
@@ -72,24 +72,6 @@ def test_a_single_file_is_a_bag_too(tmp_path: Path) -> None:
     assert_is(read_recording(str(next(other.glob("*.db3")))), SAMPLES[:300])
 
 
-def test_the_files_of_a_split_bag_follow_by_number(tmp_path: Path) -> None:
-    split = tmp_path / "split"
-    split.mkdir()
-    for k in range(11):
-        part = write_bag(tmp_path / f"part{k}", SAMPLES[k * 20 : k * 20 + 20])
-        shutil.copy(next(part.glob("*.mcap")), split / f"split_{k}.mcap")
-    assert_is(read_recording(split), SAMPLES[:220])
-    assert contents(split).message_count == 220 + 11
-
-
-def test_a_lost_file_of_a_split_bag_is_told(tmp_path: Path) -> None:
-    bag = write_bag(tmp_path / "bag", SAMPLES[:20])
-    metadata = bag / "metadata.yaml"
-    metadata.write_text(metadata.read_text().replace("- bag_0.mcap", "- bag_0.mcap\n  - bag_1.mcap"))
-    (note,) = read_recording(bag).notes
-    assert "bag_1.mcap" in note and "bag_0.mcap" not in note
-
-
 def test_without_info_the_assumptions_are_told(tmp_path: Path) -> None:
     recording = read_recording(write_bag(tmp_path / "bag", SAMPLES[:50], info=None))
     assert recording.info == Info(sample_period=0.005)
@@ -136,16 +118,6 @@ def test_only_the_part_that_is_asked_for_is_checked(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="not numbers"):
         read_recording(bag)
     assert_is(read_recording(bag, stop=0.497), SAMPLES[:100])
-
-
-def test_messages_come_in_time_order_and_disorder_beyond_repair_is_told() -> None:
-    def message(time: int) -> tuple[str, str, int, bytes]:
-        return ("/a", "t", time, b"")
-
-    times = [3, 1, 2, 2, 5, 4]
-    assert [row[2] for row in in_time_order(map(message, times), "bag")] == [1, 2, 2, 3, 4, 5]
-    with pytest.raises(RecordingError, match="bag: the messages are not in the order of their log times"):
-        list(in_time_order(map(message, [*range(1, 30_000), 0]), "bag"))
 
 
 # What cannot be used, and the sentence for it.

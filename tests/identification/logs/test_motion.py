@@ -1,0 +1,91 @@
+"""The motion column: the size of a count where it is said, seen or contradicted, and speeds out of counts."""
+
+from dataclasses import replace
+from math import pi, tau
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.csv_form import CsvForm, Kind
+from motor_identification.logs.csv_table import Table
+from motor_identification.logs.motion import Motion, read_motion
+from motor_model.errors import RecordingError
+from motor_model.sample import Info, Measurement
+
+SPEED = CsvForm("t", "u", "y", Kind.SPEED, "rad/s")
+DEGREES = CsvForm("t", "u", "y", Kind.POSITION, "deg")
+RAMP = [3.6 * k for k in range(12)]  # one slot of 100 a row
+
+
+def read(form: CsvForm, values: list[float]) -> Motion:
+    count = len(values)
+    table = Table(Path("log.csv"), tuple(range(2, count + 2)), {"y": [repr(value) for value in values]})
+    time = np.arange(count, dtype=np.int64) * 20_000_000
+    return read_motion(form, Info(sample_period=0.02), table, time, np.full(count, 6.0), [slice(0, count)])
+
+
+def test_positions_become_counts_and_their_difference_quotient() -> None:
+    motion = read(replace(DEGREES, edges_per_revolution=100), RAMP)
+    assert motion.counts.tolist() == list(range(12))
+    assert motion.speed == pytest.approx(np.full(12, tau / 100 / 0.02))
+    assert (motion.info.measurement, motion.info.edges_per_revolution) == (Measurement.COUNTS, 100)
+
+
+def test_the_size_of_a_count_is_the_smallest_step_where_nobody_said_it() -> None:
+    motion = read(DEGREES, RAMP)
+    assert motion.info.edges_per_revolution == 100 and "the smallest step in the data" in motion.findings[0]
+    with pytest.raises(RecordingError, match="show no encoder steps"):
+        read(DEGREES, [k**1.37 for k in range(12)])
+    with pytest.raises(RecordingError, match="show no encoder steps"):
+        read(DEGREES, RAMP[:9])  # too few to tell
+
+
+def test_a_count_that_does_not_divide_a_turn_is_refused() -> None:
+    assert read(replace(DEGREES, count_quantum=3.6003), RAMP).info.edges_per_revolution == 100  # 0.8e-4 off
+    with pytest.raises(RecordingError, match=r"The counts come to 99\.9\d+ per revolution, not a whole number"):
+        read(replace(DEGREES, count_quantum=3.6005), RAMP)  # 1.4e-4
+    with pytest.raises(RecordingError, match="not 96"):
+        read(replace(DEGREES, count_quantum=3.6, edges_per_revolution=96), RAMP)
+
+
+def test_positions_beside_whole_counts_are_told() -> None:
+    form = replace(DEGREES, edges_per_revolution=100)
+    on, off = ([value + 3.6 * share * (k % 2) for k, value in enumerate(RAMP)] for share in (0.04, 0.06))
+    assert len(read(form, on).findings) == 2
+    assert "Caution: values are up to 0.06 counts off" in read(form, off).findings[2]
+
+
+def test_counts_need_to_be_told_how_many_there_are_in_a_turn() -> None:
+    counts = CsvForm("t", "u", "y", Kind.COUNT, "count")
+    with pytest.raises(RecordingError, match="The size of a count is unknown: give --edges-per-revolution"):
+        read(counts, [0.0, 1.0, 2.0])
+    assert read(replace(counts, edges_per_revolution=12), [0.0, 1.0, 2.0]).speed[1] == pytest.approx(tau / 12 / 0.02)
+
+
+def test_a_counter_that_wraps_is_refused_with_its_line() -> None:
+    counts = CsvForm("t", "u", "y", Kind.COUNT, "count", edges_per_revolution=100)
+    wrapped = [float(10 * k % 256) for k in range(40)]
+    with pytest.raises(RecordingError, match=r"line 28: y jumps from 250\.0 to 4\.0: the counter wrapped"):
+        read(counts, wrapped)
+
+
+def test_speeds_say_what_they_are_the_mean_of() -> None:
+    motion = read(SPEED, [1.0, 2.0, 4.0])
+    assert motion.speed.tolist() == [1.0, 2.0, 4.0] and motion.counts.tolist() == [0, 0, 0]
+    assert (motion.info.speed_window, motion.info.speed_lag, motion.info.edges_per_revolution) == (0.02, 0.01, 0)
+    said = read(replace(SPEED, speed_window=0.1, speed_lag=0.02, edges_per_revolution=100), [1.0, 2.0, 4.0])
+    assert (said.info.speed_window, said.info.speed_lag, said.info.edges_per_revolution) == (0.1, 0.02, 100)
+    assert read(replace(SPEED, unit="rpm"), [60.0, 30.0]).speed == pytest.approx([tau, pi])
+
+
+@pytest.mark.parametrize(("factor", "refused"), [(1.0, False), (5.0, False), (0.2, False), (6.0, True), (0.15, True)])
+def test_steps_of_speeds_that_are_no_counts_show_a_mistaken_unit(factor: float, refused: bool) -> None:
+    one = tau / 100 / 0.02  # [rad/s] a count within 20 ms
+    values = [factor * one * k for k in range(12)]
+    form = replace(SPEED, edges_per_revolution=100)
+    if refused:
+        with pytest.raises(RecordingError, match="check --unit, --edges-per-revolution and --speed-window"):
+            read(form, values)
+    else:
+        assert len(read(form, values).speed) == 12

@@ -1,0 +1,38 @@
+"""Steady states become stairs, each compared at its end."""
+
+from math import tau
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.csv_form import CsvForm, Kind
+from motor_identification.logs.steady import HOLD, LONGEST, read_steady
+from motor_model.errors import RecordingError
+from motor_model.sample import Info, Measurement
+
+FORM = CsvForm(None, "u", "y", Kind.SPEED, "rpm", count_quantum=6.0)
+
+
+def test_every_row_is_a_stair_whose_speed_comes_at_its_end() -> None:
+    steady = read_steady(FORM, Info(), np.array([2.0, 4.0, 6.0]), np.array([60.0, 120.0, 180.0]), [slice(0, 3)])
+    (samples,) = steady.samples
+    assert [sample.sample_time for sample in samples] == [round(k * HOLD * 1e9) for k in range(4)]
+    assert [sample.voltage for sample in samples] == [2.0, 4.0, 6.0, 6.0]
+    assert [sample.speed for sample in samples] == pytest.approx([0.0, tau, 2 * tau, 3 * tau])
+    assert steady.info.measurement is Measurement.SPEED and steady.info.sample_period == HOLD
+    assert (steady.info.speed_window, steady.info.speed_lag) == (1.0, 0.5)
+    assert steady.info.edges_per_revolution == 10  # a count of 6 rpm within 1 s is a tenth of a turn
+
+
+def test_every_run_begins_from_rest() -> None:
+    steady = read_steady(FORM, Info(), np.arange(4.0), np.arange(4.0), [slice(0, 2), slice(2, 4)])
+    assert [len(samples) for samples in steady.samples] == [3, 3]
+    assert all(samples[0].speed == 0.0 and samples[0].sample_time == 0 for samples in steady.samples)
+
+
+def test_a_mean_over_more_than_a_stairs_end_is_refused() -> None:
+    rows = np.arange(3.0), np.arange(3.0), [slice(0, 3)]
+    at_most = CsvForm(None, "u", "y", Kind.SPEED, "rad/s", speed_window=LONGEST)
+    assert read_steady(at_most, Info(), *rows).info.speed_window == LONGEST
+    with pytest.raises(RecordingError, match="the mean over 5 s at most: reduce --speed-window"):
+        read_steady(CsvForm(None, "u", "y", Kind.SPEED, "rad/s", speed_window=LONGEST + 0.01), Info(), *rows)
