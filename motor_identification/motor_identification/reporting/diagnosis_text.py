@@ -5,7 +5,7 @@ from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, LASTING_INT
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.reporting.names import capitalize, effect_name, join_effects, join_names
-from motor_identification.reporting.numbers import format_quantity, format_ratio
+from motor_identification.reporting.numbers import format_change, format_quantity, format_ratio
 from motor_identification.uncertainty.result import Fit
 from motor_model.text_table import align_columns
 
@@ -21,13 +21,12 @@ def summarize_diagnosis(diagnosis: Diagnosis) -> str:
 
 def describe_gap_reduction(diagnosis: Diagnosis) -> str:
     """Say by how much the gap falls, beside the noise floor."""
-    before, after = f"{diagnosis.gap_before:.3g}", f"{diagnosis.gap_after:.3g}"
-    text = f"the {GAP} falls from {before} to {after} rad/s ({compare_with_floor(diagnosis)})"
+    change = format_change(diagnosis.gap_before, diagnosis.gap_after)
+    text = f"the {GAP} falls from {change} rad/s ({compare_with_floor(diagnosis)})"
     if diagnosis.gap_before > EXPLAINED_GAP * diagnosis.noise_floor:
         return text
-    lasting = [f"{held.joined(LASTING_INTERVAL).gap:.3g}" for held in (diagnosis.before, diagnosis.after)]
-    average = f"averaged over {LASTING_INTERVAL:g} s, which smooths the encoder's steps"
-    return f"{text}; {average}, from {' to '.join(lasting)} rad/s"
+    lasting = format_change(*(held.joined(LASTING_INTERVAL).gap for held in (diagnosis.before, diagnosis.after)))
+    return f"{text}; averaged over {LASTING_INTERVAL:g} s, which smooths the encoder's steps, from {lasting} rad/s"
 
 
 def compare_with_floor(diagnosis: Diagnosis) -> str:
@@ -121,7 +120,8 @@ def format_diagnosis(diagnosis: Diagnosis) -> str:
 
 def describe_evidence(finding: Finding) -> str:
     """Say where the model without an effect was wrong."""
-    return f"Evidence for {effect_name(finding.effect)}: {finding.where}"
+    names = [effect_name(effect) for effect in (finding.effect, *finding.ambiguous_with)]
+    return f"Evidence for {join_names(names, 'or')}: {finding.where}"
 
 
 def _format_model(fit: Fit) -> str:

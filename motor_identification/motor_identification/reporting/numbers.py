@@ -54,6 +54,13 @@ def format_ratio(value: float) -> str:
     return f"{value:.2g}" if value < 99.5 else f"{value:.0f}"
 
 
+def format_change(before: float, after: float) -> str:
+    """Write from where to where a number falls, with the digits that show it: 3, or as many as it takes, up to 6."""
+    pairs = ((f"{before:.{digits}g}", f"{after:.{digits}g}") for digits in (3, 4, 5))
+    shown = next((pair for pair in pairs if pair[0] != pair[1]), (f"{before:.6g}", f"{after:.6g}"))
+    return " to ".join(shown)
+
+
 def describe_absence(name: str, value: float, error: float) -> str:
     """Say that an effect's size is consistent with no effect (95 %); empty where it is not, or where nobody knows."""
     off = SIZES.get(name, inf)

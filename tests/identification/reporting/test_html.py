@@ -95,7 +95,7 @@ def test_the_page_says_it_all(found: Diagnosis, html: str) -> None:
     for part in (
         summarize_diagnosis(found),
         finding.where,
-        "No improvement (below 1 %): quadratic drag.",
+        "Less than 1 % of this improvement: quadratic drag.",
         "This recording could not show warm up",
         f"{found.left_out} intervals were left out",
         "ros2 run motor_sim motor_sim --ros-args -p model:=found.yaml",

@@ -38,4 +38,6 @@ def test_commands_are_for_this_fit(found: Diagnosis) -> None:
         f"{run} identify bag --output model.yaml",
         f"{run} diagnose bag --report diagnosis",
     ]
+    minus = replace(plain, uris=("-100", "100"))
+    assert list_fit_steps(minus, Files("m.yaml"))[0].command == f"{run} diagnose ./-100 100 --report diagnosis"
     assert NO_FILES.reading == () and Files("", Source((), "", Window(0.0, 2.0))).reading == ("--stop", "2")

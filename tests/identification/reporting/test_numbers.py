@@ -7,6 +7,7 @@ import pytest
 from motor_identification.reporting.names import effect_name, join_names
 from motor_identification.reporting.numbers import (
     describe_absence,
+    format_change,
     format_error,
     format_quantity,
     format_ratio,
@@ -48,6 +49,12 @@ def test_a_quantity_has_its_unit() -> None:
     assert format_quantity("delay", 0.1, nan) == "delay = 0.1 s (not identifiable)"
     assert format_quantity("reverse_gain", 0.96, 0.0073) == "reverse_gain = 0.9600 ± 0.0073"
     assert [format_ratio(ratio) for ratio in (0.962, 27.8, 99.4, 148.2)] == ["0.96", "28", "99", "148"]
+
+
+def test_a_change_has_the_digits_that_show_it() -> None:
+    assert format_change(2.3212, 0.0803412) == "2.32 to 0.0803"
+    assert format_change(2.98214, 2.97832) == "2.982 to 2.978"
+    assert format_change(2.9821436, 2.9821441) == "2.98214 to 2.98214"
 
 
 def test_an_effect_may_be_consistent_with_none() -> None:

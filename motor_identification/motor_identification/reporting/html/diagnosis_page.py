@@ -13,7 +13,7 @@ from motor_identification.reporting.html.next_steps import Files, list_diagnosis
 from motor_identification.reporting.html.pictures import Picture, draw_picture
 from motor_identification.reporting.html.tables import list_gaps, list_parameters, rank_alternatives
 from motor_identification.reporting.html.template import fill_template
-from motor_identification.reporting.numbers import format_ratio
+from motor_identification.reporting.numbers import format_change, format_ratio
 from motor_model.effects import EFFECT_BY_NAME
 
 VERDICTS = {
@@ -46,6 +46,7 @@ def render_diagnosis(diagnosis: Diagnosis, files: Files) -> str:
         torque=describe_torque(estimate_missing_torque(diagnosis.after)),
         parameters=list_parameters(diagnosis.model, diagnosis.baseline),
         format_parameters=format_parameters,
+        format_change=format_change,
         rank_alternatives=rank_alternatives,
         limits=list_limits(diagnosis),
         steps=list_diagnosis_steps(diagnosis, files),
@@ -63,10 +64,10 @@ def _draw_pictures(diagnosis: Diagnosis) -> list[Picture]:
     uri = diagnosis.after.recordings[number].uri
     what = "the largest change" if after else "the largest error"
     part = before.between(start, stop), after and after.between(start, stop)
-    return [
-        draw_picture(*part, f"{uri}, {start:g} to {stop:g} s: {what}"),
-        draw_picture(before, after, f"{uri}, whole recording"),
-    ]
+    pictures = [draw_picture(before, after, f"{uri}, whole recording")]
+    if start > 0.0 or stop < diagnosis.before.problem.recordings[number].duration:
+        pictures.insert(0, draw_picture(*part, f"{uri}, {start:g} to {stop:g} s: {what}"))
+    return pictures
 
 
 def _draw_maps(diagnosis: Diagnosis) -> list[str]:

@@ -47,8 +47,8 @@ class NextStep:
 
 def list_diagnosis_steps(diagnosis: Diagnosis, files: Files) -> list[NextStep]:
     """What to type after a diagnosis."""
-    bags, reading = _quote(*diagnosis.bags), _quote(*files.reading)
-    validation = _join("--validate", _quote(*diagnosis.validation)) if diagnosis.validation else ""
+    bags, reading = _bags(diagnosis.bags), _quote(*files.reading)
+    validation = _join("--validate", _bags(diagnosis.validation)) if diagnosis.validation else ""
     steps = []
     if not files.model:
         again = _join(RUN, "diagnose", bags, validation, reading, "--output", DEFAULT_MODEL)
@@ -69,7 +69,7 @@ def list_diagnosis_steps(diagnosis: Diagnosis, files: Files) -> list[NextStep]:
 
 def list_fit_steps(fit: Fit, files: Files) -> list[NextStep]:
     """What to type after a fit."""
-    bags, reading, effects = _quote(*fit.uris), _quote(*files.reading), _effects("--effects", fit)
+    bags, reading, effects = _bags(fit.uris), _quote(*files.reading), _effects("--effects", fit)
     steps = []
     if not files.model:
         again = _join(RUN, "identify", bags, *effects, reading, "--output", DEFAULT_MODEL)
@@ -115,6 +115,11 @@ def _use_model(files: Files) -> list[NextStep]:
 
 def _quote(*words: str) -> str:
     return " ".join(map(shlex.quote, words))
+
+
+def _bags(uris: Sequence[str]) -> str:
+    """Bags as arguments; none may look like an option."""
+    return _quote(*(f"./{uri}" if uri.startswith("-") else uri for uri in uris))
 
 
 def _join(*parts: str) -> str:

@@ -8,9 +8,10 @@ from motor_identification.reporting.fit_text import describe_parameter
 from motor_identification.reporting.names import effect_name, join_names
 from motor_identification.reporting.numbers import TWO_SIDED, format_error, format_ratio, format_unit, format_value
 from motor_identification.uncertainty.result import Fit
+from motor_model.effects import SPEC_BY_NAME
 
 LARGER = 1.3  # times the finding's gap, from which on an alternative's gap says enough
-MATTERS = 0.01  # of the gap: an alternative that reduces it by less changes none of the digits that are shown
+MATTERS = 0.01  # of the improvement that was taken: an alternative with less of it is named, but has no row
 
 
 @dataclass(frozen=True)
@@ -59,11 +60,10 @@ def list_gaps(diagnosis: Diagnosis) -> list[GapRow]:
 
 
 def rank_alternatives(finding: Finding) -> tuple[list[Alternative], list[Alternative]]:
-    """Order alternatives by their gap; return those that reduce it by 1 % at least, and the others."""
+    """Order alternatives by their gap; return those with 1 % of the improvement that was taken, and the others."""
     ranked = sorted(finding.alternatives, key=lambda one: one.gap_after if isfinite(one.gap_after) else inf)
-    matters = [
-        one.effect in finding.ambiguous_with or one.gap_after <= (1.0 - MATTERS) * finding.gap_before for one in ranked
-    ]
+    enough = finding.gap_before - MATTERS * (finding.gap_before - finding.gap_after)
+    matters = [one.effect in finding.ambiguous_with or one.gap_after <= enough for one in ranked]
     pairs = list(zip(ranked, matters, strict=True))
     return [one for one, much in pairs if much], [one for one, much in pairs if not much]
 
@@ -78,7 +78,7 @@ def explain_rejection(other: Alternative, finding: Finding) -> str:
     if other.gap_after > LARGER * finding.gap_after:
         return f"gap {format_ratio(other.gap_after / finding.gap_after)} times as large"
     if behind <= 0.0:
-        return "as likely, but the other effects found do not need it"
+        return "explains as much alone, but not together with the other effects"
     return f"validation data 10^{behind / log(10.0):.0f} times less likely"
 
 
@@ -89,7 +89,7 @@ def list_parameters(fit: Fit, baseline: Fit | None = None) -> list[ParameterRow]
     rows = []
     for name, value in fit.parameters.values.items():
         error = fit.standard_errors[name]
-        low, high = (format_value(value + way * TWO_SIDED * error, error) for way in (-1.0, 1.0))
+        low, high = (format_value(bound, error) for bound in _interval(name, value, error))
         rows.append(
             ParameterRow(
                 name=name,
@@ -102,3 +102,9 @@ def list_parameters(fit: Fit, baseline: Fit | None = None) -> list[ParameterRow]
             )
         )
     return rows
+
+
+def _interval(name: str, value: float, error: float) -> tuple[float, float]:
+    """The 95 % interval, as far as physics allows the parameter."""
+    spec = SPEC_BY_NAME[name]
+    return max(value - TWO_SIDED * error, spec.minimum), min(value + TWO_SIDED * error, spec.maximum)
