@@ -1,5 +1,6 @@
 """A diagnosis put together from two fits, without and with a hidden effect: what reports are tested on."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -45,6 +46,12 @@ def held(**hidden: float) -> HeldOut:
     """The two-coefficient motor on held-out motion of that plant."""
     estimate, hold_out = fitted(**hidden)
     return hold_out.validate(estimate)
+
+
+def held_with_true_gains(**hidden: float) -> HeldOut:
+    """Held-out motion of that plant beside the true kv and ka, so that what is hidden is all that is missing."""
+    estimate, hold_out = fitted(**hidden)
+    return hold_out.validate(replace(estimate, theta=np.log([BASE["kv"], BASE["ka"]])))
 
 
 def with_effect(estimate: Estimate, effect: str, guess: dict[str, float]) -> Estimate:

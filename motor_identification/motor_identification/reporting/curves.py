@@ -39,7 +39,7 @@ class Curves:
         return Curves(**columns, regions=tuple(region[inside] for region in self.regions))
 
 
-def held_out_curves(held: HeldOut, share: float, number: int, regions: tuple[Region, ...]) -> Curves:
+def make_held_out_curves(held: HeldOut, share: float, number: int, regions: tuple[Region, ...]) -> Curves:
     """A model on recording `number` of its held-out data; `share` is the irregularity of the slots, of a slot."""
     data, angle = held.intervals[number], held.angles[number]
     begin = sum(len(other.first) for other in held.intervals[:number])
@@ -52,7 +52,7 @@ def held_out_curves(held: HeldOut, share: float, number: int, regions: tuple[Reg
     return _curves(data, angle, share, held.scored[number], tuple(marked))
 
 
-def fit_curves(recording: Recording, fit: Fit) -> Curves:
+def make_fit_curves(recording: Recording, fit: Fit) -> Curves:
     """A fitted model on one of the recordings that it was fitted to."""
     number = fit.uris.index(recording.uri) if recording.uri in fit.uris else -1
     start = fit.start_speeds[number] if number >= 0 else 0.0
@@ -85,8 +85,8 @@ def find_largest_change(diagnosis: Diagnosis) -> tuple[int, float, float]:
     best = (-np.inf, 0, 0.0)
     for number, recording in enumerate(diagnosis.before.recordings):
         starts = _starts(recording.duration)
-        before = _squares(held_out_curves(diagnosis.before, 0.0, number, ()), starts)
-        after = _squares(held_out_curves(diagnosis.after, 0.0, number, ()), starts)
+        before = _squares(make_held_out_curves(diagnosis.before, 0.0, number, ()), starts)
+        after = _squares(make_held_out_curves(diagnosis.after, 0.0, number, ()), starts)
         gain = np.abs(before - after) if diagnosis.findings else after
         best = max(best, (float(gain.max()), number, float(starts[int(np.argmax(gain))])))
     _, number, start = best

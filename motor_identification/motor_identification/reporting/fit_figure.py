@@ -8,7 +8,7 @@ import numpy as np
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Recording
-from motor_identification.reporting.curves import Curves, fit_curves
+from motor_identification.reporting.curves import Curves, make_fit_curves
 from motor_identification.reporting.fit_text import describe_residual, format_fit
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
@@ -67,7 +67,7 @@ def draw_fit(recording: Recording, fit: Fit, path: Path) -> None:
     voltage.step(recording.time, recording.voltage, where="post", color=VOLTAGE, linewidth=1)
     voltage.set_ylabel("voltage [V]")
     voltage.grid(alpha=0.25)
-    _draw_residual(rest, fit_curves(recording, fit))
+    _draw_residual(rest, make_fit_curves(recording, fit))
     try:
         figure.savefig(path, dpi=120)
     except OSError as error:

@@ -4,7 +4,6 @@ from math import inf, nan
 
 import pytest
 
-from motor_identification.reporting.names import effect_name, join_names
 from motor_identification.reporting.numbers import (
     describe_absence,
     format_change,
@@ -67,13 +66,3 @@ def test_an_effect_may_be_consistent_with_none() -> None:
     assert describe_absence("ks", 0.0, nan) == ""
     assert describe_absence("kv", 0.0, 1.0) == "" and describe_absence("ripple_phase", 0.0, 1.0) == ""
     assert describe_absence("limit_voltage", 5.0, 1.0) == ""  # no limit is infinite
-
-
-def test_names_are_those_of_people() -> None:
-    assert effect_name("coulomb_friction") == "Coulomb friction" and effect_name("dead_zone") == "dead zone"
-    assert [join_names(names) for names in ((), ("a",), ("a", "b"), ("a", "b", "c"))] == [
-        "",
-        "a",
-        "a and b",
-        "a, b and c",
-    ]

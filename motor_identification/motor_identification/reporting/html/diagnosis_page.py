@@ -5,7 +5,7 @@ from motor_identification.discrepancy.missing_torque import describe_torque, est
 from motor_identification.discrepancy.region_text import describe_region
 from motor_identification.discrepancy.residual_maps import map_residuals
 from motor_identification.discrepancy.worst_regions import find_worst_regions
-from motor_identification.reporting.curves import find_largest_change, held_out_curves
+from motor_identification.reporting.curves import find_largest_change, make_held_out_curves
 from motor_identification.reporting.diagnosis_text import format_parameters, summarize_diagnosis
 from motor_identification.reporting.html.charts import draw_map, draw_shape
 from motor_identification.reporting.html.limits import list_limits
@@ -59,13 +59,13 @@ def _draw_pictures(diagnosis: Diagnosis) -> list[Picture]:
     share = diagnosis.slot_share
     number, start, stop = find_largest_change(diagnosis)
     regions = find_worst_regions(diagnosis.before, share) if diagnosis.verdict is not Verdict.NOTHING_MISSING else ()
-    before = held_out_curves(diagnosis.before, share, number, regions)
-    after = held_out_curves(diagnosis.after, share, number, ()) if diagnosis.findings else None
+    before = make_held_out_curves(diagnosis.before, share, number, regions)
+    after = make_held_out_curves(diagnosis.after, share, number, ()) if diagnosis.findings else None
     uri = diagnosis.after.recordings[number].uri
     what = "the largest change" if after else "the largest error"
     part = before.between(start, stop), after and after.between(start, stop)
     pictures = [draw_picture(before, after, f"{uri}, whole recording")]
-    if start > 0.0 or stop < diagnosis.before.problem.recordings[number].duration:
+    if start > 0.0 or stop < diagnosis.before.recordings[number].duration:
         pictures.insert(0, draw_picture(*part, f"{uri}, {start:g} to {stop:g} s: {what}"))
     return pictures
 

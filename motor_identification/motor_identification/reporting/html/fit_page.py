@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from motor_identification.recording import Recording
-from motor_identification.reporting.curves import find_largest_error, fit_curves
+from motor_identification.reporting.curves import find_largest_error, make_fit_curves
 from motor_identification.reporting.fit_text import list_cautions
 from motor_identification.reporting.html.next_steps import Files, list_fit_steps
 from motor_identification.reporting.html.pictures import Picture, draw_picture
@@ -36,7 +36,7 @@ def render_fit(fit: Fit, recordings: Sequence[Recording], files: Files) -> str:
 
 def _draw_pictures(recording: Recording, fit: Fit) -> list[Picture]:
     """The seconds with the largest error, then the whole recording."""
-    curves = fit_curves(recording, fit)
+    curves = make_fit_curves(recording, fit)
     start, stop = find_largest_error(curves, recording.duration)
     pictures = [draw_picture(curves, None, f"{recording.uri}, whole recording")]
     if start > 0.0 or stop < recording.duration:

@@ -35,15 +35,15 @@ def draw_overlay(before: Curves, after: Curves | None, title: str, size: tuple[f
 
 def _draw_speeds(axes: "Axes", before: Curves, after: Curves | None, few: bool) -> None:
     """Measured speeds as a broad pale band, and the models as thin lines on it: both stay visible where they agree."""
-    time, measured = _thin(before.time, before.measured)
+    time, measured = _thin_out(before.time, before.measured)
     axes.plot(
         time, measured, "o", color=MEASURED, markersize=6.0 if few else 4.5, markeredgewidth=0.0,
         label="measured", rasterized=True,
     )  # fmt: skip
     label = "before" if after else "simulated"
-    axes.plot(*_broken(before.time, before.simulated), color=BEFORE, linewidth=1.2, label=label)
+    axes.plot(*_break_line(before.time, before.simulated), color=BEFORE, linewidth=1.2, label=label)
     if after is not None:
-        axes.plot(*_broken(after.time, after.simulated), color=AFTER, linewidth=1.0, label="after")
+        axes.plot(*_break_line(after.time, after.simulated), color=AFTER, linewidth=1.0, label="after")
     axes.set_ylabel("speed [rad/s]")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3)
 
@@ -57,26 +57,26 @@ def _draw_residuals(axes: "Axes", before: Curves, after: Curves | None, few: boo
     for one, color, which in ((before, BEFORE, ~marked), (after, AFTER, True)):
         if one is not None:  # what a recording's own unknowns were fitted on does not count, and is faint
             for counts, alpha in ((~one.scored, 0.2), (one.scored & which, 1.0)):
-                axes.plot(*_thin(one.time[counts], one.residual[counts]), color=color, alpha=alpha, **dots)
+                axes.plot(*_thin_out(one.time[counts], one.residual[counts]), color=color, alpha=alpha, **dots)
     for number, (inside, color) in enumerate(zip(before.regions, WORST, strict=False)):
         if inside.any():
             axes.plot(
-                *_thin(before.time[inside], before.residual[inside]), color=color, markersize=size + 1.5,
+                *_thin_out(before.time[inside], before.residual[inside]), color=color, markersize=size + 1.5,
                 label=f"worst {number + 1}", **how,
             )  # fmt: skip
     shown = after or before
-    time, floor = _thin(shown.time, 2.0 * shown.floor)
+    time, floor = _thin_out(shown.time, 2.0 * shown.floor)
     axes.fill_between(time, -floor, floor, color=FLOOR, alpha=0.45, linewidth=0, label="noise, ±2 σ", rasterized=True)
     axes.set_ylabel("simulated −\nmeasured [rad/s]")
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 0.98), ncols=4, markerscale=2)
 
 
-def _thin(time: Floats, values: Floats) -> tuple[Floats, Floats]:
+def _thin_out(time: Floats, values: Floats) -> tuple[Floats, Floats]:
     step = max(-(-len(time) // (5 * MOST)), 1)
     return time[::step], values[::step]
 
 
-def _broken(time: Floats, values: Floats) -> tuple[Floats, Floats]:
+def _break_line(time: Floats, values: Floats) -> tuple[Floats, Floats]:
     """A line that is not drawn through times in which nothing was measured."""
     step = max(-(-len(time) // MOST), 1)
     time, values = time[::step], values[::step]

@@ -9,7 +9,6 @@ import pytest
 from diagnosed import fitted
 
 from motor_identification.diagnosis.result import Diagnosis
-from motor_identification.reporting.curves import find_largest_error, fit_curves, held_out_curves
 from motor_identification.reporting.fit_text import list_cautions
 from motor_identification.reporting.html import Files, write_fit_report
 from motor_identification.reporting.html.fit_page import render_fit
@@ -62,27 +61,3 @@ def test_without_noise_and_variance_there_are_no_numbers(found: Diagnosis) -> No
     one = replace(found.model, noise_floor=0.0, r_squared=float("nan"))
     text = text_of(render_fit(one, fitted(ks=0.4)[0].problem.recordings, NO_FILES))
     assert "noise floor unknown" in text and "R² –" in text and "nan" not in text.split("How to go on")[0]
-
-
-def test_curves_leave_what_the_fit_leaves(found: Diagnosis) -> None:
-    """The time-weighted RMS of what is drawn is the fit's own residual; the seconds with most of it are found."""
-    recording = fitted(ks=0.4)[0].problem.recordings[0]
-    curves = fit_curves(recording, found.model)
-    weight = curves.duration / curves.duration.sum()
-    assert (weight @ curves.residual**2) ** 0.5 == pytest.approx(found.model.residual_rms, rel=0.05)
-    assert (weight @ curves.floor**2) ** 0.5 == pytest.approx(found.model.noise_floor, rel=0.05)
-    moving = ~curves.still
-    assert curves.residual[moving] == pytest.approx((curves.simulated - curves.measured)[moving])
-    start, stop = find_largest_error(curves, recording.duration)
-    part = curves.between(start, stop)
-    most = part.duration @ part.residual**2
-    other = curves.between(start + 5.0, stop + 5.0)
-    assert stop - start == 3.0 and most >= other.duration @ other.residual**2
-
-
-def test_curves_of_held_out_data_leave_the_gap(found: Diagnosis) -> None:
-    curves = held_out_curves(found.after, found.slot_share, 0, ())
-    counted = curves.scored
-    weight = curves.duration[counted] / curves.duration[counted].sum()
-    assert (weight @ curves.residual[counted] ** 2) ** 0.5 == pytest.approx(found.gap_after)
-    assert (weight @ curves.floor[counted] ** 2) ** 0.5 == pytest.approx(found.noise_floor)

@@ -1,0 +1,29 @@
+"""The worst regions: disjoint, where the excess error is, and chosen by their contrast."""
+
+import numpy as np
+import pytest
+from diagnosed import held
+
+from motor_identification.discrepancy.region_text import describe_error, describe_region
+from motor_identification.discrepancy.worst_regions import choose_thresholds, find_worst_regions, measure_contrast
+
+SHARE = 0.003  # of a slot: what the disc of `diagnosed` has
+FRICTION = {"ks": 0.4}
+
+
+def test_the_worst_regions_do_not_overlap() -> None:
+    one = held(**FRICTION)
+    regions = find_worst_regions(one, SHARE)
+    assert 1 <= len(regions) <= 3 and f"largest error {describe_region(regions[0])}" == describe_error(one, SHARE)
+    assert np.max(np.sum([region.inside for region in regions], axis=0)) == 1
+    assert sum(region.excess for region in regions) <= 1.0 + 1e-9
+    for region in regions:
+        assert region.time == pytest.approx(one.weight[region.inside].sum())
+    assert regions[0].excess > regions[-1].excess or len(regions) == 1
+
+
+def test_contrast_prefers_much_in_little() -> None:
+    much = measure_contrast(np.array([0.9, 0.9, 0.3, 0.5, 0.2]), np.array([0.1, 0.5, 0.1, 0.5, 0.4]))
+    assert much[0] > much[1] > 0.0 and much[0] > much[2] > 0.0
+    assert much[3] == pytest.approx(0.0) and much[4] == 0.0
+    assert choose_thresholds(np.array([0.0, 123.4]))[0] == 1.2 and choose_thresholds(np.zeros(2)) == []

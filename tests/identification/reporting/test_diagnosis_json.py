@@ -1,0 +1,34 @@
+"""A diagnosis in JSON: the promised form, and true to the numbers."""
+
+import json
+from dataclasses import replace
+from math import nan
+
+import pytest
+
+from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.reporting.diagnosis_json import diagnosis_to_json
+
+
+def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Diagnosis]) -> None:
+    nameless = replace(found, model=replace(found.model, standard_errors=found.model.standard_errors | {"ks": nan}))
+    content = json.loads(json.dumps(diagnosis_to_json(nameless), allow_nan=False))
+    assert list(content) == [
+        "bags", "validation", "noise_floor", "gap_before", "gap_after", "verdict", "undetectable",
+        "suggested_experiment", "baseline", "findings", "model",
+    ]  # fmt: skip
+    assert content["bags"] == ["train.bag"] and content["validation"] == ["held_out.bag"]
+    assert content["gap_before"] == found.gap_before and content["noise_floor"] == found.noise_floor
+    assert content["verdict"] == "explained" and content["suggested_experiment"] is None
+    assert content["baseline"]["effects"] == [] and set(content["baseline"]["parameters"]) == {"kv", "ka"}
+    assert content["model"]["parameters"]["ks"] == {
+        "value": found.model.parameters.values["ks"], "standard_error": None
+    }  # fmt: skip
+    (finding,) = content["findings"]
+    assert list(finding) == [
+        "effect", "gap_before", "gap_after", "where", "parameters", "alternatives", "ambiguous_with",
+        "suggested_experiment",
+    ]  # fmt: skip
+    assert finding["parameters"]["ks"]["value"] == pytest.approx(0.4, abs=0.002)
+    assert list(finding["alternatives"][0]) == ["effect", "gap_after"]
+    assert diagnosis_to_json(variants[Verdict.UNDECIDED])["findings"][0]["suggested_experiment"] == "coast"
