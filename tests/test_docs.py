@@ -1,9 +1,12 @@
 """The pages beside the README: their commands and code run as they stand there, their links lead somewhere."""
 
+import ast
+import io
 import os
 import re
 import signal
 import subprocess
+import tokenize
 from pathlib import Path
 
 import pytest
@@ -92,6 +95,64 @@ def test_links_lead_somewhere(page: str) -> None:
         if anchor:
             titles = re.findall(r"^#+ (.+)$", linked.read_text(encoding="utf-8"), re.MULTILINE)
             assert anchor in {re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles}, target
+
+
+OURS = ("motor_*", "tests", "benchmarks", "demo", "docs", "bags", "ros2_stand_in")
+FILES = [
+    path.relative_to(ROOT) for folder in OURS for path in ROOT.glob(f"{folder}/**/*") if "__pycache__" not in path.parts
+]
+FILE = re.compile(r"(?<![\w/.-])(?:\.\./)*((?:[\w-]+/)*\w+\.(?:py|[ch]))\b")
+FOLDER_ROW = re.compile(r"^\| `(\w+)/` \|.*?\| (.*) \|$", re.MULTILINE)
+FOLDER = re.compile(r"`((?:[\w.-]+/)+)`")
+MADE_BY_USERS = {"build/", "install/", "log/", "../shared/data/", "diagnosis/"}
+
+
+def said_in(source: str) -> str:
+    """Docstrings and comments of a module."""
+    nodes = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    texts = [ast.get_docstring(node) or "" for node in ast.walk(ast.parse(source)) if isinstance(node, nodes)]
+    tokens = tokenize.generate_tokens(io.StringIO(source).readline)
+    return "\n".join([*texts, *(token.string for token in tokens if token.type == tokenize.COMMENT)])
+
+
+def stands(mentioned: str, where: Path) -> bool:
+    """Whether a file or folder is there: in the package of the page that mentions it, or by its path from the root."""
+    if (ROOT / mentioned).exists():
+        return True
+    ends = Path(mentioned).parts
+    within = where.parts[0] if where.parts[0].startswith("motor_") and not ends[0].startswith("motor_") else ""
+    return any(path.parts[-len(ends) :] == ends for path in FILES if within in ("", path.parts[0]))
+
+
+@pytest.mark.parametrize("page", [*PAGES, "benchmarks/README.md"])
+def test_files_that_a_page_names_are_there(page: str) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    folders = {name for name in FOLDER.findall(text) if name not in MADE_BY_USERS}
+    missing = {name for name in {*FILE.findall(text), *folders} if not stands(name, Path(page))}
+    assert not missing
+
+
+def test_files_that_a_docstring_or_comment_names_are_there() -> None:
+    missing = {
+        f"{path}: {name}"
+        for path in FILES
+        if path.suffix == ".py"
+        for name in FILE.findall(said_in((ROOT / path).read_text(encoding="utf-8")))
+        if not stands(name, path)
+    }
+    assert not missing
+
+
+def test_the_page_of_the_identification_names_every_module_in_its_folder() -> None:
+    package = ROOT / "motor_identification" / "motor_identification"
+    page = (package.parent / "README.md").read_text(encoding="utf-8")
+    rows = {folder: set(re.findall(r"`(\w+\.py)`", files)) for folder, files in FOLDER_ROW.findall(page)}
+    folders = {path.parent.name for path in package.glob("*/__init__.py")}
+    assert rows == {
+        name: {path.name for path in (package / name).glob("*.py") if path.name != "__init__.py"} for name in folders
+    }
+    for path in package.glob("*.py"):
+        assert path.name == "__init__.py" or f"`{path.name}`" in page, path.name
 
 
 def test_the_reference_is_as_it_would_be_written_now() -> None:

@@ -1,7 +1,7 @@
 """Intervals: what a recording says about the motion, as mean speeds between instants at which the angle is known.
 
 Comparing angle *increments* keeps an early error from growing through the whole recording, as it does when the angle
-itself is compared. `reading.py` makes them of every kind of recording.
+itself is compared. `build_intervals.py` makes them of every kind of recording.
 """
 
 from dataclasses import dataclass, replace

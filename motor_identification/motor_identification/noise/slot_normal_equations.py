@@ -1,7 +1,7 @@
 """Passes over a recording's intervals that a slot table needs: each one visit per interval, whatever the disc.
 
-`noise.py` filters increments d_k = e_k − e_{k−1} of an angle error e into innovations ν with variance S = 1/scale².
-Seen from the angle the same filter is
+`angle_noise.py` filters increments d_k = e_k − e_{k−1} of an angle error e into innovations ν with variance
+S = 1/scale². Seen from the angle the same filter is
 
     ν_k = e_k − b_{k−1},   b_k = (1 − K_k) b_{k−1} + K_k e_k,   b = e where a run begins,
 

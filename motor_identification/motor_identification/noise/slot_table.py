@@ -6,7 +6,7 @@ with it the residual that no table explains, is had in closed form (variable pro
 Anal. 10, 1973), under a Gaussian prior of variance σ² that makes unseen slots no special case.
 
 Per direction the table has no mean, which is the starting angle. Its first harmonic is eccentricity: where that is
-fitted as an effect of its own, the table may not take it too. The linear algebra is in `slot_modes.py`.
+fitted as an effect of its own, the table may not take it too. The linear algebra is in `slot_eigenmodes.py`.
 """
 
 from dataclasses import dataclass
