@@ -23,4 +23,7 @@ def test_the_demo_finds_the_hidden_motor_and_holds_the_speed() -> None:
     assert picture is not None and (ROOT / picture[1]).stat().st_size > 50_000
     held = re.search(r"read ([\d.]+) on average", done.stdout)
     assert held is not None and 99.0 < float(held[1]) < 101.0
+    real = {name: float(value) for name, value in re.findall(r"^(k\w|delay) +([\d.e-]+) ", done.stdout, re.MULTILINE)}
+    assert 0.352 < real["kv"] < 0.358 and 0.0130 < real["ka"] < 0.0137  # as tests/data/README.md: 161 deg/s/V, 37 ms
+    assert 0.265 < real["ks"] < 0.285 and 0.0090 < real["delay"] < 0.0098
     assert "Traceback" not in done.stderr
