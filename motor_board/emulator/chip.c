@@ -14,7 +14,7 @@
 #define RUN_LIMIT 1000000 /* cycles that simavr may run without looking up; falls back to 1 at every reset */
 
 /* Addresses in data space (ATmega328P data sheet, chapter 30). */
-enum { DDRD = 0x2A, PORTD = 0x2B, TCCR0A = 0x44, OCR0A = 0x47, OCR0B = 0x48, TIMSK1 = 0x6F, TCCR1B = 0x81, TCCR2A = 0xB0, OCR2B = 0xB4 };
+enum { DDRB = 0x24, PORTB = 0x25, DDRD = 0x2A, PORTD = 0x2B, TCCR0A = 0x44, OCR0A = 0x47, OCR0B = 0x48, TIMSK1 = 0x6F, TCCR1B = 0x81, TCCR2A = 0xB0, OCR2B = 0xB4 };
 enum { COMXA1 = 0x80, COMXB1 = 0x20, OCIE1A = 2, PIN_ENABLE = 3, PIN_FORWARD = 5, PIN_REVERSE = 6 };
 
 static void touch(struct chip *chip)
@@ -155,6 +155,13 @@ struct chip_pins chip_pins(const struct chip *chip)
         .forward = level(data, PIN_FORWARD, TCCR0A, COMXB1, OCR0B),
         .reverse = level(data, PIN_REVERSE, TCCR0A, COMXA1, OCR0A),
     };
+}
+
+int chip_pull_ups(const struct chip *chip)
+{
+    const uint8_t *data = chip->avr->data;
+    int a = !(data[DDRB] & 1) && (data[PORTB] & 1), b = !(data[DDRD] & 1 << 7) && (data[PORTD] & 1 << 7);
+    return a | b << 1;
 }
 
 uint64_t chip_written(const struct chip *chip)

@@ -37,9 +37,15 @@ struct chip_pins chip_pins(const struct chip *chip);
 /* The cycle at which the program last wrote to the pins' registers: some 80 before chip_run comes back for it. */
 uint64_t chip_written(const struct chip *chip);
 
-/* Forgets edges later than `after` and adds these, ascending; `reverse` is the level of the second channel (D7) there.
- * Each is seen by the capture unit at exactly its cycle. Returns how many there was room for. */
-size_t chip_edges(struct chip *chip, uint64_t after, const uint64_t *cycles, const uint8_t *reverse, size_t count);
+/* What the encoder's lines do: channel B (D7) is high or low, and channel A (D8) rises for a moment, rises, or falls. */
+enum { CHIP_B_HIGH = 1, CHIP_A_STAYS = 2, CHIP_A_FALLS = 4 };
+
+/* Forgets edges later than `after` and adds these, ascending, with what happens there. Each is seen by the capture unit
+ * at exactly its cycle. Returns how many there was room for. */
+size_t chip_edges(struct chip *chip, uint64_t after, const uint64_t *cycles, const uint8_t *what, size_t count);
+
+/* Whether the program has switched on the pull-ups of D8 (bit 0) and D7 (bit 1). */
+int chip_pull_ups(const struct chip *chip);
 
 /* Bytes for the serial port's input; returns how many there was room for. They go in at the baud rate. */
 size_t chip_feed(struct chip *chip, const uint8_t *bytes, size_t count);

@@ -16,7 +16,7 @@ struct chip {
     avr_io_t io; /* to be told of resets */
     avr_irq_t *edge, *direction, *input, *supply;
 
-    struct { uint64_t cycle; uint8_t reverse; } edges[EDGES];
+    struct { uint64_t cycle; uint8_t what; } edges[EDGES];
     size_t edge_out, edge_in;
     uint64_t fall; /* cycle at which the encoder's pin goes low again; 0: it is low */
 

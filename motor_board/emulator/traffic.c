@@ -43,15 +43,35 @@ static void raise_at(struct chip *chip, avr_irq_t *irq, uint32_t value, uint64_t
     chip->avr->cycle = now;
 }
 
+/* What the encoder drives, against pull-ups, which simavr would let act again at every write to the port. */
+static void drive_lines(struct chip *chip, int a_high, int b_high)
+{
+    avr_ioport_external_t a = {.name = 'B', .mask = 1, .value = a_high ? 1 : 0};
+    avr_ioport_external_t b = {.name = 'D', .mask = 1 << 7, .value = b_high ? 1 << 7 : 0};
+    avr_ioctl(chip->avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('B'), &a);
+    avr_ioctl(chip->avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('D'), &b);
+    avr_raise_irq(chip->direction, b_high != 0);
+}
+
+static void pass_edge(struct chip *chip, uint64_t cycle, uint8_t what)
+{
+    drive_lines(chip, what & CHIP_A_STAYS, what & CHIP_B_HIGH);
+    if (what & CHIP_A_FALLS) {
+        raise_at(chip, chip->edge, 0, cycle);
+        return;
+    }
+    if (!(what & CHIP_A_STAYS)) {
+        avr_raise_irq(chip->edge, 0);
+        chip->fall = cycle + PULSE;
+    }
+    raise_at(chip, chip->edge, 1, cycle);
+}
+
 static void pass_edges(struct chip *chip)
 {
     uint64_t now = chip->avr->cycle;
     while (chip->edge_out != chip->edge_in && chip->edges[chip->edge_out % EDGES].cycle <= now) {
-        uint64_t cycle = chip->edges[chip->edge_out % EDGES].cycle;
-        avr_raise_irq(chip->edge, 0);
-        avr_raise_irq(chip->direction, chip->edges[chip->edge_out % EDGES].reverse);
-        raise_at(chip, chip->edge, 1, cycle);
-        chip->fall = cycle + PULSE;
+        pass_edge(chip, chip->edges[chip->edge_out % EDGES].cycle, chip->edges[chip->edge_out % EDGES].what);
         chip->edge_out++;
     }
     if (chip->fall && chip->fall <= now) {
@@ -112,13 +132,14 @@ void traffic_connect(struct chip *chip)
     avr_t *avr = chip->avr;
     chip->edge = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 0);
     chip->direction = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), 7);
+    drive_lines(chip, 0, 0);
     chip->input = avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT), on_byte_out, chip);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUT_XOFF), on_flow, chip);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUT_XON), on_flow_again, chip);
 }
 
-size_t chip_edges(struct chip *chip, uint64_t after, const uint64_t *cycles, const uint8_t *reverse, size_t count)
+size_t chip_edges(struct chip *chip, uint64_t after, const uint64_t *cycles, const uint8_t *what, size_t count)
 {
     size_t added = 0;
     while (chip->edge_in != chip->edge_out && chip->edges[(chip->edge_in - 1) % EDGES].cycle > after) {
@@ -126,7 +147,7 @@ size_t chip_edges(struct chip *chip, uint64_t after, const uint64_t *cycles, con
     }
     for (; added < count && chip->edge_in - chip->edge_out < EDGES; added++) {
         chip->edges[chip->edge_in % EDGES].cycle = cycles[added];
-        chip->edges[chip->edge_in++ % EDGES].reverse = reverse[added];
+        chip->edges[chip->edge_in++ % EDGES].what = what[added];
     }
     return added;
 }

@@ -3,7 +3,7 @@
 import ctypes
 from ctypes import POINTER, Structure, c_char_p, c_int, c_size_t, c_uint8, c_uint16, c_uint32, c_uint64, c_void_p
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import IntEnum, IntFlag
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,15 @@ from motor_board.errors import BoardError
 
 FREQUENCY = 16_000_000  # [Hz]
 MOST_BYTES = 4096  # taken out at once
-VECTORS = {1: "INT0", 10: "capture", 11: "compare", 13: "overflow", 18: "receive", 19: "transmit"}
+VECTORS = {1: "INT0", 3: "change", 10: "capture", 11: "compare", 13: "overflow", 18: "receive", 19: "transmit"}
+
+
+class Line(IntFlag):
+    """What the encoder's two lines do at an edge."""
+
+    B_HIGH = 1  # channel B is high there
+    A_STAYS = 2  # channel A rises and stays high; without it, it is high for a moment
+    A_FALLS = 4
 
 
 class Hang(IntEnum):
@@ -68,6 +76,7 @@ def _library() -> Any:
         "cycle": (c_uint64, [c_void_p]),
         "run": (c_int, [c_void_p, c_uint64]),
         "pins": (_Pins, [c_void_p]),
+        "pull_ups": (c_int, [c_void_p]),
         "written": (c_uint64, [c_void_p]),
         "edges": (c_size_t, [c_void_p, c_uint64, c_void_p, c_void_p, c_size_t]),
         "feed": (c_size_t, [c_void_p, c_char_p, c_size_t]),
@@ -132,11 +141,15 @@ class Chip:
         """The cycle at which the program last wrote to the pins, a little before `run` came back for it."""
         return int(self._library.chip_written(self._chip))
 
-    def set_edges(self, after: int, cycles: NDArray[np.uint64], reverse: NDArray[np.uint8]) -> None:
-        """Replace the encoder edges to come after a cycle by these (ascending, of one length, contiguous)."""
-        if self._library.chip_edges(self._chip, after, cycles.ctypes.data, reverse.ctypes.data, len(cycles)) < len(
-            cycles
-        ):
+    @property
+    def pull_ups(self) -> tuple[bool, bool]:
+        """Whether those of the encoder's lines (D8, D7) are switched on."""
+        bits = int(self._library.chip_pull_ups(self._chip))
+        return bool(bits & 1), bool(bits & 2)
+
+    def set_edges(self, after: int, cycles: NDArray[np.uint64], what: NDArray[np.uint8]) -> None:
+        """Replace the encoder's edges after a cycle by these (ascending, contiguous), `what` a `Line` each."""
+        if self._library.chip_edges(self._chip, after, cycles.ctypes.data, what.ctypes.data, len(cycles)) < len(cycles):
             raise BoardError("more encoder edges than the emulated board has room for: use shorter steps.")
 
     def feed(self, data: bytes) -> int:

@@ -1,8 +1,10 @@
 """The emulated board: firmware on its chip, motor on its pins, advanced in lockstep; no wall clock, no port."""
 
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motor_board.chip import FREQUENCY, Chip
 from motor_board.shaft import Edges, EncoderConfig, Shaft
@@ -10,6 +12,8 @@ from motor_model.parameters import Parameters
 
 STEP = FREQUENCY // 1000  # [cycle] the motor is planned ahead by at most
 AHEAD = 64  # [cycle] more than the chip can run beyond its goal
+Cycles: TypeAlias = NDArray[np.uint64]
+Levels: TypeAlias = NDArray[np.uint8]
 NO_CYCLES, NO_LEVELS = np.empty(0, dtype=np.uint64), np.empty(0, dtype=np.uint8)
 
 
@@ -19,8 +23,11 @@ class Emulator:
     def __init__(self, elf: Path, parameters: Parameters, encoder: EncoderConfig | None = None) -> None:
         """Raises: BoardError: the ELF or the emulator's library cannot be used."""
         self.chip = Chip(elf)
-        self.shaft = Shaft(parameters, encoder or EncoderConfig())
+        self.encoder = encoder or EncoderConfig()
+        self.shaft = Shaft(parameters, self.encoder)
         self.encoder_connected = True
+        self.stray_edges = 0.0  # [1/s] that the line picks up, at random
+        self._random = np.random.default_rng([self.encoder.seed, 2])
         self._edges = Edges(NO_CYCLES, NO_LEVELS)  # of the latest plan
         self._passed = 0  # of the next plan, those that have come already
 
@@ -41,12 +48,21 @@ class Emulator:
         """Tell the chip which edges come up to a cycle, in place of what was void."""
         known = self.shaft.planned
         self._edges = self.shaft.plan(until)
-        cycles, reverse = self._edges.cycle[self._passed :], self._edges.reverse[self._passed :]
+        cycles, what = self._edges.cycle[self._passed :], self._edges.what[self._passed :]
         self._passed = 0
-        if self.encoder_connected:
-            self.chip.set_edges(known, cycles, reverse)
-        else:
-            self.chip.set_edges(known, NO_CYCLES, NO_LEVELS)
+        if not self.encoder_connected:
+            cycles, what = NO_CYCLES, NO_LEVELS
+        if self.stray_edges > 0.0:
+            cycles, what = self._with_strays(max(known, self.chip.cycle + AHEAD), until, cycles, what)
+        self.chip.set_edges(known, cycles, what)
+
+    def _with_strays(self, start: int, until: int, cycles: Cycles, what: Levels) -> tuple[Cycles, Levels]:
+        """Add pulses that no flank has made."""
+        count = self._random.poisson(self.stray_edges * max(until - start, 0) / FREQUENCY)
+        strays = self._random.integers(start, max(until, start + 1), count).astype(np.uint64)
+        every = np.concatenate([cycles, strays])
+        order = np.argsort(every, kind="stable")
+        return every[order], np.concatenate([what, np.zeros(count, dtype=np.uint8)])[order]
 
     def _drive(self, cycle: int) -> None:
         """The motor gets what the pins say since a cycle; the edges that came since are not to come again."""

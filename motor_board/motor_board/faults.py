@@ -16,6 +16,7 @@ class Faults:
     plugged: bool = True  # false: the port is gone; the board runs on its own supply
     stuck_telemetry: bool = False  # the board is heard no more, but hears
     encoder_connected: bool = True
+    stray_edges: float = 0.0  # [1/s] that the encoder's line picks up
     reset_on_open: bool = False  # as an Uno, which is reset when its port is opened
     clock_error: float = 0.0  # [ppm] by which the board's crystal is fast
 

@@ -48,6 +48,7 @@ FAULTS = (
     Row("plugged", True, "false: the serial port is gone"),
     Row("stuck_telemetry", False, "the board is heard no more, but hears"),
     Row("encoder_connected", True, "false: no edges reach the board"),
+    Row("stray_edges", 0.0, "edges that the encoder's line picks up, at random times", "1/s", 0.0, 10000.0),
     Row("reset_on_open", False, "opening the port resets the board, as an Uno's does"),
     Row("clock_error", 0.0, "by which the board's crystal is fast", "ppm", -10000.0, 10000.0),
 )
@@ -78,7 +79,12 @@ class BoardEmulator(Node):
             channels=1 if values["single_channel"] else 2,
             supply_full_scale=SUPPLY_FULL_SCALE if supply > 0.0 else 0,
         )
-        encoder = EncoderConfig(edges, float(values["slot_irregularity"]), int(values["seed"]))
+        encoder = EncoderConfig(
+            edges,
+            float(values["slot_irregularity"]),
+            int(values["seed"]),
+            channels=1 if values["single_channel"] else 2,
+        )
         emulator = Emulator(firmware(config), model, encoder)
         emulator.chip.supply(5e3 * supply / SUPPLY_FULL_SCALE)
         self._board = LiveBoard(emulator, Port(Path(str(values["link"]))), int(values["seed"]))

@@ -7,7 +7,7 @@ from math import inf, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_board.chip import FREQUENCY
+from motor_board.chip import FREQUENCY, Line
 from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.state import State, at_rest
 from motor_model.effects import INDEX
@@ -20,10 +20,10 @@ MOST_EDGES = 2048  # in one step
 
 @dataclass(frozen=True)
 class Edges:
-    """EncoderConfig edges to come: chip cycles and the second channel's level, both of shape (K,)."""
+    """Edges to come: chip cycles, and what the lines do there (`Line`), both of shape (K,)."""
 
     cycle: NDArray[np.uint64]
-    reverse: NDArray[np.uint8]
+    what: NDArray[np.uint8]
 
 
 @dataclass(frozen=True)
@@ -34,13 +34,14 @@ class EncoderConfig:
     slot_irregularity: float = 0.0  # share of a slot
     seed: int = 0  # of the disc, its starting angle and missed edges
     start_angle: float | None = None  # [rad] of the disc; None: drawn from the seed
+    channels: int = 1
 
 
 class Shaft:
     """A motor with its encoder, planned ahead under the present voltage and cut back when that changes."""
 
     def __init__(self, parameters: Parameters, encoder: EncoderConfig) -> None:
-        self._p = parameters.vector()
+        self._p, self._two = parameters.vector(), encoder.channels == 2
         self._disc = make_disc(encoder.edges_per_revolution, encoder.slot_irregularity, encoder.seed)
         self._random = np.random.default_rng([encoder.seed, 1])
         drawn = float(self._random.uniform(0.0, tau))
@@ -76,10 +77,13 @@ class Shaft:
         self._then, times, directions = self._advance(until)
         self._planned = until
         if self._p[MISS_RATE] > 0.0:
-            seen = self._random.random(len(times)) >= self._p[MISS_RATE]
+            seen = (self._random.random(len(times)) >= self._p[MISS_RATE]) | (np.abs(directions) == 2)
             times, directions = times[seen], directions[seen]
         cycles = np.rint(times * FREQUENCY).astype(np.uint64)
-        return Edges(cycles, (directions < 0).astype(np.uint8))
+        backward, falls = directions < 0, np.abs(directions) == 2
+        b_high = backward ^ falls  # a quarter of a slot behind A
+        what = np.where(falls, Line.A_FALLS, Line.A_STAYS if self._two else 0) | np.where(b_high, Line.B_HIGH, 0)
+        return Edges(cycles, what.astype(np.uint8))
 
     def drive(self, cycle: int, share: float) -> None:
         """The pins ask for a share of the full voltage (−1 to 1) from a cycle on; what was planned beyond it is void.
@@ -109,7 +113,8 @@ class Shaft:
                 times, directions = self._times[count:], self._directions[count:]
                 disc = self._disc
                 state, passed = turn(
-                    self._p, u, state, t, stop - t, disc.forward, disc.backward, self._offset, times, directions
+                    *(self._p, u, state, t, stop - t, disc.forward, disc.backward, self._offset),
+                    *(times, directions, self._two),
                 )
                 t, count = stop, count + passed
         return state, self._times[:count].copy(), self._directions[:count].copy()

@@ -4,6 +4,7 @@ from ctypes import byref
 from dataclasses import dataclass, field
 
 import firmware_core as core
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -33,7 +34,15 @@ class Hardware:
         """An edge at `time` whose interrupt runs `late` ticks after; overflows before it were served a little late."""
         self.serve_overflows(time - overflow_late)
         pending = (time + late) // TURN > self.served
-        core.load().edge_timer_capture(byref(self.timer), time % TURN, pending, reverse, two)
+        if two:
+            core.load().edge_timer_rise(byref(self.timer), time % TURN, pending, reverse)
+        else:
+            core.load().edge_timer_capture(byref(self.timer), time % TURN, pending)
+
+    def fall(self, time: int, b_high: bool) -> None:
+        """A falls at `time`, and is seen at once."""
+        self.serve_overflows(time)
+        core.load().edge_timer_fall(byref(self.timer), time % TURN, False, b_high)
 
     def at(self, now: int, two: bool = False) -> core.Edge:
         core.load().edge_timer_forget(byref(self.timer), now % WRAP)
@@ -68,6 +77,7 @@ def test_edges_after_the_sample_belong_to_the_next(start: int, steps: Steps, lat
     for gap, overflow_late, late_by, reverse in steps:
         times.append(times[-1] + gap)
         hardware.edge(times[-1], overflow_late, late_by, reverse, True)
+        core.load().edge_timer_fall(byref(hardware.timer), 0, False, not reverse)  # out on the other side
         count += -1 if reverse else 1
         counts.append(count)
     later = min(later, len(steps))
@@ -113,3 +123,67 @@ def test_now_is_right_whenever_the_overflow_comes(time: int, since: int) -> None
     for flag_read in (time, time + 1):
         pending = flag_read // TURN > overflows
         assert core.load().edge_timer_extend(overflows % TURN, time % TURN, pending) == time % WRAP
+
+
+class Disc:
+    """Channel A is high over the first half of each slot, B over the half that begins a quarter of a slot later."""
+
+    def __init__(self) -> None:
+        self.hardware, self.position, self.time = Hardware(0), 0.75, 0  # [slot], [tick]; between two holes
+
+    def go(self, position: float, missed: bool = False) -> None:
+        """Turn to a position [slot]; `missed`: falling edges come together with the next rising one."""
+        step = 1 if position > self.position else -1
+        first, last = sorted((self.position, position))
+        flanks = [n / 2 for n in range(-200, 201) if first < n / 2 < last]
+        for place in flanks[::step]:
+            self.time += 1_000
+            b_high = place % 1.0 == 0.5
+            rises = (place % 1.0 == 0.0) == (step > 0)
+            if rises:
+                self.hardware.edge(self.time, 0, 0, b_high, True)
+            elif not missed:
+                self.hardware.fall(self.time, b_high)
+        self.position = position
+
+    @property
+    def count(self) -> int:
+        edge = self.hardware.at(self.time, True).count
+        return edge - WRAP if edge >= WRAP // 2 else edge
+
+
+places = st.floats(-20.0, 20.0).filter(lambda x: abs(x * 2 - round(x * 2)) > 1e-6)
+
+
+@settings(deadline=None)
+@given(st.lists(places, max_size=30))
+def test_two_channels_count_what_the_shaft_has_turned_whatever_it_did(positions: list[float]) -> None:
+    """Never off by more than the slot of a single edge, however often it turns round."""
+    disc = Disc()
+    for position in positions:
+        disc.go(position)
+        assert abs(disc.count - (position - 0.75)) <= 1.0
+
+
+@pytest.mark.parametrize("flank", [0.0, 0.5, 1.0, 1.5])
+@pytest.mark.parametrize("missed", [False, True])
+def test_a_shaft_that_dithers_over_one_flank_counts_to_and_fro(flank: float, missed: bool) -> None:
+    disc = Disc()
+    for _ in range(200):
+        disc.go(flank + 0.1, missed)
+        disc.go(flank - 0.1, missed)
+        assert abs(disc.count - (disc.position - 0.75)) <= 1.0
+        assert disc.hardware.at(disc.time, True).period in (0, 1_000, 2_000)
+    edge = disc.hardware.at(disc.time, True)
+    assert edge.period == 0  # one flank twice is no travel
+
+
+def test_a_pulse_whose_end_is_served_before_its_beginning_counts_nothing() -> None:
+    """Both interrupts wait, that of the falling edge has its turn first; the other one then sees that A is low."""
+    disc = Disc()
+    for _ in range(50):
+        disc.hardware.fall(disc.time, False)
+        disc.hardware.edge(disc.time + 10, 0, 0, False, True)
+        disc.hardware.fall(disc.time + 20, False)
+        disc.time += 1_000
+    assert disc.count == 0

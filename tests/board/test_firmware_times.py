@@ -8,6 +8,7 @@ import pytest
 from emulated_board import MS, TICK, Bench
 
 from motor_board.build import FirmwareConfig
+from motor_board.chip import Line
 from motor_board.shaft import EncoderConfig
 from motor_driver.frames import Command, Configure, Flag, Hello, Ping, Pong, Telemetry
 from motor_driver.protocol import Arrival
@@ -88,6 +89,59 @@ def test_two_channels_count_down_backward(make_bench: MakeBench) -> None:
     assert abs(signed - turned) < 1.6 and turned < -200
 
 
+def lines(position: np.ndarray, first: int) -> tuple[np.ndarray, np.ndarray]:
+    """Cycles and lines of a disc that is at these positions [slot], a millisecond apart, going straight in between."""
+    cycles, what = [], []
+    for k, (start, stop) in enumerate(pairwise(position)):
+        step = 1 if stop > start else -1
+        halves = range(int(2 * min(start, stop)) - 2, int(2 * max(start, stop)) + 3)
+        for half in halves[::step]:
+            if min(start, stop) < half / 2 <= max(start, stop):
+                rises, b_high = (half % 2 == 0) == (step > 0), half % 2 == 1
+                cycles.append(first + round((k + (half / 2 - start) / (stop - start)) * MS))
+                what.append((Line.A_STAYS if rises else Line.A_FALLS) | (Line.B_HIGH if b_high else 0))
+    return np.array(cycles, dtype=np.uint64), np.array(what, dtype=np.uint8)
+
+
+def counted(bench: Bench, position: np.ndarray) -> int:
+    """What the firmware counts while the disc goes through these positions, with commands and pings meanwhile."""
+    bench.start(2_000)
+    first = bench.chip.cycle + 5 * MS
+    cycles, what = lines(position, first)
+    bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
+    bench.chip.set_edges(first - 1, cycles, what)
+    while bench.chip.cycle < first + (len(position) + 3) * MS:
+        bench.send(Command(0), *[Ping(5)] * (len(bench.events) % 50 == 0))
+        bench.run(1)
+    count = bench.last(Telemetry).edge_count
+    return count - (count >> 31 << 32)
+
+
+def test_a_dithering_shaft_does_not_count_one_way(make_bench: MakeBench) -> None:
+    """0.14 rad of true travel to and fro over one flank, 400 times: once 400 slots."""
+    bench = make_bench(config=FirmwareConfig(channels=2))
+    position = 0.75 + 0.3 * np.sin(np.linspace(0.0, 800.0 * np.pi, 4_001))  # over the flank at 1
+    assert abs(counted(bench, position) - (position[-1] - 0.75)) <= 1.0
+    assert bench.last(Telemetry).edge_period == 0 and bench.last(Telemetry).edge_valid
+
+
+def test_no_edge_of_two_channels_is_lost_up_to_10_000_a_second(make_bench: MakeBench) -> None:
+    bench = make_bench(config=FirmwareConfig(channels=2))
+    position = 0.75 + 10.0 * np.concatenate([np.arange(150.0), np.arange(149.0, -50.0, -1.0)])
+    assert counted(bench, position) == round(position[-1] - 0.75)
+    assert bench.decode.counters.bad == bench.decode.counters.lost == 0
+
+
+def test_the_encoders_lines_have_pull_ups(bench: Bench) -> None:
+    """What nobody drives is high: a cable that came off makes no edges."""
+    assert bench.chip.pull_ups == (False, False)
+    bench.run(8)
+    assert bench.chip.pull_ups == (True, True)
+    bench.drive(128, 200)
+    bench.drive(-128, 200)
+    assert bench.chip.pull_ups == (True, True)
+
+
 def test_pong_holds_the_times_of_its_first_byte_and_of_the_ping_s_last(bench: Bench) -> None:
     bench.start(2_000)
     bench.chip.drain()
@@ -155,3 +209,13 @@ def test_every_sample_arrives_at_1_khz(bench: Bench) -> None:
         50 < load["capture"].longest < 200 and 100 < load["capture"].waited < 400
     )  # [cycle] an edge waits for its turn
     assert 100 < load["receive"].waited < 900  # the real port has room for three bytes of 320 cycles, the emulated more
+
+
+@pytest.mark.parametrize("connected", [True, False])
+def test_stray_edges_come_at_their_rate(bench: Bench, connected: bool) -> None:
+    bench.emulator.encoder_connected, bench.emulator.stray_edges = connected, 500.0
+    bench.start()
+    bench.drive(128, 1_000)
+    turned = bench.emulator.shaft.angle / SLOT if connected else 0.0
+    assert 400 < bench.last(Telemetry).edge_count - turned < 600  # Poisson, 22
+    assert turned > 500 or not connected

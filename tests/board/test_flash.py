@@ -49,7 +49,7 @@ def test_the_sketch_is_the_same_firmware(tmp_path: Path, monkeypatch: pytest.Mon
     options = [option for option in AVR if not option.startswith(("-std", "-O"))]
     files = sorted(map(str, folder.glob("*.c")))
     subprocess.run(["avr-gcc", "-std=gnu11", "-Os", "-w", *options, *files, "-o", str(elf)], check=True)
-    monkeypatch.setattr("board.bench.firmware", lambda config: elf)
+    monkeypatch.setattr("emulated_board.firmware", lambda config: elf)
     bench = Bench()
     bench.run(4)
     assert (bench.last(Hello).board_id, bench.last(Hello).channels) == (77, 2)

@@ -31,7 +31,8 @@ class Rig:
 
     def __post_init__(self) -> None:
         if self.emulator is None:
-            self.emulator = Emulator(firmware(self.firmware), self.parameters, EncoderConfig(seed=3))
+            encoder = EncoderConfig(seed=3, channels=self.firmware.channels)
+            self.emulator = Emulator(firmware(self.firmware), self.parameters, encoder)
         self.driver = Driver(self.config)
         self.gate = Gate(self.enabled, self.config.command_timeout)
         self.faults = Faults()

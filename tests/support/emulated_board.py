@@ -6,7 +6,7 @@ import termios
 import time
 import tty
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import TypeVar
@@ -55,7 +55,8 @@ class Bench:
     config: FirmwareConfig = field(default_factory=FirmwareConfig)
 
     def __post_init__(self) -> None:
-        self.emulator = Emulator(firmware(self.config), self.parameters, self.encoder)
+        encoder = replace(self.encoder, channels=self.config.channels)
+        self.emulator = Emulator(firmware(self.config), self.parameters, encoder)
         self.chip = self.emulator.chip
         self.encode, self.decode = Encoder(), Decoder()
         self.events: list[Arrival | OtherVersion] = []

@@ -30,7 +30,9 @@ class EdgeTimer(Structure):
         ("newest", c_uint8),
         ("known", c_uint8),
         ("time", c_uint32 * 4),
-        ("reverse", c_bool * 4),
+        ("way", c_uint8 * 4),
+        ("inside", c_bool),
+        ("entered_reverse", c_bool),
     ]
 
 
@@ -128,7 +130,9 @@ ARGUMENTS: dict[str, list[Any]] = {
     "frame_seal": [c_void_p, c_uint8, c_uint16, c_uint8, c_void_p],
     "edge_timer_extend": [c_uint16, c_uint16, c_bool],
     "edge_timer_overflow": [c_void_p],
-    "edge_timer_capture": [c_void_p, c_uint16, c_bool, c_bool, c_bool],
+    "edge_timer_capture": [c_void_p, c_uint16, c_bool],
+    "edge_timer_rise": [c_void_p, c_uint16, c_bool, c_bool],
+    "edge_timer_fall": [c_void_p, c_uint16, c_bool, c_bool],
     "edge_timer_at": [c_void_p, c_uint32, c_bool],
     "edge_timer_forget": [c_void_p, c_uint32],
     "output_off": [c_void_p],
@@ -138,7 +142,8 @@ ARGUMENTS: dict[str, list[Any]] = {
     "output_latch": [c_void_p],
     "device_start": [c_void_p, c_void_p, c_uint8, c_uint8],
     "device_overflow": [c_void_p],
-    "device_capture": [c_void_p, c_uint16, c_bool, c_bool],
+    "device_capture": [c_void_p, c_uint16, c_bool],
+    "device_rise": [c_void_p, c_uint16, c_bool, c_bool],
     "device_latch": [c_void_p],
     "device_next": [c_void_p],
     "device_sample": [c_void_p, c_void_p],

@@ -58,12 +58,50 @@ uint32_t main_now(void)
     return clock_now(&device.edges);
 }
 
+#if MOTOR_CHANNELS == 2
+static inline bool b_is_high(void)
+{
+    return PIND & _BV(PD7); /* D7 */
+}
+
+static inline void see_fall(void)
+{
+    if (!(PINB & _BV(PB0))) { /* D8 */
+        uint16_t counter = TCNT1;
+        device_fall(&device, counter, clock_overflow_pending(), b_is_high());
+    }
+}
+#endif
+
+/* Pull-ups: a line that nobody drives (an open collector, a cable that came off) is high and counts nothing. */
+static void encoder_start(void)
+{
+    PORTB |= _BV(PB0);
+    PORTD |= _BV(PD7);
+#if MOTOR_CHANNELS == 2
+    PCMSK0 = _BV(PCINT0);
+    PCICR = _BV(PCIE0);
+#endif
+}
+
 ISR(TIMER1_CAPT_vect)
 {
     uint16_t counter = ICR1;
-    bool reverse = MOTOR_CHANNELS == 2 && (PIND & _BV(PD7)); /* D7 */
-    device_capture(&device, counter, clock_overflow_pending(), reverse);
+#if MOTOR_CHANNELS == 1
+    device_capture(&device, counter, clock_overflow_pending());
+#else
+    device_rise(&device, counter, clock_overflow_pending(), b_is_high());
+    see_fall(); /* a pulse that is over already: its interrupt came before this one, and knew of no rising edge */
+#endif
 }
+
+#if MOTOR_CHANNELS == 2
+/* D8 has changed; its rising edges are captured. */
+ISR(PCINT0_vect)
+{
+    see_fall();
+}
+#endif
 
 ISR(TIMER1_OVF_vect)
 {
@@ -149,6 +187,7 @@ int main(void)
     wdt_enable(WDTO_60MS);
     device_start(&device, &config, ++boot, reset_cause);
     bridge_write(0, device.output.decay);
+    encoder_start();
     supply_start();
     serial_start();
     clock_start((uint16_t)device.compare);

@@ -5,7 +5,7 @@
 #define UNMEASURED 0xFFFFu
 
 #define FIRMWARE_MAJOR 1
-#define FIRMWARE_MINOR 0
+#define FIRMWARE_MINOR 1
 #define FIRMWARE_PATCH 0
 
 static uint32_t limited(uint32_t value, uint32_t low, uint32_t high)
@@ -47,9 +47,19 @@ void device_overflow(struct device *device)
     edge_timer_overflow(&device->edges);
 }
 
-void device_capture(struct device *device, uint16_t counter, bool overflow_pending, bool reverse)
+void device_capture(struct device *device, uint16_t counter, bool overflow_pending)
 {
-    edge_timer_capture(&device->edges, counter, overflow_pending, reverse, device->config->channels == 2);
+    edge_timer_capture(&device->edges, counter, overflow_pending);
+}
+
+void device_rise(struct device *device, uint16_t counter, bool overflow_pending, bool b_high)
+{
+    edge_timer_rise(&device->edges, counter, overflow_pending, b_high);
+}
+
+void device_fall(struct device *device, uint16_t counter, bool overflow_pending, bool b_high)
+{
+    edge_timer_fall(&device->edges, counter, overflow_pending, b_high);
 }
 
 static uint16_t flags_of(const struct device *device, const struct edge *edge)

@@ -58,7 +58,9 @@ struct device_frame {
 void device_start(struct device *device, const struct device_config *config, uint8_t boot, uint8_t reset_cause);
 
 void device_overflow(struct device *device);
-void device_capture(struct device *device, uint16_t counter, bool overflow_pending, bool reverse);
+void device_capture(struct device *device, uint16_t counter, bool overflow_pending); /* one channel */
+void device_rise(struct device *device, uint16_t counter, bool overflow_pending, bool b_high); /* two channels */
+void device_fall(struct device *device, uint16_t counter, bool overflow_pending, bool b_high); /* two channels */
 
 /* The compare interrupt, in three parts. First: at a sample tick the newest command is latched, between ticks a missing
  * command is noticed. The pins have to follow device->output.duty. Returns whether it is a tick. */

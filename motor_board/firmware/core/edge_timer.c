@@ -1,7 +1,7 @@
 #include "edge_timer.h"
 
 #define OLD 0x80000000u /* [tick] differences beyond this could have wrapped */
-#define MOST_LATER 2u   /* edges after `now` */
+#define MOST_LATER 3u   /* edges after `now` */
 
 uint32_t edge_timer_extend(uint16_t overflows, uint16_t counter, bool pending)
 {
@@ -16,18 +16,41 @@ void edge_timer_overflow(struct edge_timer *timer)
     timer->overflows++;
 }
 
-void edge_timer_capture(struct edge_timer *timer, uint16_t counter, bool pending, bool reverse, bool two_channels)
+static inline void keep(struct edge_timer *timer, uint32_t time, uint8_t way)
 {
     uint8_t newest = (timer->newest + 1u) & (EDGE_TIMER_KEPT - 1u);
     timer->newest = newest;
-    timer->time[newest] = edge_timer_extend(timer->overflows, counter, pending);
-    timer->reverse[newest] = reverse;
+    timer->time[newest] = time;
+    timer->way[newest] = way;
     timer->known = (uint8_t)(timer->known + (timer->known < EDGE_TIMER_KEPT));
-    if (two_channels && reverse) {
-        timer->count--;
-    } else {
-        timer->count++;
+}
+
+void edge_timer_capture(struct edge_timer *timer, uint16_t counter, bool pending)
+{
+    timer->count++;
+    keep(timer, edge_timer_extend(timer->overflows, counter, pending), 0);
+}
+
+static void count_one(struct edge_timer *timer, uint32_t time, bool reverse, uint8_t undoes)
+{
+    timer->count += reverse ? (uint32_t)-1 : 1u;
+    keep(timer, time, (uint8_t)(undoes | (reverse ? EDGE_REVERSE : 0u)));
+}
+
+void edge_timer_fall(struct edge_timer *timer, uint16_t counter, bool pending, bool b_high)
+{
+    if (timer->inside && b_high == timer->entered_reverse) {
+        count_one(timer, edge_timer_extend(timer->overflows, counter, pending), !b_high, EDGE_UNDOES);
     }
+    timer->inside = false;
+}
+
+void edge_timer_rise(struct edge_timer *timer, uint16_t counter, bool pending, bool reverse)
+{
+    edge_timer_fall(timer, counter, pending, reverse);
+    timer->inside = true;
+    timer->entered_reverse = reverse;
+    count_one(timer, edge_timer_extend(timer->overflows, counter, pending), reverse, 0);
 }
 
 static uint8_t index_of(const struct edge_timer *timer, uint8_t back)
@@ -48,6 +71,9 @@ static bool is_after(uint32_t time, uint32_t now)
 /* `first`: how far back the latest edge is. */
 static uint32_t period_of(const struct edge_timer *timer, uint8_t first)
 {
+    if ((timer->way[index_of(timer, first)] | timer->way[index_of(timer, (uint8_t)(first + 1u))]) & EDGE_UNDOES) {
+        return 0; /* the same flank twice: no travel to divide by */
+    }
     for (uint8_t back = first; back + 1u < timer->known; back++) {
         uint32_t period = time_of(timer, back) - time_of(timer, (uint8_t)(back + 1u));
         if (period > 0) {
@@ -62,13 +88,13 @@ struct edge edge_timer_at(const struct edge_timer *timer, uint32_t now, bool two
     struct edge edge = {.count = timer->count};
     uint8_t later = 0;
     while (later < MOST_LATER && later < timer->known && is_after(time_of(timer, later), now)) {
-        edge.count += two_channels && timer->reverse[index_of(timer, later)] ? 1u : (uint32_t)-1;
+        edge.count += two_channels && (timer->way[index_of(timer, later)] & EDGE_REVERSE) ? 1u : (uint32_t)-1;
         later++;
     }
     if (later < timer->known) {
         edge.valid = true;
         edge.time = time_of(timer, later);
-        edge.reverse = timer->reverse[index_of(timer, later)];
+        edge.reverse = timer->way[index_of(timer, later)] & EDGE_REVERSE;
         edge.period = period_of(timer, later);
     }
     return edge;

@@ -6,12 +6,15 @@
 #include <stdint.h>
 
 #define EDGE_TIMER_KEPT 4u /* edges, a power of two */
+#define EDGE_REVERSE 1u
+#define EDGE_UNDOES 2u
 
 /* What is known of the encoder at an instant. */
 struct edge {
     uint32_t count;  /* wraps; with two channels backward edges count down */
     uint32_t time;   /* [tick] of the latest edge */
-    uint32_t period; /* [tick] from the edge before it; 0: there is none, or it is too long ago */
+    uint32_t period; /* [tick] from the edge before it; 0: there is none, it is too long ago, or one of the two is an edge
+                        that was taken back */
     bool valid;      /* there is a latest edge, and it is less than 2^31 ticks old */
     bool reverse;    /* it was passed backward */
 };
@@ -21,7 +24,8 @@ struct edge_timer {
     uint32_t count;
     uint8_t newest, known;          /* index of the newest edge kept; how many are */
     uint32_t time[EDGE_TIMER_KEPT]; /* [tick] */
-    bool reverse[EDGE_TIMER_KEPT];
+    uint8_t way[EDGE_TIMER_KEPT];   /* EDGE_REVERSE: passed backward; EDGE_UNDOES: takes back the edge before it */
+    bool inside, entered_reverse; /* two channels: A is high; how its rising edge was passed */
 };
 
 /* The 32-bit time of a 16-bit counter value.
@@ -34,8 +38,19 @@ uint32_t edge_timer_extend(uint16_t overflows, uint16_t counter, bool pending);
 /* The counter has overflowed. */
 void edge_timer_overflow(struct edge_timer *timer);
 
-/* An edge was captured at `counter`. */
-void edge_timer_capture(struct edge_timer *timer, uint16_t counter, bool pending, bool reverse, bool two_channels);
+/* A rising edge of the only channel was captured at `counter`. */
+void edge_timer_capture(struct edge_timer *timer, uint16_t counter, bool pending);
+
+/* Two channels: a rising edge of A was captured at `counter`; `reverse`: B is high. */
+void edge_timer_rise(struct edge_timer *timer, uint16_t counter, bool pending, bool reverse);
+
+/* Two channels: A has fallen. Rising edges are what counts: forward the one flank of a hole (B low), backward the other
+ * (B high). If A falls with B as it was when A rose, the shaft has come out where it went in, and the edge is taken
+ * back: a shaft that dithers over one flank counts to and fro. Falling edges need no exact time; they are seen by their
+ * own interrupt, whose order with that of a rising edge is not certain, hence:
+ * a falling edge without a rising one before it is none, and a rising one without a falling one before it makes up for
+ * that (the line was low too shortly to be seen). */
+void edge_timer_fall(struct edge_timer *timer, uint16_t counter, bool pending, bool b_high);
 
 /* The encoder at `now` [tick].
  *

@@ -20,7 +20,6 @@ DEAF = 0.5  # [s] without any voltage, while there should be one, after which th
 LEAST = 0.02  # of max_voltage: a command that any bridge can follow
 TOO_FAST = 2  # samples in a row: a single one may be a flank that came early
 ARRIVAL = 0.5  # [s] for the last command to arrive
-LEAD = 0.1  # [s] of 0 V before the plan: a plant drives with what begins at 0 V
 OUTPUT_OFF = "The plant's output is off: call motor/enable with data: true"
 OURS = "experiment"  # frame_id of the voltages this command sends
 
@@ -102,10 +101,7 @@ class Driver(Node):
         if self.done:
             return
         if self._start is None:
-            self._start = message.sample_time + round(LEAD * 1e9)
-        if message.sample_time < self._start:
-            self.send(0.0)
-            return
+            self._start = message.sample_time
         self._watch(message)
         self.elapsed, self._latest = (message.sample_time - self._start) * 1e-9, message.sample_time
         if not self.problem:

@@ -63,6 +63,7 @@ class SimulatedBoard:
         self._commands: deque[tuple[float, float]] = deque([(-np.inf, 0.0)])  # [s], [V], as latched
         self._edge_count, self._edge_time, self._edge_period = 0, 0, 0.0
         self._speed_state, self._last_edge_direction = SpeedState(), 0
+        self._entered, self._undone = 0, False  # two channels: how A's rising edge was passed, 0 while A is low
         self._times, self._directions = np.empty(MOST_EDGES), np.empty(MOST_EDGES, dtype=np.int64)
 
     @property
@@ -111,18 +112,29 @@ class SimulatedBoard:
         u = effective_voltage(self._p, command)
         disc = self._disc
         self._state, count = turn(
-            self._p, u, self._state, t, dt, disc.forward, disc.backward, self._offset, self._times, self._directions
+            *(self._p, u, self._state, t, dt, disc.forward, disc.backward, self._offset),
+            *(self._times, self._directions, not self._config.single_channel),
         )
         missing = self._p[MISS_RATE] > 0.0
         for time, direction in zip(self._times[:count], self._directions[:count], strict=True):
-            if not (missing and self._random.random() < self._p[MISS_RATE]):
-                self._see_edge(float(time), int(direction))
+            if abs(direction) == 2:
+                self._see_fall(float(time), int(np.sign(direction)))
+            elif not (missing and self._random.random() < self._p[MISS_RATE]):
+                self._see_edge(float(time), int(direction), undoes=False)
+                self._entered = int(direction)
 
-    def _see_edge(self, time: float, direction: int) -> None:
+    def _see_fall(self, time: float, direction: int) -> None:
+        """Two channels: A falls. Where the shaft comes out of the hole at which it went in, the edge is taken back."""
+        if self._entered == -direction:
+            self._see_edge(time, direction, undoes=True)
+        self._entered = 0
+
+    def _see_edge(self, time: float, direction: int, undoes: bool) -> None:
         tick = self._config.edge_resolution
         stamp = POWER_UP + (round(time // tick * tick * 1e9) if tick > 0.0 else round(time * 1e9))
-        self._edge_period = (stamp - self._edge_time) * 1e-9 if self._edge_time else 0.0
-        self._edge_time = stamp
+        known = self._edge_time > 0 and not undoes and not self._undone  # the same flank twice is no travel
+        self._edge_period = (stamp - self._edge_time) * 1e-9 if known else 0.0
+        self._edge_time, self._undone = stamp, undoes
         self._edge_count += 1 if self._config.single_channel else direction
         self._last_edge_direction = direction
 

@@ -1,7 +1,8 @@
 """The encoder: a disc with irregular slots turns angle into edges, each with its exact time.
 
 Edges are of one polarity. Turning forward the sensor sees one flank of a hole, turning backward the other, half a slot
-away and with an irregularity of its own; that is why a table of slot offsets belongs to one direction.
+away and with an irregularity of its own; that is why a table of slot offsets belongs to one direction. The same flanks
+passed the other way are the falling edges of the sensor's signal.
 """
 
 from dataclasses import dataclass
@@ -96,6 +97,15 @@ def flank(flanks: Floats, index: int) -> float:
 
 
 @compiled
+def _next_flank(flanks: Floats, here: float, sign: int) -> int:
+    """Index of the first flank beyond an angle [rad], in the direction of `sign`."""
+    index = int(floor(here / (2.0 * pi / len(flanks)))) - 2 * sign
+    while (flank(flanks, index) - here) * sign <= 0.0:
+        index += sign
+    return index
+
+
+@compiled
 def turn(
     p: Floats,
     u: float,
@@ -107,30 +117,37 @@ def turn(
     offset: float,
     times: Floats,
     directions: NDArray[np.int64],
+    falls: bool = False,
 ) -> tuple[State, int]:
     """Turn the motor for dt [s] at an effective voltage u [V] and write down the edges it passes.
 
-    offset: [rad] where the disc stands when the shaft is at 0. times [s] and directions (±1) are filled as far as they
-    reach. Returns the state and the number of edges.
+    offset: [rad] where the disc stands when the shaft is at 0. times [s] and directions (±1, falling edges ±2 and only
+    where `falls`) are filled as far as they reach. Returns the state and the number of edges.
     """
-    end, count, slot = t + dt, 0, 2.0 * pi / len(forward)
+    end, count = t + dt, 0
     while t < end:
         left = end - t
         after, taken = piece(p, u, s, t, left)
         if after.angle != s.angle:
             sign = 1 if after.angle > s.angle else -1
-            flanks = forward if sign > 0 else backward
+            rising, falling = (forward, backward) if sign > 0 else (backward, forward)
             here, there = shown_angle(p, s.angle) + offset, shown_angle(p, after.angle) + offset
-            index = int(floor(here / slot)) - 2 * sign
-            while (flank(flanks, index) - here) * sign <= 0.0:
-                index += sign
-            while (there - flank(flanks, index)) * sign >= 0.0:
-                angle = _shaft_angle(p, flank(flanks, index) - offset)
+            rise = _next_flank(rising, here, sign)
+            fall = _next_flank(falling, here, sign) if falls else rise
+            while True:
+                up, down = flank(rising, rise), flank(falling, fall)
+                first = falls and (up - down) * sign > 0.0
+                at = down if first else up
+                if (there - at) * sign < 0.0:
+                    break
                 if count < len(times):
-                    times[count] = t + time_in_piece(p, u, s, t, taken, angle)
-                    directions[count] = sign
+                    times[count] = t + time_in_piece(p, u, s, t, taken, _shaft_angle(p, at - offset))
+                    directions[count] = 2 * sign if first else sign
                     count += 1
-                index += sign
+                if first:
+                    fall += sign
+                else:
+                    rise += sign
         s = after
         t = end if taken >= left else t + taken
     return s, count

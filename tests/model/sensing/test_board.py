@@ -184,3 +184,22 @@ def test_what_a_reader_has_to_know() -> None:
     assert (info.edges_per_revolution, info.single_channel, info.edge_resolution) == (48, False, 1e-6)
     assert (info.sample_period, info.max_voltage, info.decay) == (0.002, 24.0, "brake")
     assert config.info(motor(coast_share=0.5)).decay == "coast"
+
+
+@pytest.mark.parametrize("single", [True, False], ids=["one channel", "two channels"])
+def test_a_shaft_that_dithers_over_one_flank(single: bool) -> None:
+    """Two channels take back what one channel, which knows no direction, counts up."""
+    config = BoardConfig(sample_rate=1000.0, start_angle=-0.02, single_channel=single)
+    shaken = np.tile(np.repeat([6.0, -6.0], 20), 100)  # 20 ms each way: to and fro over the flank at 0.02 rad
+    samples = run(motor(), np.concatenate([[6.0] * 10, shaken]), config)
+    counts = np.array([sample.edge_count for sample in samples])
+    board = SimulatedBoard(motor(), config)
+    turned = []
+    for volts in np.concatenate([[6.0] * 10, shaken]):
+        board.sample(float(volts))
+        turned.append(board.angle * 96 / tau)
+    off = counts - np.array(turned)
+    if single:
+        assert off[-1] > 100.0
+    else:
+        assert np.ptp(off) <= 1.5

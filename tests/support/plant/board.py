@@ -70,7 +70,14 @@ class SignOfOneChannel:
 
 
 def report(
-    sample_time: Integers, voltage: Floats, seen: Integers, stamps: Integers, ways: Integers, slots: int, single: bool
+    sample_time: Integers,
+    voltage: Floats,
+    seen: Integers,
+    stamps: Integers,
+    ways: Integers,
+    slots: int,
+    single: bool,
+    back: NDArray[np.bool_] | None = None,
 ) -> Report:
     """What the board says at each sample.
 
@@ -82,9 +89,12 @@ def report(
         ways: +1 or -1, true direction of those edges, shape (E,); only a second channel sees it.
         slots: edges of one polarity a turn.
         single: one channel counts every edge up; two count down backward and know the sign at each edge.
+        back: which edges are the way back over the flank of the edge before, shape (E,): beside them is no period.
     """
     latest = seen - 1
     periods = np.diff(stamps, prepend=stamps[:1]) * 1e-9
+    if back is not None:
+        periods[back | np.concatenate([[False], back[:-1]])] = 0.0
     moved = np.ones_like(ways) if single else ways
     counts = np.concatenate([[0], np.cumsum(moved)])[seen]
     signs = _signs(voltage, seen, stamps, periods) if single else np.concatenate([[0], ways])[seen]

@@ -2,7 +2,8 @@
 
 Hole k of N fills the first half of slot k. A rising edge is the light's return: moving forward it comes at the flank
 where the hole begins, moving backward at the one where it ends, half a slot away. Each flank sits off its place by a
-Gaussian share of a slot of its own. A motor that rocks over one flank makes an edge with every forward pass.
+Gaussian share of a slot of its own. A motor that rocks over one flank makes an edge with every forward pass;
+two channels see it come back, too.
 
 The disc shows θ + e·sin(θ + phase) with θ from the recording's start, and stands at `start_angle` [rad] on top of that;
 so at θ = 0 it already shows e·sin(phase). An edge that is missed is neither counted nor stamped, and the period after
@@ -69,6 +70,42 @@ def edges_of(
     nodes = np.column_stack([motion.time, motion.angle, motion.speed])
     found, flank = _passes(nodes, disc.begin, disc.end, start_angle, eccentricity, phase)
     return Edges(found[:, 0], found[:, 1], found[:, 2], found[:, 3].astype(np.int64), flank)
+
+
+def with_returns(
+    motion: Motion,
+    disc: Disc,
+    rises: Edges,
+    *,
+    start_angle: float = 0.0,
+    eccentricity: float = 0.0,
+    phase: float = 0.0,
+) -> tuple[Edges, NDArray[np.bool_]]:
+    """Rising edges and, where the shaft leaves a hole by the flank by which it entered it, the falling edge there.
+
+    Second, shape (E,): which of them are such returns. Two channels see them, and take the rising edge back.
+    """
+    nodes = np.column_stack([motion.time, motion.angle, motion.speed])
+    found, flank = _passes(nodes, disc.end, disc.begin, start_angle, eccentricity, phase)
+    falls = Edges(found[:, 0], found[:, 1], found[:, 2], found[:, 3].astype(np.int64), flank)
+    every = [(rises.time[i], 0, i, rises) for i in range(len(rises))]
+    every += [(falls.time[i], 1, i, falls) for i in range(len(falls))]
+    inside, kept = None, []
+    for _, falling, i, edges in sorted(every, key=lambda one: one[:3]):
+        hole, forward = int(edges.flank[i]), edges.direction[i] > 0
+        by_begin = forward != bool(falling)  # which of the hole's two flanks is passed
+        if not falling:
+            inside = (hole, by_begin)
+            kept.append((edges, i, False))
+        else:
+            if inside == (hole, by_begin):
+                kept.append((edges, i, True))
+            inside = None
+    columns = [
+        np.array([getattr(edges, name)[i] for edges, i, _ in kept], dtype=getattr(rises, name).dtype)
+        for name in ("time", "angle", "speed", "direction", "flank")
+    ]
+    return Edges(*columns), np.array([back for _, _, back in kept], dtype=np.bool_)
 
 
 def missed(edges: Edges, rate: float, random: np.random.Generator) -> NDArray[np.bool_]:

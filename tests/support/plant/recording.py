@@ -10,7 +10,7 @@ from motor_model.errors import ModelError
 from motor_model.sample import Info
 
 from .board import Report, report
-from .encoder import Disc, Edges, edges_of, missed
+from .encoder import Disc, Edges, edges_of, missed, with_returns
 from .motor import Motion, move
 from .parameters import Values, record_of
 
@@ -102,14 +102,15 @@ def record(
     if start_angle is None:
         start_angle = float(random.uniform(0.0, 2.0 * np.pi))
     disc = Disc.cut(edges, irregularity, disc_seed)
-    every = edges_of(
-        motion, disc, start_angle=start_angle, eccentricity=p["eccentricity"], phase=p["eccentricity_phase"]
-    )
+    shown = {"start_angle": start_angle, "eccentricity": p["eccentricity"], "phase": p["eccentricity_phase"]}
+    every = edges_of(motion, disc, **shown)
     lost = missed(every, p["miss_rate"], random)
-    counted = every.only(~lost)
+    counted, back = every.only(~lost), None
+    if not single_channel:
+        counted, back = with_returns(motion, disc, counted, **shown)
     stamps = _stamps(counted.time, start_time, tick)
     seen = np.searchsorted(counted.time, sample_times, side="right")  # by true time: a stamp may be a tick early
-    board = report(samples + start_time, latched, seen, stamps, counted.direction, edges, single_channel)
+    board = report(samples + start_time, latched, seen, stamps, counted.direction, edges, single_channel, back)
     info = Info(
         name=name,
         edges_per_revolution=edges,
