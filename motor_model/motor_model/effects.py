@@ -26,7 +26,7 @@ BASE = (
 EFFECTS = (
     Effect(
         "coulomb_friction",
-        "ks·sign ω while moving",
+        "constant friction against the motion: ks·sign ω",
         "ramps",
         "the friction level (ks)",
         (P("ks", "V", 0.0, 0.0, 0.8, VOLTAGE, starts=(0.03,)),),
@@ -34,7 +34,7 @@ EFFECTS = (
     ),
     Effect(
         "static_friction",
-        "more friction at low speed, and a breakaway level at rest",
+        "Stribeck friction at low speed, and a breakaway voltage at rest",
         "ramps",
         "the breakaway level (static_friction)",
         (
@@ -53,7 +53,7 @@ EFFECTS = (
     ),
     Effect(
         "load_bias",
-        "constant load, same sign both ways",
+        "constant load, the same in both directions",
         "staircase",
         "a constant load (load_bias)",
         (P("bias_voltage", "V", 0.0, -0.5, 0.5, VOLTAGE, minimum=-inf, starts=(0.02,)),),
@@ -72,7 +72,7 @@ EFFECTS = (
     ),
     Effect(
         "dead_zone",
-        "the bridge swallows this much voltage",
+        "no output below this voltage: drop of the bridge",
         "coast",
         "a dead zone of the bridge (dead_zone)",
         (P("dead_zone_voltage", "V", 0.0, 0.0, 0.5, VOLTAGE, starts=(0.03,)),),
@@ -80,42 +80,42 @@ EFFECTS = (
     ),
     Effect(
         "voltage_limit",
-        "the output saturates here, below max_voltage",
+        "the output saturates at this voltage, below max_voltage",
         "staircase",
         "the voltage limit (voltage_limit)",
         (P("limit_voltage", "V", inf, 0.2, 1.0, VOLTAGE, starts=(0.97, 0.85, 0.7)),),
     ),
     Effect(
         "direction_asymmetry",
-        "negative commands act stronger or weaker",
+        "another gain for negative commands",
         "staircase",
         "a difference between the directions (direction_asymmetry)",
         (P("reverse_gain", "–", 1.0, 0.5, 1.5, starts=(0.97,)),),
     ),
     Effect(
         "coast_drive",
-        "the bridge coasts in the off time, so that back-EMF brakes less at low duty",
+        "the bridge coasts in the off time: less braking by back-EMF at low duty",
         "coast",
         "coasting in the off time (coast_drive)",
         (P("coast_share", "–", 0.0, 0.0, 1.0, maximum=1.0, starts=(0.2,)),),
     ),
     Effect(
         "supply_sag",
-        "the supply gives way under load",
+        "the supply voltage drops under load",
         "staircase",
         "sag of the supply (supply_sag)",
         (P("sag", "–", 0.0, 0.0, 1.0, starts=(0.05,)),),
     ),
     Effect(
         "armature_inductance",
-        "first-order lag on the drive",
+        "first-order lag of the drive (L/R)",
         "prbs",
         "the inductance (armature_inductance)",
         (P("electrical_time_constant", "s", 0.0, 1e-5, 0.03, logarithmic=True, starts=(5e-4, 4e-3)),),
     ),
     Effect(
         "transport_delay",
-        "the bridge acts late",
+        "dead time between command and output",
         "prbs",
         "the delay (transport_delay)",
         (P("delay", "s", 0.0, 0.0, 0.1, starts=(2e-3, 1e-2, 4e-2)),),
@@ -134,7 +134,7 @@ EFFECTS = (
     ),
     Effect(
         "encoder_eccentricity",
-        "the disc shows θ + e·sin(θ + phase)",
+        "the encoder disc is off centre: angle error e·sin(θ + phase)",
         "staircase",
         "the eccentricity of the disc (encoder_eccentricity)",
         (
@@ -146,7 +146,7 @@ EFFECTS = (
     ),
     Effect(
         "backlash",
-        "after a reversal the load's share of inertia is missing until the play is taken up",
+        "gear play: after a reversal the load is decoupled until the play is taken up",
         "reversals",
         "the backlash (backlash)",
         (
@@ -156,7 +156,7 @@ EFFECTS = (
     ),
     Effect(
         "warm_up",
-        "copper heats: ka, friction and loads grow by 1 + rise·(1 − e^(−t/τ))",
+        "the winding heats up: ka, friction and loads grow by 1 + rise·(1 − e^(−t/τ))",
         "rich",
         "the warming-up (warm_up)",
         (
@@ -167,7 +167,7 @@ EFFECTS = (
     ),
     Effect(
         "missed_edges",
-        "that share of edges is not counted",
+        "this share of the edges is not counted",
         "staircase",
         "the missed edges (missed_edges)",
         (P("miss_rate", "–", 0.0, 0.0, 0.2, maximum=0.9),),

@@ -106,7 +106,7 @@ def test_an_edit_recompiles_all_that_depends_on_it(
 
 
 SENTENCES = [
-    ("motor_model.effects", "more friction at low speed", "greater friction at low speed"),  # what people read
+    ("motor_model.effects", "Stribeck friction at low speed", "more friction at low speed"),  # what people read
     ("motor_model.effects", "starts=(0.03,)", "starts=(0.04,)"),  # what only a diagnosis reads
     ("motor_model.dynamics.bridge", "The H-bridge", "The bridge of transistors"),  # a docstring beside a kernel
     ("motor_identification.recording", "the motor never moves", "the motor never turns"),

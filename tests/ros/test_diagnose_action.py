@@ -149,7 +149,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({}, "bag_uris is empty"),
     ({"bag_uris": ["nowhere"]}, "There is no bag"),
     ({"bag_uris": ["staircase"], "validation_uris": ["nowhere"]}, "There is no bag"),
-    ({"bag_uris": ["staircase"], "validation_uris": ["staircase/"]}, "cannot be both fitted and judged by"),
+    ({"bag_uris": ["staircase"], "validation_uris": ["staircase/"]}, "is given for the fit and for validation"),
     ({"bag_uris": ["staircase"], "known_effects": ["magic"]}, "'magic' is not an effect"),
     ({"bag_uris": ["staircase"], "topic_namespace": "left"}, "/left/motor/speed"),
 ]

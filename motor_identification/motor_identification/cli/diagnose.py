@@ -17,13 +17,13 @@ def parser() -> argparse.ArgumentParser:
         "motor_identification",
         "diagnose",
         "Find where simulation and measurement disagree, name the effects that are missing from the\n"
-        "model, and show on data that no fit has seen how far they close the gap. (`explore` drives the\n"
-        "motor too, and records what a diagnosis asks for.)",
+        "model, and show on data that no fit has seen how far they close the gap. (`explore` also\n"
+        "drives the motor, and records what a diagnosis asks for.)",
         f"effects:\n{effects}",
     )
     parser.add_argument("bags", nargs="+", metavar="BAG", help="recordings of one motor")
     parser.add_argument(
-        "--validate", nargs="+", default=[], metavar="BAG", help="judge by these (default: parts of the others)"
+        "--validate", nargs="+", default=[], metavar="BAG", help="validate on these (default: parts of the others)"
     )
     add_effects_option(parser, "--known-effects", "in the model already, separated by commas")
     parser.add_argument("--topic-namespace", default="", metavar="NS", help="of the recorded motor")

@@ -47,9 +47,14 @@ def parser() -> argparse.ArgumentParser:
     rows = parser.add_mutually_exclusive_group(required=True)
     rows.add_argument("--time", metavar="COL", help="column of times [s]")
     rows.add_argument(
-        "--steady", action="store_true", help="there is no time: every row is a steady state, such as a static curve"
+        "--steady", action="store_true", help="no time column: every row is a steady state, such as a static curve"
     )
-    add("--voltage", required=True, metavar="COL", help="column of voltages, or of what --voltage-scale makes volts")
+    add(
+        "--voltage",
+        required=True,
+        metavar="COL",
+        help="column of voltages, or of what --voltage-scale converts to volts",
+    )
     kind = parser.add_mutually_exclusive_group(required=True)
     kind.add_argument("--speed", metavar="COL", help="column of speeds")
     kind.add_argument("--position", metavar="COL", help="column of positions, which do not wrap after a turn")

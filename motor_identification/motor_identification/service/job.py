@@ -71,7 +71,7 @@ def run_diagnosis(
     kept_out = replace(job.source, uris=job.validation, window=Window())
     twice = {Path(uri).resolve() for uri in job.source.uris} & {Path(uri).resolve() for uri in job.validation}
     if twice:
-        raise RecordingError(f"{twice.pop()} cannot be both fitted and judged by: leave it out of one of the two.")
+        raise RecordingError(f"{twice.pop()} is given for the fit and for validation: leave it out of one of the two.")
 
     def read(source: Source) -> Iterator[Recording]:
         for uri in source.uris:

@@ -36,7 +36,7 @@ def test_validation_is_read_whole_and_after_what_is_fitted() -> None:
 
 def test_no_bag_is_both_fitted_and_judged_by() -> None:
     job = DiagnosisJob(Source((STEP, RICH)), (f"{BAGS}/rich/../step",))
-    with pytest.raises(RecordingError, match="step cannot be both fitted and judged by: leave it out of one"):
+    with pytest.raises(RecordingError, match="step is given for the fit and for validation: leave it out of one"):
         run_diagnosis(job)
 
 
