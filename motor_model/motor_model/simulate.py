@@ -1,6 +1,5 @@
-"""Roll-outs: where a motor is at given times under a recorded command, for one motor or a whole swarm."""
+"""Roll-outs: where a motor is at given times under a recorded command, for one motor."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from math import inf
 
@@ -113,22 +112,3 @@ def simulate(
     angle, speed = np.empty(len(out_time)), np.empty(len(out_time))
     roll_out(parameters.vector(), start_speed, command_time, command, out_time, NOWHERE, angle, speed)
     return Trajectory(out_time, angle, speed)
-
-
-def simulate_swarm(
-    vectors: Floats, start_speeds: Floats, command_time: Floats, command: Floats, out_time: Floats, threads: int = 1
-) -> Floats:
-    """The angles [rad] of many motors under one command: vectors (S, P), start_speeds (S,) → angles (S, K)."""
-    angles = np.empty((len(vectors), len(out_time)))
-    speeds = np.empty_like(angles)
-
-    def one(i: int) -> None:
-        roll_out(vectors[i], start_speeds[i], command_time, command, out_time, NOWHERE, angles[i], speeds[i])
-
-    if threads <= 1:
-        for i in range(len(vectors)):
-            one(i)
-    else:
-        with ThreadPoolExecutor(threads) as pool:
-            list(pool.map(one, range(len(vectors))))
-    return angles

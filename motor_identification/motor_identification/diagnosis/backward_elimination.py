@@ -1,5 +1,9 @@
-"""Backward elimination: what was selected early has to be needed beside all that was selected later, or goes."""
+"""Eliminate backward: take back selected effects that are not needed beside all that were selected later.
 
+Backward elimination is the second half of a stepwise selection.
+"""
+
+from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
@@ -54,9 +58,7 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
         return _replace_step(selection, step, None, without)
     if step is selection.steps[-1]:  # what could be in its place was tried beside it
         return selection
-    likely = [test.effect for test in step.tests if test.effect != effect and test.evidence > likelihood_threshold()]
-    free = [name for name in list_candidates(without.effects) if name not in current.effects]
-    others = [name for name in likely if name in free][: thresholds.ELIMINATION_RIVALS]
+    others = list_replacements(step, without.effects, current.effects)
     if not others:
         return _replace_step(selection, step, replace(step, rivals=()), current)
 
@@ -64,7 +66,7 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
         reporter.report(f"{test.effect} in place of {effect}", 0.9, effect, current.held.gap)
 
     tests = try_effects(without, selection.hold_out, others, selection.workers, heard)
-    better = next((test for test in tests if _replaces(test, effect, current)), None)
+    better = next((test for test in tests if is_better(test, effect, current)), None)
     if better is not None:
         return _replace_step(selection, step, replace(step, found=better, rivals=()), better.model)
     alike = [test.effect for test in tests if test.model.likelihood > current.likelihood - thresholds.RIVAL_MARGIN]
@@ -72,7 +74,17 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     return _replace_step(selection, step, replace(step, rivals=rivals), current)
 
 
-def _replaces(test: CandidateTest, effect: str, current: Model) -> bool:
+def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequence[str]) -> list[str]:
+    """List the effects to try instead of a step's: likely where it was found, and not in the current model already.
+
+    without: effects of the model that lacks the step's own.
+    """
+    likely = [test.effect for test in step.tests if test is not step.found and test.evidence > likelihood_threshold()]
+    free = [name for name in list_candidates(without) if name not in current]
+    return [name for name in likely if name in free][: thresholds.ELIMINATION_RIVALS]
+
+
+def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
     """Whether a test's model is better: more likely by the margin, or nearly as likely with fewer parameters."""
     simpler = count_parameters(test.effect) < count_parameters(effect)
     margin = -thresholds.RIVAL_MARGIN if simpler else thresholds.RIVAL_MARGIN

@@ -1,4 +1,4 @@
-"""A candidate model: an estimate on held-out data, with and without one more effect, and whether that matters."""
+"""Compare candidate models on held-out data, with and without one more effect, and decide whether that matters."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -77,10 +77,7 @@ class CandidateTest:
             return False
         near = self.before.held.gap <= thresholds.EXPLAINED_GAP * self.model.floor
         least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE
-        seen = (
-            after.gap < (1.0 - thresholds.LEAST_LASTING_DROP) * before.gap
-            and self.model.held.gap < (1.0 - thresholds.LEAST_DROP) * self.before.held.gap
-        )
+        seen = self.model.held.gap < (1.0 - thresholds.LEAST_DROP) * self.before.held.gap
         return seen and share_explained(before.gap, after.gap, floor) > least
 
 

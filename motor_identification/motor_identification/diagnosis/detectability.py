@@ -1,4 +1,4 @@
-"""Detectability: what a recording could not have shown, effects of a size that matters that the model imitates."""
+"""Find undetectable effects: of a size that matters, but with a trace that the model's own parameters imitate."""
 
 import numpy as np
 

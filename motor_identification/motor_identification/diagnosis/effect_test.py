@@ -92,8 +92,7 @@ def _exceeds_chance_harmonic(test: CandidateTest) -> bool:
 def is_beyond_chance(eccentricity: float, slot: float, share: float) -> bool:
     """Whether an eccentricity [rad] is beyond the first harmonic of a disc whose slots [rad] are random by a share.
 
-    Of N = 2π/slot independent offsets of standard deviation σ, a harmonic's amplitude has the mean square 4σ²/N: σ²·2/N
-    for each of sine and cosine.
+    Of N = 2π/slot independent offsets of standard deviation σ, sine and cosine of a harmonic have the variance 2σ²/N.
     """
     return eccentricity > thresholds.CHANCE_HARMONIC * share * slot * sqrt(2.0 * slot / tau)
 

@@ -1,6 +1,7 @@
-"""Forward selection: effects join a model one after the other, each because held-out motion speaks for it.
+"""Select forward: add effects to a model one after the other, each because held-out motion speaks for it.
 
-This is the first half of a stepwise selection (M. Efroymson, 1960); `backward_elimination` is the other.
+Forward selection is the first half of a stepwise selection (M. Efroymson, Multiple regression analysis, 1960);
+`backward_elimination` is the other.
 """
 
 from collections.abc import Sequence
@@ -65,14 +66,18 @@ def begin_selection(
     hold_out = hold_out.correct_directions(careful)
     model = validate_model(hold_out, careful)
     robust = fit_robustly(careful.on(directed.problem))
-    if robust is not None:
-        scatter = measure_scatter(robust).robust * sqrt(len(directed.problem.weight))
-        if scatter < thresholds.MISCOUNTED_GAP * model.floor:
-            clean = exclude_miscounts(robust)
-            rest = validate_model(hold_out, clean)
-            if rest.at_floor:
-                return Selection(steps, rest, hold_out.correct_directions(clean), workers)
+    if robust is not None and may_be_miscounted(robust, model.floor):
+        clean = exclude_miscounts(robust)
+        rest = validate_model(hold_out, clean)
+        if rest.at_floor:
+            return Selection(steps, rest, hold_out.correct_directions(clean), workers)
     return Selection(steps, model, hold_out, workers)
+
+
+def may_be_miscounted(robust: Estimate, floor: float) -> bool:
+    """Whether most intervals of a robust fit are near the floor [rad/s], so that a few miscounted ones may be all."""
+    scatter = measure_scatter(robust).robust * sqrt(len(robust.problem.weight))  # of unweighted residuals
+    return scatter < thresholds.MISCOUNTED_GAP * floor
 
 
 def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool = True) -> Selection:
@@ -86,14 +91,18 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
             step = SelectionStep(selection.model, best, tuple(tests), find_rivals(best, tests), best.explains)
             selection = selection.add([step])
             continue
-        hopeful = pairs and len(selection.steps) < thresholds.PAIR_MOST_STEPS and not selection.model.at_floor
-        pair = _find_pair(selection, tests, reporter) if hopeful else []
+        pair = _find_pair(selection, tests, reporter) if pairs and may_hide_pair(selection) else []
         if not pair:
             return selection
         further = select_forward(selection.add(pair), reporter, pairs=False)
         if not further.model.at_floor and pair[-1].explains <= thresholds.STAND_IN_SHARE:
             return selection
         selection = further
+
+
+def may_hide_pair(selection: Selection) -> bool:
+    """Whether a gap is left in which two effects may hide each other, and not too much was found before."""
+    return len(selection.steps) < thresholds.PAIR_MOST_STEPS and not selection.model.at_floor
 
 
 def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[CandidateTest]:
@@ -127,11 +136,16 @@ def _is_periodic(effect: str) -> bool:
     return EFFECT_BY_NAME[effect].periodic
 
 
+def list_partners(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
+    """List the tests, best first, whose effects are tried together with any other: likely, if not relevant alone."""
+    likely = [test for test in tests if test.evidence > likelihood_threshold() and not _is_periodic(test.effect)]
+    return likely[: thresholds.PAIR_PARTNERS]
+
+
 def _find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: ProgressReporter) -> list[SelectionStep]:
     """Find the two effects that explain most together where neither does alone, as two steps, if there are such."""
     current, found = selection.model, []
-    likely = [test for test in tests if test.evidence > likelihood_threshold() and not _is_periodic(test.effect)]
-    for i, first in enumerate(likely[: thresholds.PAIR_PARTNERS]):
+    for i, first in enumerate(list_partners(tests)):
         left = [effect for effect in list_candidates(first.model.effects) if not _is_periodic(effect)]
 
         def heard(test: CandidateTest, first: CandidateTest = first) -> None:
@@ -156,13 +170,10 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
     While others are missing too, one effect can do as well as another, and the wrong one ends in a local minimum of the
     selection; not one that explains nearly everything.
     """
-    steps = selection.steps
-    if not steps or selection.model.at_floor or steps[0].explains > thresholds.STAND_IN_SHARE:
+    if not selection.steps or selection.model.at_floor:
         return selection
-    first = steps[0]
-    likely = max(thresholds.SECOND_START_EVIDENCE * first.found.evidence, likelihood_threshold())
-    others = [test for test in first.tests if test is not first.found and test.evidence > likely]
-    for test in others[: thresholds.SECOND_STARTS]:
+    first = selection.steps[0]
+    for test in list_other_firsts(first):
         rivals = tuple(name for name in first.rivals if name != test.effect)
         begun = SelectionStep(first.before, test, first.tests, rivals, test.explains)
         start = begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
@@ -174,3 +185,12 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
             rest = tuple(name for name in head.rivals if name != test.effect)
             selection = replace(selection, steps=(replace(head, rivals=rest), *tail))
     return selection
+
+
+def list_other_firsts(first: SelectionStep) -> list[CandidateTest]:
+    """List the tests, best first, that were nearly as likely as a first step that leaves a visible part unexplained."""
+    if first.explains > thresholds.STAND_IN_SHARE:
+        return []
+    likely = max(thresholds.SECOND_START_EVIDENCE * first.found.evidence, likelihood_threshold())
+    others = [test for test in first.tests if test is not first.found and test.evidence > likely]
+    return others[: thresholds.SECOND_STARTS]

@@ -1,4 +1,4 @@
-"""The result of a diagnosis: which effects were missing, what each of them explains, and what is left."""
+"""Hold the result of a diagnosis: which effects were missing, what each of them explains, and what is left."""
 
 from dataclasses import dataclass
 from enum import Enum

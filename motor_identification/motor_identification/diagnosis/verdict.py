@@ -1,4 +1,4 @@
-"""The verdict: what a stepwise selection shows, as findings and the experiment that would tell more."""
+"""Conclude a verdict from a stepwise selection: findings, what is left, the experiment that would tell more."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace

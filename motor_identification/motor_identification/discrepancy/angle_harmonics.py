@@ -1,4 +1,4 @@
-"""Repeats: does what is left come back with every turn of the shaft, and how often in a turn?"""
+"""Find harmonics of the shaft's angle in the residual: does it repeat with every turn, and how often in a turn?"""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""The shape of what is left: the torque that a model lacks, in volts, over speed, angle and time.
+"""Estimate the torque that a model lacks, in volts, over speed, angle and time.
 
 Where the model obeys ka dω/dt = drive − kv ω and the motor has a torque T [V] more against it, the residual r =
 simulated − measured speed obeys ka dr/dt + kv r = T. So T is read off the residual; a person who sees its shape can add

@@ -1,4 +1,4 @@
-"""Situations: what the motor was doing in every interval, told from the measurement, so that a residual can be placed.
+"""Find operating conditions: what the motor did in every interval, by the measurement, so that residuals can be placed.
 
 Everything comes from what was measured (speed, edges, command) and not from the simulation under suspicion; only the
 gaps of the measured angle, where no edge came, are bridged by it.

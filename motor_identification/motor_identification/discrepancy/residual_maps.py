@@ -1,4 +1,4 @@
-"""Discrepancy: where a model is wrong, as its residual mapped over speed, direction, acceleration, time and angle.
+"""Map a residual over speed, direction, acceleration, voltage, time and angle, to see where a model is wrong.
 
 In: a model on held-out data. Out: its gap, noise floor and bias in the bins of every axis. The worst conditions are in
 `worst_regions`, their description in `region_text`, the residual torque in `missing_torque`.

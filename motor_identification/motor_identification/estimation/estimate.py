@@ -1,5 +1,4 @@
-"""Estimate: a fitting problem with values for its unknowns, and what they cost to find; every stage of a fit maps one
-to the next."""
+"""Carry an estimate from stage to stage of a fit: the problem, θ, and the simulations that it took."""
 
 from dataclasses import dataclass, replace
 
@@ -39,7 +38,3 @@ class Estimate:
     def on(self, problem: Problem) -> "Estimate":
         """Apply the same θ to another problem with the same unknowns."""
         return replace(self, problem=problem)
-
-    def spending(self, simulations: int) -> "Estimate":
-        """Count more simulations that led here."""
-        return replace(self, simulations=self.simulations + simulations)

@@ -1,4 +1,4 @@
-"""Excerpts: the pieces of long recordings that a search looks at, so that an hour is searched as quickly as a minute.
+"""Take excerpts of long recordings for a global search, so that an hour is searched as quickly as a minute.
 
 Where the valley is, a minute of motion says as well as an hour; what the hour adds is for least squares. Pieces begin
 at a standstill (or with the recording), so that they need no initial speed of their own, and are spread over the

@@ -1,4 +1,4 @@
-"""Search θ globally: a multi-start search of an excerpt of joined intervals, then least squares on everything."""
+"""Search θ globally: multi-start search of an excerpt of joined intervals, then least squares on everything."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Least squares from a start in the box: where every descent to a local minimum ends, whatever its residuals.
+"""Descend to a local minimum by least squares within a box, whatever the residuals are.
 
 One solver serves all of them (SciPy's trust region reflective algorithm): the output error of a fit, its whitened
 residuals, the descents of a global search, the nuisance parameters of held-out recordings.

@@ -1,4 +1,4 @@
-"""Exclude miscounts: intervals whose edges were not counted, or counted twice, are off by whole slots."""
+"""Exclude miscounted intervals: edges that were not counted, or counted twice, put them off by whole slots."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Multi-start search for the global minimum: short swarms from several seeds, each handed over to least squares.
+"""Search for the global minimum from many starts: short swarms from several seeds, each handed over to least squares.
 
 A swarm finds the neighbourhood of a minimum where least squares alone would stall (a motor that never starts has no
 derivative), least squares finds its bottom in a tenth of what a swarm would need. Swarms begin short, because most

@@ -1,4 +1,4 @@
-"""The stopping rule of a multi-start search: descents agree, and hardly a local minimum is left unseen."""
+"""Decide when a multi-start search stops: descents agree, and hardly a local minimum is left unseen."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

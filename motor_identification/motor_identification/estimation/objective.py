@@ -1,4 +1,4 @@
-"""The objective of a global search: residuals over a box, and how low their cost can be expected to lie."""
+"""Make the objective of a global search: residuals over a box, and how low their cost can be expected to lie."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

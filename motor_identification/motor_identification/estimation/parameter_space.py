@@ -1,4 +1,4 @@
-"""The parameter space of a fit: the box that is searched, and how θ in it becomes a motor and its initial state."""
+"""Define the parameter space of a fit: the box that is searched, and how θ in it becomes a motor."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The fitting problem: recordings and unknowns θ, with the output error as a cost and as residuals."""
+"""Define the fitting problem: recordings and unknowns θ, with the output error as a cost and as residuals."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace

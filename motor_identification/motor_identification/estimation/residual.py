@@ -1,4 +1,4 @@
-"""Residuals: how far a simulated motion is from what a recording says of its intervals."""
+"""Compute speed residuals: simulated minus measured mean speed of every interval, for a swarm of motors."""
 
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor

@@ -1,4 +1,4 @@
-"""The last stage of a fit: least squares of residuals that are whitened by what is known of encoder, disc and model.
+"""Fit whitened residuals, the last stage of a fit: whitened by what is known of encoder, disc and model.
 
 From a first fit's residuals it learns, recording by recording, how irregular the slots are, which slot every edge is,
 and how fast the simulated angle drifts away (q of `angle_noise.py`); least squares on the result is efficient where the

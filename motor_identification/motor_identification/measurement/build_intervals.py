@@ -1,4 +1,4 @@
-"""Reading: every kind of recording becomes intervals with a measured mean speed.
+"""Build intervals with a measured mean speed from every kind of recording.
 
 An edge is an exact angle at a time known to the timer's tick, so that between two reported edges the mean speed is
 Δcount·(2π/N)/Δt. A count that is read at the samples fixes the angle where it changes; a logged speed is a mean over a

@@ -1,4 +1,4 @@
-"""The edges that samples report: which edge, when, and which way the disc turned."""
+"""Extract the edges that samples report: which edge, when, and which way the disc turned."""
 
 from dataclasses import dataclass
 

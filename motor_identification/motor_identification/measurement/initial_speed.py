@@ -1,4 +1,4 @@
-"""Whether a motor turned already when its recording began, and how fast: what its first edges say of that.
+"""Estimate the initial speed of a recording: whether the motor turned already, by what its first edges say.
 
 A motor that stood needs a voltage and time to gain speed, so that its first edges, followed back along a parabola to
 the moment when a voltage first could act, come from no speed. A motor that turned came from one. The reported speed of

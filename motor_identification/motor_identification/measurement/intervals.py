@@ -1,4 +1,4 @@
-"""Intervals: what a recording says about the motion, as mean speeds between instants at which the angle is known.
+"""Hold intervals: what a recording says of the motion, as mean speeds between instants of known angle.
 
 Comparing angle *increments* keeps an early error from growing through the whole recording, as it does when the angle
 itself is compared. `build_intervals.py` makes them of every kind of recording.

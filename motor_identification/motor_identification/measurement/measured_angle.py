@@ -1,4 +1,4 @@
-"""The measured angle over a whole recording: a simulated one drifts, and the phase of what repeats with it is lost.
+"""Measure the angle through a whole recording: a simulated one drifts, and with it the phase of what repeats.
 
 Within a run of intervals the encoder counts the angle. Where a run is broken (a reversal, a standstill, an interval
 that was left out) a fitted motor bridges the gap, which is short.

@@ -1,4 +1,4 @@
-"""Counts read at samples, without stamps: when the disc was where, and how surely.
+"""Locate the disc from counts read at samples, without stamps: when it was where, and how surely.
 
 A count c says that c flanks have passed and the next has not: the angle is anywhere in one slot, (c + ½) slots with a
 standard deviation of 1/√12 slots. But a slow motor shows more. Where it takes several samples for a slot, the sample at

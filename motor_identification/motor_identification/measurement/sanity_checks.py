@@ -1,4 +1,4 @@
-"""Counts and speeds that no motor makes: counters that wrap or are reset, speeds in another unit than the count's."""
+"""Refuse counts and speeds that no motor makes: counters that wrap or are reset, speeds in another unit."""
 
 from math import tau
 

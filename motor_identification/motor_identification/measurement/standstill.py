@@ -1,4 +1,4 @@
-"""Times without an edge that are evidence: the motor moved less than a slot in them."""
+"""Find standstills: times without an edge are evidence that the motor moved less than a slot."""
 
 import numpy as np
 

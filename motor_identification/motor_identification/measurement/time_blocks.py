@@ -1,4 +1,4 @@
-"""Blocks of time: a recording cut into short stretches, every n-th of which serves another purpose than the rest."""
+"""Cut a recording into blocks of time, every n-th of which serves another purpose than the rest."""
 
 from dataclasses import dataclass
 

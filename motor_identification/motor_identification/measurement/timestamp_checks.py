@@ -1,4 +1,4 @@
-"""Stamps that are wrong: edges reported at a time at which they cannot have been.
+"""Mark wrong time stamps: edges reported at a time at which they cannot have been.
 
 Two rules, one exact and one of smoothness. An edge that is new in a sample came after the sample before and not after
 the sample itself. And a single stamp that is off makes one interval too short and the next too long by as much, while

@@ -1,4 +1,4 @@
-"""The likelihood of increments under a model whose parameters and noise were learnt on other data.
+"""Compute the likelihood of increments under a model whose parameters and noise were learnt on other data.
 
 If the current model is true, the likelihood ratio of any other model on data that neither has seen exceeds e^k with a
 probability of at most e^(−k), whatever the other model is (its expectation is 1; Markov's inequality. V. Vovk, R. Wang,

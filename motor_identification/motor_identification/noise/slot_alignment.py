@@ -1,4 +1,4 @@
-"""The disc as its own index pulse: irregular slots tell where on the disc every counted run of edges was.
+"""Align counted runs on the disc: its irregular slots tell where each was, as an index pulse would.
 
 Between two runs the shaft swung, and a simulated travel bridges the gap, off by some slots. Given the table of slots,
 every run says how likely each place on the disc is, and the most likely path through all runs is taken; table and path

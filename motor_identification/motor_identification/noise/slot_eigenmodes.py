@@ -1,4 +1,4 @@
-"""The modes of a slot table: what a recording says of it and what is believed before, both diagonal at once.
+"""Compute the eigenmodes of a slot table: what a recording says of it and its prior, both diagonal at once.
 
 With AᵀA from the recording and the prior's precision P/σ² the most likely table is (AᵀA + P/σ²)⁻¹Aᵀz. In coordinates
 with VᵀPV = 1 and VᵀAᵀAV diagonal that is one division each, for every σ².

@@ -1,4 +1,4 @@
-"""Passes over a recording's intervals that a slot table needs: each one visit per interval, whatever the disc.
+"""Sum the normal equations of a slot table: passes of one visit per interval, whatever the disc.
 
 `angle_noise.py` filters increments d_k = e_k − e_{k−1} of an angle error e into innovations ν with variance
 S = 1/scale². Seen from the angle the same filter is

@@ -1,4 +1,4 @@
-"""Irregular slots: the same error every turn, so that many turns know it; estimated jointly with the motor.
+"""Estimate a table of irregular slots, jointly with the motor: the same error every turn, which many turns know.
 
 The disc's flanks are off by a table a of 2N offsets [rad]: N seen turning forward, N (the other flanks) backward. An
 interval's increment is off by a[last] − a[first]. The table enters linearly, so that for any motor the best one, and

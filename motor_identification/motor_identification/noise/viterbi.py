@@ -1,4 +1,4 @@
-"""Paths of slips: how far each counted run is off, where a slip from one run to the next has a price for every step.
+"""Find the most likely path of slips: how far each counted run is off, at a price for every step of slip.
 
 The most likely path is found by dynamic programming (A. Viterbi, IEEE Trans. Inf. Theory 13(2), 1967).
 """

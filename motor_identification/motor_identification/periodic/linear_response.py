@@ -1,4 +1,4 @@
-"""The linear response of a motor to a load that repeats with the angle, over angles that were measured.
+"""Compute the linear response of a motor to a load that repeats with the angle, over measured angles.
 
 A load of 1 V, e^(i·c·θ) for c cycles a turn, moves the speed by x with dx/dt = −rate·x − e^(i·c·θ)/inertia. Within an
 interval between two measured angles the shaft turns evenly, and the response is had in closed form.

@@ -1,4 +1,4 @@
-"""Slips of the measured angle: a motor that swings about a standstill turns by an angle that no one channel tells.
+"""Align runs of the measured angle: what a motor turns while it swings about a standstill, no channel counts.
 
 The angle between two counted runs is then off by some slots, and the phase of a fast ripple is lost from one to the
 next. Given the ripple, each run says how far; the most likely path of slips through all runs and the ripple are found

@@ -1,4 +1,4 @@
-"""Identifiability: what a recording can tell and what not, by the directions of the Jacobian alone."""
+"""Judge identifiability: what a recording can tell and what not, by the directions of the Jacobian alone."""
 
 from collections.abc import Iterable
 

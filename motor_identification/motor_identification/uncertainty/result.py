@@ -1,4 +1,4 @@
-"""The result of an identification: a motor, how sure each of its numbers is, and all that limits them."""
+"""Summarise an identification: a motor, how sure each of its numbers is, and all that limits them."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Residual analysis: does what a fit leaves repeat itself, and does it follow the voltage? Then something is missing.
+"""Analyse residuals: do they repeat themselves, do they follow the voltage? Then something is missing.
 
 A right model leaves white residuals that no past voltage predicts (Ljung, System Identification, 2nd ed., ch. 16.6).
 The first is a portmanteau test, Ljung & Box (Biometrika 65, 1978), with pairs counted within runs only, so that gaps in

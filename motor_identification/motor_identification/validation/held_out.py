@@ -1,4 +1,4 @@
-"""Held-out motion: what a fitted motor does in recordings that no fit has seen, its gap, and how likely that is."""
+"""Score held-out motion: a fitted motor beside recordings that no fit has seen, its gap, and how likely that is."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""Hold-out: what a diagnosis keeps out of its fits to judge them by, other recordings or blocks of the same ones."""
+"""Hold data out of the fits to validate them on: other recordings, or blocks of the same ones."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence

@@ -1,4 +1,4 @@
-"""Fit nuisance parameters: what belongs to a held-out recording is estimated on blocks of it, the motor as it is.
+"""Fit nuisance parameters: what belongs to a held-out recording, on blocks of it; the motor stays as it is.
 
 That is the initial speed, phases, the time of a load step.
 """

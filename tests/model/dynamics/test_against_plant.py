@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from motor_model.effects import EFFECTS, normalised, specs_of
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
-from motor_model.simulate import Trajectory, simulate, simulate_swarm
+from motor_model.simulate import Trajectory, simulate
 
 Floats = NDArray[np.float64]
 Values = dict[str, float]
@@ -230,20 +230,6 @@ def test_stribeck_friction_does_not_throw_the_shaft() -> None:
     assert 10.0 < creeping.angle[-1] / TIME[-1] < 2.6 / 0.01358648  # it slips, overshoots and sticks, in turn
     hard = simulate(Parameters(values, ("static_friction",)), TIME, VOLTAGE, TIME)
     assert 600.0 < np.max(np.abs(hard.speed)) < 1.0001 * 10.0 / 0.01358648
-
-
-def test_a_swarm_moves_like_its_motors() -> None:
-    motors = [
-        Parameters(BASE | {"ks": ks, "delay": delay}, ("coulomb_friction", "transport_delay"))
-        for ks, delay in ((0.2, 0.0), (0.5, 0.012), (0.9, 0.003))
-    ]
-    vectors = np.array([motor.vector() for motor in motors])
-    starts = np.array([0.0, 30.0, -30.0])
-    alone = [
-        simulate(motor, TIME, VOLTAGE, TIME, start).angle for motor, start in zip(motors, starts.tolist(), strict=True)
-    ]
-    for threads in (1, 2):
-        assert np.array_equal(simulate_swarm(vectors, starts, TIME, VOLTAGE, TIME, threads), alone)
 
 
 def test_a_delay_of_many_samples_and_a_first_command_before_the_start() -> None:

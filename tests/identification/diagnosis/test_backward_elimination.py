@@ -1,0 +1,100 @@
+"""Backward elimination: what stands in is dropped, what is not needed goes, what is better replaces it."""
+
+import pytest
+from diagnosed import fitted
+from stub_models import stub_model, stub_test
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.backward_elimination import (
+    drop_stand_ins,
+    eliminate_backward,
+    is_better,
+    list_replacements,
+)
+from motor_identification.diagnosis.candidate_model import CandidateTest, validate_model
+from motor_identification.diagnosis.effect_fit import fit_with_effect
+from motor_identification.diagnosis.effect_test import likelihood_threshold
+from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
+from motor_identification.progress import ProgressReporter
+
+BELOW, ABOVE = 0.999, 1.001
+SILENT = ProgressReporter(lambda stage: None, lambda: False)
+
+
+def selection_of(gap: float, *steps: SelectionStep) -> Selection:
+    _, hold_out = fitted()
+    return Selection(steps, stub_model(gap, 0.0), hold_out, 1)
+
+
+def step_of(effect: str, explains: float) -> SelectionStep:
+    before = stub_model(9.0)
+    found = stub_test(effect, before, 5.0, 100.0)
+    return SelectionStep(before, found, (found,), (), explains)
+
+
+@pytest.mark.parametrize(("times", "kept"), [(BELOW, 0), (ABOVE, 2)])
+def test_a_stand_in_goes_and_all_that_was_found_after_it(times: float, kept: int) -> None:
+    steps = step_of("coulomb_friction", times * thresholds.STAND_IN_SHARE), step_of("load_bias", 0.99)
+    left = drop_stand_ins(selection_of(5.0, *steps))
+    assert left.steps == steps[:kept]
+    assert (left.model is steps[0].before) == (kept == 0)
+
+
+@pytest.mark.parametrize(("times", "kept"), [(BELOW, 1), (ABOVE, 0)])
+def test_at_the_floor_nothing_stands_in(times: float, kept: int) -> None:
+    selection = selection_of(times * thresholds.EXPLAINED_GAP, step_of("coulomb_friction", 0.5))
+    assert len(drop_stand_ins(selection).steps) == kept
+
+
+def test_a_line_in_the_spectrum_is_its_own_evidence() -> None:
+    steps = step_of("torque_ripple", 0.1), step_of("load_bias", 0.99)
+    assert drop_stand_ins(selection_of(5.0, *steps)).steps == steps
+
+
+@pytest.mark.parametrize(
+    ("instead", "effect", "margin"),
+    [
+        ("load_bias", "dead_zone", thresholds.RIVAL_MARGIN),  # as many parameters: it has to be the better one
+        ("load_step", "dead_zone", thresholds.RIVAL_MARGIN),
+        ("dead_zone", "load_step", -thresholds.RIVAL_MARGIN),  # fewer: it may be a little less likely
+    ],
+)
+def test_what_replaces_a_finding(instead: str, effect: str, margin: float) -> None:
+    current = stub_model(1.0, 0.0, likelihood=-500.0)
+    for shift, better in ((-0.01, False), (0.01, True)):
+        model = stub_model(1.0, 0.0, likelihood=-500.0 + margin + shift)
+        assert is_better(CandidateTest(instead, current, model), effect, current) is better
+
+
+def test_replacements_were_likely_where_it_was_found_and_are_not_there_already() -> None:
+    before, least = stub_model(9.0), likelihood_threshold()
+    found = stub_test("coulomb_friction", before, 5.0, 100.0)
+    names = ("dead_zone", "load_bias", "quadratic_drag", "supply_sag", "voltage_limit")
+    tests = [stub_test(name, before, 5.0, ABOVE * least) for name in names]
+    step = SelectionStep(before, found, (found, *tests), (), 0.99)
+    assert list_replacements(step, (), ("load_bias",)) == ["dead_zone", "quadratic_drag", "supply_sag"]
+    assert len(list_replacements(step, (), ())) == thresholds.ELIMINATION_RIVALS
+    weak = SelectionStep(before, found, (found, stub_test("dead_zone", before, 5.0, BELOW * least)), (), 0.99)
+    assert list_replacements(weak, (), ()) == []
+
+
+def test_what_is_not_needed_beside_the_others_is_taken_back() -> None:
+    """A dead zone was selected where friction was missing; beside friction it explains nothing."""
+    estimate, hold_out = fitted(ks=0.4)
+    bare = validate_model(hold_out, estimate)
+    first = fit_with_effect(estimate, "dead_zone")
+    assert first is not None
+    with_zone = validate_model(hold_out, first)
+    both = fit_with_effect(first, "coulomb_friction")
+    assert both is not None
+    last = validate_model(hold_out, both)
+    zone, friction = CandidateTest("dead_zone", bare, with_zone), CandidateTest("coulomb_friction", with_zone, last)
+    assert zone.evidence > likelihood_threshold()
+    steps = (
+        SelectionStep(bare, zone, (zone,), (), zone.explains),
+        SelectionStep(with_zone, friction, (friction,), (), friction.explains),
+    )
+    left = eliminate_backward(Selection(steps, last, hold_out, 1), SILENT)
+    assert [step.found.effect for step in left.steps] == ["coulomb_friction"]
+    assert left.model.effects == ("coulomb_friction",) and left.model.at_floor
+    assert left.model.estimate.parameters.value("ks") == pytest.approx(0.4, rel=1e-3)

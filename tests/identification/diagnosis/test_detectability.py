@@ -1,0 +1,42 @@
+"""What a recording could not have shown: traces that the model's own parameters imitate."""
+
+import numpy as np
+import pytest
+from diagnosed import fitted
+from plant import profiles, record
+
+from motor_identification.diagnosis.candidate_model import validate_model
+from motor_identification.diagnosis.detectability import find_undetectable, remove_imitation
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.problem import make_problem
+from motor_identification.recording import check
+from motor_identification.validation.hold_out import make_hold_out
+from motor_model.parameters import PAPER_KA, PAPER_KV
+
+
+def test_what_columns_imitate_is_removed_and_no_more() -> None:
+    random = np.random.default_rng(0)
+    columns, weight = random.standard_normal((50, 3)), random.uniform(0.1, 2.0, 50)
+    own = random.standard_normal(50)
+    own -= columns @ np.linalg.solve(columns.T @ (weight[:, None] * columns), columns.T @ (weight * own))
+    assert remove_imitation(columns, columns @ [1.0, -2.0, 0.5], weight) == pytest.approx(np.zeros(50), abs=1e-9)
+    assert remove_imitation(columns, own + columns @ [1.0, -2.0, 0.5], weight) == pytest.approx(own, abs=1e-9)
+
+
+def test_a_rich_recording_shows_nearly_everything() -> None:
+    estimate, hold_out = fitted()
+    assert find_undetectable(validate_model(hold_out, estimate)) == ()
+
+
+def test_a_single_step_does_not_show_friction() -> None:
+    """At one level of voltage, friction is a smaller gain."""
+    recording = check(
+        record({"kv": PAPER_KV, "ka": PAPER_KA}, *profiles.step(10.0, 1.0), irregularity=0.003, seed=1)[0]
+    )
+    hold_out = make_hold_out([recording], [])
+    problem = hold_out.restrict(make_problem([recording], ()))
+    estimate = fit_speeds(Estimate(problem, np.log([PAPER_KV, PAPER_KA])))
+    hidden = find_undetectable(validate_model(hold_out, estimate))
+    assert {"coulomb_friction", "load_bias", "dead_zone", "direction_asymmetry"} <= set(hidden)
+    assert "transport_delay" not in hidden  # of a step it is the first that one sees

@@ -1,0 +1,77 @@
+"""Which effects a model can be given, and which of those that were tried is the finding."""
+
+import pytest
+from diagnosed import fitted
+from stub_models import stub_model, stub_test
+
+from motor_identification.diagnosis.candidate_model import CandidateTest, validate_model
+from motor_identification.diagnosis.effect_test import (
+    choose_finding,
+    count_parameters,
+    find_rivals,
+    list_candidates,
+    sort_by_table,
+    try_effects,
+)
+from motor_model.effects import EFFECTS
+
+
+def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
+    names = list_candidates(())
+    assert names == [name for name in (effect.name for effect in EFFECTS) if name in names]  # in the table's order
+    assert "coulomb_friction" in names and "static_friction" not in names  # which comes with Coulomb friction
+    assert "missed_edges" not in names  # recognised in every fit, never fitted
+    sliding = list_candidates(("coulomb_friction",))
+    assert "static_friction" in sliding and "coulomb_friction" not in sliding
+
+
+def test_the_most_likely_is_the_finding_not_the_most_relevant() -> None:
+    before = stub_model(5.0)
+    tests = [stub_test("load_bias", before, 2.0, 300.0), stub_test("dead_zone", before, 1.0, 200.0)]
+    assert choose_finding(tests) is tests[0]
+
+
+def test_what_is_likely_but_irrelevant_is_passed_over() -> None:
+    before = stub_model(5.0)
+    tests = [stub_test("load_bias", before, 4.99, 300.0), stub_test("dead_zone", before, 1.0, 200.0)]
+    assert choose_finding(tests) is tests[1]
+    assert choose_finding(tests[:1]) is None and choose_finding([]) is None
+
+
+def test_of_equals_more_parameters_are_not_taken() -> None:
+    """A load that appears once is as likely as a constant one, and has a parameter more: order in the table or not."""
+    before = stub_model(5.0)
+    load = stub_test("transport_delay", before, 1.0, 300.0)
+    step = stub_test("load_step", before, 1.0, 299.9)
+    assert count_parameters("load_step") > count_parameters("transport_delay")
+    assert choose_finding([load, step]) is load
+    assert find_rivals(load, [load, step]) == () and find_rivals(step, [load, step]) == ("transport_delay",)
+
+
+def test_rivals_are_likely_themselves() -> None:
+    before = stub_model(5.0)
+    weak = stub_test("load_bias", before, 1.0, 9.0)
+    assert find_rivals(weak, [weak, stub_test("dead_zone", before, 1.0, 7.0)]) == ()  # below what chance may do
+
+
+def test_effects_are_sorted_as_in_the_table() -> None:
+    assert sort_by_table(["dead_zone", "coulomb_friction", "load_bias"]) == (
+        "coulomb_friction",
+        "load_bias",
+        "dead_zone",
+    )
+    assert sort_by_table([]) == ()
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_friction_is_the_most_likely_of_what_is_tried(workers: int) -> None:
+    estimate, hold_out = fitted(ks=0.4)
+    heard: list[CandidateTest] = []
+    names = ["coulomb_friction", "voltage_limit", "quadratic_drag"]
+    tests = try_effects(validate_model(hold_out, estimate), hold_out, names, workers, heard.append)
+    assert sorted(test.effect for test in heard) == sorted(names)
+    assert [test.evidence for test in tests] == sorted((test.evidence for test in tests), reverse=True)
+    assert tests[0].effect == "coulomb_friction" and tests[0].evidence > 1000.0
+    assert tests[0].explains > 0.99 and choose_finding(tests) is tests[0]
+    useless = next(test for test in tests if test.effect == "voltage_limit")
+    assert useless.model is useless.before and useless.evidence == 0.0 and not useless.relevant  # nothing was promised

@@ -1,0 +1,139 @@
+"""Forward selection: what is selected, what is tried in pairs, and where it begins once more."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from diagnosed import fitted
+from stub_models import stub_model, stub_test
+
+from motor_identification.diagnosis import forward_selection, thresholds
+from motor_identification.diagnosis.candidate_model import CandidateTest, Model
+from motor_identification.diagnosis.effect_test import likelihood_threshold
+from motor_identification.diagnosis.forward_selection import (
+    Selection,
+    SelectionStep,
+    begin_selection,
+    list_other_firsts,
+    list_partners,
+    may_be_miscounted,
+    may_hide_pair,
+    retry_with_another_first,
+    select_forward,
+)
+from motor_identification.progress import ProgressReporter, Stage
+
+BELOW, ABOVE = 0.999, 1.001
+SILENT = ProgressReporter(lambda stage: None, lambda: False)
+
+
+def step_of(found: CandidateTest, *others: CandidateTest, explains: float = 0.5) -> SelectionStep:
+    return SelectionStep(found.before, found, (found, *others), (), explains)
+
+
+def selection_of(model: Model, *steps: SelectionStep) -> Selection:
+    _, hold_out = fitted()
+    return Selection(steps, model, hold_out, 1)
+
+
+def test_partners_are_likely_and_not_periodic_and_few() -> None:
+    before, least = stub_model(5.0), likelihood_threshold()
+    names = ("coulomb_friction", "load_bias", "dead_zone", "quadratic_drag")
+    tests = [stub_test(name, before, 4.9, ABOVE * least) for name in names]
+    ripple, weak = stub_test("torque_ripple", before, 4.0, 500.0), stub_test("load_step", before, 4.9, BELOW * least)
+    assert list_partners([ripple, *tests, weak]) == tests[: thresholds.PAIR_PARTNERS]
+    assert list_partners([*tests[:2], weak]) == tests[:2]
+
+
+def test_pairs_are_tried_above_the_floor_and_only_early() -> None:
+    step = step_of(stub_test("load_bias", stub_model(9.0), 5.0, 100.0))
+    few, many = [step] * (thresholds.PAIR_MOST_STEPS - 1), [step] * thresholds.PAIR_MOST_STEPS
+    assert may_hide_pair(selection_of(stub_model(5.0), *few))
+    assert not may_hide_pair(selection_of(stub_model(5.0), *many))
+    assert not may_hide_pair(selection_of(stub_model(1.2, 0.0), *few))
+
+
+def test_other_first_effects_are_nearly_as_likely() -> None:
+    before, share = stub_model(9.0), thresholds.SECOND_START_EVIDENCE
+    found = stub_test("load_bias", before, 5.0, 100.0)
+    near = [stub_test(name, before, 5.0, 100.0 * share * ABOVE) for name in ("dead_zone", "sag", "drag")]
+    far = stub_test("coulomb_friction", before, 5.0, 100.0 * share * BELOW)
+    assert list_other_firsts(step_of(found, *near, far)) == near[: thresholds.SECOND_STARTS]
+    assert list_other_firsts(step_of(found, near[0], far)) == near[:1]
+    assert list_other_firsts(step_of(found, *near, explains=thresholds.STAND_IN_SHARE * ABOVE)) == []
+    assert len(list_other_firsts(step_of(found, *near, explains=thresholds.STAND_IN_SHARE * BELOW))) > 0
+    weak = stub_test("load_bias", before, 5.0, likelihood_threshold() * 1.1)
+    by_chance = stub_test("dead_zone", before, 5.0, likelihood_threshold() * BELOW)
+    assert list_other_firsts(step_of(weak, by_chance)) == []
+
+
+@pytest.mark.parametrize("times", [BELOW, ABOVE])
+def test_miscounts_may_be_all_where_most_intervals_are_near_the_floor(times: float) -> None:
+    estimate, _ = fitted()
+    problem = estimate.problem
+    residuals = problem.residuals(estimate.theta) * np.sqrt(problem.weight * len(problem.weight))
+    typical = 1.4826 * float(np.median(np.abs(residuals)))
+    assert may_be_miscounted(estimate, times * typical / thresholds.MISCOUNTED_GAP) == (times == ABOVE)
+
+
+def added(selection: Selection, steps: list[SelectionStep]) -> Selection:
+    """Steps added, nothing fitted."""
+    return replace(selection, steps=(*selection.steps, *steps), model=steps[-1].found.model)
+
+
+class Fake:
+    """Tests of effects with given evidence, on stub models; what was added is remembered."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, gaps: list[float]):
+        self.gaps, self.tried = gaps, list[tuple[str, ...]]()
+        monkeypatch.setattr(forward_selection, "try_effects", self.try_effects)
+        monkeypatch.setattr(Selection, "add", added)
+        monkeypatch.setattr(forward_selection, "list_candidates", lambda effects: ["coulomb_friction", "load_bias"])
+        monkeypatch.setattr(Model, "effects", ())
+
+    def try_effects(self, current: Model, hold_out: Any, effects: list[str], *rest: Any) -> list[CandidateTest]:
+        self.tried.append(tuple(effects))
+        later = [gap for gap in self.gaps if gap < current.held.gap]
+        after = later[0] if later else current.held.gap
+        return [stub_test(effect, current, after, 1000.0 * (after < current.held.gap)) for effect in effects]
+
+
+def test_effects_are_added_until_none_is_a_finding(monkeypatch: pytest.MonkeyPatch) -> None:
+    fake = Fake(monkeypatch, [6.0, 3.0, 1.0])
+    stages: list[Stage] = []
+    found = select_forward(selection_of(stub_model(9.0)), ProgressReporter(stages.append, lambda: False))
+    assert [step.found.model.held.gap for step in found.steps] == pytest.approx([6.0, 3.0, 1.0])
+    assert all(step.found.effect == "coulomb_friction" for step in found.steps)  # of equals the earlier in the table
+    assert all(step.rivals == ("load_bias",) for step in found.steps)
+    assert found.model.at_floor and len(fake.tried) >= 3
+
+
+def test_no_more_findings_than_the_most(monkeypatch: pytest.MonkeyPatch) -> None:
+    gaps = [100.0 * 0.5**k for k in range(1, 12)]
+    Fake(monkeypatch, [gap for gap in gaps if gap > 2.0])
+    monkeypatch.setattr(thresholds, "MOST_FINDINGS", 3)
+    assert len(select_forward(selection_of(stub_model(100.0)), SILENT).steps) == 3
+    monkeypatch.setattr(thresholds, "MOST_FINDINGS", 4)
+    assert len(select_forward(selection_of(stub_model(100.0)), SILENT).steps) == 4
+
+
+def test_nothing_begins_anew_without_a_step_or_at_the_floor() -> None:
+    nothing = selection_of(stub_model(9.0))
+    assert retry_with_another_first(nothing, SILENT) is nothing
+    found = selection_of(stub_model(1.1, 0.0), step_of(stub_test("load_bias", stub_model(9.0), 1.0, 100.0)))
+    assert retry_with_another_first(found, SILENT) is found
+
+
+def test_friction_is_selected_from_a_recording_that_hides_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = ("coulomb_friction", "quadratic_drag", "load_bias")
+    lacking = lambda effects: [name for name in names if name not in effects]  # noqa: E731
+    monkeypatch.setattr(forward_selection, "list_candidates", lacking)
+    estimate, hold_out = fitted(ks=0.4)
+    start = begin_selection(estimate, hold_out, 1)
+    assert start.steps == () and start.model.above_floor
+    found = select_forward(start, SILENT)
+    assert [step.found.effect for step in found.steps] == ["coulomb_friction"]
+    assert found.steps[0].explains > 0.99 and found.model.at_floor
+    ks = found.model.estimate.parameters.value("ks")
+    assert ks == pytest.approx(0.4, rel=1e-3) and found.model.estimate.simulations > start.model.estimate.simulations

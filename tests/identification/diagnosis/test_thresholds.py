@@ -1,0 +1,101 @@
+"""Every threshold of the diagnosis decides: just on one side of it, and just on the other."""
+
+from math import log, sqrt, tau
+
+import numpy as np
+import pytest
+from stub_models import LASTING_FLOOR, stub_held, stub_model, stub_test
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.effect_test import (
+    choose_finding,
+    find_rivals,
+    is_beyond_chance,
+    likelihood_threshold,
+)
+from motor_model.effects import EFFECTS
+
+BELOW, ABOVE = 0.999, 1.001
+SIDES = pytest.mark.parametrize(("times", "passes"), [(BELOW, False), (ABOVE, True)])
+
+
+def left_after(share: float, before: float, floor: float) -> float:
+    """The gap that is left once this share of the excess over the floor is explained."""
+    return sqrt(before**2 - share * (before**2 - floor**2))
+
+
+@SIDES
+def test_explained_gap(times: float, passes: bool) -> None:
+    model = stub_model(times * thresholds.EXPLAINED_GAP, 0.0)
+    assert model.above_floor is passes and model.at_floor is not passes
+
+
+@SIDES
+def test_quiet_gap(times: float, passes: bool) -> None:
+    assert stub_model(2.0, times * thresholds.QUIET_GAP * LASTING_FLOOR).quiet is not passes
+
+
+def test_lasting_interval() -> None:
+    """What alternates every 1/16 s is gone in it, what is steady is not."""
+    assert stub_held(3.0, 0.0).joined(thresholds.LASTING_INTERVAL).gap < 1e-9
+    assert stub_held(3.0, 0.0).joined(0.5 * thresholds.LASTING_INTERVAL).gap == pytest.approx(3.0)
+    assert stub_held(3.0, 3.0).joined(thresholds.LASTING_INTERVAL).gap == pytest.approx(3.0)
+
+
+@SIDES
+def test_false_alarm_rate(times: float, passes: bool) -> None:
+    assert likelihood_threshold() == pytest.approx(log(len(EFFECTS) / thresholds.FALSE_ALARM_RATE))
+    test = stub_test("coulomb_friction", stub_model(5.0), 1.0, times * likelihood_threshold())
+    assert (choose_finding([test]) is test) is passes
+
+
+@SIDES
+def test_tie_likelihood(times: float, passes: bool) -> None:
+    """Coulomb friction is earlier in the table than a constant load: it is taken unless the other is more likely."""
+    before = stub_model(5.0)
+    load = stub_test("load_bias", before, 1.0, 100.0)
+    friction = stub_test("coulomb_friction", before, 1.0, 100.0 - times * thresholds.TIE_LIKELIHOOD)
+    assert choose_finding([load, friction]) is (load if passes else friction)
+    assert choose_finding([stub_test("coulomb_friction", before, 1.0, 100.0), load]) is not load
+
+
+@SIDES
+def test_rival_margin(times: float, passes: bool) -> None:
+    before = stub_model(5.0)
+    found = stub_test("load_bias", before, 1.0, 100.0)
+    other = stub_test("dead_zone", before, 1.0, 100.0 - times * thresholds.RIVAL_MARGIN)
+    assert find_rivals(found, [found, other]) == (() if passes else ("dead_zone",))
+
+
+@SIDES
+def test_relevant_gap(times: float, passes: bool) -> None:
+    before = stub_model(5.0, times * thresholds.RELEVANT_GAP * LASTING_FLOOR)
+    assert stub_test("load_bias", before, 4.9, 100.0, LASTING_FLOOR).relevant is passes
+
+
+@SIDES
+@pytest.mark.parametrize(
+    ("gap", "lasting", "share"),
+    [(5.0, 2.0, thresholds.RELEVANT_SHARE), (1.2, 1.0, thresholds.RELEVANT_SHARE_NEAR_FLOOR)],
+    ids=["far above the floor", "at the floor"],
+)
+def test_relevant_share(gap: float, lasting: float, share: float, times: float, passes: bool) -> None:
+    left = left_after(times * share, lasting, LASTING_FLOOR)
+    assert stub_test("load_bias", stub_model(gap, lasting), 0.99 * gap, 100.0, left).relevant is passes
+
+
+@SIDES
+def test_least_drop(times: float, passes: bool) -> None:
+    gap = 5.0 * (1.0 - times * thresholds.LEAST_DROP)
+    assert stub_test("load_bias", stub_model(5.0, 2.0), gap, 100.0, LASTING_FLOOR).relevant is passes
+
+
+@SIDES
+def test_chance_harmonic(times: float, passes: bool) -> None:
+    """Measured on random discs of 96 slots, the standard deviation of the first harmonic's sine and cosine."""
+    slot, share = tau / 96, 0.01
+    discs = np.random.default_rng(0).normal(0.0, share * slot, (2000, 96))
+    waves = discs @ np.exp(1j * slot * np.arange(96)) * 2.0 / 96
+    chance = share * slot * sqrt(2.0 / 96)
+    assert np.std([waves.real, waves.imag]) == pytest.approx(chance, rel=0.03)
+    assert is_beyond_chance(times * thresholds.CHANCE_HARMONIC * chance, slot, share) is passes

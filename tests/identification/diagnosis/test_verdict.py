@@ -1,0 +1,82 @@
+"""How a diagnosis ends, and missed edges as a finding."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from stub_models import stub_model
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.result import Finding, Verdict
+from motor_identification.diagnosis.verdict import decide, find_missed_edges
+
+SLOT = 0.3  # [rad] of 0.625 that the motor turns in an interval
+
+
+def finding(*rivals: str) -> Finding:
+    return Finding("coulomb_friction", 5.0, 1.0, 100.0, "", {}, (), rivals, "coast" if rivals else "")
+
+
+AT, OVER = 0.999 * thresholds.EXPLAINED_GAP, 1.001 * thresholds.EXPLAINED_GAP
+
+
+@pytest.mark.parametrize(
+    ("gap", "findings", "hidden", "verdict", "profile"),
+    [
+        (AT, (), (), Verdict.NOTHING_MISSING, ""),
+        (AT, (finding(),), (), Verdict.EXPLAINED, ""),
+        (AT, (finding("dead_zone"),), (), Verdict.UNDECIDED, "coast"),
+        (AT, (finding("dead_zone"),), ("warm_up",), Verdict.UNDECIDED, "coast"),
+        (AT, (finding(),), ("coulomb_friction",), Verdict.UNDECIDED, "ramps"),
+        (OVER, (), (), Verdict.UNEXPLAINED, ""),
+        (OVER, (finding(),), ("warm_up",), Verdict.UNEXPLAINED, "rich"),
+        (OVER, (finding("dead_zone"),), ("warm_up",), Verdict.UNEXPLAINED, "coast"),
+    ],
+)
+def test_how_it_ended(
+    gap: float, findings: tuple[Finding, ...], hidden: tuple[str, ...], verdict: Verdict, profile: str
+) -> None:
+    assert decide(findings, stub_model(gap, 0.0), hidden) == (verdict, profile)
+
+
+def short_by(slots: list[int], gap: float = 1.0) -> Model:
+    """A model on intervals of one slot each, some of which are short by whole slots and are not scored."""
+    model = stub_model(gap, 0.0)
+    (data,), count = model.held.intervals, len(model.held.counted)
+    missed = np.zeros(count)
+    missed[: len(slots)] = slots
+    edge = np.column_stack([np.arange(count), np.arange(1, count + 1)])
+    short = replace(data, slot=SLOT, edge=edge, speed=data.speed - missed * SLOT / data.duration)
+    marks = missed != 0.0
+    held = replace(model.held, intervals=(short,), scored=(~marks,), miscounted=int(marks.sum()))
+    return replace(model, held=held)
+
+
+@pytest.mark.parametrize("count", [thresholds.LEAST_MISSED_EDGES - 1, thresholds.LEAST_MISSED_EDGES])
+def test_as_many_missed_edges_as_no_wrong_stamps_make(count: int) -> None:
+    found = find_missed_edges(short_by([1] * count))
+    assert (found is not None) == (count >= thresholds.LEAST_MISSED_EDGES)
+
+
+def test_the_rate_of_missed_edges() -> None:
+    found = find_missed_edges(short_by([1] * 5 + [2] * 2))
+    assert found is not None and found.effect == "missed_edges" and found.evidence == 9.0
+    assert found.parameters["miss_rate"] == pytest.approx((9.0 / 49.0, 3.0 / 49.0))  # 40 were counted
+    assert found.gap_before > 2.0 and found.gap_after == pytest.approx(1.0)
+    assert found.where == "7 intervals are short by whole slots, whatever the motor does"
+
+
+def test_edges_counted_twice_are_none_that_were_missed() -> None:
+    assert find_missed_edges(short_by([-1] * 8)) is None
+
+
+@pytest.mark.parametrize(("gap", "found"), [(AT, True), (OVER, False)])
+def test_only_a_complete_model_tells_missed_edges(gap: float, found: bool) -> None:
+    assert (find_missed_edges(short_by([1] * 8, gap)) is not None) is found
+
+
+def test_without_slots_nothing_is_missed() -> None:
+    assert (
+        find_missed_edges(replace(stub_model(1.0, 0.0), held=replace(stub_model(1.0, 0.0).held, miscounted=9))) is None
+    )

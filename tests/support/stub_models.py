@@ -1,0 +1,46 @@
+"""Models of made-up gaps and likelihoods: what rules of acceptance are tested on, on either side of each."""
+
+from typing import cast
+
+import numpy as np
+
+from motor_identification.diagnosis.candidate_model import CandidateTest, Model
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.measurement.intervals import index_intervals
+from motor_identification.noise.likelihood import Noise
+from motor_identification.validation.held_out import HeldOut
+from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
+
+STEP = 0.0625  # [s] of an interval, exact in binary: two of them are a lasting one
+COUNT = 40  # intervals
+FLOOR = 1.0  # [rad/s]
+LASTING_FLOOR = 0.5 * FLOOR  # two intervals have the same two ends, and twice the time
+
+
+def stub_held(gap: float, lasting: float | None = None, miscounted: int = 0) -> HeldOut:
+    """Held-out motion with this gap and this gap in lasting intervals [rad/s], beside a floor of 1 rad/s.
+
+    A steady error lasts, one that alternates from interval to interval does not.
+    """
+    steady = gap if lasting is None else lasting
+    assert steady <= gap
+    start = STEP * np.arange(COUNT)
+    blur = np.full(COUNT, FLOOR * STEP / np.sqrt(2.0))
+    data = index_intervals(start, start + STEP, np.full(COUNT, 10.0), blur)
+    signs = np.where(np.arange(COUNT) % 2 == 0, 1.0, -1.0)
+    speed = 10.0 + steady + signs * np.sqrt(gap**2 - steady**2)
+    angle = np.append(0.0, np.cumsum(speed * STEP))
+    motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA})
+    return HeldOut((), (data,), (angle,), motor, (np.ones(COUNT, dtype=bool),), miscounted)
+
+
+def stub_model(
+    gap: float, lasting: float | None = None, likelihood: float = 0.0, estimate: Estimate | None = None
+) -> Model:
+    """A model of this gap and logarithmic likelihood, without a disc."""
+    return Model(cast(Estimate, estimate), stub_held(gap, lasting), Noise(0.0, 0.0), likelihood)
+
+
+def stub_test(effect: str, before: Model, gap: float, evidence: float, lasting: float | None = None) -> CandidateTest:
+    """A test of an effect that lowers the gap to this, with this evidence."""
+    return CandidateTest(effect, before, stub_model(gap, lasting, before.likelihood + evidence))
