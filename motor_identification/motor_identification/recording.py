@@ -57,8 +57,12 @@ class Recording:
         if start == 0.0 and stop == 0.0:
             return self
         end = stop if stop != 0.0 else np.inf
-        if not (0.0 <= start < end):
-            raise RecordingError(f"--start {start:g} s must be before --stop {stop:g} s, and neither negative.")
+        if not (0.0 <= start < np.inf and 0.0 <= stop < np.inf):
+            raise RecordingError(
+                "--start and --stop are seconds after the first sample, 0 or more; --stop 0 is the end."
+            )
+        if start >= end:
+            raise RecordingError(f"--start {start:g} s must be before --stop {stop:g} s.")
         inside = (self.time >= start) & (self.time <= end)
         if start >= self.duration:
             raise RecordingError(f"{self.uri} is {self.duration:.3g} s long: --start {start:g} s is behind its end.")

@@ -6,6 +6,7 @@ import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from math import inf, nan
 from shutil import get_terminal_size
 from types import FrameType
 from typing import Any
@@ -73,6 +74,8 @@ def shell(work: Callable[[], int]) -> int:
     """Run a command's work and return its exit status: 1 with the sentence of a MotorError, 130 after Ctrl-C."""
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # so a script's `command &` starts; `kill -INT` is meant
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    if signal.getsignal(signal.SIGTERM) == signal.SIG_DFL:  # what is half done is taken back then, too
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         status = work()
         sys.stdout.flush()
@@ -84,6 +87,7 @@ def shell(work: Callable[[], int]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except KeyboardInterrupt:
+        print(f"{_CLEAR if sys.stderr.isatty() else ''}Interrupted.", file=sys.stderr)
         return INTERRUPTED
 
 
@@ -110,18 +114,49 @@ def ended_by_interrupt(sentence: str) -> Iterator[None]:
 
 def positive(text: str) -> float:
     """A number above 0, as an argparse type."""
-    number = float(text)
-    if not 0.0 < number < float("inf"):
+    number = _number(text)
+    if not 0.0 < number < inf:
         raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
     return number
 
 
 def not_negative(text: str) -> float:
     """A number that is 0 or more, as an argparse type."""
-    number = float(text)
-    if not 0.0 <= number < float("inf"):
-        raise argparse.ArgumentTypeError(f"{text} is not 0 or more")
+    number = _number(text)
+    if not 0.0 <= number < inf:
+        raise argparse.ArgumentTypeError(f"{text} is not a number from 0 on")
     return number
+
+
+def between(low: float, high: float) -> Callable[[str], float]:
+    """An argparse type: a number from `low` to `high`."""
+
+    def take(text: str) -> float:
+        number = _number(text)
+        if not low <= number <= high:
+            raise argparse.ArgumentTypeError(f"{text} is not a number from {low:g} to {high:g}")
+        return number
+
+    return take
+
+
+def whole_between(low: int, high: int) -> Callable[[str], int]:
+    """An argparse type: a whole number from `low` to `high`."""
+
+    def take(text: str) -> int:
+        if not text.removeprefix("-").isdecimal() or not low <= int(text) <= high:
+            raise argparse.ArgumentTypeError(f"{text} is not a whole number from {low} to {high}")
+        return int(text)
+
+    return take
+
+
+def _number(text: str) -> float:
+    """NaN, which is in no range, where the text is no number."""
+    try:
+        return float(text)
+    except ValueError:
+        return nan
 
 
 def in_place(line: str) -> None:

@@ -11,6 +11,7 @@ from rclpy.node import Node
 from motor_model.errors import MotorError
 
 Value = bool | int | float | str
+KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "text"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +25,10 @@ class Row:
     low: float | None = None
     high: float | None = None
     read_only: bool = False
+
+    def shown(self) -> str:
+        """The default as it would be typed."""
+        return str(self.default).lower() if isinstance(self.default, bool) else repr(self.default)
 
     def meaning(self) -> str:
         """Unit, range, description and whether it can be changed, for a line of text."""
@@ -55,11 +60,11 @@ def declare(node: Node, rows: Iterable[Row]) -> dict[str, Value]:
         try:
             values[row.name] = node.declare_parameter(row.name, row.default, row.descriptor()).value
         except (InvalidParameterTypeException, InvalidParameterValueException) as error:
-            span = f" from {row.low:g} to {row.high:g}" if row.low is not None and row.high is not None else ""
-            kind = type(row.default).__name__
+            span = f" from {row.low:.10g} to {row.high:.10g}" if row.low is not None and row.high is not None else ""
+            kind = KINDS[type(row.default)]
             raise MotorError(
-                f"parameter {row.name} ({row.description}) takes a {kind}{span} {row.unit}".rstrip()
-                + f", for example {row.default!r}."
+                f"parameter {row.name} ({row.description}) takes {kind}{span} {row.unit}".rstrip()
+                + f", for example {row.shown()}."
             ) from error
     return values
 

@@ -100,7 +100,7 @@ def describe(program: Program) -> str:
     topics = {topic.name: topic for topic in TOPICS}
     services = {service.name: service for service in SERVICES}
     sections = {
-        "parameters and their defaults": [(row.name, _shown(row), row.meaning()) for row in program.rows],
+        "parameters and their defaults": [(row.name, row.shown(), row.meaning()) for row in program.rows],
         "publishes": [(name, topics[name].type_name, topics[name].way) for name in program.publishes],
         "subscribes to": [(name, topics[name].type_name, topics[name].way) for name in program.subscribes],
         "services and actions": [(name, services[name].type_name, services[name].does) for name in program.services],
@@ -113,10 +113,3 @@ def _section(title: str, rows: list[tuple[str, str, str]]) -> str:
     widths = [max(len(row[i]) for row in rows) for i in range(2)]
     lines = (f"  {name:{widths[0]}}  {kind:{widths[1]}}  {meaning}".rstrip() for name, kind, meaning in rows)
     return "\n".join([f"{title}:", *lines])
-
-
-def _shown(row: Row) -> str:
-    """A default as it would be typed."""
-    if isinstance(row.default, bool):
-        return str(row.default).lower()
-    return f"'{row.default}'" if isinstance(row.default, str) else f"{row.default}"

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 
 from motor_model.errors import MotorError
-from motor_ros.command import CommandParser, listed_names, not_negative, positive, shell
+from motor_ros.command import CommandParser, between, listed_names, not_negative, positive, shell, whole_between
 
 
 def test_the_status_says_how_it_ended(capsys: pytest.CaptureFixture[str]) -> None:
@@ -19,13 +19,15 @@ def test_the_status_says_how_it_ended(capsys: pytest.CaptureFixture[str]) -> Non
         raise KeyboardInterrupt
 
     assert [shell(lambda: 0), shell(lambda: 3), shell(refused), shell(interrupted)] == [0, 3, 1, 130]
-    assert capsys.readouterr() == ("", "this cannot be: do that.\n")
+    assert capsys.readouterr() == ("", "this cannot be: do that.\nInterrupted.\n")
 
 
 @pytest.mark.parametrize(
     ("take", "text", "value"),
     [(positive, "0.5", 0.5), (not_negative, "0", 0.0), (positive, "0", None), (not_negative, "-1", None)]
-    + [(positive, text, None) for text in ("inf", "nan")],
+    + [(positive, text, None) for text in ("inf", "nan", "much")]
+    + [(between(1, 20), "20", 20.0), (between(1, 20), "20.5", None), (between(1, 20), "0.9", None)]
+    + [(whole_between(-1, 3), "-1", -1), (whole_between(-1, 3), "4", None), (whole_between(-1, 3), "2.0", None)],
 )
 def test_numbers_outside_their_range_are_refused(take: Callable[[str], float], text: str, value: float | None) -> None:
     if value is not None:

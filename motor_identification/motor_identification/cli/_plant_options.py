@@ -2,7 +2,7 @@
 
 import argparse
 
-from motor_ros.command import positive
+from motor_ros.command import between, positive, whole_between
 
 _NAMES = (
     "voltage", "speed", "topic_namespace", "model", "sample_rate", "edges_per_revolution", "edge_resolution",
@@ -29,11 +29,12 @@ def add_plant_options(parser: argparse.ArgumentParser) -> None:
     live = parser.add_argument_group("live")
     live.add_argument("--topic-namespace", default="", metavar="NS", help="of the motor to drive")
     offline = parser.add_argument_group("offline, with --model")
-    offline.add_argument("--sample-rate", type=positive, default=200.0, metavar="HZ", help="default 200")
-    offline.add_argument("--edges-per-revolution", type=int, default=96, metavar="N", help="default 96")
-    offline.add_argument("--edge-resolution", type=float, default=4e-6, metavar="S", help="timer tick, default 4e-6 s")
-    offline.add_argument("--slot-irregularity", type=float, default=0.0, metavar="SHARE", help="of a slot, default 0")
-    offline.add_argument("--seed", type=int, default=0, metavar="N", help="of disc and starting angle, default 0")
+    add = offline.add_argument
+    add("--sample-rate", type=between(1, 20_000), default=200.0, metavar="HZ", help="default 200")
+    add("--edges-per-revolution", type=whole_between(1, 100_000), default=96, metavar="N", help="default 96")
+    add("--edge-resolution", type=between(0, 1e-3), default=4e-6, metavar="S", help="timer tick, default 4e-6 s")
+    add("--slot-irregularity", type=between(0, 0.2), default=0.0, metavar="SHARE", help="of a slot, default 0")
+    add("--seed", type=whole_between(0, 2**31 - 1), default=0, metavar="N", help="of disc and first angle, default 0")
 
 
 def passed_on(options: argparse.Namespace) -> list[str]:

@@ -3,6 +3,7 @@
 import argparse
 import sys
 import time
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from motor_identification.cli._plant_options import add_plant_options
@@ -12,6 +13,8 @@ from motor_ros.command import CommandParser, shell
 from motor_ros.output_files import add_force_option
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from motor_identification.bag import BagWriter
     from motor_identification.experiment import Plan
     from motor_model.parameters import Parameters
@@ -92,7 +95,7 @@ def _write(bag: "BagWriter", plan: "Plan", model: "Parameters", config: "BoardCo
     from motor_ros.messages import info_message, speed_message, time_message, voltage_message
 
     begin, count = time.time_ns(), 0
-    with bag as writer:
+    with _kept_if_whole(bag) as writer:
         writer.note("experiment", {**plan.words(), "motor": model.name, "source": "simulation"})
         info = writer.topic("/motor/info", "motor_msgs/msg/MotorInfo", offered(qos.INFO))
         speed = writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed", offered(qos.SPEED))
@@ -106,6 +109,17 @@ def _write(bag: "BagWriter", plan: "Plan", model: "Parameters", config: "BoardCo
             writer.write(speed, now, serialize_message(speed_message(sample, stamp, config.name)))
             count += 1
     return count
+
+
+@contextmanager
+def _kept_if_whole(bag: "BagWriter") -> "Iterator[BagWriter]":
+    """Close the bag, or take it away where it was not finished: simulated once more it is the same."""
+    try:
+        yield bag
+    except BaseException:
+        bag.discard()
+        raise
+    bag.close()
 
 
 if __name__ == "__main__":

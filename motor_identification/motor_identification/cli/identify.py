@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from motor_model.effects import EFFECTS
 from motor_model.errors import MotorError
-from motor_ros.command import CommandParser, ended_by_interrupt, listed_names, shell
+from motor_ros.command import CommandParser, ended_by_interrupt, listed_names, shell, whole_between
 from motor_ros.output_files import add_force_option, check_outputs
 
 if TYPE_CHECKING:
@@ -33,9 +33,10 @@ def parser() -> argparse.ArgumentParser:
     parser.add_argument("--topic-namespace", default="", metavar="NS", help="of the recorded motor")
     parser.add_argument("--start", type=float, default=0.0, metavar="S", help="from here [s] (default: the beginning)")
     parser.add_argument("--stop", type=float, default=0.0, metavar="S", help="to here [s] (default: the end)")
-    parser.add_argument("--particles", type=int, default=50, metavar="N", help="of a swarm at most (default 50)")
-    parser.add_argument("--epochs", type=int, default=200, metavar="N", help="of a swarm at most (default 200)")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the swarm (default 0)")
+    add = parser.add_argument
+    add("--particles", type=whole_between(2, 100_000), default=50, metavar="N", help="of a swarm at most (default 50)")
+    add("--epochs", type=whole_between(1, 1_000_000), default=200, metavar="N", help="of a swarm at most (default 200)")
+    add("--seed", type=whole_between(0, 2**63 - 1), default=0, metavar="N", help="of the swarm (default 0)")
     parser.add_argument("--output", metavar="FILE", help="write the model here (YAML)")
     parser.add_argument("--json", metavar="FILE", help="write everything that was found here")
     parser.add_argument(
@@ -54,8 +55,6 @@ def add_effects_option(parser: argparse.ArgumentParser, name: str, meaning: str)
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_identification identify`."""
     options = parser().parse_args(args)
-    if options.particles < 2 or options.epochs < 1:
-        parser().error("--particles must be at least 2 and --epochs at least 1")
     return shell(lambda: _identify(options))
 
 

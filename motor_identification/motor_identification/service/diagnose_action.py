@@ -25,7 +25,8 @@ class DiagnoseAction:
     Args:
         node: whose action it is.
         worker: where the computing is done.
-        job_of: what to compute for a goal, and the file for its report ("": none); may raise a MotorError.
+        job_of: what to compute for a goal, and the files for its report and its model ("": none); may raise a
+            MotorError.
         awaited: turns a call into what a coroutine of the node can wait for.
         keep: does with the model of each success what the node does with its models, and returns it as a message.
     """
@@ -34,7 +35,7 @@ class DiagnoseAction:
         self,
         node: Node,
         worker: Worker,
-        job_of: Callable[[Diagnose.Goal], tuple[DiagnosisJob, str]],
+        job_of: Callable[[Diagnose.Goal], tuple[DiagnosisJob, str, str]],
         awaited: Callable[[Call], Awaitable[Any]],
         keep: Callable[[Fit], MotorModel],
     ) -> None:
@@ -56,9 +57,9 @@ class DiagnoseAction:
             self._goal = self._running = None
 
     async def _diagnosed(self, goal: ServerGoalHandle) -> Diagnose.Result:
-        job, report = self._job_of(goal.request)
+        job, report, model = self._job_of(goal.request)
         self._node.get_logger().info(f"diagnosing {', '.join(job.source.uris)}")
-        self._running = self._worker.submit(run_reported, job, report, heard=self._hear)
+        self._running = self._worker.submit(run_reported, job, report, model, heard=self._hear)
         if goal.is_cancel_requested:  # before there was anything to stop
             self._running.stop()
         reported: Reported = await self._awaited(self._running)

@@ -2,7 +2,7 @@
 
 import sys
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -33,7 +33,21 @@ def run_job(job: Job, progress: Callable[[str, float], None] | None = None) -> F
         RecordingError: a bag cannot be read or cannot answer.
         ModelError: an effect is not in the table.
     """
+    refuse_repeats(job.source.uris)
     return identify([job.source.read(uri) for uri in job.source.uris], job.request, progress)
+
+
+def refuse_repeats(uris: Sequence[str]) -> None:
+    """Refuse a bag that is given twice: its noise would count as two measurements, and every error come out too small.
+
+    Raises:
+        RecordingError: one is.
+    """
+    seen: set[Path] = set()
+    for uri in uris:
+        if Path(uri).resolve() in seen:
+            raise RecordingError(f"{uri} is given twice: name every bag once.")
+        seen.add(Path(uri).resolve())
 
 
 @dataclass(frozen=True)
@@ -68,6 +82,8 @@ def run_diagnosis(
     """
     from motor_identification.diagnose import Stage, Stopped, diagnose
 
+    refuse_repeats(job.source.uris)
+    refuse_repeats(job.validation)
     kept_out = replace(job.source, uris=job.validation, window=Window())
     twice = {Path(uri).resolve() for uri in job.source.uris} & {Path(uri).resolve() for uri in job.validation}
     if twice:
@@ -88,10 +104,13 @@ def run_diagnosis(
 def run_reported(
     job: DiagnosisJob,
     report: str,
+    model: str,
     progress: "Callable[[Stage], None] | None" = None,
     stopped: Callable[[], bool] | None = None,
 ) -> Reported:
     """Diagnose and write the report to a file (none where `report` is empty); one that cannot be written loses nothing.
+
+    model: the file that the model will be written to, which the report names; empty: none.
 
     Raises:
         MotorError: as `run_diagnosis`.
@@ -105,7 +124,7 @@ def run_reported(
     if progress is not None:
         progress(Stage("report", 1.0, "", diagnosis.gap_after))
     try:
-        return Reported(diagnosis, str(write_report(diagnosis, report, Files(source=job.source))), "")
+        return Reported(diagnosis, str(write_report(diagnosis, report, Files(model, job.source))), "")
     except Exception as error:  # whatever it is, the diagnosis is worth more
         traceback.print_exc(file=sys.stderr)
         return Reported(diagnosis, "", f"There is no report: {error}")

@@ -69,12 +69,12 @@ class MotorIdentification(Node):
         job = job_of(request, *map(self._value, ("particles", "epochs", "seed", "workers")))
         return replace(job, source=self._resolved(job.source))
 
-    def _diagnosis_job(self, goal: Diagnose.Goal) -> tuple[DiagnosisJob, str]:
+    def _diagnosis_job(self, goal: Diagnose.Goal) -> tuple[DiagnosisJob, str, str]:
         job = diagnosis_job_of(goal, self._value("workers"))
         source, validation = self._resolved(job.source), tuple(map(self._path, job.validation))
         first = Path(source.uris[0]).absolute()
         report = Path(self._value("report_directory") or first.parent).absolute() / f"{first.name}_diagnosis.html"
-        return replace(job, source=source, validation=validation), str(report)
+        return replace(job, source=source, validation=validation), str(report), str(self._value("model_file"))
 
     def _resolved(self, source: Source) -> Source:
         if not source.uris:

@@ -5,8 +5,12 @@ from motor_ros.program import Program
 
 PARAMETERS = (
     Row("bag_directory", "", "where relative bag_uris are looked for; empty: the working directory"),
-    Row("model_file", "", "every identified or diagnosed model is also written here (YAML); empty: nowhere"),
-    Row("report_directory", "", "where motor/diagnose writes BAG_diagnosis.html; empty: beside its first bag"),
+    Row("model_file", "", "file for the model that was identified or diagnosed last (YAML); empty: none"),
+    Row(
+        "report_directory",
+        "",
+        "where motor/diagnose writes (and replaces) BAG_diagnosis.html; empty: beside its first bag",
+    ),
     Row("particles", 50, "of the swarm", "", 2, 100_000),
     Row("epochs", 200, "of the swarm at most", "", 1, 1_000_000),
     Row("seed", 0, "of the swarm", "", 0, 2**31 - 1),

@@ -118,7 +118,12 @@ def test_a_recording_that_cannot_answer_is_one_sentence(
         (["{tmp}/nowhere"], "There is no bag"),
         (["{bag}", "--effects", "magic"], "'magic' is not an effect; the effects are coulomb_friction,"),
         (["{bag}", "--topic-namespace", "left"], "/left/motor/speed"),
+        (["{bag}", "{bag}/../bag"], "is given twice: name every bag once."),
         (["{bag}", "--start", "3", "--stop", "2"], "must be before"),
+        (["{bag}", "--start", "40"], "{bag} is 5.85 s long: --start 40 s is behind its end."),
+        (["{bag}", "--start", "-1"], "are seconds after the first sample"),
+        (["{bag}", "--stop", "nan"], "are seconds after the first sample"),
+        (["{bag}", "--start", "2", "--stop", "2.001"], "has fewer than two samples from 2 to 2.001 s"),
         (["{bag}", "--output", "{tmp}/no/such/directory.yaml"], "cannot write {tmp}/no/such/directory.yaml"),
     ],
 )
@@ -127,7 +132,7 @@ def test_a_bad_command_is_one_sentence(
 ) -> None:
     assert identify([argument.format(tmp=tmp_path, bag=good) for argument in arguments]) == 1
     err = capsys.readouterr().err
-    assert words.format(tmp=tmp_path) in err and err.count("\n") == 1
+    assert words.format(tmp=tmp_path, bag=good) in err and err.count("\n") == 1
 
 
 @pytest.mark.parametrize("taken", ["model.yaml", "fit.json", "report/fit.png", "report/model.yaml"])
