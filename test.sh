@@ -6,6 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 set +u
 source env.sh
 set -u
+unset PYTHONDONTWRITEBYTECODE # else every worker and every process of the tests compiles all sources anew
 pytest() { .venv/bin/python -m pytest "$@"; }
 if [ $# -gt 0 ]; then
   pytest "$@"

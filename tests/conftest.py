@@ -1,5 +1,7 @@
 """What holds for all tests."""
 
+import itertools
+import os
 import signal
 from pathlib import Path
 
@@ -13,8 +15,19 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The longest come first, so that at the end nobody waits for one of them."""
-    items.sort(key=lambda item: item.get_closest_marker("long") is None)
+    """Begin every worker's share with some of the longest, so that at the end nobody waits for one of them.
+
+    xdist's `worksteal` cuts the list into one piece a worker before anybody steals.
+    """
+    workers = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
+    long = [item for item in items if item.get_closest_marker("long")]
+    others = iter([item for item in items if not item.get_closest_marker("long")])
+    shares: list[pytest.Item] = []
+    for worker in range(workers):
+        size = (len(items) - len(shares)) // (workers - worker)
+        first = long[worker::workers]
+        shares += [*first, *itertools.islice(others, size - len(first))]
+    items[:] = shares
 
 
 @pytest.fixture(scope="session")

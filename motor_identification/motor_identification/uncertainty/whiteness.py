@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from math import nan
 
 import numpy as np
-from scipy.signal import lfilter
-from scipy.stats import chi2, norm
+from scipy.linalg import solve_banded
+from scipy.special import chdtrc, ndtr
 
 from motor_identification.recording import Bools, Floats
 
@@ -54,7 +54,7 @@ def analyse_whiteness(series: tuple[Series, ...]) -> Whiteness:
     known = pairs >= FEWEST
     if not known.any():
         return Whiteness(nan, nan, 0, nan, nan, nan)
-    chance = float(chi2.sf(np.sum((pairs * rho**2)[known]), known.sum()))
+    chance = float(chdtrc(known.sum(), np.sum((pairs * rho**2)[known])))
     largest = int(np.argmax(np.where(known, np.abs(rho), -1.0)))
     follows = _follows(series, np.where(known, rho, 0.0))
     return Whiteness(chance, float(rho[largest]), largest + 1, *follows)
@@ -94,7 +94,7 @@ def _follows(series: tuple[Series, ...], rho: Floats) -> tuple[float, float, flo
             if abs(correlation) >= abs(best):
                 spread = np.sqrt(_inflation(rho, voltage) / len(white))
                 best, at = correlation, past
-                chance = min(1.0, tests * 2.0 * float(norm.sf(abs(correlation) / spread)))
+                chance = min(1.0, tests * 2.0 * float(ndtr(-abs(correlation) / spread)))
     return (chance, best, at) if chance == chance else (nan, nan, nan)
 
 
@@ -107,5 +107,6 @@ def _held(one: Series, past: float) -> Floats:
 def _inflation(rho: Floats, voltage: Floats) -> float:
     """Σ ρ_z(k) ρ_u(k) over all lags, at least 1: how much less a correlated residual says than a white one."""
     first = min(max(float(rho[0]), 0.0), 0.999)
-    smooth = lfilter([0.0, first], [1.0, -first], voltage)
+    shifted = np.concatenate(([0.0], voltage[:-1]))  # s(n) - ρ s(n-1) = ρ u(n-1), as a band of ones and -ρ
+    smooth = solve_banded((1, 0), (np.ones(len(voltage)), np.full(len(voltage), -first)), first * shifted)
     return max(1.0, 1.0 + 2.0 * float(voltage @ smooth) / float(voltage @ voltage))
