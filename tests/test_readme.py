@@ -21,6 +21,7 @@ NODES = re.compile(
     r"ros2 run (motor_sim motor_sim|motor_control motor_control|motor_identification motor_identification"
     r"|motor_board board_emulator .*|motor_driver motor_driver .*)$"
 )
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
 BOARD = re.compile(r"motor_board|motor_driver|/bench/")  # these need a compiler for the board
 
 
@@ -41,14 +42,20 @@ def test_the_readme_has_the_commands_that_are_run_here() -> None:
     assert len(COMMANDS) >= 15
 
 
-def assert_the_ladder(printed: str) -> None:
-    """The gaps that the README shows are those that are printed, but for the last digits."""
+def assert_the_diagnosis(printed: str) -> None:
+    """Gaps and evidence that the README shows are those that are printed, but for the last digits."""
     shown = README[README.index("effect              gap") :]
     for row in (r"kv, ka", r"\+ coulomb_friction", r"\+ static_friction", r"noise floor"):
         pattern = re.compile(rf"^{row} +([\d.]+) +([\d.]+)", re.MULTILINE)
         ours, theirs = (pattern.search(text) for text in (shown, printed))
         assert ours is not None and theirs is not None, printed
         assert [float(n) for n in theirs.groups()] == pytest.approx([float(n) for n in ours.groups()], rel=0.03)
+    said = [line for line in printed.splitlines() if line.startswith("Evidence for ")]
+    for ours, theirs in zip(re.findall(r"^Evidence for .*$", shown, re.MULTILINE), said, strict=True):
+        assert NUMBER.sub("#", theirs) == NUMBER.sub("#", ours)
+        assert list(map(float, NUMBER.findall(theirs))) == pytest.approx(
+            list(map(float, NUMBER.findall(ours))), rel=0.05
+        )
 
 
 # Blocks that need no node of another block run on their own: the board's, and what works on files alone.
@@ -85,7 +92,7 @@ def run_all(commands: list[str], directory: Path) -> None:
             assert done.returncode == 0, f"{command}\n{done.stdout}\n{done.stderr}"
             assert "Traceback" not in done.stderr
             if " diagnose " in command:
-                assert_the_ladder(done.stdout)
+                assert_the_diagnosis(done.stdout)
             if "service call" in command:
                 assert "success=True" in done.stdout
     finally:
@@ -111,6 +118,7 @@ def test_the_commands_that_work_on_files_work_as_written(tmp_path: Path) -> None
     write_log(tmp_path / "log.csv")
     run_all(commands_of("files"), tmp_path)
     assert (tmp_path / "report" / "fit.png").stat().st_size > 20_000
+    assert 50_000 < (tmp_path / "report" / "report.html").stat().st_size < 3_000_000
     assert 100_000 < (tmp_path / "diagnosis" / "report.html").stat().st_size < 3_000_000
 
 
