@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TypeGuard
 
 import pytest
+import yaml
 
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -223,3 +224,39 @@ def test_what_compares_times_is_run() -> None:
     marked = re.compile(r"^@pytest\.mark\.on_time$", re.MULTILINE)
     files = [path for path in (ROOT / "tests").rglob("*.py") if marked.search(path.read_text(encoding="utf-8"))]
     assert {path.parent.name for path in files} == set(last[1].split(","))
+
+
+def test_commit_hooks_and_continuous_integration_call_what_developers_call() -> None:
+    hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text(encoding="utf-8"))["repos"]
+    assert [repo["repo"] for repo in hooks] == ["local"]  # nothing is downloaded
+    entries = [hook["entry"] for hook in hooks[0]["hooks"]]
+    assert entries == ["./test.sh -q tests/test_architecture.py", "./test.sh"]
+    jobs = yaml.safe_load((ROOT / ".github" / "workflows" / "ci.yml").read_text(encoding="utf-8"))["jobs"]
+    steps = [step for job in jobs.values() for step in job["steps"]]
+    assert [step["run"] for step in steps if "run" in step] == [".ci/run"]
+    assert {step["uses"].split("@")[0] for step in steps if "uses" in step} == {
+        "actions/checkout",
+        "actions/setup-python",
+    }
+    assert (ROOT / ".ci" / "run").read_text(encoding="utf-8").rstrip().endswith("exec ./test.sh")
+
+
+def test_nothing_outside_the_repository_is_needed() -> None:
+    outside = re.compile("shared/" + "data|[.][.]/" + "shared")
+    tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True)
+    if tracked.returncode:
+        pytest.skip("not a checkout")
+    for name in filter(None, tracked.stdout.split("\0")):
+        if (ROOT / name).suffix in (".py", ".md", ".sh", ".yaml", ".yml", ".toml", ".json"):
+            assert not outside.search((ROOT / name).read_text(encoding="utf-8")), name
+
+
+@pytest.mark.parametrize("name", ["everything", "beside_ros"])
+def test_every_pinned_package_has_its_hashes(name: str) -> None:
+    text = (ROOT / "requirements" / f"{name}.lock").read_text(encoding="utf-8")
+    pins = re.split(r"^(?=\S)", text, flags=re.MULTILINE)[1:]
+    assert len(pins) > 30
+    for pin in pins:
+        assert re.match(r"[\w.-]+(\[\w]+\])?==\S+", pin) and "--hash=sha256:" in pin, pin.splitlines()[0]
+    assert "://" not in text
+    assert "--require-hashes -r $lock" in (ROOT / "setup.sh").read_text(encoding="utf-8")

@@ -104,7 +104,7 @@ FILES = [
 FILE = re.compile(r"(?<![\w/.-])(?:\.\./)*((?:[\w-]+/)*\w+\.(?:py|[ch]))\b")
 FOLDER_ROW = re.compile(r"^\| `(\w+)/` \|.*?\| (.*) \|$", re.MULTILINE)
 FOLDER = re.compile(r"`((?:[\w.-]+/)+)`")
-MADE_BY_USERS = {"build/", "install/", "log/", "../shared/data/", "diagnosis/"}
+MADE_BY_USERS = {"build/", "install/", "log/", "diagnosis/"}
 
 
 def said_in(source: str) -> str:
