@@ -1,0 +1,69 @@
+"""Every kind of recording becomes intervals of the mean speed that the disc really had."""
+
+from dataclasses import replace
+from math import sqrt, tau
+
+import numpy as np
+import pytest
+from handmade import PERIOD, SLOTS, turning
+from recorded import as_speed
+
+from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.recording import Floats
+from motor_model.errors import RecordingError
+from motor_model.sample import Measurement
+
+SLOT = tau / SLOTS
+
+
+def evenly(time: Floats) -> Floats:
+    return 700.0 * time
+
+
+def faster(time: Floats) -> Floats:
+    return 300.0 * time + 400.0 * time**2
+
+
+def test_between_stamped_edges_the_mean_speed_is_exact() -> None:
+    data = make_intervals(turning(faster, 1.0))
+    start, end = data.time[data.first], data.time[data.last]
+    assert data.speed == pytest.approx((faster(end) - faster(start)) * SLOT / (end - start), rel=1e-5)
+    assert np.array_equal(data.edge[1:, 0], data.edge[:-1, 1]) and data.slot == pytest.approx(SLOT)
+    assert np.all(data.blur == 0.0) and np.all(data.slack == 0.0) and data.left_out == 0
+    assert not data.fresh[1:].any() and data.fresh[0]
+
+
+def test_the_timers_tick_blurs_by_its_standard_deviation() -> None:
+    recording = turning(evenly, 0.5)
+    coarse = replace(recording, info=replace(recording.info, edge_resolution=1e-5))
+    data = make_intervals(coarse)
+    assert data.blur == pytest.approx(700.0 * SLOT * 1e-5 / sqrt(12.0), rel=1e-3)
+    assert np.all(data.time[data.first] > 0.0)  # stamps are the last tick before the edge: half a tick is added
+
+
+def test_counts_fix_the_angle_at_the_samples() -> None:
+    data = make_intervals(turning(evenly, 1.0, Measurement.COUNTS))
+    moving = data.slack == 0.0
+    assert np.average(data.speed[moving], weights=data.duration[moving]) == pytest.approx(700.0 * SLOT, rel=0.01)
+    assert data.blur[moving] == pytest.approx(SLOT / sqrt(12.0), rel=0.01)  # 3.5 slots a sample: one slot each
+    assert data.slot == 0.0  # which flank it was is not known
+
+
+def test_a_logged_speed_is_a_mean_over_its_window() -> None:
+    logged = as_speed(turning(evenly, 1.0), window=4)
+    data = make_intervals(logged)
+    assert data.duration == pytest.approx(4 * PERIOD)
+    late = data.time[data.first] > 0.05
+    assert data.speed[late] == pytest.approx(700.0 * SLOT, rel=0.08)  # 14 counts a window, give or take one
+    assert data.blur == pytest.approx(SLOT / sqrt(12.0))
+    assert data.time[data.last][-1] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(("duration", "enough"), [(0.005, False), (0.015, True)])
+def test_less_than_three_intervals_are_refused(duration: float, enough: bool) -> None:
+    recording = turning(evenly, duration)
+    if enough:
+        assert len(make_intervals(recording).first) >= 3
+    else:
+        with pytest.raises(RecordingError, match="by hand shows only . intervals of motion"):
+            make_intervals(recording)

@@ -1,0 +1,71 @@
+"""Where a disc was, from counts without stamps: every sample of a fast one, every change of a slow one."""
+
+from dataclasses import replace
+from math import sqrt
+
+import numpy as np
+import pytest
+from handmade import PERIOD, turning
+
+from motor_identification.measurement.sampled_counts import (
+    STANDARD,
+    WINDOW,
+    estimate_stamp_jitter,
+    extract_count_changes,
+    locate_fixes,
+)
+from motor_identification.recording import Floats
+from motor_model.sample import Measurement
+
+
+def fixes_at(rate: float, duration: float = 1.0):  # type: ignore[no-untyped-def]
+    """Fixes of a disc that turns evenly, so many slots a sample."""
+
+    def slots(time: Floats) -> Floats:
+        return rate / PERIOD * time + 0.3
+
+    recording = turning(slots, duration, Measurement.COUNTS)
+    return recording, locate_fixes(recording, extract_count_changes(recording)), slots
+
+
+@pytest.mark.parametrize("rate", [0.13, 0.37, 0.81, 1.3, 3.7, 10.87])
+def test_every_fix_is_where_the_disc_was_within_its_blur(rate: float) -> None:
+    _, fixes, slots = fixes_at(rate)
+    inner = slice(1, -1)
+    error = (fixes.place - slots(fixes.time))[inner]
+    assert np.abs(error - error.mean()).max() < 2.0 * sqrt(3.0) * fixes.blur[inner].max()
+    assert abs(error.mean()) < 0.1  # and none of it is systematic
+    assert 0.3 < np.std(error) / np.median(fixes.blur[inner]) < 1.5
+
+
+@pytest.mark.parametrize(("rate", "blur"), [(0.2, 0.2), (0.5, 0.5), (0.95, 1.0), (1.05, 1.0), (4.0, 1.0)])
+def test_slow_changes_are_sharp_and_fast_samples_are_one_slot(rate: float, blur: float) -> None:
+    recording, fixes, _ = fixes_at(rate)
+    assert np.median(fixes.blur) == pytest.approx(blur * STANDARD, rel=0.06)
+    if rate > 1.0:
+        assert len(fixes) > 0.95 * len(recording)
+    else:
+        assert len(fixes) == pytest.approx(rate * len(recording), rel=0.1)
+
+
+@pytest.mark.parametrize("jitter", [0.0, 0.0005])
+def test_stamps_that_jitter_blur_every_fix_of_a_fast_motor(jitter: float) -> None:
+    recording, fixes, slots = fixes_at(8.87, 3.0)
+    assert estimate_stamp_jitter(fixes) == 0.0
+    late = recording.time + np.random.default_rng(0).normal(0.0, jitter, len(recording))
+    shaken = replace(recording, edge_count=np.floor(slots(late)).astype(np.int64))
+    found = locate_fixes(shaken, extract_count_changes(shaken))
+    expected = np.hypot(STANDARD, jitter * 8.87 / PERIOD)
+    assert np.median(found.blur) == pytest.approx(expected, rel=0.3)
+    assert estimate_stamp_jitter(found) == 0.0  # once it is in the blur, none is left
+
+
+def test_a_dozen_fixes_tell_no_jitter() -> None:
+    _, fixes, _ = fixes_at(9.0, (2 * WINDOW - 4) * PERIOD)
+    assert len(fixes) < 2 * WINDOW and estimate_stamp_jitter(fixes) == 0.0
+
+
+def test_a_disc_that_does_not_turn_has_no_fixes() -> None:
+    recording = turning(lambda time: 1e-6 * time, 0.5, Measurement.COUNTS)
+    assert len(extract_count_changes(recording)) == 0
+    assert len(locate_fixes(recording, extract_count_changes(recording))) == 0
