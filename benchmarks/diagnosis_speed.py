@@ -13,7 +13,7 @@ from hidden import OUTSIDE
 from hidden import recorded as plant_recorded
 from machine import machine
 
-from motor_identification.diagnose import diagnose
+from motor_identification.diagnose import Request, diagnose
 from motor_model.model_file import save
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 
@@ -58,8 +58,8 @@ def outsiders(motors: int) -> list[str]:
         alone, both = [], []
         for seed in range(motors):
             made = plant_recorded((name,), seed)
-            alone.append(diagnose([made.training], workers=2).duration)
-            both.append(diagnose([made.training], [made.validation], workers=2).duration)
+            alone.append(diagnose([made.training], request=Request(workers=2)).duration)
+            both.append(diagnose([made.training], [made.validation], Request(workers=2)).duration)
         word = "holds" if max(alone) <= PROMISED else "does not hold"
         lines.append(f"| {name} | {max(alone):.1f} s | {word} | {max(both):.1f} s |")
         print(lines[-1], flush=True)

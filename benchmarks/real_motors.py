@@ -21,7 +21,7 @@ import numpy as np
 from machine import machine
 from matplotlib.axes import Axes
 
-from motor_identification.diagnose import diagnose
+from motor_identification.diagnose import Request, diagnose
 from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.logs import CsvForm, Kind, read_log
 from motor_identification.recording import Floats, Recording, check, recording_of
@@ -140,7 +140,7 @@ def main() -> int:
     ]
     found = {}
     for name, case in CASES.items():
-        found[name] = diagnose(recordings(case, data), workers=2)
+        found[name] = diagnose(recordings(case, data), request=Request(workers=2))
         text = format_diagnosis(found[name])
         lines += [f"## {case.title}", "", "```", *text.splitlines(), "```", "", summarize_diagnosis(found[name]), ""]
         print("\n".join(lines[-8:]), flush=True)

@@ -20,8 +20,9 @@ from motor_identification.diagnosis.forward_selection import (
 from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.diagnosis.verdict import conclude
 from motor_identification.estimation.global_search import search_globally
-from motor_identification.estimation.multistart import SearchConfig, SearchReport
+from motor_identification.estimation.multistart import SearchReport
 from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.request import Request
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.progress import ProgressReporter, Stage, Stopped
@@ -30,18 +31,21 @@ from motor_identification.validation.hold_out import HoldOut, make_hold_out
 from motor_model.effects import normalised
 from motor_model.errors import RecordingError
 
-__all__ = ["Stage", "Stopped", "diagnose"]
+__all__ = ["Request", "Stage", "Stopped", "diagnose"]
+
+NOTHING_KNOWN = Request()
 
 
 def diagnose(
     recordings: Sequence[Recording],
     validation: Sequence[Recording] = (),
-    known: tuple[str, ...] = (),
-    workers: int = 1,
+    request: Request = NOTHING_KNOWN,
     progress: Callable[[Stage], None] | None = None,
     stopped: Callable[[], bool] | None = None,
 ) -> Diagnosis:
     """Diagnose checked recordings of one motor; without `validation` a quarter of them is kept out of every fit.
+
+    The effects of `request` are in the model already, when the diagnosis begins.
 
     Raises:
         ModelError: a known effect is not in the table, or no fit of these recordings can have it.
@@ -51,22 +55,21 @@ def diagnose(
     begun = perf_counter()
     if not recordings:
         raise RecordingError("there is no recording to diagnose: name at least one bag.")
-    check_effects(recordings, known)
+    check_effects(recordings, request.effects)
     reporter = ProgressReporter(progress or (lambda stage: None), stopped or (lambda: False))
     reporter.report("first fit", 0.0, "", float("nan"))
     hold_out = make_hold_out(recordings, validation, reporter.stopped)
-    start, search = _fit_known(recordings, normalised(known), hold_out, workers)
+    start, search = _fit_known(recordings, request, hold_out)
     selection = retry_with_another_first(select_forward(start, reporter), reporter)
     reporter.report("checking", 0.9, "", selection.model.held.gap)
     selection = eliminate_backward(drop_stand_ins(selection), reporter)
     return conclude(start.model, selection, recordings, validation, search, lambda: perf_counter() - begun)
 
 
-def _fit_known(
-    recordings: Sequence[Recording], known: tuple[str, ...], hold_out: HoldOut, workers: int
-) -> tuple[Selection, SearchReport]:
+def _fit_known(recordings: Sequence[Recording], request: Request, hold_out: HoldOut) -> tuple[Selection, SearchReport]:
     """Fit the model to begin with, searched globally."""
-    whole = make_problem(recordings, drop_periodic_effects(known), workers, hold_out.problem.stopped)
-    estimate, search = search_globally(hold_out.restrict(whole), SearchConfig())
+    known = normalised(request.effects)
+    whole = make_problem(recordings, drop_periodic_effects(known), request.workers, hold_out.problem.stopped)
+    estimate, search = search_globally(hold_out.restrict(whole), request.search)
     single = estimate.on(replace(estimate.problem, workers=1))  # effects are tried at a time instead
-    return begin_selection(add_periodic_effects(single, known), hold_out, workers), search
+    return begin_selection(add_periodic_effects(single, known), hold_out, request.workers), search

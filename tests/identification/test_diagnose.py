@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from plant import profiles, record
 
-from motor_identification.diagnose import Stage, Stopped, diagnose
+from motor_identification.diagnose import Request, Stage, Stopped, diagnose
 from motor_identification.diagnosis.candidate_model import validate_model
 from motor_identification.diagnosis.effect_test import likelihood_threshold
 from motor_identification.diagnosis.result import Diagnosis, Verdict
@@ -34,7 +34,9 @@ def made(hidden: dict[str, float], drive: profiles.Profile, seed: int) -> Record
 def diagnosed(hidden: dict[str, float], known: tuple[str, ...] = ()) -> Diagnosis:
     """Trained on `rich`, judged on other voltages from another start."""
     later = hidden | ({"step_time": 4.0} if "step_time" in hidden else {})
-    return diagnose([made(hidden, profiles.rich(), 1)], [made(later, profiles.random(12.0, 10.0, 5), 2)], known)
+    return diagnose(
+        [made(hidden, profiles.rich(), 1)], [made(later, profiles.random(12.0, 10.0, 5), 2)], Request(known)
+    )
 
 
 SINGLES = {
@@ -96,7 +98,7 @@ def test_two_that_hide_each_other_are_found_beside_a_third() -> None:
     hidden = {"ks": 0.3, "breakaway_voltage": 0.8, "stribeck_speed": 4.0, "drag": 5e-5, "delay": 0.006}
     names = {"coulomb_friction", "static_friction", "quadratic_drag", "transport_delay"}
     motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA} | hidden, tuple(sorted(names - {"coulomb_friction"})))
-    found = diagnose([simulated(motor, "rich", 0.005)], workers=2)
+    found = diagnose([simulated(motor, "rich", 0.005)], request=Request(workers=2))
     assert {one.effect for one in found.findings} == names and found.verdict is Verdict.EXPLAINED
     for name, value in hidden.items():
         assert found.model.parameters.value(name) == pytest.approx(value, rel=1e-3)
@@ -187,6 +189,6 @@ def test_progress_stop_and_refusals() -> None:
     with pytest.raises(Stopped, match="stopped"):
         diagnose([recording], stopped=lambda: True)
     with pytest.raises(ModelError, match="not an effect"):
-        diagnose([recording], known=("gremlins",))
+        diagnose([recording], request=Request(("gremlins",)))
     with pytest.raises(RecordingError, match="no recording"):
         diagnose([])

@@ -7,6 +7,7 @@ from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from motor_identification.estimation.request import Request, SearchConfig
 from motor_model.effects import EFFECTS
 from motor_model.errors import MotorError
 from motor_ros.command import CommandParser, ended_by_interrupt, listed_names, shell, whole_between
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from motor_identification.uncertainty.result import Fit
 
 REPORT_FILES = ("report.html", "fit.png", "fit.json", "model.yaml")
+LIMITS = SearchConfig()
 
 
 def parser() -> argparse.ArgumentParser:
@@ -33,10 +35,16 @@ def parser() -> argparse.ArgumentParser:
     parser.add_argument("--topic-namespace", default="", metavar="NS", help="of the recorded motor")
     parser.add_argument("--start", type=float, default=0.0, metavar="S", help="from here [s] (default: the beginning)")
     parser.add_argument("--stop", type=float, default=0.0, metavar="S", help="to here [s] (default: the end)")
-    add = parser.add_argument
-    add("--particles", type=whole_between(2, 100_000), default=50, metavar="N", help="of a swarm at most (default 50)")
-    add("--epochs", type=whole_between(1, 1_000_000), default=200, metavar="N", help="of a swarm at most (default 200)")
-    add("--seed", type=whole_between(0, 2**63 - 1), default=0, metavar="N", help="of the swarm (default 0)")
+    add, most = parser.add_argument, "of a swarm at most (default %(default)s)"
+    add("--particles", type=whole_between(2, 100_000), default=LIMITS.particles, metavar="N", help=most)
+    add("--epochs", type=whole_between(1, 1_000_000), default=LIMITS.epochs, metavar="N", help=most)
+    add(
+        "--seed",
+        type=whole_between(0, 2**63 - 1),
+        default=LIMITS.seed,
+        metavar="N",
+        help="of the swarm (default %(default)s)",
+    )
     parser.add_argument("--output", metavar="FILE", help="write the model here (YAML)")
     parser.add_argument("--json", metavar="FILE", help="write everything that was found here")
     parser.add_argument(
@@ -61,7 +69,6 @@ def main(args: list[str] | None = None) -> int:
 def _identify(options: argparse.Namespace) -> int:
     from tqdm import tqdm
 
-    from motor_identification.identify import Request, SearchConfig
     from motor_identification.service.job import Job, run_job
 
     effects = tuple(name.strip() for name in options.effects.split(",") if name.strip())

@@ -1,27 +1,18 @@
 """Search θ globally: multi-start search of an excerpt of joined intervals, then least squares on everything."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.excerpt import take_excerpt
 from motor_identification.estimation.least_squares import fit_speeds
-from motor_identification.estimation.multistart import SearchConfig, SearchReport, search
+from motor_identification.estimation.multistart import SearchReport, search
 from motor_identification.estimation.objective import make_objective
 from motor_identification.estimation.problem import Problem
+from motor_identification.estimation.request import SearchConfig
 
 COARSE_INTERVAL = (
     0.02  # [s] length of the intervals that a search compares: many slots at speed, a part of a time constant
 )
-
-
-@dataclass(frozen=True)
-class Request:
-    """What to fit, how hard to search, and on how many cores."""
-
-    effects: tuple[str, ...] = ()
-    search: SearchConfig = SearchConfig()
-    workers: int = 1
 
 
 def search_globally(

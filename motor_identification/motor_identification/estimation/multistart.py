@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from motor_identification.estimation.least_squares import Box, Tolerance, minimise_squares
 from motor_identification.estimation.multistart_stop import Descent, meets_stopping_rule, select_agreeing
 from motor_identification.estimation.objective import Objective
+from motor_identification.estimation.request import SearchConfig
 from motor_identification.estimation.swarm import SwarmConfig, SwarmResult, minimise
 from motor_model.errors import MotorError
 
@@ -27,28 +28,6 @@ APART = 0.1  # of the box: particles closer than this in every unknown are one s
 SWARM_STALL, SWARM_TOLERANCE = 25, 1e-3  # a swarm ends after so many epochs without a relative improvement by this
 DIFFERENCE = 1e-6  # of the box: step of forward differences
 TOLERANCE = Tolerance(cost=1e-6, unknowns=1e-9, gradient=1e-14, iterations=60)  # of a descent
-
-
-@dataclass(frozen=True)
-class SearchConfig:
-    """Upper limits of a search: `particles` and `epochs` of every swarm, and their product for all evaluations.
-
-    Raises:
-        MotorError: a number that no search can do with.
-    """
-
-    particles: int = 50
-    epochs: int = 200
-    seed: int = 0
-
-    def __post_init__(self) -> None:
-        if self.particles < 2 or self.epochs < 1 or self.seed < 0:
-            raise MotorError("particles must be at least 2, epochs at least 1, and the seed not negative.")
-
-    @property
-    def budget(self) -> int:
-        """Evaluations after which nothing more is begun."""
-        return self.particles * (self.epochs + 1)
 
 
 @dataclass(frozen=True)

@@ -98,7 +98,7 @@ def run_diagnosis(
             yield source.read(uri)
 
     recordings, validation = list(read(job.source)), list(read(kept_out))
-    return diagnose(recordings, validation, job.request.effects, job.request.workers, progress, stopped)
+    return diagnose(recordings, validation, job.request, progress, stopped)
 
 
 def run_reported(

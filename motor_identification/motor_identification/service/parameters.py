@@ -1,8 +1,10 @@
 """The identification node's parameters as a table, and what it says of itself."""
 
+from motor_identification.estimation.request import SearchConfig
 from motor_ros.parameters import Row
 from motor_ros.program import Program
 
+LIMITS = SearchConfig()
 PARAMETERS = (
     Row("bag_directory", "", "where relative bag_uris are looked for; empty: the working directory"),
     Row("model_file", "", "file for the model that was identified or diagnosed last (YAML); empty: none"),
@@ -11,9 +13,9 @@ PARAMETERS = (
         "",
         "where motor/diagnose writes (and replaces) BAG_diagnosis.html; empty: beside its first bag",
     ),
-    Row("particles", 50, "of the swarm", "", 2, 100_000),
-    Row("epochs", 200, "of the swarm at most", "", 1, 1_000_000),
-    Row("seed", 0, "of the swarm", "", 0, 2**31 - 1),
+    Row("particles", LIMITS.particles, "of the swarm", "", 2, 100_000),
+    Row("epochs", LIMITS.epochs, "of the swarm at most", "", 1, 1_000_000),
+    Row("seed", LIMITS.seed, "of the swarm", "", 0, 2**31 - 1),
     Row("workers", 0, "threads that simulate; 0: all cores", "", 0, 1024),
 )
 PROGRAM = Program(

@@ -150,7 +150,7 @@ import threading
 import motor_identification.diagnose as module
 from motor_identification.cli.diagnose import main
 
-def diagnose(recordings, validation, known, workers, progress, stopped):
+def diagnose(recordings, validation, request, progress, stopped):
     tick = threading.Event()
 
     def for_ever() -> None:

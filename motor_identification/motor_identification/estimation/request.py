@@ -1,0 +1,36 @@
+"""A request: which effects to fit, how hard to search, on how many cores; the only home of a search's defaults."""
+
+from dataclasses import dataclass
+
+from motor_model.errors import MotorError
+
+
+@dataclass(frozen=True)
+class SearchConfig:
+    """Upper limits of a search: `particles` and `epochs` of every swarm, and their product for all evaluations.
+
+    Raises:
+        MotorError: a number that no search can do with.
+    """
+
+    particles: int = 50
+    epochs: int = 200
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        if self.particles < 2 or self.epochs < 1 or self.seed < 0:
+            raise MotorError("particles must be at least 2, epochs at least 1, and the seed not negative.")
+
+    @property
+    def budget(self) -> int:
+        """Evaluations after which nothing more is begun."""
+        return self.particles * (self.epochs + 1)
+
+
+@dataclass(frozen=True)
+class Request:
+    """What to fit beyond kv and ka (of a diagnosis: what is known), how hard to search, and on how many cores."""
+
+    effects: tuple[str, ...] = ()
+    search: SearchConfig = SearchConfig()
+    workers: int = 1
