@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from small import THETA, TRUE, small_problem
 
-from motor_identification.estimation.global_search import Request, search_globally
+from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.least_squares import fit_speeds
-from motor_identification.estimation.multistart import SearchConfig
+from motor_identification.estimation.request import Request, SearchConfig
 
 
 def test_it_ends_where_least_squares_from_the_truth_does() -> None:
