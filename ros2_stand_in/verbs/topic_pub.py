@@ -15,6 +15,7 @@ from ros2_stand_in.graph import discovery, qos
 from ros2_stand_in.graph.session import Session, session
 from ros2_stand_in.interfaces import interface_type, values
 
+_LONGEST_MATCH = 1.0  # [s] between known and matched; one whose QoS does not fit never is
 _LONGEST_DELIVERY = discovery.ANNOUNCEMENT_PERIOD + 1.0  # [s] a subscriber that started just now may not know us yet
 
 
@@ -47,6 +48,8 @@ def publish(args: argparse.Namespace) -> int:
         publisher = ros.node.create_publisher(type(message), name, _profile(args, times))
         wanted = args.wait if args.wait is not None else min(times, 1)
         _wait_for_subscriptions(ros, publisher, wanted, args.max_wait_time_secs or float("inf"))
+        if times and args.wait is None:
+            _wait_for_all_known(ros, publisher, name)
         print("publisher: beginning loop")
         _loop(ros, publisher, message, stamps, times, args)
         ros.pause(args.keep_alive)
@@ -88,6 +91,12 @@ def _wait_for_subscriptions(ros: Session, publisher: Publisher, wanted: int, lon
             have = publisher.get_subscription_count()
             raise MotorError(f"Nobody to publish to after {longest:g} s: {have} of {wanted} matching subscriptions.")
         ros.spin(lambda: publisher.get_subscription_count() >= wanted, left, look_every=0.02)
+
+
+def _wait_for_all_known(ros: Session, publisher: Publisher, name: str) -> None:
+    """With one message, whoever listens already shall get it, and not only who was found first."""
+    discovery.settle(ros)
+    ros.spin(lambda: publisher.get_subscription_count() >= ros.node.count_subscribers(name), _LONGEST_MATCH, 0.02)
 
 
 def _wait_for_delivery(ros: Session, publisher: Publisher) -> bool:

@@ -100,18 +100,21 @@ def test_a_reference_that_is_published_once_by_a_program_that_ends_is_recorded(
 ) -> None:
     speed = bench.publisher(MotorSpeed, "motor/speed", DEEP)
     record = start("motor_identification", "record", tmp_path / "bag")
+    controller = bench.hear(Float64, "motor/reference", qos.REFERENCE)  # record joins who listens
     bench.heard(speed)
+    bench.wait(lambda: bench.node.count_subscribers("motor/reference") == 2, "the recorder on motor/reference")
     say(speed, range(5))
     for k in range(5):
         reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)
-        bench.heard(reference)  # no sooner, and no later
+        bench.wait(lambda of=reference: of.get_subscription_count() == 2, "both")  # no sooner, and no later
         reference.publish(Float64(data=float(k)))
         assert reference.wait_for_all_acked(Duration(seconds=PATIENCE))
+        bench.wait(lambda k=k: len(controller) > k, "the reference")
         bench.node.destroy_publisher(reference)
     written(bench, tmp_path / "bag", 10)
     end(record)
     data = [deserialize_message(row[3], Float64).data for row in messages(tmp_path / "bag", {"/motor/reference"})]
-    assert data == [0.0, 1.0, 2.0, 3.0, 4.0]
+    assert data == [message.data for message in controller] == [0.0, 1.0, 2.0, 3.0, 4.0]
     assert {topic.name for topic in topics(tmp_path / "bag")} == {"/motor/speed", "/motor/reference"}
 
 

@@ -108,6 +108,15 @@ def test_pub_once_arrives(bench):
     assert lines == ["publisher: beginning loop", "publishing #1: std_msgs.msg.Float64(data=100.0)", ""]
 
 
+def test_pub_once_arrives_at_everyone_who_listens_already(ordinary_ros2):
+    listeners = [ordinary_ros2.start("topic", "echo", "/told", "std_msgs/msg/Float64") for _ in range(3)]
+    while "/told [std_msgs/msg/Float64] 3 subscribers" not in ordinary_ros2("topic", "list", "-v").out:
+        pass  # they are starting
+    ordinary_ros2("topic", "pub", "--once", "/told", "std_msgs/msg/Float64", "{data: 7.5}")
+    for listener in listeners:
+        assert listener.wait_for("data: ") == "data: 7.5"
+
+
 def test_pub_times_at_a_rate_with_automatic_stamps(bench):
     ros2, node = bench
     words = ("/voltage", "motor_msgs/msg/MotorVoltage", "{header: auto, voltage: -1.5}")

@@ -38,7 +38,8 @@ class Recorder:
 
     Topics need not exist yet. `topics` are absolute names; None is every topic that is not hidden. `expected` has the
     type and QoS of topics whose first message must not be missed, such as one that is published once by a program that
-    ends: they are listened to before anybody publishes. `counts` has the messages by topic, `notes` sentences about
+    ends: they are listened to before anybody publishes, as soon as somebody else does (a publisher that waits for one
+    listener must not take the recorder for the controller). `counts` has the messages by topic, `notes` sentences about
     topics that cannot be recorded. When the bag can no longer be written, `refusal` says why and nothing more is
     recorded: whoever runs the node decides what to stop first.
     """
@@ -62,9 +63,8 @@ class Recorder:
         self._asked: dict[str, QoSProfile] = {}
         self._unusable: set[str] = set()
         rows = ((DRAIN_EVERY, self.drain), (LOOK_EVERY, self.look), (FLUSH_EVERY, self._flush))
+        self._expected = dict(expected)
         self._timers = [node.create_timer(period, callback) for period, callback in rows]
-        for topic, (type_name, profile) in expected.items():
-            self._subscribe(topic, type_name, to_hear([profile]))
         self.look()
 
     @property
@@ -79,6 +79,9 @@ class Recorder:
 
     def look(self) -> None:
         """Subscribe to topics that have appeared, and again to those whose new publishers offer less."""
+        for topic, (type_name, profile) in self._expected.items():
+            if topic not in self._subscriptions and self._node.count_subscribers(topic):
+                self._subscribe(topic, type_name, to_hear([profile]))
         for topic, types in self._node.get_topic_names_and_types():
             if self._is_wanted(topic) and topic not in self._unusable:
                 publishers = self._node.get_publishers_info_by_topic(topic)
