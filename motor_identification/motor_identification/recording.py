@@ -65,7 +65,7 @@ class Recording:
             raise RecordingError(f"--start {start:g} s must be before --stop {stop:g} s.")
         inside = (self.time >= start) & (self.time <= end)
         if start >= self.duration:
-            raise RecordingError(f"{self.uri} is {self.duration:.3g} s long: --start {start:g} s is behind its end.")
+            raise RecordingError(f"{self.uri} is {self.duration:.3g} s long: --start {start:g} s is after its end.")
         if np.count_nonzero(inside) < 2:
             end = min(end, self.duration)
             raise RecordingError(f"{self.uri} has fewer than two samples from {start:g} to {end:.4g} s: take more.")

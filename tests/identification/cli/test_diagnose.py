@@ -70,7 +70,7 @@ def test_what_is_known_is_not_found_again_and_only_the_part_asked_for_is_read(
     assert content["gap_before"] == content["gap_after"]
     capsys.readouterr()
     assert diagnose([str(bags / "staircase"), "--start", "50", "--stop", "60"]) == 1
-    assert "s long: --start 50 s is behind its end." in capsys.readouterr().err
+    assert "s long: --start 50 s is after its end." in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -120,7 +120,7 @@ def test_a_recording_that_cannot_answer_is_one_sentence(
         (["{bag}", "--topic-namespace", "left"], "/left/motor/speed"),
         (["{bag}", "{bag}/../bag"], "is given twice: name every bag once."),
         (["{bag}", "--start", "3", "--stop", "2"], "must be before"),
-        (["{bag}", "--start", "40"], "{bag} is 5.85 s long: --start 40 s is behind its end."),
+        (["{bag}", "--start", "40"], "{bag} is 5.85 s long: --start 40 s is after its end."),
         (["{bag}", "--start", "-1"], "are seconds after the first sample"),
         (["{bag}", "--stop", "nan"], "are seconds after the first sample"),
         (["{bag}", "--start", "2", "--stop", "2.001"], "has fewer than two samples from 2 to 2.001 s"),
