@@ -1,0 +1,57 @@
+"""What the driver asks of a board, and which board it refuses."""
+
+from dataclasses import replace
+
+import pytest
+from board_frames import HELLO
+
+from motor_driver.config import SILENCE, Config
+from motor_driver.frames import Configure, Decay
+
+
+@pytest.mark.parametrize(
+    ("rate", "period"), [(200.0, 10_000), (1000.0, 2_000), (10.0, 200_000), (5000.0, 2_000)]
+)  # the last: no quicker than the board can
+def test_the_sample_period_is_in_ticks_of_the_board(rate: float, period: int) -> None:
+    assert Config(sample_rate=rate).configure(HELLO).sample_period == period
+    assert Config(sample_rate=200.0).configure(replace(HELLO, tick_ns=1000)).sample_period == 5_000
+
+
+@pytest.mark.parametrize(("timeout", "milliseconds"), [(0.1, 120), (0.06, 72), (0.01, 50), (5.0, 120)])
+def test_the_board_waits_a_little_longer_than_the_driver_and_never_long(timeout: float, milliseconds: int) -> None:
+    asked = Config(command_timeout=timeout, decay=Decay.COAST).configure(HELLO)
+    assert asked == Configure(10_000, milliseconds, Decay.COAST)
+
+
+def test_silence_is_a_stop_before_150_ms_but_for_slow_samples() -> None:
+    assert Config().silence == SILENCE < 0.15
+    assert Config(sample_rate=10.0).silence == pytest.approx(0.15)
+
+
+def test_a_board_for_another_encoder_is_refused() -> None:
+    assert Config().refusal(HELLO) == "" and Config().refusal(replace(HELLO, edges_per_revolution=0)) == ""
+    said = Config().refusal(replace(HELLO, edges_per_revolution=12))
+    assert "an encoder with 12 edges per revolution, and the parameter edges_per_revolution is 96" in said
+    said = Config(single_channel=False).refusal(HELLO)
+    assert "reads 1 encoder channel(s), and single_channel is false" in said
+    assert Config(single_channel=False).refusal(replace(HELLO, channels=2)) == ""
+
+
+def test_another_board_than_the_one_named_is_refused() -> None:
+    assert Config(board_id=3).refusal(replace(HELLO, board_id=3)) == ""
+    assert "board number 4, and the parameter board_id is 3" in Config(board_id=3).refusal(replace(HELLO, board_id=4))
+    assert "board without a number, and the parameter board_id is 3" in Config(board_id=3).refusal(HELLO)
+    assert Config().refusal(replace(HELLO, board_id=4)) == ""
+
+
+def test_info_is_what_the_board_does_and_before_it_speaks_what_was_asked() -> None:
+    info = Config(max_voltage=9.0).info(replace(HELLO, sample_period=2_000, decay=Decay.COAST))
+    assert (info.sample_period, info.edge_resolution, info.decay) == (pytest.approx(0.001), 5e-7, "coast")
+    assert (info.source, info.max_voltage, info.edges_per_revolution) == ("hardware", 9.0, 96)
+    early = Config(sample_rate=500.0).info(None)
+    assert (early.sample_period, early.edge_resolution, early.decay) == (0.002, 5e-7, "brake")
+
+
+@pytest.mark.parametrize(("motor", "supply", "most"), [(12.0, 0.0, 12.0), (12.0, 24.0, 12.0), (12.0, 9.0, 9.0)])
+def test_no_more_than_the_motors_voltage_nor_than_the_supply(motor: float, supply: float, most: float) -> None:
+    assert Config(max_voltage=motor, supply_voltage=supply).info(HELLO).max_voltage == most

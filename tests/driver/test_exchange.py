@@ -1,0 +1,68 @@
+"""Pings and pongs: what they say of the board's clock, whatever the line and the host take."""
+
+import pytest
+
+from motor_driver.clock.board_clock import BoardClock
+from motor_driver.exchange import MEMORY, PING_EVERY, Exchange
+from motor_driver.frames import BAUD, Ping, Pong
+
+BYTE = 20_000  # [ns] at 500,000 baud, start and stop bit included
+TICK = 500  # [ns]
+
+
+def clock() -> BoardClock:
+    made = BoardClock(TICK)
+    made.hear(1_000_000, 0)
+    return made
+
+
+def test_it_asks_every_20_ms_with_a_new_token() -> None:
+    exchange = Exchange(BAUD)
+    asked = [exchange.asks(now) for now in (0, PING_EVERY - 1, PING_EVERY, 2 * PING_EVERY)]
+    assert asked == [Ping(1), None, Ping(2), Ping(3)]
+
+
+def test_the_round_trip_leaves_out_what_the_board_took() -> None:
+    exchange, board = Exchange(BAUD), clock()
+    ping = exchange.asks(10_000_000)
+    assert ping is not None
+    exchange.hear_pong(Pong(ping.token, 1_000_100, 1_000_300, 3, 4), board, 12_000_000)
+    assert exchange.round_trip == 2_000_000 - 200 * TICK
+    assert (exchange.board.bad_frames, exchange.board.dropped_samples) == (3, 4)
+
+
+def test_an_answer_to_nobodys_question_says_nothing_of_the_clock() -> None:
+    exchange = Exchange(BAUD)
+    exchange.hear_pong(Pong(99, 1_000_100, 1_000_300, 1, 0), clock(), 12_000_000)
+    assert exchange.round_trip is None and exchange.board.bad_frames == 1
+    for k in range(MEMORY + 1):
+        exchange.asks(k * PING_EVERY)
+    exchange.hear_pong(Pong(1, 1_000_100, 1_000_300, 1, 0), clock(), 12_000_000)  # forgotten
+    assert exchange.round_trip is None
+
+
+def test_a_sample_without_a_fit_is_as_old_as_its_bytes() -> None:
+    exchange = Exchange(BAUD)
+    instant = exchange.hear_telemetry(1_500_000_000, 40_000_000)
+    telemetry = 8 + 26 + 1  # bytes from the start of the first to the start of the last
+    assert instant == 40_000_000 - telemetry * BYTE
+
+
+def test_equal_delays_both_ways_cancel() -> None:
+    """The host's clock is 7 s behind the board's; every frame waits 1 ms in each direction beside the line."""
+    exchange, board = Exchange(BAUD), BoardClock(TICK)
+    offset, wait = -7_000_000_000, 1_000_000
+    stamp, line = 0, 13 * BYTE  # a ping's bytes: 8 + 4, and COBS
+    for k in range(1, 200):
+        now = 10_000_000_000 + k * PING_EVERY
+        ping = exchange.asks(now)
+        assert ping is not None
+        received = now + line + wait - offset  # on the board
+        sent = received + 100_000
+        ticks = [(at - 1_000_000_000) // TICK for at in (received, sent)]
+        board.hear(ticks[1] % (1 << 32), now)
+        heard = sent + offset + (8 + 16 + 1) * BYTE + wait
+        exchange.hear_pong(Pong(ping.token, *(tick % (1 << 32) for tick in ticks), 0, 0), board, heard)
+        stamp = board.newest
+    assert exchange.fit.fit is not None
+    assert exchange.fit.fit.host(stamp) - (stamp + offset) == pytest.approx(0, abs=20_000)

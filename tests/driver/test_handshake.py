@@ -1,0 +1,74 @@
+"""From an opened port to a board that samples as configured."""
+
+from dataclasses import replace
+
+import pytest
+from board_frames import HELLO, TELEMETRY
+
+from motor_driver.config import Config
+from motor_driver.frames import Configure, Hello, Identify, OtherVersion, ResetCause
+from motor_driver.handshake import ASK_EVERY, PATIENCE, Handshake, Phase, reset_cause
+
+ANSWER = replace(HELLO, command_timeout=120, latch=HELLO.latch + 1)  # as asked, and switched off by that
+
+
+def handshake() -> Handshake:
+    return Handshake(Config(), "the port", 0)
+
+
+def running() -> Handshake:
+    shaken = handshake()
+    assert not shaken.hear(HELLO) and shaken.hear(ANSWER)
+    return shaken
+
+
+def test_it_asks_who_is_there_then_configures_then_is_silent() -> None:
+    shaken = handshake()
+    assert shaken.asks(0) == Identify() and shaken.asks(1) is None and shaken.asks(ASK_EVERY) == Identify()
+    assert not shaken.hear(HELLO) and shaken.phase is Phase.CONFIGURE
+    assert shaken.asks(ASK_EVERY) == Configure(10_000, 120, 0)
+    assert shaken.hear(ANSWER) and shaken.phase is Phase.RUN and shaken.asks(10 * ASK_EVERY) is None
+
+
+@pytest.mark.parametrize(
+    "answer", [replace(ANSWER, latch=HELLO.latch), replace(ANSWER, sample_period=2_000), replace(ANSWER, decay=1)]
+)
+def test_an_old_answer_or_another_configuration_is_not_the_end(answer: Hello) -> None:
+    shaken = handshake()
+    shaken.hear(HELLO)
+    assert not shaken.hear(answer) and shaken.phase is Phase.CONFIGURE
+    assert shaken.hear(ANSWER)
+
+
+def test_a_board_that_is_refused_is_asked_again_and_said_why() -> None:
+    shaken = handshake()
+    shaken.hear(replace(HELLO, edges_per_revolution=12))
+    assert shaken.phase is Phase.IDENTIFY and "an encoder with 12 edges" in shaken.problem(0)
+    shaken.hear(HELLO)  # flashed right meanwhile
+    assert shaken.phase is Phase.CONFIGURE and shaken.problem(0) == ""
+
+
+def test_another_protocol_is_a_sentence() -> None:
+    shaken = handshake()
+    shaken.refuse(OtherVersion(9))
+    assert "speaks protocol version 9" in shaken.problem(0)
+
+
+def test_a_port_on_which_nothing_answers_is_told_after_a_while() -> None:
+    shaken = handshake()
+    assert shaken.problem(PATIENCE - 1) == "" and "the port" in shaken.problem(PATIENCE)
+    assert running().problem(PATIENCE) == ""
+
+
+def test_a_reset_is_seen_in_the_boots_number_and_begins_anew() -> None:
+    shaken = running()
+    assert not shaken.reset_in(TELEMETRY) and shaken.reset_in(replace(TELEMETRY, boot=8))
+    shaken.begin_again()
+    assert shaken.phase is Phase.IDENTIFY and not shaken.reset_in(replace(TELEMETRY, boot=8))
+
+
+def test_causes_of_a_reset_are_named() -> None:
+    assert reset_cause(HELLO) == "power on"
+    both = replace(HELLO, reset_cause=ResetCause.BROWN_OUT | ResetCause.WATCHDOG)
+    assert reset_cause(both) == "brown out, watchdog"
+    assert reset_cause(replace(HELLO, reset_cause=0)) == "unknown cause"

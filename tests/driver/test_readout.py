@@ -1,0 +1,66 @@
+"""Telemetry as samples: counts through wraps, voltages of the supply, speeds with their sign."""
+
+from dataclasses import replace
+from math import isnan, tau
+
+import pytest
+from board_frames import HELLO, TELEMETRY
+
+from motor_driver.config import Config
+from motor_driver.frames import Flag, Telemetry
+from motor_driver.readout import Readout
+from motor_model.sample import Sample
+
+
+def readout(config: Config | None = None) -> Readout:
+    return Readout(config or Config(), HELLO)
+
+
+def heard(into: Readout, frame: Telemetry) -> Sample:
+    into.clock.hear(frame.time, frame.time * 500)
+    return into.sample(frame)
+
+
+def test_duty_and_voltage_are_the_same_thing_twice() -> None:
+    board = readout()
+    assert heard(board, replace(TELEMETRY, duty=128)).voltage == 6.0
+    assert (board.duty(6.0), board.duty(-12.0), board.duty(100.0), board.duty(0.0)) == (128, -256, 256, 0)
+
+
+def test_a_motor_of_12_volt_on_24_volt_gets_half_the_duty() -> None:
+    board = readout(Config(max_voltage=12.0, supply_voltage=24.0))
+    assert (board.duty(12.0), board.duty(24.0), board.duty(-6.0)) == (128, 128, -64)
+    assert heard(board, replace(TELEMETRY, duty=128)).voltage == 12.0
+
+
+def test_a_measured_supply_prevails() -> None:
+    board = readout(Config(max_voltage=12.0))
+    sample = heard(board, replace(TELEMETRY, duty=128, supply=10_000))
+    assert (sample.supply_voltage, sample.voltage) == (10.0, pytest.approx(5.0))
+    assert isnan(heard(readout(), TELEMETRY).supply_voltage)
+    off = heard(readout(), replace(TELEMETRY, duty=128, supply=200))  # switched off: full duty is what was said
+    assert off.voltage == 6.0 and off.supply_voltage == 0.2
+
+
+def test_counts_go_on_through_a_wrap_and_down() -> None:
+    board = readout()
+    counts = [(1 << 32) - 2, 3, (1 << 32) - 1]
+    read = [heard(board, replace(TELEMETRY, time=10_000 * k, edge_count=n)) for k, n in enumerate(counts, 1)]
+    assert [sample.edge_count for sample in read] == [-2, 3, -1]
+
+
+def test_one_channel_shows_no_direction_and_two_do() -> None:
+    frame = replace(TELEMETRY, time=30_000, edge_time=29_900, edge_period=2_000, flags=Flag.EDGE_VALID | Flag.REVERSE)
+    two = heard(readout(Config(single_channel=False)), frame)
+    assert two.speed == pytest.approx(-tau / 96 / 0.001)
+    assert heard(readout(), replace(frame, duty=128)).speed == pytest.approx(tau / 96 / 0.001)
+    assert (two.edge_period, two.edge_time) == (pytest.approx(0.001), 1_000_000_000 + 29_900 * 500)
+
+
+def test_a_board_that_starts_anew_counts_from_0() -> None:
+    board = readout()
+    before = heard(board, replace(TELEMETRY, time=50_000, edge_count=100))
+    board.restart(replace(TELEMETRY, time=2_000), HELLO, 60_000 * 500)
+    after = board.sample(replace(TELEMETRY, time=2_000, edge_count=5))
+    assert (before.edge_count, after.edge_count) == (100, 5)
+    assert after.sample_time - before.sample_time == 10_000 * 500  # the host's clock bridges the reset

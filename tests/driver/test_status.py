@@ -1,0 +1,72 @@
+"""The driver's state as a diagnostic: the most important sentence, and the link's numbers."""
+
+from collections.abc import Callable
+
+import pytest
+from driver_rig import Rig
+
+from motor_board.build import FirmwareConfig
+from motor_driver import status
+from motor_driver.config import Config
+
+MakeRig = Callable[..., Rig]
+
+
+def test_a_running_board_is_fine_and_its_numbers_are_told(running: Rig) -> None:
+    was = status.tally(running.driver, running.now)
+    running.run(500)
+    assert status.problem(running.driver, was, running.now) == ""
+    assert status.achieved(running.driver, was, running.now) == pytest.approx(200.0, rel=0.02)
+    values = status.values(running.driver, was, running.now)
+    assert (values["port"], values["output"], values["ports opened"], values["board resets"]) == (
+        "the port",
+        "on",
+        "1",
+        "0",
+    )
+    assert values["requested rate [Hz]"] == "200.0" and abs(float(values["achieved rate [Hz]"]) - 200.0) < 4.0
+    assert abs(float(values["clock drift [ppm]"])) < 1000.0 and 0.0 < float(values["round trip [ms]"]) < 20.0
+    connected = status.connection(running.driver)
+    assert connected.startswith("Connected to the port: firmware ") and "96 edges per revolution, 12 V." in connected
+
+
+def test_without_a_port_its_trouble_is_told(make_rig: MakeRig) -> None:
+    rig = make_rig()
+    assert status.connection(rig.driver) == ""
+    rig.plug()
+    rig.unplug()
+    assert status.problem(rig.driver, status.tally(rig.driver, rig.now), rig.now) == rig.driver.trouble != ""
+    assert status.values(rig.driver, status.tally(rig.driver, rig.now), rig.now)["port"] == "none"
+
+
+def test_too_few_samples_are_told_where_the_board_ran_all_the_time(running: Rig) -> None:
+    was = status.tally(running.driver, running.now)
+    running.run(500)
+    enough = running.now + 20_000_000  # 100 samples in 520 ms: 4 % too few
+    assert status.problem(running.driver, was, enough) == ""
+    late = running.now + 50_000_000  # in 550 ms: 9 %
+    assert status.problem(running.driver, was, late).startswith("Only 18")
+    reopened = status.Tally(was.at, was.readings, was.link, True, was.openings - 1)
+    assert status.problem(running.driver, reopened, late) == ""
+
+
+def test_damaged_frames_are_counted(running: Rig) -> None:
+    was = status.tally(running.driver, running.now)
+    running.driver.received(b"\x05abcd\x00\x05abcd\x00", running.now)
+    running.run(500)
+    assert status.problem(running.driver, was, running.now).startswith("2 damaged and 0 lost frames")
+
+
+@pytest.mark.parametrize(("told", "complains"), [(0.0, False), (13.0, False), (14.0, True)])
+def test_a_supply_that_is_not_the_one_named(make_rig: MakeRig, told: float, complains: bool) -> None:
+    """The board measures 12 V: 13 V are within a tenth of that, 14 V are not."""
+    board = FirmwareConfig(edges_per_revolution=96, channels=2, supply_full_scale=20_000)
+    rig = make_rig(config=Config(supply_voltage=told, single_channel=False), firmware=board)
+    rig.emulator.chip.supply(3.0)  # of 5 V, for 20 V
+    rig.plug()
+    rig.until(lambda: len(rig.readings) > 100, 1500)
+    was = status.tally(rig.driver, rig.now)
+    rig.run(200)
+    said = status.problem(rig.driver, was, rig.now)
+    assert ("The board measures a supply of 12.0 V, and supply_voltage is 14 V" in said) == complains
+    assert complains or said == ""

@@ -1,0 +1,52 @@
+"""The output's switch: on only by the user's wish and the board's word, off when in doubt."""
+
+from board_frames import TELEMETRY, enabled
+
+from motor_driver.frames import Enable
+from motor_driver.switch import ASK_EVERY, Output, Switch
+
+
+def turned_on() -> Switch:
+    switch = Switch()
+    assert switch.asks(True, TELEMETRY, 0) == Enable(1, TELEMETRY.boot, TELEMETRY.latch)
+    assert not switch.hear(enabled())
+    return switch
+
+
+def test_it_is_off_until_the_board_says_on() -> None:
+    switch = Switch()
+    assert switch.output is Output.OFF and not switch.listening and switch.asks(False, TELEMETRY, 0) is None
+    switch.asks(True, TELEMETRY, 0)
+    assert switch.output is Output.TURNING_ON and switch.listening
+    assert not switch.hear(enabled(False)) and switch.output is Output.TURNING_ON  # said before it heard
+    switch.hear(enabled())
+    assert switch.output is Output.ON and switch.asks(True, TELEMETRY, 1) is None
+
+
+def test_it_asks_again_until_it_is_answered() -> None:
+    switch = Switch()
+    asked = [switch.asks(True, TELEMETRY, now) is not None for now in (0, ASK_EVERY - 1, ASK_EVERY, 2 * ASK_EVERY)]
+    assert asked == [True, False, True, True]
+
+
+def test_before_any_telemetry_only_off_can_be_asked_for() -> None:
+    assert Switch().asks(True, None, 0) == Enable(0)
+
+
+def test_the_users_off_is_asked_for_at_once() -> None:
+    switch = turned_on()
+    assert switch.asks(False, TELEMETRY, 1) == Enable(0) and not switch.listening
+    assert not switch.hear(enabled()) and switch.output is Output.TURNING_OFF
+    assert not switch.hear(enabled(False)) and switch.output is Output.OFF
+
+
+def test_a_board_that_switches_off_by_itself_is_noticed_once() -> None:
+    switch = turned_on()
+    assert switch.hear(enabled(False)) and switch.output is Output.OFF
+    assert not switch.hear(enabled(False))
+
+
+def test_an_output_that_is_on_unasked_is_switched_off() -> None:
+    switch = Switch()
+    assert not switch.hear(enabled()) and switch.output is Output.TURNING_OFF
+    assert switch.asks(False, TELEMETRY, 0) == Enable(0)
