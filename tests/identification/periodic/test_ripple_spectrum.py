@@ -1,0 +1,59 @@
+"""A line in the residual's spectrum over the angle: its cycles, amplitude and phase; nothing where there is none."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from plant import profiles, record
+from small import TRUE
+
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.problem import make_problem
+from motor_identification.periodic.periodic_fit import Tracks, measure_angles
+from motor_identification.periodic.ripple_spectrum import find_ripples, fit_ripple
+from motor_identification.recording import check
+
+RIPPLE = {"ripple_voltage": 0.3, "ripple_cycles": 5.3, "ripple_phase": 0.8}
+
+
+@cache
+def lacking(**ripple: float) -> tuple[Estimate, Tracks]:
+    """A fit with friction, to a motor that may have a ripple too."""
+    drive = profiles.staircase(10.0, 3, 0.25)
+    recording = check(record(TRUE | ripple, *drive, seed=1, irregularity=0.003, disc_seed=1)[0])
+    problem = make_problem([recording], ("coulomb_friction",))
+    estimate = fit_speeds(Estimate(problem, np.array([np.log(TRUE["kv"]), np.log(TRUE["ka"]), TRUE["ks"]])))
+    return estimate, measure_angles(estimate, problem.unknowns.effects)
+
+
+def test_the_strongest_line_is_the_ripple() -> None:
+    lines = find_ripples(*lacking(**RIPPLE))
+    assert lines[0].cycles == pytest.approx(5.3, abs=0.02)
+    assert lines[0].amplitude == pytest.approx(0.3, rel=0.1)
+    assert abs(np.angle(np.exp(1j * (lines[0].phases[0] - 0.8)))) < 0.3
+    assert [line.explained for line in lines] == sorted((line.explained for line in lines), reverse=True)
+
+
+@pytest.mark.parametrize(("times", "found"), [(0.9, True), (1.5, False)])
+def test_less_than_the_least_is_no_line(times: float, found: bool) -> None:
+    estimate, tracks = lacking(**RIPPLE)
+    explained = find_ripples(estimate, tracks)[0].explained
+    assert bool(find_ripples(estimate, tracks, times * explained)) is found
+
+
+def test_where_there_is_none_chance_makes_none() -> None:
+    estimate, tracks = lacking()
+    assert find_ripples(estimate, tracks, 4.0) == []
+
+
+@pytest.mark.parametrize(("off", "share"), [(0.0, 0.9), (0.5, 0.0)])
+def test_a_line_of_given_cycles(off: float, share: float) -> None:
+    estimate, tracks = lacking(**RIPPLE)
+    best = find_ripples(estimate, tracks)[0]
+    one = fit_ripple(estimate, tracks, best.cycles + off)
+    assert one.cycles == best.cycles + off
+    assert (
+        one.explained == pytest.approx(best.explained, rel=1e-9) if off == 0.0 else one.explained < 0.5 * best.explained
+    )
+    assert one.amplitude > share * best.amplitude

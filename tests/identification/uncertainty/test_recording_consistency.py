@@ -1,0 +1,62 @@
+"""Recordings of one motor agree; one of a warmer motor does not, and is named."""
+
+import numpy as np
+import pytest
+from plant import profiles, record
+from small import THETA, TRUE
+
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.whitened_fit import make_whitened
+from motor_identification.recording import check
+from motor_identification.uncertainty.recording_consistency import (
+    INCONSISTENT_RATIO,
+    INCONSISTENT_SCORE,
+    Dissent,
+    compare_recordings,
+    describe_dissent,
+)
+
+DRIVE = profiles.pieces([9.0, 4.0, -9.0], 0.25)
+
+
+def compared(*gains: float) -> tuple[Dissent, ...]:
+    """Of motors whose kv is so many times the first one's."""
+    recordings = [
+        check(record(TRUE | {"kv": gain * TRUE["kv"]}, *DRIVE, seed=seed, irregularity=0.003, name=f"{seed}")[0])
+        for seed, gain in enumerate(gains)
+    ]
+    estimate = fit_speeds(Estimate(make_problem(recordings, ("coulomb_friction",)), THETA))
+    return compare_recordings(make_whitened(estimate))
+
+
+def test_one_motor_agrees_with_itself() -> None:
+    found = compared(1.0, 1.0, 1.0)
+    assert [one.uri for one in found] == ["0", "1", "2"]
+    assert not any(one.disagrees for one in found)
+    assert all(one.common < INCONSISTENT_RATIO * one.own for one in found)
+
+
+def test_another_motor_disagrees() -> None:
+    found = compared(1.0, 1.0, 1.0, 1.05)
+    assert max(found, key=lambda one: one.common / one.own).uri == "3" and found[3].disagrees
+    assert found[3].common > 3.0 * found[3].own
+
+
+def test_a_single_recording_has_nobody_to_disagree_with() -> None:
+    assert compared(1.0) == ()
+
+
+@pytest.mark.parametrize(
+    ("score", "ratio", "disagrees"), [(1.01, 1.01, True), (0.99, 1.01, False), (1.01, 0.99, False)]
+)
+def test_more_than_noise_and_more_than_nobody_would_see(score: float, ratio: float, disagrees: bool) -> None:
+    one = Dissent("bag", ratio * INCONSISTENT_RATIO, 1.0, score * INCONSISTENT_SCORE)
+    assert one.disagrees is disagrees
+
+
+def test_the_sentence_has_both_errors() -> None:
+    said = describe_dissent(Dissent("bag", 3.621, 0.09412, 99.0))
+    assert said.startswith("bag: joint fit 3.62 rad/s RMS, separate fit 0.0941: the recordings disagree.")
+    assert np.all([word in said for word in ("Do not trust", "fit each recording alone")])

@@ -1,0 +1,64 @@
+"""A fit's summary: bounds that were hit, notes in order, the experiment that would show more."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from small import THETA, TRUE, small_estimate
+
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.multistart import SearchReport
+from motor_identification.estimation.multistart_stop import Descent
+from motor_identification.estimation.whitened_fit import WhitenedFit, make_whitened
+from motor_identification.uncertainty.result import ON_BOUND, _suggest_experiment, find_bounds_hit, summarise_fit
+
+SEARCH = SearchReport(
+    THETA, 1.0, 10, np.array([4.0, 1.0]), np.array([5, 10]), (Descent(THETA, 1.0, 5, 0),), 1, 1, agreed=True
+)
+
+
+def whitened() -> WhitenedFit:
+    return make_whitened(fit_speeds(small_estimate()))
+
+
+def test_everything_a_user_should_know() -> None:
+    fit = whitened()
+    result = summarise_fit(fit, SEARCH, lambda: 2.5, ("one", "two"))
+    assert result.parameters.values == pytest.approx(TRUE, rel=2e-3)
+    assert result.residual_rms == pytest.approx(np.sqrt(fit.estimate.cost))
+    assert 0.999 < result.r_squared < 1.0 and result.evaluations == fit.estimate.simulations
+    assert result.duration == 2.5 and result.notes[-2:] == ("one", "two")
+    assert result.uris == ("small 0",) and result.start_speeds == (0.0,)
+    assert result.correlations["kv"]["kv"] == 1.0 and result.search.rms.tolist() == [2.0, 1.0]
+    assert set(result.standard_errors) == set(TRUE) and all(error > 0.0 for error in result.standard_errors.values())
+
+
+@pytest.mark.parametrize(("share", "hit"), [(0.5 * ON_BOUND, True), (2.0 * ON_BOUND, False)])
+def test_a_parameter_on_the_edge_of_the_box(share: float, hit: bool) -> None:
+    unknowns = small_estimate().problem.unknowns
+    span = unknowns.high - unknowns.low
+    at_high = np.append(THETA[:2], unknowns.high[2] - share * span[2])
+    assert find_bounds_hit(small_estimate(at_high)) == {"kv": False, "ka": False, "ks": hit}
+    at_low = np.array([unknowns.low[0] + share * span[0], *THETA[1:]])
+    assert find_bounds_hit(small_estimate(at_low))["kv"] is hit
+
+
+def test_no_friction_is_an_answer_not_an_edge() -> None:
+    unknowns = small_estimate().problem.unknowns
+    assert unknowns.low[2] == 0.0
+    assert not find_bounds_hit(small_estimate(np.append(THETA[:2], 0.0)))["ks"]
+
+
+def test_a_speed_that_does_not_vary_has_no_r_squared() -> None:
+    fit = whitened()
+    (data,) = fit.problem.intervals
+    level = fit.problem.with_intervals((replace(data, speed=np.full(len(data.speed), 5.0)),))
+    flat = make_whitened(fit.estimate.on(level))
+    assert np.isnan(summarise_fit(flat, SEARCH, lambda: 0.0).r_squared)
+
+
+def test_the_experiment_that_would_show_more() -> None:
+    assert _suggest_experiment((), {}) == ""
+    assert _suggest_experiment(("ks",), {"coulomb_friction": ("dead_zone",)}) == "ramps"  # its own effect's first
+    assert _suggest_experiment(("kv",), {}) == "staircase"
+    assert _suggest_experiment((), {"coulomb_friction": ("dead_zone",)}) == "coast"

@@ -1,0 +1,91 @@
+"""Two ways to hold data out: other recordings, or every fourth block of the same; one interface."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from plant import profiles, record
+from small import THETA, TRUE, small_recording
+
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.problem import make_problem
+from motor_identification.recording import check
+from motor_identification.validation.hold_out import BlocksOfSame, HoldOut, OtherRecordings, make_hold_out
+
+TRAINING = check(record(TRUE, *profiles.staircase(10.0, 3, 0.3), seed=1, irregularity=0.005, name="training")[0])
+OTHER = check(record(TRUE, *profiles.random(9.0, 4.0), seed=2, irregularity=0.005, name="other")[0])
+WRONG = THETA + np.array([0.02, 0.0, 0.0])
+
+
+@pytest.fixture(params=[BlocksOfSame, OtherRecordings])
+def hold_out(request: pytest.FixtureRequest) -> HoldOut:
+    made = make_hold_out([TRAINING], [OTHER] if request.param is OtherRecordings else [])
+    assert type(made) is request.param
+    return made
+
+
+def training(hold_out: HoldOut, theta: np.ndarray = THETA) -> Estimate:
+    return Estimate(hold_out.restrict(make_problem([TRAINING], ("coulomb_friction",))), theta)
+
+
+def test_the_truth_is_at_the_floor_and_a_wrong_motor_is_not(hold_out: HoldOut) -> None:
+    held, wrong = (hold_out.validate(training(hold_out, theta)) for theta in (THETA, WRONG))
+    assert 0.7 < held.gap / held.floor(0.005) < 1.3 and wrong.gap > 3.0 * held.gap
+    assert held.parameters.values == pytest.approx(TRUE) and held.miscounted == 0
+    assert held.recordings == hold_out.problem.recordings
+
+
+def test_nothing_that_counts_is_fitted(hold_out: HoldOut) -> None:
+    """What counts may be anything: the fit, nuisance parameters too, stays what it was."""
+    rule = hold_out.scored_blocks
+    (data,) = hold_out.problem.intervals
+    spoilt = replace(data, speed=np.where(rule.mark(data), data.speed + 3.0, data.speed))
+    other = replace(hold_out, problem=replace(hold_out.problem, intervals=(spoilt,)))
+    problem = make_problem([TRAINING], ("coulomb_friction",))
+    fits = []
+    for one in (hold_out, other):
+        train = one.restrict(
+            problem if isinstance(one, OtherRecordings) else problem.with_intervals(one.problem.intervals)
+        )
+        fits.append(one.apply(fit_speeds(Estimate(train, WRONG))).theta)
+    assert np.array_equal(*fits)
+    assert other.validate(training(other)).gap > hold_out.validate(training(hold_out)).gap + 1.0
+
+
+@pytest.mark.parametrize(("others", "share"), [([], 0.25), ([OTHER], 0.5)])
+def test_how_much_counts(others: list, share: float) -> None:  # type: ignore[type-arg]
+    hold_out = make_hold_out([TRAINING], others)
+    held = hold_out.validate(training(hold_out))
+    (data,), (scored,) = held.intervals, held.scored
+    assert data.duration[scored].sum() / data.duration.sum() == pytest.approx(share, abs=0.06)
+    kept = training(hold_out).problem.intervals[0].duration.sum()
+    whole = make_problem([TRAINING], ()).intervals[0].duration.sum()
+    assert kept / whole == pytest.approx(1.0 if others else 0.75, abs=0.06)
+
+
+def test_miscounted_intervals_do_not_count() -> None:
+    recording = check(
+        record(TRUE | {"miss_rate": 0.01}, *profiles.random(9.0, 4.0), seed=2, irregularity=0.005, name="other")[0]
+    )
+    hold_out = make_hold_out([TRAINING], [recording])
+    held = hold_out.validate(training(hold_out))
+    assert held.miscounted > 5 and held.gap < 1.3 * held.floor(0.005)
+    everything = replace(held, scored=tuple(np.ones_like(marks) for marks in held.scored))
+    assert everything.gap > 3.0 * held.gap
+
+
+def test_directions_are_those_of_the_fitted_motion() -> None:
+    hold_out = make_hold_out([TRAINING], [OTHER])
+    again = hold_out.correct_directions(training(hold_out))
+    assert type(again) is OtherRecordings and again.problem.recordings == hold_out.problem.recordings
+    assert again.problem.intervals[0].left_out <= hold_out.problem.intervals[0].left_out
+    assert again.validate(training(again)).gap < 1.2 * again.validate(training(again)).floor(0.005)
+
+
+def test_small_recordings_have_blocks_too() -> None:
+    hold_out = make_hold_out([small_recording()], [])
+    held = hold_out.validate(
+        Estimate(hold_out.restrict(make_problem([small_recording()], ("coulomb_friction",))), THETA)
+    )
+    assert 0.1 < held.counted.mean() < 0.4
