@@ -21,7 +21,7 @@ class Config:
     max_voltage: float = 12.0  # [V] of the motor
     supply_voltage: float = 0.0  # [V] at full duty, where the board does not measure it; 0: as max_voltage
     command_timeout: float = 0.1  # [s]
-    stall_time: float = 0.5  # [s] 0: the driver never stops the motor
+    stall_time: float = 0.4  # [s] 0: the driver never stops the motor
     decay: Decay = Decay.BRAKE
     baud: int = BAUD
     board_id: int | None = None  # None: any

@@ -43,7 +43,7 @@ SHARED_PARAMETERS = (
     ),
     Row(
         "stall_time",
-        0.5,
+        0.4,
         "half of max_voltage and more without an edge for this long, or against the motion, is a stop; 0: never",
         "s",
         0.0,

@@ -39,9 +39,9 @@ def test_an_encoder_that_was_never_connected(make_rig: MakeRig, voltage: float, 
     """From half of the motor's voltage on the driver stops by itself; below that it says what it sees."""
     rig = make_rig()
     rig.emulator.encoder_connected = False
-    start(rig, voltage, 400)
+    start(rig, voltage, 300)
     assert rig.driver.motion.finding == "" and rig.stops == []  # too early to say
-    rig.run(200)
+    rig.run(300)
     assert NEVER.format(voltage=voltage)[1:] in said(rig)
     assert (len(rig.stops), rig.pins, rig.gate.enabled) == (
         (1, 0.0, False) if stops else (0, pytest.approx(voltage, abs=0.03), True)
@@ -50,12 +50,12 @@ def test_an_encoder_that_was_never_connected(make_rig: MakeRig, voltage: float, 
 
 def test_a_stop_stays_until_the_user_enables_and_comes_again(running: Rig) -> None:
     running.emulator.encoder_connected = False
-    assert 480.0 < running.until(lambda: running.pins == 0.0, 600) < 520.0
+    assert 380.0 < running.until(lambda: running.pins == 0.0, 600) < 420.0
     running.run(300)
     assert running.pins == 0.0 and said(running).startswith(f"The output is off ({CUT_OFF[:20]}")
     assert running.enable() == ""
     running.until(lambda: running.pins == 6.0, 30)
-    assert 480.0 < running.until(lambda: running.pins == 0.0, 600) < 520.0
+    assert 380.0 < running.until(lambda: running.pins == 0.0, 600) < 420.0
 
 
 def test_an_encoder_whose_cable_comes_off(make_rig: MakeRig) -> None:

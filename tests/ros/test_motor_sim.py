@@ -189,7 +189,7 @@ def test_a_blocked_motor_is_stopped(bench: Bench, start: Start, user: User, tmp_
     user.until(lambda sample: sample.voltage == 9.0, "a voltage")
     user.until(lambda sample: sample.voltage == 0.0, "the stop")
     driven = [sample.sample_time for sample in user.samples if sample.voltage == 9.0]
-    assert 0.45 < (driven[-1] - driven[0]) * 1e-9 < 0.6
+    assert 0.35 < (driven[-1] - driven[0]) * 1e-9 < 0.45
     bench.wait(lambda: messages(status).startswith(f"The output is off ({NEVER.format(voltage=9.0)}"), "why")
     assert status[-1].status[0].level == b"\x02"
     assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success

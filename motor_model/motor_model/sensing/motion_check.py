@@ -13,6 +13,7 @@ from motor_model.sample import Sample
 
 DRIVEN = 0.25  # of the motor's voltage: turns any motor that is meant for it
 STRONG = 0.5  # of the motor's voltage: twice what any motor needs to break away, so that no slow ramp comes that far
+STILL_STRONG = 0.8  # of that it may fall to and count on: a loop's voltage trembles with the disc's slots
 LONG = 500_000_000  # [ns] of driving one way without what should follow
 LITTLE = 3.0  # [V] of supply: no bridge works with less
 QUICK = 1.0 / 300.0  # [s] between edges; to stop within the next slot takes 3000 rad/s² with 96 of them
@@ -38,7 +39,7 @@ class MotionCheck:
 
     max_voltage: float  # [V] of the motor
     single_channel: bool
-    stall_time: float = 0.5  # [s] 0: never stop the motor
+    stall_time: float = 0.4  # [s] 0: never stop the motor
     latest: Sample | None = None
     direction: int = 0  # of the voltage, 0 if it is small
     strong: int = 0  # likewise, 0 if it is not strong
@@ -53,6 +54,8 @@ class MotionCheck:
         """The next sample of the same board since its start."""
         share, now = sample.voltage / self.max_voltage, sample.sample_time
         direction, strong = _sign(share, DRIVEN), _sign(share, STRONG)
+        if strong == 0 and share * self.strong >= STILL_STRONG * STRONG:
+            strong = self.strong
         fresh, anew = direction != self.direction, strong != self.strong
         moved = self.latest is None or sample.edge_count != self.latest.edge_count
         against = max(-sample.speed * strong, 0.0)

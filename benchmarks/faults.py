@@ -1,0 +1,128 @@
+"""Every fault that has to stop the motor, injected: time to 0 V at the pins, largest speed and voltage until then.
+
+On the simulated plant with motors of 6, 30, 174 and 600 rad/s at 12 V and of 174 rad/s at 1.2 and 48 V, at 200 Hz and
+1 kHz, with the controller's measured speed and with a model; and on the emulated board with the real firmware.
+"""
+
+import subprocess
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from faults_board import BOARD_FAULTS, run_on_board
+from faults_limits import limits
+from faults_loop import Loop, Outcome, outcome
+from faults_motor import MOTORS, Motor
+from faults_rows import FAULTS, Fault
+from machine import machine
+
+RESULTS = Path(__file__).with_name("results")
+RATES = (200.0, 1000.0)  # [Hz]
+AT_REFERENCE, AFTER = 1.5, 3.0  # [s]
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One motor, at both rates."""
+
+    motor: Motor
+    outcomes: tuple[Outcome, ...]
+
+    def text(self) -> str:
+        """[ms] at each rate."""
+        return " / ".join("never" if one.after is None else f"{1e3 * one.after:.0f}" for one in self.outcomes)
+
+
+def run(fault: Fault, motor: Motor, rate: float, model: bool) -> Outcome:
+    """What a fault does to a motor that runs."""
+    loop = Loop(motor, rate, model, single_channel=not fault.two_channels)
+    loop.run(0.2)
+    loop.reference = fault.reference * motor.top if fault.controlled else None
+    if not fault.controlled:
+        loop.raw = fault.raw * motor.voltage
+    loop.run(AT_REFERENCE)
+    begin = loop.time
+    fault.apply(loop)
+    loop.run(AFTER)
+    return outcome(loop.moments, begin)
+
+
+def row(name: str, most: float, cells: list[Cell]) -> tuple[str, bool]:
+    """A line of the table, and whether it is met."""
+    outcomes = [(cell.motor, one) for cell in cells for one in cell.outcomes]
+    met = all(one.after is not None and one.after <= most + 1e-9 for _, one in outcomes)
+    speed = max(one.speed / motor.top for motor, one in outcomes)
+    voltage = max(one.voltage / motor.voltage for motor, one in outcomes)
+    said = next((one.said for motor, one in outcomes if motor == MOTORS[2] and one.said), outcomes[0][1].said)
+    times = " | ".join(cell.text() for cell in cells)
+    mark = "" if met else " **no**"
+    return f"| {name} | {1e3 * most:.0f}{mark} | {times} | {speed:.0%} | {voltage:.0%} | {said} |", met
+
+
+def simulated() -> Iterable[tuple[str, bool]]:
+    """The rows of the simulated plant."""
+    for fault in FAULTS:
+        for model in (False, True) if fault.controlled else (False,):
+            cells = [Cell(m, tuple(run(fault, m, rate, model) for rate in RATES)) for m in MOTORS]
+            name = fault.name + (", with a model" if model else "")
+            yield row(name, fault.most, cells)
+            print(name, [cell.text() for cell in cells], file=sys.stderr)
+
+
+def emulated() -> Iterable[tuple[str, bool]]:
+    """The rows of the emulated board, with the 174 rad/s motor."""
+    for fault in BOARD_FAULTS:
+        yield row(fault.name, fault.most, [Cell(MOTORS[2], tuple(run_on_board(fault, rate) for rate in RATES))])
+        print(fault.name, file=sys.stderr)
+
+
+def page() -> str:
+    """The whole page."""
+    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout
+    sim, board = list(simulated()), list(emulated())
+    met = [ok for _, ok in sim + board]
+    heads = " | ".join(motor.name for motor in MOTORS)
+    return "\n".join(
+        [
+            "# Faults",
+            "",
+            f"`python benchmarks/faults.py` at {commit.strip()}, {machine()}.",
+            "",
+            f"{sum(met)} of {len(met)} rows are within their time: 150 ms after a fault could be known, 500 ms where",
+            "only motion can tell. A row that is not is marked **no**; `never` is no 0 V for good within 3 s.",
+            "",
+            "Each fault comes to a motor that runs at half of its top speed (or, under plain `motor/voltage`, at 60 %",
+            "of its voltage). Times [ms] from the fault to 0 V at the pins for good, at 200 Hz / 1 kHz; the largest",
+            "true speed and voltage from the fault on, as shares of the motor's, over all cells; what was said of the",
+            "174 rad/s motor.",
+            "",
+            "## Simulated plant",
+            "",
+            f"| fault | may take | {heads} | speed | voltage | what was said |",
+            "|---|---|" + "---|" * len(MOTORS) + "---|---|---|",
+            *[line for line, _ in sim],
+            "",
+            "## Emulated board: the real firmware, the driver, the controller",
+            "",
+            f"| fault | may take | {MOTORS[2].name} | speed | voltage | what was said |",
+            "|---|---|---|---|---|---|",
+            *[line for line, _ in board],
+            "",
+            "## What is limited, and nothing to stop for",
+            "",
+            *limits(),
+            "",
+        ]
+    )
+
+
+def main() -> int:
+    """Write the page."""
+    (RESULTS / "faults.md").write_text(page(), encoding="utf-8")
+    print(RESULTS / "faults.md")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

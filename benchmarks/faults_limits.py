@@ -1,0 +1,85 @@
+"""What is kept within bounds without a stop: a higher supply, a second sender, a dithering shaft, a reversal."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+from faults_board import BoardLoop
+from faults_loop import Loop
+from faults_motor import MOTORS
+
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
+
+MOTOR = MOTORS[2]
+
+
+def limits() -> Iterable[str]:
+    """One line a case."""
+    yield "| case | 200 Hz | 1 kHz |"
+    yield "|---|---|---|"
+    for name, measure in CASES.items():
+        yield f"| {name} | {measure(200.0)} | {measure(1000.0)} |"
+
+
+def higher_supply(rate: float) -> str:
+    """Largest voltage at the pins of a 12 V motor on a measured 24 V supply, asked for all there is."""
+    loop = BoardLoop(rate, supply=24.0)
+    loop.run(0.6)
+    loop.raw = 0.0
+    loop.run(0.05)
+    loop.raw = 100.0
+    loop.run(1.0)
+    loop.emulator.close()
+    return f"{max(abs(moment.voltage) for moment in loop.moments):.2f} V"
+
+
+def second_sender(rate: float) -> str:
+    """Largest change of the voltage that a second sender of another voltage makes."""
+    loop = Loop(MOTOR, rate)
+    loop.raw = 6.0
+    loop.run(0.5)
+    begin = loop.time
+    for k in range(round(rate)):
+        loop.run(1.0 / rate)
+        loop.gate = loop.gate.take(-6.0, 2 + round(loop.time * 1e9), "", 1 + k)
+    during = [moment for moment in loop.moments if moment.time > begin]
+    said = loop.gate.problem(1 + round(loop.time * 1e9))
+    return f"{max(abs(moment.voltage - 6.0) for moment in during):.2f} V; {said}"
+
+
+def reversal(model: bool):  # type: ignore[no-untyped-def]
+    """A measurement of the largest voltage against the back-EMF in a reversal at 86 % of the top speed."""
+
+    def measure(rate: float) -> str:
+        loop = Loop(MOTOR, rate, model, single_channel=False)
+        loop.run(0.2)
+        loop.reference = 0.86 * MOTOR.top
+        loop.run(2.0)
+        loop.reference = -0.86 * MOTOR.top
+        begin = loop.time
+        loop.run(2.0)
+        during = [moment for moment in loop.moments if moment.time >= begin]
+        drive = max(abs(moment.voltage - MOTOR.kv * moment.speed) for moment in during)
+        reached = -during[-1].speed / MOTOR.top
+        return f"{drive / MOTOR.voltage:.2f} × stall current; ends at {reached:.0%} of the top speed"
+
+    return measure
+
+
+def dither(rate: float) -> str:
+    """Counted and true travel of a shaft that is shaken over one flank for 20 s, two channels."""
+    config = BoardConfig(sample_rate=rate, start_angle=-0.02, single_channel=False)
+    board = SimulatedBoard(replace(MOTOR.parameters(), effects=(), values={"kv": MOTOR.kv, "ka": 0.0055}), config)
+    half = round(0.02 * rate)
+    for volts in np.tile(np.repeat([6.0, -6.0], half), round(20.0 * rate) // (2 * half)):
+        sample = board.sample(float(volts))
+    return f"{sample.edge_count * 2 * np.pi / 96:.2f} rad counted, {board.angle:.2f} rad true"
+
+
+CASES = {
+    "12 V motor on a 24 V supply, 100 V asked for: largest voltage": higher_supply,
+    "second sender of −6 V beside one of 6 V: change of the voltage": second_sender,
+    "reversal from +86 % to −86 % of the top speed, measured speed": reversal(False),
+    "the same with a model": reversal(True),
+    "shaft shaken over one flank for 20 s, two channels": dither,
+}

@@ -1,0 +1,108 @@
+"""The faults of `faults.py` on the simulated plant, as a table: what happens, how long it may last."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import nan
+
+from faults_line import CableOff, not_a_number, swapped
+from faults_loop import Loop
+
+from motor_model.effects import INDEX
+
+KNOWN, MOTION = 0.15, 0.5  # [s] from when it could be known, and where only motion can tell
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One fault; it comes after 1.5 s at a reference."""
+
+    name: str
+    most: float  # [s] that the motor may run on
+    apply: Callable[[Loop], None]
+    reference: float = 0.5  # of the top speed; 0: no controller, but plain motor/voltage
+    two_channels: bool = False
+    raw: float = 0.0  # of the motor's voltage
+
+    @property
+    def controlled(self) -> bool:
+        """Whether the controller drives the motor."""
+        return self.raw == 0.0
+
+
+def cable_off(stray: float = 0.0) -> Callable[[Loop], None]:
+    """The encoder's cable is off."""
+
+    def apply(loop: Loop) -> None:
+        loop.line = CableOff(stray)
+
+    return apply
+
+
+def block(loop: Loop) -> None:
+    """Something holds the shaft: friction that no voltage overcomes."""
+    for name in ("ks", "breakaway_voltage"):
+        loop.board._p[INDEX[name]] = 10.0 * loop.motor.voltage
+
+
+def swap(loop: Loop) -> None:
+    """The encoder's two channels are exchanged."""
+    loop.line = swapped
+
+
+def be_late(loop: Loop) -> None:
+    """Samples wait for 100 ms before they are answered."""
+    loop.delay = 0.1
+
+
+def fall_silent(loop: Loop) -> None:
+    """No sample reaches the controller any more."""
+    loop.heard = False
+
+
+def die(loop: Loop) -> None:
+    """The controller is killed."""
+    loop.alive = False
+
+
+def go_wrong(loop: Loop) -> None:
+    """The speed is not a number."""
+    loop.line = not_a_number
+
+
+def send_nonsense(loop: Loop) -> None:
+    """A voltage is not a number."""
+    loop.raw = nan
+
+
+def second_plant(loop: Loop) -> None:
+    """Another plant speaks on the same topic, of a motor that stands."""
+    sample = loop.board.sample(loop.moments[-1].voltage)
+    loop.rival = replace(sample, sample_time=sample.sample_time - round(0.6e9 / loop.rate), speed=0.0)
+
+
+def restart(loop: Loop) -> None:
+    """The plant is killed and started again."""
+    loop.come_up()
+
+
+FAULTS = (
+    Fault("encoder's cable off", MOTION, cable_off()),
+    Fault("encoder's cable off at 3 % of the top speed", MOTION, cable_off(), reference=0.03),
+    Fault("cable off, 2 stray edges a second", MOTION, cable_off(2.0)),
+    Fault("cable off, 5 stray edges a second", MOTION, cable_off(5.0)),
+    Fault("cable off, 50 stray edges a second", MOTION, cable_off(50.0)),
+    Fault("cable off, 100 stray edges a second", MOTION, cable_off(100.0)),
+    Fault("shaft blocked", MOTION, block),
+    Fault("two channels exchanged", MOTION, swap, two_channels=True),
+    Fault("samples 100 ms late", KNOWN, be_late),
+    Fault("no samples reach the controller", KNOWN, fall_silent),
+    Fault("controller killed", KNOWN, die),
+    Fault("speed is not a number", KNOWN, go_wrong),
+    Fault("voltage is not a number", KNOWN, send_nonsense),
+    Fault("a second plant on the topic", KNOWN, second_plant),
+    Fault("plant restarted under a held reference", KNOWN, restart),
+    Fault("plain voltage, plant restarted", KNOWN, restart, raw=0.6),
+    Fault("plain voltage, shaft blocked", MOTION, block, raw=0.6),
+    Fault("plain voltage, encoder's cable off", MOTION, cable_off(), raw=0.6),
+    Fault("plain voltage, two channels exchanged", MOTION, swap, two_channels=True, raw=0.6),
+)
