@@ -90,19 +90,25 @@ def _label(axes: "Axes", one: Map, place: Floats) -> None:
         axes.set_xticks([0.0, np.pi, 2 * np.pi], ["0", "π", "2π"])
 
 
-def draw_shape(shape: MissingTorque, recording: str) -> str:
+def draw_torque(missing: MissingTorque, recording: str) -> str:
     """Draw the residual torque over one axis, with 95 % intervals, as SVG."""
     with svg_style():
         from matplotlib import pyplot as plt
 
         figure, axes = plt.subplots(figsize=SIZE, constrained_layout=True)
-        middle = 0.5 * (shape.edges[1:] + shape.edges[:-1])
+        middle = 0.5 * (missing.edges[1:] + missing.edges[:-1])
         axes.axhline(0.0, color=FLOOR, linewidth=0.8)
         axes.errorbar(
-            middle, shape.torque, 1.96 * np.nan_to_num(shape.error), fmt=".", color=BEFORE, elinewidth=1, markersize=5
+            middle,
+            missing.torque,
+            1.96 * np.nan_to_num(missing.error),
+            fmt=".",
+            color=BEFORE,
+            elinewidth=1,
+            markersize=5,
         )
-        axes.set_xlabel(NAMES[shape.axis])
+        axes.set_xlabel(NAMES[missing.axis])
         axes.set_ylabel("residual torque [V]")
         if recording:
             axes.set_title(recording)
-        return to_svg(figure, f"residual torque over {shape.axis}")
+        return to_svg(figure, f"residual torque over {missing.axis}")

@@ -7,7 +7,7 @@ from motor_identification.discrepancy.residual_maps import map_residuals
 from motor_identification.discrepancy.worst_regions import find_worst_regions
 from motor_identification.reporting.curves import find_largest_change, make_held_out_curves
 from motor_identification.reporting.diagnosis_text import format_parameters, summarize_diagnosis
-from motor_identification.reporting.html.charts import draw_map, draw_shape
+from motor_identification.reporting.html.charts import draw_map, draw_torque
 from motor_identification.reporting.html.limits import list_limits
 from motor_identification.reporting.html.next_steps import Files, list_diagnosis_steps
 from motor_identification.reporting.html.pictures import Picture, draw_picture
@@ -42,7 +42,7 @@ def render_diagnosis(diagnosis: Diagnosis, files: Files) -> str:
         regions=[describe_region(region) for region in regions] if show_regions else [],
         pictures=_draw_pictures(diagnosis),
         maps=_draw_maps(diagnosis),
-        shapes=_draw_shapes(diagnosis),
+        torques=_draw_torques(diagnosis),
         torque=describe_torque(estimate_missing_torque(diagnosis.after)),
         parameters=list_parameters(diagnosis.model, diagnosis.baseline),
         format_parameters=format_parameters,
@@ -77,11 +77,9 @@ def _draw_maps(diagnosis: Diagnosis) -> list[str]:
     return [draw_map(a, b, _uri(diagnosis, a.recording)) for a, b in pairs if a.recording < MOST_RECORDINGS]
 
 
-def _draw_shapes(diagnosis: Diagnosis) -> list[str]:
-    shapes = estimate_missing_torque(diagnosis.after)
-    return [
-        draw_shape(shape, _uri(diagnosis, shape.recording)) for shape in shapes if shape.recording < MOST_RECORDINGS
-    ]
+def _draw_torques(diagnosis: Diagnosis) -> list[str]:
+    torques = estimate_missing_torque(diagnosis.after)
+    return [draw_torque(one, _uri(diagnosis, one.recording)) for one in torques if one.recording < MOST_RECORDINGS]
 
 
 def _uri(diagnosis: Diagnosis, number: int) -> str:

@@ -8,7 +8,7 @@ from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.discrepancy.missing_torque import estimate_missing_torque
 from motor_identification.discrepancy.residual_maps import map_residuals
 from motor_identification.reporting.html import charts
-from motor_identification.reporting.html.charts import draw_map, draw_shape
+from motor_identification.reporting.html.charts import draw_map, draw_torque
 
 
 @pytest.fixture
@@ -41,7 +41,7 @@ def test_a_triangle_says_the_sign_of_the_error(found: Diagnosis, axes: list[plt.
 
 def test_the_residual_torque_has_its_intervals(found: Diagnosis, axes: list[plt.Axes]) -> None:
     torque = estimate_missing_torque(found.before)[0]
-    assert draw_shape(torque, "bag") == "residual torque over speed"
+    assert draw_torque(torque, "bag") == "residual torque over speed"
     (one,) = axes
     known = np.isfinite(torque.torque)
     assert one.get_ylabel() == "residual torque [V]" and one.get_title(loc="left") == "bag"

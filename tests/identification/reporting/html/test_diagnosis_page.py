@@ -32,7 +32,7 @@ def html(found: Diagnosis) -> str:
 @pytest.fixture
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pages without pictures, where only the text matters."""
-    for name in ("pictures.draw_overlay", "diagnosis_page.draw_map", "diagnosis_page.draw_shape"):
+    for name in ("pictures.draw_overlay", "diagnosis_page.draw_map", "diagnosis_page.draw_torque"):
         monkeypatch.setattr(f"motor_identification.reporting.html.{name}", lambda *how: "")
 
 
@@ -154,7 +154,7 @@ def test_a_recording_too_short_to_hold_anything_out(variants: dict[Verdict, Diag
 def test_without_a_floor_there_is_no_ratio(found: Diagnosis) -> None:
     one = replace(found, noise_floor=0.0)
     assert "the noise level is unknown" in summarize_diagnosis(one)
-    assert [rung.times for rung in list_gaps(one)] == ["", "", ""] and "–" in format_diagnosis(one)
+    assert [row.times for row in list_gaps(one)] == ["", "", ""] and "–" in format_diagnosis(one)
     assert "inf" not in squeezed(Reader(render_diagnosis(one, NO_FILES)).text).split("How to go on")[0].lower().replace(
         "info", ""
     )

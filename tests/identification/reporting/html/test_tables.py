@@ -1,4 +1,4 @@
-"""The report's ladder of gaps, its alternatives and its parameters."""
+"""The report's table of gaps, its alternatives and its parameters."""
 
 from dataclasses import replace
 from math import nan
@@ -10,11 +10,11 @@ from motor_identification.reporting.html.tables import explain_rejection, list_g
 from motor_model.parameters import Parameters
 
 
-def test_the_ladder_is_logarithmic(found: Diagnosis) -> None:
+def test_the_bars_are_logarithmic(found: Diagnosis) -> None:
     one = replace(found, gap_before=10.0, findings=(replace(found.findings[0], gap_after=1.0),), noise_floor=0.1)
-    shares = [rung.share for rung in list_gaps(one)]
+    shares = [row.share for row in list_gaps(one)]
     assert shares == pytest.approx([100.0, 54.0, 8.0])
-    assert [rung.times for rung in list_gaps(one)] == ["100 ×", "10 ×", "1 ×"]
+    assert [row.times for row in list_gaps(one)] == ["100 ×", "10 ×", "1 ×"]
 
 
 def test_why_an_alternative_was_not_taken(found: Diagnosis) -> None:
