@@ -12,6 +12,7 @@ from motor_identification.estimation.request import Request, SearchConfig
 from motor_identification.estimation.whitened_fit import fit_whitened
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
+from motor_identification.progress import Heartbeat
 from motor_identification.recording import Recording
 from motor_identification.uncertainty.result import Fit, summarise_fit
 from motor_model.effects import normalised
@@ -21,6 +22,7 @@ __all__ = ["Request", "SearchConfig", "identify"]
 
 Progress = Callable[[str, float], None]  # what is being done, share done 0 to 1
 
+SEARCHED, DESCENDED = 0.5, 0.9  # of the progress bar
 MISCOUNTED = "{} of {} intervals were left out: off by whole slots (edges missed or counted twice)."
 UNFINISHED = (
     "The search ended after {} simulations, before independent starts agreed ({} of {} did): raise epochs or "
@@ -40,14 +42,15 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     if not recordings:
         raise RecordingError("there is no recording to fit: name at least one bag.")
     tell = progress or (lambda stage, share: None)
+    working = Heartbeat(tell)
     check_effects(recordings, request.effects)
     effects = normalised(request.effects)
-    whole = make_problem(recordings, drop_periodic_effects(effects), request.workers)
-    estimate, search = search_globally(whole, request.search, lambda share: tell("search", 0.8 * share))
-    tell("least squares", 0.8)
+    whole = make_problem(recordings, drop_periodic_effects(effects), request.workers, working)
+    estimate, search = search_globally(whole, request.search, lambda share: tell("search", SEARCHED * share))
+    working.begin("least squares", SEARCHED, DESCENDED)
     directed = add_periodic_effects(correct_directions(estimate), effects)
     counted = exclude_miscounts(directed)
-    tell("least squares", 0.9)
+    working.begin("standard errors", DESCENDED, 1.0)
     fit = fit_whitened(counted)
     notes = (*_list_left_out(directed.problem, counted.problem, fit.problem), *_list_doubts(search))
     result = summarise_fit(fit, search, lambda: perf_counter() - begun, notes)

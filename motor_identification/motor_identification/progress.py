@@ -1,9 +1,13 @@
 """Report progress of a long computation, and stop it when its caller says so."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from time import monotonic
 
 from motor_model.errors import MotorError
+
+TELL_EVERY = 0.1  # [s]
+HALF = 1000  # simulations: a fit of friction takes 200 after its search, one of backlash and ripple some thousands
 
 
 class Stopped(MotorError):
@@ -36,3 +40,33 @@ class ProgressReporter:
         if self.stopped():
             raise Stopped("the diagnosis was stopped.")
         self.progress(Stage(text, share, best_effect, gap))
+
+
+@dataclass
+class Heartbeat:
+    """Progress of stages whose length nobody knows: counts simulations, and never says to stop.
+
+    A problem asks it before every simulation (`Problem.stopped`). Half a stage's part of the bar is done after `HALF`
+    simulations, half of the rest after as many again: the bar moves as long as something is done, and never arrives.
+    """
+
+    tell: Callable[[str, float], None]  # what is being done, share done 0 to 1
+    _text: str = ""  # empty: the stage tells its own progress
+    _from: float = 0.0
+    _to: float = 0.0
+    _count: int = 0
+    _told: float = field(default_factory=monotonic)  # [s]
+
+    def begin(self, text: str, start: float, end: float) -> None:
+        """Begin a stage that has this part of the whole."""
+        self._text, self._from, self._to, self._count = text, start, end, 0
+        self.tell(text, start)
+
+    def __call__(self) -> bool:
+        """Count a simulation, and tell a few times a second; false, for it is not to stop."""
+        self._count += 1
+        if self._text and monotonic() - self._told >= TELL_EVERY:
+            self._told = monotonic()
+            share = self._to - (self._to - self._from) * 0.5 ** (self._count / HALF)
+            self.tell(f"{self._text}, {self._count} simulations", share)
+        return False
