@@ -20,6 +20,7 @@ from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 from motor_ros import qos
 from motor_ros.parameters import Row, declare
+from motor_ros.plant import steady_timer
 from motor_ros.program import Program
 from motor_ros.run import run
 
@@ -61,6 +62,7 @@ PROGRAM = Program(
     "ros2 run motor_board board_emulator --ros-args -p link:=board -p model:=model.yaml",
     publishes=("/diagnostics",),
 )
+HELD_UP = "The emulated board was held up {} times, which is not real time: close other programs."
 SUPPLY_FULL_SCALE = 60_000  # [mV] on A0's divider
 
 
@@ -93,8 +95,8 @@ class BoardEmulator(Node):
         self.create_service(Trigger, "~/reset", self._on_reset)
         self.create_service(Trigger, "~/hang", self._on_hang)
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
-        self.create_timer(1.0, self._on_second)
-        self.get_logger().info(f"the board's serial port is {values['link']}, with '{model.name}' on its pins")
+        steady_timer(self, 1.0, self._on_second)
+        self.get_logger().info(f"The board's serial port is {values['link']}; the motor on its pins is '{model.name}'.")
 
     def _on_parameters(self, parameters: list[Parameter]) -> SetParametersResult:
         names = {field.name for field in fields(Faults)}
@@ -104,12 +106,12 @@ class BoardEmulator(Node):
 
     def _on_reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._board.reset()
-        response.success, response.message = True, "the board's reset button was pressed"
+        response.success, response.message = True, "The board's reset button was pressed."
         return response
 
     def _on_hang(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._board.hang()
-        response.success, response.message = True, "the firmware is in an endless loop; its watchdog has to help"
+        response.success, response.message = True, "The firmware is in an endless loop, which its watchdog ends."
         return response
 
     def _on_second(self) -> None:
@@ -119,7 +121,7 @@ class BoardEmulator(Node):
         values = truth.named(time.time_ns() - time.monotonic_ns())
         status = DiagnosticStatus(
             name=f"{self.get_fully_qualified_name()}: truth",
-            message=f"held up {truth.held_up} times: the machine is too busy" if truth.held_up else "",
+            message=HELD_UP.format(truth.held_up) if truth.held_up else "",
             values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
         )
         array = DiagnosticArray(status=[status])

@@ -60,7 +60,7 @@ def test_port_faults_and_buttons(process: Any, bench: workbench.Bench, tmp_path:
     assert not bench.set("board_emulator", "bit_error_rate", 0.7)[0]
     client.close()
     out, err = workbench.end(process)
-    assert f"the board's serial port is {port}" in out + err and process.returncode == 0
+    assert f"The board's serial port is {port}" in out + err and process.returncode == 0
     assert not port.is_symlink()
 
 

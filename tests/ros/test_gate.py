@@ -4,9 +4,12 @@ from itertools import count
 from math import inf, nan
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from motor_ros.gate import CONFLICT, HOLD, QUIET, Gate
 
+Steps = list[tuple[str, float, int]]
 MS = 1_000_000  # [ns]
 T0 = 5_000_000_000_000  # [ns]
 
@@ -119,3 +122,34 @@ def test_what_is_not_a_number_is_0_volt_until_the_next_number(number: float) -> 
 def test_a_command_is_stale_after_the_time_out(age: int, acts: bool) -> None:
     plant = gate().take(0.0, T0).take(4.0, T0)
     assert plant.voltage(T0 + age) == (4.0 if acts else 0.0)
+
+
+STEPS = st.lists(
+    st.tuples(
+        st.sampled_from(["send", "rival", "enable", "disable", "stop", "come up", "wait"]),
+        st.floats(-20.0, 20.0) | st.sampled_from([0.0, nan, inf]),
+        st.integers(0, 300) | st.integers(0, 3000),  # [ms] that pass before it
+    ),
+    max_size=60,
+)
+
+
+@settings(deadline=None, max_examples=300)
+@given(st.booleans(), STEPS)
+def test_whatever_happens_the_motor_gets_a_fresh_number_that_began_or_0_volt(on: bool, steps: Steps) -> None:
+    """What may act: sent in the last 0.1 s, since the last switch, after a beginning, while the output is on."""
+    plant, now, since, begun = gate(on), T0, T0, False
+    newest: dict[str, tuple[int, float]] = {}
+    for what, value, wait in steps:
+        now += wait * MS
+        if what in ("send", "rival"):
+            begun = begun or value == 0.0 or now - since >= QUIET
+            plant, newest[what] = plant.take(value, now, what), (now, value)
+        elif what == "come up":
+            plant, since, begun, newest = plant.come_up(now), now, False, {}
+        elif what != "wait":
+            on = begun = what == "enable"
+            plant, newest = plant.stop("a fault") if what == "stop" else plant.enable(on), {}
+        voltage = plant.voltage(now)
+        assert voltage == 0.0 or (on and begun)
+        assert voltage == 0.0 or voltage in [volts for at, volts in newest.values() if now - at <= 100 * MS]

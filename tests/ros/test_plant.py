@@ -1,0 +1,58 @@
+"""The shell that both plants share: what motor/enable answers, and joint states that are the angle."""
+
+from collections.abc import Iterator
+
+import pytest
+from std_srvs.srv import SetBool
+from workbench import Bench
+
+from motor_model.sample import Info, Sample
+from motor_ros.gate import Gate
+from motor_ros.messages import time_message
+from motor_ros.plant import Plant
+
+
+@pytest.fixture
+def quiet() -> Iterator[Bench]:
+    bench = Bench()
+    yield bench
+    bench.close()
+
+
+def asked(plant: Plant, on: bool) -> tuple[bool, str]:
+    response = plant._on_enable(SetBool.Request(data=on), SetBool.Response())
+    return response.success, response.message
+
+
+def test_a_stop_that_is_due_comes_before_an_enable(quiet: Bench) -> None:
+    """The board has just said that it was reset, and nobody has looked yet: the output is not said to be on."""
+    pending = ["the board was reset (watchdog)"]
+
+    def work() -> None:
+        if pending:
+            plant.stop(pending.pop())
+
+    plant = Plant(quiet.node, Info(), Gate(True, 0.1), changed=work)
+    assert asked(plant, True) == (
+        False,
+        "The output stays off. Just now, the board was reset (watchdog): look, then call again.",
+    )
+    assert not plant.gate.enabled
+    assert asked(plant, True) == (True, "The output is on.") and plant.gate.enabled
+    assert asked(plant, False) == (True, "The output is off: call motor/enable with data: true.")
+
+
+def test_what_keeps_the_output_off_is_said(quiet: Bench) -> None:
+    plant = Plant(quiet.node, Info(), Gate(True, 0.1), refusal=lambda: "There is no link to the board yet.")
+    assert asked(plant, True) == (False, "The output stays off. There is no link to the board yet.")
+    assert asked(plant, False)[0]
+
+
+@pytest.mark.parametrize(("single", "angle"), [(False, 1.0), (True, 5.0)])
+def test_joint_states_are_the_angle_that_was_counted(quiet: Bench, single: bool, angle: float) -> None:
+    """Three slots on, two back: two channels count down, and one knows the direction by the speed's sign alone."""
+    plant = Plant(quiet.node, Info(single_channel=single, edges_per_revolution=4), Gate(True, 0.1))
+    down = -1 if not single else 1
+    for count, speed in ((3, 5.0), (3 + 2 * down, 5.0)):
+        plant.publish(Sample(0, speed, 0.0, edge_count=count), time_message(0))
+    assert plant._angle == pytest.approx(angle * 6.283185307 / 4)
