@@ -8,7 +8,6 @@ from typing import Any
 import pytest
 
 from motor_board.places import share
-from motor_board.wire_header import files
 from motor_board.wire_table import load_table, seal
 from motor_driver import frames, protocol
 from motor_driver.protocol import Arrival, Decoder, pack, unpack
@@ -16,11 +15,6 @@ from motor_driver.protocol import Arrival, Decoder, pack, unpack
 TABLE = load_table()
 VECTORS: dict[str, Any] = json.loads((share() / "protocol" / "vectors.json").read_text(encoding="utf-8"))
 KINDS = {kind.__name__.lower(): kind for kind in frames.FRAMES.values()}
-
-
-@pytest.mark.parametrize(("path", "text"), files().items(), ids=lambda value: getattr(value, "name", ""))
-def test_what_is_generated_is_current(path: Any, text: str) -> None:
-    assert path.read_text(encoding="utf-8") == text, "run python -m motor_board.wire_header"
 
 
 def test_the_driver_has_the_table_s_constants() -> None:

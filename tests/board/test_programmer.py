@@ -1,0 +1,71 @@
+"""Flashing: which port, what avrdude is told, and what is said where something is missing."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+from emulated_board import need_emulator
+
+from motor_board import programmer
+from motor_board.build import FirmwareConfig, firmware
+from motor_board.cli.flash import main
+from motor_board.errors import BoardError
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def plugged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Two boards, and an avrdude that writes its arguments down."""
+    for name in ("ttyACM0", "ttyACM1"):
+        (tmp_path / name).touch()
+    tool = tmp_path / "bin" / "avrdude"
+    tool.parent.mkdir()
+    tool.write_text(f'#!/bin/sh\necho "$@" > {tmp_path}/arguments\nexit $(cat {tmp_path}/status)\n')
+    tool.chmod(0o755)
+    (tmp_path / "status").write_text("0")
+    monkeypatch.setattr(programmer, "PORTS", (f"{tmp_path}/ttyACM*",))
+    monkeypatch.setenv("PATH", f"{tool.parent}:{Path(shutil.which('sh') or '/bin/sh').parent}:/usr/bin:/bin")
+    return tmp_path
+
+
+def test_flashing_tells_avrdude_all_it_needs(plugged: Path) -> None:
+    need_emulator()
+    assert main(["--port", f"{plugged}/ttyACM1", "--board", "nano-old", "--board-id", "3"]) == 0
+    arguments = (plugged / "arguments").read_text().split()
+    assert arguments[:3] == ["-q", "-c", "arduino"]
+    assert ["-P", f"{plugged}/ttyACM1", "-b", "57600"] == arguments[5:9]
+    assert arguments[-1] == f"flash:w:{firmware(FirmwareConfig(board_id=3))}:e"
+
+
+def test_one_board_needs_no_port_and_two_are_listed(plugged: Path, capsys: Capture) -> None:
+    need_emulator()
+    assert main([]) == 1
+    assert (
+        capsys.readouterr().err
+        == f"say which port the board is on with --port: {plugged}/ttyACM0, {plugged}/ttyACM1.\n"
+    )
+    (plugged / "ttyACM1").unlink()
+    assert main([]) == 0 and f"{plugged}/ttyACM0" in (plugged / "arguments").read_text()
+    (plugged / "ttyACM0").unlink()
+    assert main([]) == 1
+    assert capsys.readouterr().err.startswith("no board is plugged in")
+    assert main(["--port", "/dev/ttyACM77"]) == 1
+    assert capsys.readouterr().err == "there is no /dev/ttyACM77; the ports here: none.\n"
+
+
+def test_a_port_without_permission_names_dialout(plugged: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("os.access", lambda path, mode: False)
+    with pytest.raises(BoardError, match="no permission for .*ttyACM0: run 'sudo usermod -aG dialout"):
+        programmer.the_port(f"{plugged}/ttyACM0")
+
+
+def test_an_avrdude_that_fails_or_is_missing_is_one_sentence(plugged: Path, capsys: Capture) -> None:
+    need_emulator()
+    (plugged / "status").write_text("1")
+    assert main(["--port", f"{plugged}/ttyACM0"]) == 1
+    assert "avrdude could not flash" in capsys.readouterr().err
+    (plugged / "bin" / "avrdude").unlink()
+    if shutil.which("avrdude") is None:
+        assert main(["--port", f"{plugged}/ttyACM0"]) == 1
+        assert capsys.readouterr().err == "avrdude is not installed: sudo apt install avrdude\n"
