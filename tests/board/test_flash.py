@@ -1,6 +1,5 @@
 """Building and flashing: what reaches a board, and the sentences of whoever lacks something."""
 
-
 import pytest
 
 from motor_board.cli.flash import main
