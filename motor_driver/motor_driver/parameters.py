@@ -15,7 +15,13 @@ ROWS = (
     *SHARED_PARAMETERS,
     max_voltage_row(),
     Row("port", "", "the board's serial port, such as /dev/ttyACM0; empty: the only one on USB", read_only=True),
-    Row("board_id", "", "number the board was flashed with; another is refused; empty: any board", read_only=True),
+    Row(
+        "board_id",
+        "",
+        "number the board was flashed with; another is refused; empty: any board",
+        read_only=True,
+        any_kind=True,
+    ),
     Row("baud", BAUD, "of the serial port; the firmware's", "", 9600, 4_000_000, read_only=True),
     Row("decay", "brake", "what the bridge does in the off part of a PWM period: brake or coast", read_only=True),
 )

@@ -25,6 +25,7 @@ class Row:
     low: float | None = None
     high: float | None = None
     read_only: bool = False
+    any_kind: bool = False  # a text that may look like a number
 
     def shown(self) -> str:
         """The default as it would be typed."""
@@ -40,6 +41,7 @@ class Row:
         """What `ros2 param describe` shows."""
         text = f"{self.description} [{self.unit}]" if self.unit else self.description
         descriptor = ParameterDescriptor(name=self.name, description=text, read_only=self.read_only)
+        descriptor.dynamic_typing = self.any_kind
         if self.low is None or self.high is None:
             return descriptor
         if isinstance(self.default, float):

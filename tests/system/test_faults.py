@@ -71,6 +71,29 @@ def test_a_killed_driver_and_its_successor(driver: "Popen[str]", live: LiveBoard
     user.until_on(lambda sample: sample.speed > 50.0, "motion by the next driver")
 
 
+def test_a_latched_stop_does_not_end_by_starting_the_driver_again(
+    driver: "Popen[str]", live: LiveBoard, user: User, start: Start
+) -> None:
+    """The telemetry sticks, which is a stop; the driver starts again, and the controller still has its reference."""
+    user.sending = False  # the controller does
+    reference = user.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+    start("motor_control", "motor_control")
+    user.bench.heard(reference)
+    reference.publish(Float64(data=60.0))
+    user.until_on(lambda sample: sample.speed > 50.0, "motion")
+    live.faults = replace(live.faults, stuck_telemetry=True)
+    assert seconds_to_rest(live) < MOST
+    driver.kill()
+    live.faults = replace(live.faults, stuck_telemetry=False)
+    count = len(user.samples)
+    start("motor_driver", "motor_driver", "--ros-args", "-p", f"port:={live._port._link}")
+    user.bench.wait(lambda: len(user.samples) > count + 400, "samples of the next driver")
+    assert {sample.voltage for sample in user.samples[count:]} == {0.0} and live.truth().voltage == 0.0
+    assert user.bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    reference.publish(Float64(data=60.0))
+    user.until_on(lambda sample: sample.speed > 50.0, "motion after an enable and a fresh reference")
+
+
 def test_a_driver_that_is_ended_leaves_0_volt(driver: "Popen[str]", live: LiveBoard, user: User) -> None:
     user.voltage = 6.0
     user.until_on(lambda sample: sample.speed > 50.0, "motion")
