@@ -49,7 +49,9 @@ ROOMS = {
         "compiled errors text_table effect effects sample parameters model_file excitation dynamics sensing simulate "
         "warm_up"
     ),
-    "motor_control": ("checks filter controller tuning parameters warm_up preparation settings messages node cli"),
+    "motor_control": (
+        "checks filter controller announcements tuning parameters warm_up preparation settings messages node cli"
+    ),
     "motor_identification": (
         "recording progress experiment bag measurement noise estimation periodic uncertainty validation discrepancy "
         "diagnosis identify diagnose reporting service live logs cli"

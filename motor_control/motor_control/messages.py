@@ -1,9 +1,10 @@
-"""What the controller says, as messages."""
+"""Turn what the controller says into messages."""
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from std_msgs.msg import Header
 
-from motor_control.controller.controller import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Config, Output
+from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output
+from motor_control.controller.speed_law import Config
 from motor_msgs.msg import ControlState
 
 LEVELS = {
@@ -12,11 +13,11 @@ LEVELS = {
     NO_SAMPLES: DiagnosticStatus.ERROR,
     STOPPED: DiagnosticStatus.ERROR,
 }
-RIVALS = "More than one node publishes motor/voltage and the motor obeys whichever spoke last: end the others."
+RIVALS = "More than one node publishes motor/voltage, and the plant may obey any of them: end the others."
 
 
 def control_state_message(output: Output, header: Header) -> ControlState:
-    """An output as it goes out on `motor/control_state`."""
+    """Make the message of an output for `motor/control_state`."""
     terms = output.terms
     return ControlState(
         header=header,
@@ -32,15 +33,19 @@ def control_state_message(output: Output, header: Header) -> ControlState:
         feedforward=terms.feedforward,
         voltage=terms.voltage,
         saturated=terms.saturated,
+        latency=output.latency,
     )
 
 
-def diagnostics_message(output: Output, config: Config, answered: int, publishers: int, name: str) -> DiagnosticArray:
-    """One status: the controller's state, the samples `answered` in the last second, who publishes `motor/voltage`."""
+def diagnostics_message(
+    output: Output, config: Config, answered: int, worst: float, publishers: int, name: str
+) -> DiagnosticArray:
+    """Make one status: state, samples `answered` in the last second, their `worst` latency [s], publishers."""
     problem = RIVALS if publishers > 1 else ""
     values = {
         "state": output.state,
         "samples per second": str(answered),
+        "largest latency [ms]": f"{1e3 * worst:.2f}",
         "publishers of motor/voltage": str(publishers),
         "voltage limit [V]": f"{config.voltage_limit:g}",
         "single channel": str(config.single_channel).lower(),

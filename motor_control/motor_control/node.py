@@ -1,19 +1,24 @@
-"""The controller as a ROS node: it answers each message of motor/speed, and leaves the motor at 0 V when it goes."""
+"""Control a motor's speed as a ROS node: answer the newest motor/speed, and leave the motor at 0 V in the end."""
 
 import time
+from dataclasses import replace
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.msg import SetParametersResult
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from std_msgs.msg import Float64, Header
 from std_srvs.srv import Trigger
 
+from motor_control.announcements import Told, announce, describe_start
 from motor_control.controller import controller
+from motor_control.controller.output import Output
 from motor_control.messages import control_state_message, diagnostics_message
-from motor_control.parameters import PROGRAM, ROWS
+from motor_control.parameters import ROWS
 from motor_control.settings import Settings
 from motor_model.errors import MotorError
 from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed, MotorVoltage
@@ -33,20 +38,22 @@ class MotorControl(Node):
         super().__init__("motor_control")
         self._settings = Settings(declare(self, ROWS))
         self._state = controller.State(since=time.monotonic())
-        self._reference: float | None = None
         self._header = Header()  # of the latest sample
-        self._output = controller.WAITING
-        self._answered = 0  # samples since the last diagnostics
+        self._output, self._told = controller.WAITING, Told()
+        self._answered, self._worst, self._speakers = 0, 0.0, 0  # since the last diagnostics; who publishes motor/speed
         self._voltage = self.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
         self._control_state = self.create_publisher(ControlState, "motor/control_state", qos.CONTROL_STATE)
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
-        self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.SPEED)
+        self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
         self.create_subscription(Float64, "motor/reference", self._on_reference, qos.REFERENCE)
-        self.create_service(Trigger, "motor/reset", self._on_reset)
-        self.create_timer(WATCH_EVERY, self._on_watch)
-        self.create_timer(1.0, self._on_second)
+        self.create_service(Trigger, "motor/reset", lambda _, response: self._serve(controller.reset, response))
+        self.create_service(Trigger, "motor/release", lambda _, response: self._serve(controller.release, response))
+        steady = Clock(clock_type=ClockType.STEADY_TIME)  # goes on under use_sim_time and when the clock is set
+        self.create_timer(WATCH_EVERY, self._on_watch, clock=steady)
+        self.create_timer(1.0, self._on_second, clock=steady)
         self.add_on_set_parameters_callback(self._on_parameters)
+        self.get_logger().info(describe_start(self._settings.config))
 
     def close(self) -> None:
         """Leave the motor at 0 V, and see that it arrives."""
@@ -55,23 +62,23 @@ class MotorControl(Node):
 
     def _on_speed(self, message: MotorSpeed) -> None:
         sample, now = sample_of(message), time.monotonic()
-        output, self._state = controller.update(self._settings.config, self._state, sample, self._reference, now)
+        output, self._state = controller.update(self._settings.config, self._state, sample, None, now)
         self._header = message.header
-        self._answered += 1
-        if self._reference is not None:  # without one the motor is left to others, such as an experiment
-            self._send(output.terms.voltage, message.header.stamp)
-        self._show(output)
+        self._answered, self._worst = self._answered + 1, max(self._worst, output.latency)
+        self._publish(output, message.header.stamp)
 
     def _on_watch(self) -> None:
         self._settings.refresh()
-        first = self._state.silent is None
+        if (count := self.count_publishers("motor/speed")) != self._speakers:
+            self._speakers, self._state = count, replace(self._state, speakers=self._name_speakers())
         output, self._state = controller.watch(self._settings.config, self._state, time.monotonic())
-        if output is None:
-            return
-        self._header.stamp = self._now()
-        if first and self._reference is not None:
-            self._send(0.0, self._header.stamp)
-        self._show(output)
+        if output is not None:
+            self._header.stamp = self._now()
+            self._publish(output, self._header.stamp)
+
+    def _name_speakers(self) -> str:
+        found = self.get_publishers_info_by_topic(self.resolve_topic_name("motor/speed"))
+        return "(" + ", ".join(sorted(f"{one.node_namespace.rstrip('/')}/{one.node_name}" for one in found)) + ")"
 
     def _now(self) -> Time:
         return self.get_clock().now().to_msg()
@@ -79,24 +86,28 @@ class MotorControl(Node):
     def _send(self, voltage: float, stamp: Time) -> None:
         self._voltage.publish(voltage_message(voltage, stamp, self._header.frame_id))
 
-    def _show(self, output: controller.Output) -> None:
+    def _publish(self, output: Output, stamp: Time) -> None:
+        if output.drives:
+            self._send(output.terms.voltage, stamp)
         self._output = output
         self._control_state.publish(control_state_message(output, self._header))
+        say, config = self.get_logger(), self._settings.config
+        lines, self._told = announce(self._told, output, self._state.reference, config, time.monotonic())
+        for line in lines:
+            say.warning(line.text) if line.severe else say.info(line.text)
 
     def _on_reference(self, message: Float64) -> None:
-        self._reference = message.data
+        self._state = controller.refer(self._state, message.data, time.monotonic())
+
+    def _serve(self, change: controller.Change, response: Trigger.Response) -> Trigger.Response:
+        response.success, (response.message, self._state) = True, change(self._state)
+        return response
 
     def _on_info(self, message: MotorInfo) -> None:
         try:
             self._settings.meet(info_of(message))
         except MotorError as error:
             self.get_logger().error(f"motor/info is not usable and left aside: {error}")
-
-    def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        response.success = True
-        response.message = f"Cleared: {self._state.latched}" if self._state.latched else "No stop was latched."
-        self._state = controller.reset(self._state)
-        return response
 
     def _on_parameters(self, changed: list[Parameter]) -> SetParametersResult:
         try:
@@ -107,13 +118,13 @@ class MotorControl(Node):
 
     def _on_second(self) -> None:
         name = f"{self.get_fully_qualified_name()}: {self._header.frame_id or 'no motor yet'}"
-        rivals = self.count_publishers("motor/voltage")
-        message = diagnostics_message(self._output, self._settings.config, self._answered, rivals, name)
+        rivals, config = self.count_publishers("motor/voltage"), self._settings.config
+        message = diagnostics_message(self._output, config, self._answered, self._worst, rivals, name)
         message.header.stamp = self._now()
         self._diagnostics.publish(message)
-        self._answered = 0
+        self._answered, self._worst = 0, 0.0
 
 
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_control motor_control`."""
-    return run(MotorControl, args, quick_executor, PROGRAM)
+    return run(MotorControl, args, quick_executor)

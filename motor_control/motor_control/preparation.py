@@ -1,7 +1,10 @@
-"""Getting the observer's machine code ready: at the start at once, in a running loop beside it."""
+"""Prepare the observer's machine code: at the start at once, in a running loop beside it."""
 
 import gc
+import sys
 import threading
+
+BESIDE = 2e-4  # [s] for which the thread that prepares may keep the interpreter from the loop
 
 
 class Preparation:
@@ -28,5 +31,13 @@ class Preparation:
     def begin(self) -> None:
         """Prepare in a thread, so that a running loop keeps its voltage; nothing if that has begun or is done."""
         if self._thread is None and not self._done:
-            self._thread = threading.Thread(target=self.now, daemon=True)
+            self._thread = threading.Thread(target=self._beside, daemon=True)
             self._thread.start()
+
+    def _beside(self) -> None:
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(BESIDE)
+        try:
+            self.now()
+        finally:
+            sys.setswitchinterval(interval)

@@ -7,6 +7,11 @@ def _reliable(depth: int, durability: DurabilityPolicy = DurabilityPolicy.VOLATI
     return QoSProfile(depth=depth, reliability=ReliabilityPolicy.RELIABLE, durability=durability)
 
 
+def newest(profile: QoSProfile) -> QoSProfile:
+    """Make a subscription that keeps the newest message alone: who is held up answers that, not what has queued up."""
+    return QoSProfile(depth=1, reliability=profile.reliability, durability=profile.durability)
+
+
 SPEED = _reliable(100)
 INFO = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
 VOLTAGE = _reliable(1)

@@ -31,11 +31,12 @@ def sim(start: Start, tmp_path: Path, *arguments: str) -> "Popen[str]":
 @pytest.mark.on_time
 def test_holds_a_speed_and_changes_it_without_a_limit_cycle(bench: Bench, start: Start, tmp_path: Path) -> None:
     sim(start, tmp_path)
-    controller = start("motor_control", "motor_control")
+    controller = start("motor_control", "motor_control", "--ros-args", "-p", "latency_limit:=0.5")
     samples = bench.hear(MotorSpeed, "motor/speed", qos.SPEED)
     states = bench.hear(ControlState, "motor/control_state", qos.CONTROL_STATE)
     reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)
     bench.heard(reference)
+    bench.wait(lambda: bool(states) and states[-1].state == "disabled", "samples at the controller")
 
     def hold(speed: float, seconds: float) -> tuple[list[MotorSpeed], list[ControlState]]:
         """What happened from a new reference on."""
@@ -64,7 +65,9 @@ def test_with_its_model_the_loop_holds_slow_speeds_and_says_when_the_output_is_o
     model = f"model:={tmp_path / 'hidden.yaml'}"
     gains = ("-p", f"kp:={PAPER_KA / 0.02}", "-p", f"ki:={PAPER_KV / 0.02}")
     options = ("-p", model, "-p", "speed_source:=observer", "-p", "feedforward:=true", *gains)
-    start("motor_control", "motor_control", "--ros-args", *options)
+    start(
+        "motor_control", "motor_control", "--ros-args", *options, "-p", "latency_limit:=0.5"
+    )  # others use the processor
     states = bench.hear(ControlState, "motor/control_state", qos.CONTROL_STATE)
     reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)
     bench.heard(reference)

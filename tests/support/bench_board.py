@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_control.controller import controller
-from motor_control.controller.controller import Config, Output, State
+from motor_control.controller.controller import Config, State
+from motor_control.controller.output import Output
 from motor_control.parameters import ROWS, config_of
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.sample import Info

@@ -66,7 +66,7 @@ class FakePlant(Bench):
         stamp = time_message(self.time)
         self.wait(lambda: bool(self.states) and self.states[-1].header.stamp == stamp, "an answer to a sample")
         if self.states[-1].state == "disabled":
-            assert len(self.voltages) == count
+            assert all(message.voltage == 0.0 for message in self.voltages[count:])
             return self.states[-1]
         self.wait(lambda: len(self.voltages) > count and self.voltages[-1].header.stamp == stamp, "a voltage")
         assert self.voltages[-1].voltage == self.states[-1].voltage

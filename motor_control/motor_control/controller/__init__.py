@@ -1,5 +1,6 @@
-"""Control the speed: one encoder sample and a reference in; a voltage and every term of it out. No clock, no ROS.
+"""Control the speed: an encoder sample and a reference in; a voltage and every term of it out. No clock, no ROS.
 
-`controller` is the entry: it decides whether the motor may run; `speed_law` answers a sample, with feed-forward and
-`pi`.
+`controller` is the entry: it decides whether the motor may run (`latency` and `plant_watch` judge the sample).
+`speed_law` answers the sample: speed by `observer` or as reported, `feedforward`, `voltage_range`, `pi`; `motion` and
+`faults` see whether the motor does what it should. `output` is what comes out.
 """

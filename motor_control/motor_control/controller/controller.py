@@ -1,26 +1,44 @@
-"""The speed controller: one encoder sample and a reference in; a voltage and everything that led to it out. No clock.
+"""Decide whether the motor may run, and answer every sample: a voltage with everything that led to it. No clock.
 
-Time between samples is the plant's own (`sample_time`), so a message that comes late changes nothing; `now` only tells
-whether samples still come at all. Whatever is wrong, the answer is 0 V with a sentence that says why.
+Time between samples is the plant's own (`sample_time`); `now`, a monotonic clock of the caller's, tells how old a
+sample is and whether samples still come at all. Whatever is wrong, the answer is 0 V with a sentence that says why.
+
+A reference is obeyed from when it comes until something ends it: a stop, a reset, a plant that was restarted or was
+away, its output switched off, `reference_timeout`, `release`. Then the motor waits for a fresh one.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import isfinite, nan
 
-from motor_control.controller import pi
 from motor_control.controller import speed_law as law
+from motor_control.controller.latency import LatencyState, track_latency
+from motor_control.controller.motion import Motion
+from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
+from motor_control.controller.plant_watch import PlantWatch, watch_plant
 from motor_control.controller.speed_law import Config, Run
 from motor_model.sample import Sample
 
-RUNNING, DISABLED, NO_SAMPLES, STOPPED = "running", "disabled", "no_samples", "stopped"
 REPEAT_SILENCE = 0.2  # [s] how often it is said again that no samples come
+AWAY = 1.0  # [s] of silence after which a plant that comes back is not driven on by an old reference
+OFF = 0.5  # [s] for which a plant may ignore voltages before the reference is dropped: longer than any hiccup
 
 NO_REFERENCE = "No reference yet: publish a speed in rad/s on motor/reference."
+FRESH = "{} The motor waits for a fresh reference: publish a speed in rad/s on motor/reference."
+RESTARTED = "The plant was restarted."
+RETURNED = "The plant was away for more than 1 s."
+WAS_OFF = "The plant's output is off: call motor/enable with data: true."
+TIMED_OUT = "The last reference is older than reference_timeout ({:g} s)."
+RELEASED = "The motor was released."
+CLEARED = "The stop was cleared."
+STALE = "The sample is {:.0f} ms old and latency_limit is {:.0f} ms: give the controller more processor time."
 BAD_REFERENCE = "The reference is {}: publish a finite speed in rad/s on motor/reference."
 BAD_SAMPLE = "A sample on motor/speed says {} = {}: find out what is wrong with the plant."
 NEVER_A_SAMPLE = "No sample has come on motor/speed yet: start motor_sim or motor_driver."
 SILENCE = "No sample on motor/speed for {:.1f} s: see whether motor_sim or motor_driver still runs."
-CALL_RESET = "{} Call motor/reset to go on."
+NAMES = "(names)"  # stands for who publishes motor/speed, which may be known a moment later
+TWO_PLANTS = f"Two plants publish motor/speed {NAMES}: end one of them."
+CALL_RESET = "{} Call motor/reset, then publish a fresh reference, to go on."
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,35 +50,29 @@ class State:
     silent: float | None = None  # when silence was last reported; None while samples come
     run: Run | None = None
     latched: str = ""  # why the motor stays at 0 V until `reset`
-
-
-@dataclass(frozen=True, slots=True)
-class Output:
-    """What `ControlState` shows, without its header."""
-
-    state: str
-    reason: str
-    reference: float  # [rad/s] the one the law used, behind the rate limit; NaN: none
-    speed: float  # [rad/s] NaN: none
-    terms: pi.Terms
-    speed_sigma: float = nan  # [rad/s] NaN: measured, not estimated
-    innovation: float = nan  # [rad] angle at the latest edge less the observer's prediction
-    warning: bool = False  # somebody should read the reason
+    reference: float | None = None  # [rad/s] the latest one, as long as it is obeyed
+    referred: float = 0.0  # when it came
+    dropped: str = ""  # why there is none any more
+    drives: bool = False  # the latest voltage was ours, so the next has to be too
+    plant: PlantWatch | None = None
+    latency: LatencyState | None = None
+    motion: Motion | None = None  # what is known of the motor, from run to run
+    speakers: str = ""  # who publishes motor/speed, for the sentence about two plants
 
 
 def update(config: Config, state: State, sample: Sample, reference: float | None, now: float) -> tuple[Output, State]:
-    """Answer one sample; reference [rad/s] is the latest one or None, now [s] is a monotonic clock of the caller's."""
-    name, reason = _obstacle(state, sample, reference)
-    halted = State(state.since, now, None, None, state.latched)
-    if reference is None or name != RUNNING:
-        return _halt(name, reason, nan if reference is None else reference, sample.speed), halted
-    answer, run = law.step(config, _continued(config, state.run, sample), sample, reference)
-    if answer.fault:
-        reason = CALL_RESET.format(answer.fault)
-        return _halt(STOPPED, reason, answer.reference, answer.speed), stop(halted, answer.fault)
-    if not isfinite(answer.speed):
-        return _halt(STOPPED, answer.reason, answer.reference, answer.speed), halted
-    return _answered(answer), State(state.since, now, None, run, "")
+    """Answer one sample; reference [rad/s]: one that has come since the last sample; now [s] is a monotonic clock."""
+    age, latency = track_latency(state.latency, sample.sample_time, now)
+    plant = watch_plant(state.plant, sample.sample_time, sample.edge_count, now, config.sample_period)
+    if plant.two and not state.latched:
+        state = stop(state, TWO_PLANTS)
+    state = replace(_drop_old_reference(config, state, plant, now), plant=plant, latency=latency)
+    if reference is not None:
+        state = refer(state, reference, now)
+    output, after = _answer(config, state, sample, age)
+    ours = after.reference is not None or bool(after.latched) and state.drives
+    drives = state.drives or after.reference is not None
+    return replace(output, latency=age, drives=drives), replace(after, arrival=now, silent=None, drives=ours)
 
 
 def watch(config: Config, state: State, now: float) -> tuple[Output | None, State]:
@@ -69,60 +81,100 @@ def watch(config: Config, state: State, now: float) -> tuple[Output | None, Stat
     if silence <= config.sample_timeout or (state.silent is not None and now - state.silent < REPEAT_SILENCE):
         return None, state
     reason = NEVER_A_SAMPLE if state.arrival is None else SILENCE.format(silence)
-    return _halt(NO_SAMPLES, reason, nan, nan), replace(state, run=None, silent=now)
+    output = replace(halt(NO_SAMPLES, reason, nan, nan), drives=state.drives and state.silent is None)
+    return output, replace(state, run=None, silent=now)
+
+
+def refer(state: State, reference: float, now: float) -> State:
+    """Take a fresh reference [rad/s]; while a stop is latched it is not taken."""
+    if state.latched:
+        return state
+    return replace(state, reference=reference, referred=now, dropped="")
+
+
+def release(state: State) -> tuple[str, State]:
+    """Let go of the motor: no reference, and after one last 0 V no voltage. What to say stands beside the state."""
+    return RELEASED, _drop(state, RELEASED)
 
 
 def stop(state: State, reason: str) -> State:
     """Latch 0 V from the next sample on, until `reset`; `reason` is a sentence."""
-    return replace(state, run=None, latched=reason)
+    return replace(state, run=None, latched=reason, reference=None, dropped=CLEARED)
 
 
-def reset(state: State) -> State:
-    """Clear the latched stop."""
-    return replace(state, latched="")
+def reset(state: State) -> tuple[str, State]:
+    """Clear the latched stop; the motor waits for a fresh reference. What to say stands beside the state."""
+    if not state.latched:
+        return "No stop was latched.", state
+    return f"Cleared: {state.latched.replace(NAMES, state.speakers)}", replace(state, latched="")
 
 
-def _obstacle(state: State, sample: Sample, reference: float | None) -> tuple[str, str]:
-    """Why not to run, as state and reason; (running, "") where nothing speaks against it."""
+def _drop(state: State, why: str) -> State:
+    return replace(state, run=None, reference=None, dropped=why)
+
+
+def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: float) -> State:
+    """Drop a reference that the plant or time has ended."""
+    if state.reference is None:
+        return state
+    if plant.restarted:
+        return _drop(replace(state, motion=None), RESTARTED)
+    if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
+        return _drop(state, RETURNED)
+    if config.reference_timeout and now - state.referred > config.reference_timeout:
+        return _drop(state, TIMED_OUT.format(config.reference_timeout))
+    if state.run is not None and state.run.ignored > OFF and now - state.referred > OFF:
+        return _drop(state, WAS_OFF)
+    return state
+
+
+def _answer(config: Config, state: State, sample: Sample, age: float) -> tuple[Output, State]:
+    """Answer a sample of an age [s] with the reference in force."""
+    reference = state.reference
+    name, reason = _find_obstacle(config, state, sample)
+    shown = nan if reference is None else reference
+    if reference is None or name != RUNNING:
+        return replace(halt(name, reason, shown, sample.speed), warning=bool(state.dropped)), replace(state, run=None)
+    run = _continue_run(config, state, sample)
+    if age > config.latency_limit:  # what it says is over; the run goes on with the next one that is in time
+        late = halt(STOPPED, STALE.format(1e3 * age, 1e3 * config.latency_limit), shown, sample.speed)
+        return late, replace(state, run=replace(run, asked=0.0))
+    output, run = law.step(config, run, sample, reference)
+    if output.fault:
+        stopped = halt(STOPPED, CALL_RESET.format(output.fault), output.reference, output.speed)
+        return replace(stopped, fault=output.fault), stop(replace(state, motion=run.motion), output.fault)
+    if output.state != RUNNING:
+        return output, replace(state, run=None)
+    return output, replace(state, run=run, motion=run.motion)
+
+
+def _find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, str]:
+    """Find why not to run, as state and reason; (running, "") where nothing speaks against it."""
     if state.latched:
-        return STOPPED, CALL_RESET.format(state.latched)
+        return STOPPED, CALL_RESET.format(state.latched.replace(NAMES, state.speakers))
+    if config.unusable:
+        return STOPPED, config.unusable
     for name, value in (("speed", sample.speed), ("voltage", sample.voltage), ("edge_period", sample.edge_period)):
         if not isfinite(value):
             return STOPPED, BAD_SAMPLE.format(name, value)
-    if reference is None:
-        return DISABLED, NO_REFERENCE
-    if not isfinite(reference - sample.speed):
-        return STOPPED, BAD_REFERENCE.format(reference)
+    if state.reference is None:
+        return DISABLED, FRESH.format(state.dropped) if state.dropped else NO_REFERENCE
+    if not isfinite(state.reference - sample.speed):
+        return STOPPED, BAD_REFERENCE.format(state.reference)
     return RUNNING, ""
 
 
-def _continued(config: Config, run: Run | None, sample: Sample) -> Run:
-    """The run that this sample belongs to, lost samples in between or not; a new one begins at its own speed.
+def _continue_run(config: Config, state: State, sample: Sample) -> Run:
+    """Find the run that this sample belongs to, lost samples in between or not; a new one begins at its own speed.
 
-    A new one begins where there was none, where the plant has restarted (its clock is behind), and after a gap that the
-    plant's own watchdog does not survive either: what the integral knew is of another motion.
+    A new one begins where there was none, and after a gap that the plant's own watchdog does not survive either: what
+    the integral knew is of another motion.
     """
+    run = state.run
     if run is not None and 0 <= sample.sample_time - run.sample_time <= config.sample_timeout * 1e9:
         return run
-    return law.begin(config, sample)
+    return law.begin(config, sample, state.motion)
 
 
-def _answered(answer: law.Answer) -> Output:
-    """A running motor's output."""
-    return Output(
-        RUNNING,
-        answer.reason,
-        answer.reference,
-        answer.speed,
-        answer.terms,
-        answer.speed_sigma,
-        answer.innovation,
-        answer.warning,
-    )
-
-
-def _halt(name: str, reason: str, reference: float, speed: float) -> Output:
-    return Output(name, reason, reference, speed, pi.Terms(reference - speed, 0.0, 0.0, 0.0, 0.0, False))
-
-
-WAITING = _halt(NO_SAMPLES, NEVER_A_SAMPLE, nan, nan)  # what holds before anything has happened
+Change = Callable[[State], tuple[str, State]]
+WAITING = halt(NO_SAMPLES, NEVER_A_SAMPLE, nan, nan)  # what holds before anything has happened

@@ -30,12 +30,12 @@ from motor_model.errors import MotorError
 from motor_model.parameters import Parameters
 from motor_model.sample import Info, Measurement, Sample
 
-WALK = 0.002  # [V²/s] of the load
-SHAKE = 1e-6  # [V²·s] of the torque
+WALK = 0.002 / 144.0  # [1/s] of the load, in supplies squared: the same motor at another voltage is seen the same
+SHAKE = 1e-6 / 144.0  # [s] of the torque, in supplies squared
 HOLE = 0.2  # of a slot: standard deviation of where a hole's other flank is
 MOST_COMMANDS = 1000  # that may be on their way through the delay
 FASTEST = 10.0  # times what the supply gives: no motor turns so fast
-NO_EDGE = Edge(nan, 0.0)
+NO_EDGE = Edge(nan, 0.0, False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +82,7 @@ class Observer:
         ripple, off_centre = vector[INDEX["ripple_voltage"]], vector[INDEX["eccentricity"]]
         for name in ("ripple_voltage", "eccentricity", "step_voltage"):
             vector[INDEX[name]] = 0.0
+        supply = float(vector[INDEX["max_voltage"]])
         flank = sqrt((self.slot_irregularity * slot) ** 2 + 0.5 * off_centre**2 + (1e-4 * slot) ** 2)
         object.__setattr__(self, "vector", vector)
         noise = Noise(
@@ -89,8 +90,8 @@ class Observer:
             flank=flank,
             turn=HOLE * slot,
             tick=self.info.edge_resolution,
-            walk=WALK + float(ripple) ** 2,
-            shake=SHAKE,
+            walk=WALK * supply**2 + float(ripple) ** 2,
+            shake=SHAKE * supply**2,
             missing=bool(vector[INDEX["miss_rate"]] > 0.0),
             single=self.info.single_channel,
         )
@@ -101,7 +102,7 @@ class Observer:
         commands = _fit_commands(Commands(np.zeros(1), np.array([sample.voltage])), self._rows())
         fastest = FASTEST * float(self.vector[INDEX["max_voltage"]] / self.vector[INDEX["kv"]])
         speed = min(max(float(speed), -fastest), fastest)
-        memory = start_filter(self.noise, speed, copysign(1.0, speed) if speed else 0.0, no_jumps())
+        memory = start_filter(self.vector, self.noise, speed, copysign(1.0, speed) if speed else 0.0, no_jumps())
         return State(memory, commands, sample.sample_time, sample.edge_count, sample.edge_time)
 
     def update(self, state: State, sample: Sample) -> tuple[Estimate, State]:
@@ -127,7 +128,7 @@ class Observer:
     def adopt(self, state: State) -> State:
         """Adopt what another model's state knows of the motion, not of the load."""
         motor = unpack_hypotheses(state.memory).likely.estimate.motor
-        memory = start_filter(self.noise, motor.speed, motor.direction, no_jumps())
+        memory = start_filter(self.vector, self.noise, motor.speed, motor.direction, no_jumps())
         return replace(state, memory=memory, commands=_fit_commands(state.commands, self._rows()))
 
     def _rows(self) -> int:
@@ -145,9 +146,9 @@ class Observer:
         at = (sample.edge_time - state.sample_time) * 1e-9 + 0.5 * self.noise.tick
         before = at - sample.edge_period
         if abs(steps) < 2 or sample.edge_period <= 0.0 or before < 0.0:
-            return NO_EDGE, Edge(at, float(steps))
+            return NO_EDGE, Edge(at, float(steps), sample.edge_period == 0.0 and abs(steps) == 1)
         one = copysign(1.0, steps)
-        return Edge(before, steps - one), Edge(at, one)
+        return Edge(before, steps - one, False), Edge(at, one, False)
 
 
 def _fit_commands(commands: Commands, rows: int) -> Commands:

@@ -1,4 +1,4 @@
-"""Which voltages are allowed now, so that a motor whose encoder has one channel does not lose its direction.
+"""Limit the voltage: to what keeps a single channel's direction, and to what the bridge should carry in a reversal.
 
 A single channel counts edges and does not see which way they pass. The plant's sign is a guess that it can only revise
 at a standstill, or where the period has a maximum while the voltage opposes the motion; so under an opposing voltage
@@ -13,9 +13,12 @@ the voltage outright. A wrong sign makes the loop push the wrong way. With the r
 
 It mends itself. Should the sign be wrong after all, the voltage is still toward the reference, so the motor ends up
 turning that way, through a standstill or a period maximum that the plant can see.
+
+Against a motion, voltage and back-EMF add up: full voltage backwards at top speed is twice the stall current. So the
+voltage is kept within `plug_limit` times the limit of the back-EMF.
 """
 
-from math import copysign
+from math import copysign, inf
 from typing import NamedTuple
 
 GIVE_UP = 2.0  # of 1, 2, 4, 8 in simulation the least that loses no time with a plant that is slow to see the turn
@@ -31,12 +34,12 @@ class Span(NamedTuple):
 
 
 def both_ways(limit: float) -> Span:
-    """A motor whose direction is measured: anything within +-limit [V]."""
+    """Allow anything within +-limit [V]: the direction is measured."""
     return Span(-limit, limit, False, False)
 
 
 def toward(reference: float, speed: float, limit: float, reversal_speed: float, reversing: bool) -> Span:
-    """A single-channel motor: reference and speed [rad/s], limit [V]; `reversing` as returned for the last sample."""
+    """Allow what drives toward the reference: reference, speed [rad/s], limit [V]; `reversing` of the last sample."""
     against = reference * speed < 0.0
     slow_enough = abs(speed) <= reversal_speed * (GIVE_UP if reversing else 1.0)
     if reference == 0.0 or (against and not slow_enough):
@@ -46,7 +49,7 @@ def toward(reference: float, speed: float, limit: float, reversal_speed: float, 
 
 
 def known(reference: float, speed: float, forward: float, limit: float, reversal_speed: float) -> Span:
-    """A single channel's direction is known by an observer, but near a standstill not for sure.
+    """Allow what an observer's direction makes safe: it is known, but near a standstill not for sure.
 
     Toward the reference anything within +-limit [V] goes; against it only what brakes a motion faster than
     reversal_speed [rad/s], and what the reference by itself asks for: the feed-forward without any estimate, `forward`
@@ -58,3 +61,23 @@ def known(reference: float, speed: float, forward: float, limit: float, reversal
     if reference < 0.0 or (speed > reversal_speed and reference >= 0.0):
         low = -limit
     return Span(low, high, False, False)
+
+
+def limit_plugging(span: Span, back_emf: float, limit: float) -> Span:
+    """Keep the voltage within a limit [V] of the back-EMF [V] where it would work against the motion.
+
+    An infinite back-EMF is one that is not known: then nothing works against the motion.
+    """
+    low, high = span.low, span.high
+    if back_emf > 0.0:
+        low = max(low, min(back_emf - limit, 0.0))
+    elif back_emf < 0.0:
+        high = min(high, max(back_emf + limit, 0.0))
+    return span._replace(low=low, high=max(high, low))
+
+
+def back_emf_of(speed: float, kv: float, reversal_speed: float) -> float:
+    """Compute the back-EMF [V] at a speed [rad/s]; kv [V·s/rad], 0: not known, then infinite beyond reversal_speed."""
+    if kv > 0.0:
+        return kv * speed
+    return copysign(inf, speed) if abs(speed) > reversal_speed else 0.0

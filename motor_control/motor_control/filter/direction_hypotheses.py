@@ -66,12 +66,12 @@ def predict_hypotheses(
 
 
 @compiled
-def update_hypotheses(p: Floats, noise: Noise, pair: Hypotheses, u: float, steps: float) -> Hypotheses:
+def update_hypotheses(p: Floats, noise: Noise, pair: Hypotheses, u: float, steps: float, bare: bool) -> Hypotheses:
     """Update both hypotheses at an edge, `steps` after the last one, under an effective voltage u [V]."""
-    first = update_at_edge(p, noise, pair.likely, pair.jumps, u, steps)
+    first = update_at_edge(p, noise, pair.likely, pair.jumps, u, steps, bare)
     likely, other, lead = clamp_state(p, noise, first.state), pair.other, pair.lead
     if lead != inf:
-        second = update_at_edge(p, noise, other, pair.jumps[:0], u, steps)
+        second = update_at_edge(p, noise, other, pair.jumps[:0], u, steps, bare)
         other, lead = clamp_state(p, noise, second.state), lead + first.log_likelihood - second.log_likelihood
     return decide_direction(Hypotheses(likely, other, lead, first.jumps), first.margin)
 

@@ -30,10 +30,10 @@ from motor_model.compiled import compiled
 from motor_model.dynamics.forces import drive_of
 from motor_model.effects import INDEX
 
-KA, KS, BIAS = INDEX["ka"], INDEX["ks"], INDEX["bias_voltage"]
+KA, KS, BIAS, U_MAX = INDEX["ka"], INDEX["ks"], INDEX["bias_voltage"], INDEX["max_voltage"]
 MEMORY = 0.8  # of the sum of innovations; its standard deviation is then 1/sqrt(1 - MEMORY²) = 1.67
 ALARM = 4.0 / sqrt(1.0 - MEMORY * MEMORY)  # of that sum: the load has changed, or the speed
-JUMP = 0.5  # [V] by which the load may have changed then
+JUMP = 0.5 / 12.0  # of the supply, by which the load may have changed then
 SHOCK = 6.0  # standard deviations of a single innovation: the speed itself has jumped
 FORGIVEN = 0.05  # of the edges may be missed in the long run; more is another speed
 SLOW = 0.05  # [s] for a slot: the speed assumed where an edge comes and nothing explains it
@@ -106,6 +106,17 @@ def locate_flank(noise: Noise, x: FilterState, side: float, steps: float) -> Fla
 
 
 @compiled
+def locate_taken_back(noise: Noise, x: FilterState, side: float) -> Flank:
+    """Locate the flank of an edge without a period: two channels take back an edge where its hole is left backwards.
+
+    The first such edge is the last flank, passed the other way; the next one the other flank of the hole behind.
+    """
+    if side == x.history.edge.side:
+        return Flank(0.5 * side * noise.slot, noise.turn * noise.turn, 0.0)
+    return Flank(0.0, noise.flank * noise.flank, 0.0)
+
+
+@compiled
 def choose_direction(p: Floats, noise: Noise, x: FilterState, u: float, steps: float) -> Direction:
     """Choose the way the shaft turned, under an effective voltage u [V]."""
     side = x.history.edge.side
@@ -138,8 +149,8 @@ def raise_alarm(p: Floats, x: FilterState, shift: float, variance: float, drift:
     c = x.estimate.covariance
     drifted = abs(drift) > ALARM
     if drifted:
-        ago = 0.5 * memory
-        c, drift = inflate_covariance(c, -0.5 * JUMP * ago * ago / p[KA], -JUMP * ago / p[KA], JUMP), 0.0
+        ago, jump = 0.5 * memory, JUMP * p[U_MAX]
+        c, drift = inflate_covariance(c, -0.5 * jump * ago * ago / p[KA], -jump * ago / p[KA], jump), 0.0
     shocked = abs(shift) > SHOCK * sqrt(c.aa + variance)
     if shocked:
         ago = max(x.history.edge.since, 1e-3)
@@ -172,24 +183,32 @@ def start_motion(p: Floats, noise: Noise, x: FilterState, u: float, steps: float
         side = h.edge.side
     push = max(abs(net - e.load) - p[KS], 0.0) / p[KA]
     speed = max(sqrt(push * noise.slot), noise.slot / SLOW)
-    c = Covariance(noise.flank * noise.flank, 0.0, 0.0, 0.25 * speed * speed, 0.0, e.covariance.ll + JUMP * JUMP)
+    c = Covariance(
+        noise.flank * noise.flank, 0.0, 0.0, 0.25 * speed * speed, 0.0, e.covariance.ll + (JUMP * p[U_MAX]) ** 2
+    )
     level = max(h.consistency.level, UNEARNED)
     history = History(LatestEdge(side, 0.0, 0.0, e.load), Silence(0.0, False), Consistency(0.0, 0.0, level), 0.0, 0.0)
     return FilterState(Estimate(place_motor(e.motor, 0.0, side * speed, side), e.load, c), history, x.elapsed)
 
 
 @compiled
-def update_at_edge(p: Floats, noise: Noise, x: FilterState, jumps: Jumps, u: float, steps: float) -> EdgeUpdate:
+def update_at_edge(
+    p: Floats, noise: Noise, x: FilterState, jumps: Jumps, u: float, steps: float, bare: bool
+) -> EdgeUpdate:
     """Update the state at an edge, `steps` after the last one that was used, under an effective voltage u [V].
 
-    A second channel gives steps a sign; 0 of them is there and back.
+    A second channel gives steps a sign; 0 of them is there and back. bare: an edge without a period, see
+    `locate_taken_back`.
     """
     e, h = x.estimate, x.history
     if e.motor.speed == 0.0:
         return EdgeUpdate(start_motion(p, noise, x, u, steps), forget_jumps(jumps), 0.0, inf)
     way = choose_direction(p, noise, x, u, steps)
-    carry_on = way.side == h.edge.side and steps != 0.0
+    taken_back = bare and not noise.single and h.edge.side != 0.0
+    carry_on = way.side == h.edge.side and steps != 0.0 and not taken_back
     flank = locate_flank(noise, x, way.side, abs(steps))
+    if taken_back:
+        flank = locate_taken_back(noise, x, way.side)
     where, variance = flank.angle, flank.variance
     missed = max(h.missed - FORGIVEN * abs(steps), 0.0)
     if noise.missing and carry_on and missed < 1.0:

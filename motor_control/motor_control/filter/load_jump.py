@@ -31,10 +31,10 @@ from motor_control.filter.linearisation import linearise_motion
 from motor_model.compiled import compiled
 from motor_model.effects import INDEX
 
-KA = INDEX["ka"]
+KA, U_MAX = INDEX["ka"], INDEX["max_voltage"]
 PARTS = 2  # of a slot that are told apart; one is too sure of the onset, four change nothing
 SLOTS = 3  # that are looked at; what takes longer to show is no matter of one jump, and four find it no sooner
-SIZE = 0.5  # [V] standard deviation of a jump
+SIZE = 0.5 / 12.0  # of the supply: standard deviation of a jump
 RATE = 0.3  # [1/s] of jumps; at 2 there are false alarms, at 1 nothing is found sooner
 LONGEST = 0.01  # [s] of a slot: over 12 ms friction that the model lacks is a jump, and the motor hunts
 FAR = 0.25  # of a slot: an edge is missed then rather than a load changed
@@ -126,24 +126,24 @@ def weigh_jumps(jumps: Jumps, c: Covariance, shift: float, variance: float, leve
 
 
 @compiled
-def estimate_jump(told: float, known: float, span: float) -> JumpEstimate:
-    """Estimate a jump from what a hypothesis has gathered: l [1/V], I − 1/J² [1/V²], its span [s]."""
-    variance = 1.0 / (known + 1.0 / (SIZE * SIZE))
+def estimate_jump(told: float, known: float, span: float, size: float) -> JumpEstimate:
+    """Estimate a jump from what a hypothesis has gathered: l [1/V], I − 1/J² [1/V²], its span [s]; size: J [V]."""
+    variance = 1.0 / (known + 1.0 / (size * size))
     mean = told * variance
-    return JumpEstimate(mean, variance, 0.5 * (told * mean + log(variance / (SIZE * SIZE))) + log(RATE * span + 1e-30))
+    return JumpEstimate(mean, variance, 0.5 * (told * mean + log(variance / (size * size))) + log(RATE * span + 1e-30))
 
 
 @compiled
-def mix_jumps(x: Estimate, jumps: Jumps) -> JumpTest:
-    """Add the mixture of all jumps to the estimate where they are more likely than none."""
+def mix_jumps(x: Estimate, jumps: Jumps, size: float) -> JumpTest:
+    """Add the mixture of all jumps to the estimate where they are more likely than none; size: J [V]."""
     top = FAINT
     for j in jumps:
-        top = max(top, estimate_jump(j.told, j.known, j.span).log_odds)
+        top = max(top, estimate_jump(j.told, j.known, j.span, size).log_odds)
     if top == FAINT:
         return JumpTest(x, jumps, False)
     none, whole, angle, speed, load = exp(-top), 0.0, 0.0, 0.0, 0.0
     for j in jumps:
-        one = estimate_jump(j.told, j.known, j.span)
+        one = estimate_jump(j.told, j.known, j.span, size)
         share = exp(one.log_odds - top)
         whole += share
         angle, speed, load = (
@@ -153,12 +153,12 @@ def mix_jumps(x: Estimate, jumps: Jumps) -> JumpTest:
         )
     n, s = 1.0 / (whole + none), x.motor
     angle, speed, load = n * angle, n * speed, n * load
-    if whole < none or abs(load) > 3.0 * SIZE or s.speed * (s.speed + speed) <= 0.0:
+    if whole < none or abs(load) > 3.0 * size or s.speed * (s.speed + speed) <= 0.0:
         return JumpTest(x, jumps, False)
     root = sqrt(n * none)
     c = inflate_covariance(x.covariance, root * angle, root * speed, root * load)
     for j in jumps:
-        one = estimate_jump(j.told, j.known, j.span)
+        one = estimate_jump(j.told, j.known, j.span, size)
         root, mean = sqrt(n * exp(one.log_odds - top)), one.mean
         c = inflate_covariance(
             c, root * (mean * j.angle - angle), root * (mean * j.speed - speed), root * (mean * j.load - load)
@@ -183,7 +183,7 @@ def detect_jump(p: Floats, x: FilterState, jumps: Jumps, shift: float, variance:
     jumps = weigh_jumps(
         add_onsets(p, jumps, h.edge.since), e.covariance, shift, variance, max(h.consistency.level, 1.0)
     )
-    test = mix_jumps(correct_angle(e, shift, variance, 1.0), jumps)
+    test = mix_jumps(correct_angle(e, shift, variance, 1.0), jumps, SIZE * p[U_MAX])
     return test if test.found else JumpTest(e, test.jumps, False)
 
 

@@ -27,8 +27,9 @@ from motor_model.effects import INDEX
 
 KV, BIAS, U_MAX = INDEX["kv"], INDEX["bias_voltage"], INDEX["max_voltage"]
 STANDS = 0.1  # [s] for which an edge has to be overdue
-PREFERENCE = 1.5  # [V] by which the other direction's load has to be smaller
+PREFERENCE = 1.5 / 12.0  # of the supply, by which the other direction's load has to be smaller
 CERTAINTY = 0.05  # [s] for which it has to be
+TURNED = 1.0 / 12.0  # of the supply: standard deviation of the load after such a turn
 MOST_LOAD = 3.0  # supplies: a wrong direction needs two, and has to be recognised by it
 
 Floats = NDArray[np.float64]
@@ -81,12 +82,12 @@ def turn_by_load(p: Floats, noise: Noise, x: FilterState, u: float, dt: float) -
     if not noise.single or e.motor.speed == 0.0:
         return x
     other = 2.0 * (u - p[BIAS]) - e.load
-    doubt = h.doubt + dt if abs(e.load) > abs(other) + PREFERENCE else 0.0
+    doubt = h.doubt + dt if abs(e.load) > abs(other) + PREFERENCE * p[U_MAX] else 0.0
     if doubt <= CERTAINTY:
         return FilterState(e, History(h.edge, h.silence, h.consistency, h.missed, doubt), x.elapsed)
     x = mirror_motion(x, other)
     c = x.estimate.covariance
-    c = Covariance(c.aa, c.as_, c.al, c.ss, c.sl, c.ll + 1.0)
+    c = Covariance(c.aa, c.as_, c.al, c.ss, c.sl, c.ll + (TURNED * p[U_MAX]) ** 2)
     return FilterState(Estimate(x.estimate.motor, other, c), x.history, x.elapsed)
 
 

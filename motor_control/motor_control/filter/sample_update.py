@@ -29,7 +29,8 @@ from motor_model.compiled import compiled
 from motor_model.dynamics.state import State
 from motor_model.effects import INDEX
 
-DELAY = INDEX["delay"]
+DELAY, U_MAX = INDEX["delay"], INDEX["max_voltage"]
+UNKNOWN_LOAD = 0.1 / 12.0  # of the supply: standard deviation of the load at the start
 
 Floats = NDArray[np.float64]
 
@@ -39,6 +40,7 @@ class Edge(NamedTuple):
 
     time: float  # [s] after the earlier sample; NaN: there was none
     steps: float  # since the edge before it; signed where the encoder has two channels
+    bare: bool  # it has no period: the first one, and where two channels take an edge back
 
 
 class Speed(NamedTuple):
@@ -60,9 +62,9 @@ class SampleUpdate(NamedTuple):
 
 
 @compiled
-def start_filter(noise: Noise, speed: float, direction: float, jumps: Jumps) -> Memory:
+def start_filter(p: Floats, noise: Noise, speed: float, direction: float, jumps: Jumps) -> Memory:
     """Start from a reported speed [rad/s] alone, as good as a period of irregular slots; jumps: a table without any."""
-    covariance = Covariance(noise.slot * noise.slot, 0.0, 0.0, 0.01 * speed * speed, 0.0, 0.01)
+    covariance = Covariance(noise.slot * noise.slot, 0.0, 0.0, (0.1 * speed) ** 2, 0.0, (UNKNOWN_LOAD * p[U_MAX]) ** 2)
     estimate = Estimate(State(0.0, speed, 0.0, 0.0, direction, 0.0), 0.0, covariance)
     history = History(LatestEdge(0.0, 0.0, 0.0, 0.0), Silence(0.0, False), Consistency(0.0, 0.0, UNEARNED), 0.0, 0.0)
     state = FilterState(estimate, history, 0.0)
@@ -109,7 +111,7 @@ def update_at_sample(
         if edge.time == edge.time:  # not NaN
             stop = min(max(edge.time, t), dt)
             pair = predict_hypotheses(p, noise, pair, commands, t, stop)
-            pair = update_hypotheses(p, noise, pair, find_acting_voltage(p, commands, stop), edge.steps)
+            pair = update_hypotheses(p, noise, pair, find_acting_voltage(p, commands, stop), edge.steps, edge.bare)
             t, seen = stop, True
     pair = predict_hypotheses(p, noise, pair, commands, t, dt)
     pair = finish_sample(p, noise, pair, find_acting_voltage(p, commands, dt), dt, seen)

@@ -74,7 +74,7 @@ def test_the_voltage_is_finite_and_within_the_limit(steps: list[Step], one_confi
         numbers = (step.speed, step.voltage, step.period, 0.0 if step.reference is None else step.reference)
         if not all(isfinite(number) for number in numbers):
             assert terms.voltage == 0.0 and output.state != controller.RUNNING and output.reason.endswith(".")
-        state = controller.reset(state) if step.reset else state
+        state = controller.reset(state)[1] if step.reset else state
 
 
 @pytest.mark.parametrize("config", CONFIGS)
@@ -114,4 +114,4 @@ def test_an_observer_that_is_lost_begins_anew(monkeypatch: pytest.MonkeyPatch) -
         outputs.append(output)
     assert outputs[3].state == controller.STOPPED and outputs[3].terms.voltage == 0.0
     assert "observer" in outputs[3].reason and not state.latched
-    assert outputs[4].state == controller.RUNNING and outputs[4].terms.voltage > 0.0
+    assert outputs[4].state == controller.RUNNING and outputs[5].terms.voltage > 0.0

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from motor_control.controller import controller, pi
-from motor_control.controller.controller import Config, Output, State
+from motor_control.controller.controller import Config, State
+from motor_control.controller.output import Output
 from motor_model.errors import MotorError
 from motor_model.sample import Sample
 
@@ -136,7 +137,7 @@ def test_latched_stop_holds_until_reset() -> None:
         assert_stopped(output, "The motor is blocked.", "motor/reset")
         assert output.state == controller.STOPPED
     assert controller.watch(CONFIG, state, 1.0)[1].latched  # survives silence
-    output, _ = feed([20], speed=50.0, reference=100.0, state=controller.reset(state))
+    output, _ = feed([20], speed=50.0, reference=100.0, state=controller.reset(state)[1])
     assert output.state == controller.RUNNING
 
 
@@ -212,13 +213,14 @@ def test_whatever_comes_the_voltage_is_finite_and_within_the_limit(
     steps: list[tuple[int, float, float, float | None, bool]], single_channel: bool, rate: float
 ) -> None:
     config = replace(CONFIG, single_channel=single_channel, reference_rate_limit=rate)
-    state, time = State(), 0
+    state, time, latest = State(), 0, None
     for advance, speed, voltage, reference, pause in steps:
         time += advance * MS
+        latest = latest if reference is None else reference
         output, state = controller.update(config, state, Sample(time, speed, voltage), reference, 0.0)
         assert isfinite(output.terms.voltage) and abs(output.terms.voltage) <= 12.0
         assert isfinite(output.terms.integral) and abs(output.terms.integral) <= 12.0
-        if not all(isfinite(value) for value in (speed, voltage, nan if reference is None else reference)):
+        if not all(isfinite(value) for value in (speed, voltage, nan if latest is None else latest)):
             assert_stopped(output)
             assert output.reason.endswith(".")
         if pause:

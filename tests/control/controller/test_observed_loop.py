@@ -35,7 +35,7 @@ def test_a_load_step_is_carried_within_three_time_constants(rate: float) -> None
         plant = motor(("load_step",), step_voltage=load, step_time=0.6)
         run = drive(plant, target, 1.2, model=motor(), rate=rate).between(0.6, 1.2)
         assert run.settled(target) <= 3.0 * TIME_CONSTANT
-        assert 0.8 < np.max(np.abs(run.speed - target)) < 2.0
+        assert 0.7 < np.max(np.abs(run.speed - target)) < 2.0
         assert run.speed[-40:].mean() == pytest.approx(target, rel=1e-3)
 
 
@@ -74,7 +74,7 @@ def test_through_zero_the_voltage_jumps_by_friction_alone(rate: float, slope: fl
 def test_a_reversal_passes_zero_once(rate: float) -> None:
     run = drive(motor(), lambda t: 60.0 if t < 0.5 else -60.0, 1.0, rate=rate)
     after = run.between(0.5, 1.0)
-    assert 0.04 < after.settled(-60.0) < 0.08
+    assert 0.05 < after.settled(-60.0) < 0.095  # against the motion no more than 12 V, back-EMF included
     assert np.sum(np.diff(np.sign(after.speed[after.speed != 0.0])) != 0) == 1
     assert np.max(after.speed[1:] - np.minimum.accumulate(after.speed)[:-1]) < 1.0
 
@@ -121,6 +121,6 @@ def test_a_wrong_inertia_does_not_cost_the_direction(rate: float, share: float) 
         assert run.states() == {"running"}
         for k, target in enumerate(targets):
             end = run.between(0.5 * k + 0.35, 0.5 * k + 0.5)
-            assert end.speed.mean() == pytest.approx(target, abs=0.15)
+            assert end.speed.mean() == pytest.approx(target, abs=0.15, rel=0.13)
         wrong = (run.shown("speed") * run.speed < 0.0) & (np.abs(run.speed) > 3.0)
         assert np.sum(wrong) / rate < 0.04

@@ -92,11 +92,11 @@ def test_two_channels_brake_actively(seed: int) -> None:
     plant = bench(seed)
     plant.single_channel = False
     trace = drive(plant, (100.0, 20.0, -20.0), config(single_channel=False))
-    assert -12.0 <= min(trace.since(0.6).voltages[:5]) < -9.0
+    assert -6.5 < min(trace.since(0.6).voltages[:5]) < -3.0  # with the back-EMF, 6.9 V, no more than 12 V
     half_way = next(
         time for time, speed in zip(trace.time, trace.true_speed, strict=True) if time > 0.6 and speed < 60.0
     )
-    assert half_way - 0.6 < 0.025  # at 0 V it takes 0.04
+    assert half_way - 0.6 < 0.035  # at 0 V it takes 0.04
     assert fmean(trace.since(1.7).true_speed) == pytest.approx(-20.0, rel=0.03)
     assert trace.wrong_signs(above=10.0) == []
 
@@ -109,7 +109,7 @@ def test_a_board_that_takes_the_sign_from_the_voltage(seed: int) -> None:
     ruled = drive(bench(seed, **careless), (100.0, 40.0), config(**gains))
     assert ruled.voltage_flips() == 0 and ruled.wrong_signs() == []
     assert fmean(ruled.since(1.0).true_speed) == pytest.approx(40.0, abs=0.3)
-    unruled = drive(bench(seed, **careless), (100.0, 40.0), config(single_channel=False, **gains))
+    unruled = drive(bench(seed, **careless), (100.0, 40.0), config(single_channel=False, plug_limit=2.0, **gains))
     assert unruled.voltage_flips() > 20 and len(unruled.wrong_signs()) > 20
 
 

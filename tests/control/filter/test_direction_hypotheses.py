@@ -49,7 +49,7 @@ def test_a_wrong_direction_is_turned_round_by_the_next_edges() -> None:
     both = pair(3.0, -30.0, 30.0)
     for _ in range(12):
         both = predict_hypotheses(p, NOISE, both, commands, 0.0, dt)
-        both = update_hypotheses(p, NOISE, both, 2.5, 1.0)
+        both = update_hypotheses(p, NOISE, both, 2.5, 1.0, False)
     assert both.likely.estimate.motor.speed == pytest.approx(30.0, rel=0.15) and both.lead == inf
 
 

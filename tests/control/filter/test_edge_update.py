@@ -24,7 +24,7 @@ DOUBTFUL = Covariance(1e-5, 1e-3, 0.0, 4.0, 0.0, 0.01)
 
 def test_turning_on_a_flank_is_one_slot_on() -> None:
     x = state(10.0, 0.9 * SLOT, covariance=DOUBTFUL, since=0.006)
-    after = update_at_edge(vector(), NOISE, x, no_jumps(), 3.0, 1.0)
+    after = update_at_edge(vector(), NOISE, x, no_jumps(), 3.0, 1.0, False)
     assert after.state.history.edge.innovation == pytest.approx(0.1 * SLOT)
     assert abs(after.state.estimate.motor.angle) < 0.05 * SLOT
     assert after.state.estimate.motor.speed > 10.5 and after.margin == inf
@@ -96,6 +96,19 @@ def test_an_alarm_is_raised_beyond_its_bound_only() -> None:
 
 def test_the_log_likelihood_is_that_of_the_innovation() -> None:
     x = state(10.0, 0.98 * SLOT, covariance=DOUBTFUL, since=0.006)
-    after = update_at_edge(vector(), NOISE, x, no_jumps()[:0], 3.0, 1.0)
+    after = update_at_edge(vector(), NOISE, x, no_jumps()[:0], 3.0, 1.0, False)
     total = DOUBTFUL.aa + NOISE.flank**2
     assert after.log_likelihood == pytest.approx(-0.5 * ((0.02 * SLOT) ** 2 / total + log(total)))
+
+
+def test_two_channels_take_an_edge_back_at_the_flank_where_it_was() -> None:
+    """The shaft turned round inside the hole, and comes out where it went in; the next flank is half a slot on."""
+    x = state(0.3, 0.25 * SLOT, covariance=DOUBTFUL)
+    back = update_at_edge(vector(), TWO_CHANNELS, x, no_jumps(), -3.0, -1.0, True).state
+    assert back.history.edge.innovation == pytest.approx(-0.25 * SLOT) and back.history.edge.side == -1.0
+    assert back.estimate.motor.angle == 0.0 and back.estimate.motor.speed < 0.0
+    moved = back._replace(
+        estimate=back.estimate._replace(motor=back.estimate.motor._replace(angle=-0.4 * SLOT, speed=-3.0))
+    )
+    on = update_at_edge(vector(), TWO_CHANNELS, moved, no_jumps(), -3.0, -1.0, True).state
+    assert on.history.edge.innovation == pytest.approx(-0.1 * SLOT)

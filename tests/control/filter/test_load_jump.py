@@ -32,7 +32,7 @@ def run(load: float, seed: int, edges: int = 10) -> tuple[float, bool]:
         commands = held(u)
         jumps = predict_jumps(p, jumps, find_acting_voltage(p, commands, dt), x.estimate.motor.speed, dt)
         x = predict_state(p, NOISE, x, commands, 0.0, dt)
-        after = update_at_edge(p, NOISE, x, jumps, u, 1.0)
+        after = update_at_edge(p, NOISE, x, jumps, u, 1.0, False)
         found |= k >= 3 and after.state.estimate.load - x.estimate.load > 0.1
         x, jumps = after.state, after.jumps
     return x.estimate.load, found
@@ -61,7 +61,7 @@ def test_a_signature_is_what_a_volt_does() -> None:
 
 
 def test_an_estimate_shrinks_toward_none_where_little_is_known() -> None:
-    little, much = estimate_jump(0.5, 1.0, 0.001), estimate_jump(500.0, 1000.0, 0.001)
+    little, much = estimate_jump(0.5, 1.0, 0.001, 0.5), estimate_jump(500.0, 1000.0, 0.001, 0.5)
     assert little.mean < 0.15 and much.mean == pytest.approx(0.498, abs=0.002)
     assert little.log_odds < 0.0 < much.log_odds
 

@@ -66,7 +66,7 @@ def test_the_direction_that_needs_the_smaller_load_wins_after_a_while() -> None:
 
 @pytest.mark.parametrize(("more", "doubts"), [(0.99, False), (1.01, True)])
 def test_a_load_that_is_hardly_smaller_is_no_doubt(more: float, doubts: bool) -> None:
-    x = state(30.0, load=5.0 + 0.5 * more * PREFERENCE)
+    x = state(30.0, load=5.0 + 0.5 * more * PREFERENCE * 12.0)
     assert (turn_by_load(vector(), NOISE, x, 5.0, 0.005).history.doubt > 0.0) == doubts
 
 

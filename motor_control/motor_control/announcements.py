@@ -1,0 +1,113 @@
+"""Say in the log what has changed: one line a change of state, none that repeats with every sample."""
+
+import re
+from dataclasses import dataclass, replace
+from math import inf, isfinite, isnan
+
+from motor_control.controller.output import DISABLED, RUNNING, Output
+from motor_control.controller.speed_law import Config
+
+SATURATED_TIME = 1.0  # [s] of all the voltage, and still slower than the reference: that is no transient
+QUIET = 2.0  # [s] in which the same line is not said again, whatever its numbers
+STREAM = 0.5  # [s] the same for references: a joystick sends many
+SLOWER = 0.95  # of the reference
+HOW_TO_LET_GO = "To let go of the motor call motor/release; 0 rad/s stops it."
+NUMBER = re.compile(r"-?\d+(\.\d+)?(e[-+]?\d+)?|\bnan\b|\binf\b")
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line of the log."""
+
+    severe: bool  # a warning
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What has been said so far; times are [s]."""
+
+    state: str = ""
+    subject: str = ""  # the reason without its numbers
+    reason: str = ""
+    wanted: float | None = None  # [rad/s] the reference
+    full_since: float | None = None  # all the voltage, and slower than the reference
+    full_said: bool = False
+    latest: tuple[tuple[str, float], ...] = ()  # lines of the last seconds
+
+
+def describe_start(config: Config) -> str:
+    """Describe how the controller is set up."""
+    gains = config.gains
+    source = "observer" if config.observer is not None else "measured"
+    return (
+        f"Speed controller: kp {gains.kp:.4g} V/(rad/s), ki {gains.ki:.4g} V/rad, speed source {source}, feed-forward "
+        f"{'on' if config.feedforward is not None else 'off'}, at most {config.voltage_limit:.4g} V. Waiting for a "
+        "reference on motor/reference."
+    )
+
+
+def announce(told: Told, output: Output, wanted: float | None, config: Config, now: float) -> tuple[list[Line], Told]:
+    """Find what is new in an output; wanted: the reference [rad/s] as it was sent; now [s] is a monotonic clock."""
+    lines: list[Line] = []
+    if wanted is not None and wanted != told.wanted and not isnan(wanted):
+        first = told.wanted is None
+        lines.append(Line(False, f"Reference {wanted:.4g} rad/s." + (f" {HOW_TO_LET_GO}" if first else "")))
+    told = replace(told, wanted=wanted)
+    if (output.state, output.reason) != (told.state, told.reason):
+        subject = NUMBER.sub("#", output.reason)
+        if (output.state, subject) != (told.state, told.subject):
+            lines += _describe_change(told, output)
+        told = replace(told, state=output.state, reason=output.reason, subject=subject)
+    full, told = _watch_saturation(told, output, wanted, config, now)
+    return _drop_repeated(told, lines + full, now)
+
+
+def _describe_change(told: Told, output: Output) -> list[Line]:
+    """Describe a change of state or reason."""
+    if output.reason:
+        return [Line(output.state != DISABLED or output.warning, output.reason)] if told.state or output.warning else []
+    if output.state == RUNNING and told.state in ("", DISABLED):
+        return []  # the reference has been said
+    return [Line(False, "Running again." if told.state != RUNNING else "Running without restriction.")]
+
+
+def _watch_saturation(
+    told: Told, output: Output, wanted: float | None, config: Config, now: float
+) -> tuple[list[Line], Told]:
+    """Watch for a reference that all the voltage does not reach."""
+    terms, limit = output.terms, config.voltage_limit
+    full = output.state == RUNNING and terms.saturated and abs(terms.voltage) >= 0.98 * limit > 0.0
+    if not full or wanted is None or abs(output.speed) > SLOWER * abs(wanted):
+        return [], replace(told, full_since=None, full_said=told.full_said and output.state == RUNNING and full)
+    since = now if told.full_since is None else told.full_since
+    if told.full_said or now - since < SATURATED_TIME:
+        return [], replace(told, full_since=since)
+    top = top_speed_of(config)
+    what = (
+        f"The motor's top speed at {limit:.3g} V is {top:.3g} rad/s by its model"
+        if isfinite(top)
+        else (f"The motor turns at {abs(output.speed):.3g} rad/s with all the {limit:.3g} V it may get")
+    )
+    text = f"Saturated: {wanted:.4g} rad/s are not reached. {what}: ask for less, or raise voltage_limit."
+    return [Line(True, text)], replace(told, full_since=since, full_said=True)
+
+
+def top_speed_of(config: Config) -> float:
+    """Compute the speed [rad/s] that the model reaches with all the voltage; infinite without a model."""
+    faults = config.faults
+    return (config.voltage_limit - faults.friction) / faults.kv if faults.kv > 0.0 else inf
+
+
+def _drop_repeated(told: Told, lines: list[Line], now: float) -> tuple[list[Line], Told]:
+    """Drop lines that were said a moment ago, whatever their numbers."""
+    if not lines:
+        return lines, told
+    recent = {subject: at for subject, at in told.latest if now - at < QUIET}
+    new = []
+    for line in lines:
+        subject = NUMBER.sub("#", line.text)
+        if now - recent.get(subject, -inf) >= (STREAM if subject.startswith("Reference") else QUIET):
+            new.append(line)
+            recent[subject] = now
+    return new, replace(told, latest=tuple(recent.items()))

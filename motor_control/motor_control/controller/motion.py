@@ -1,0 +1,56 @@
+"""Follow what the edges and voltages so far say of the motor: its speed by counting, and the last steady motion.
+
+The speed that a law uses hangs on the latest period, on an observer, on a sign. To tell whether edges can be the
+motor's at all, they are counted instead. And without a model, the last steady motion says what this motor does: under
+more voltage it turns at least as fast, unless a load has come.
+"""
+
+from dataclasses import dataclass, replace
+from math import exp, inf
+
+from motor_model.sample import Sample
+
+FAST, SLOW = 0.05, 0.15  # [s] time constants of the two averages
+STEADY = 0.1  # share of the speed, and of the voltage limit, by which both averages may differ in a steady motion
+FEW_SLOTS = 10.0  # in the faster average: there a single edge shows in it
+STEADY_TIME = 0.15  # [s] for which they have to
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """What is known of the motion; speeds are magnitudes [rad/s], voltages [V] too."""
+
+    edge_count: int = 0
+    speed: float = 0.0  # by the edges of the last 50 ms
+    slow_speed: float = 0.0  # of the last 0.15 s
+    slow_voltage: float = 0.0
+    silent: float = 0.0  # [s] since the latest edge
+    edges: int = 0  # since the sample before
+    steady: float = 0.0  # [s] for which the motion has been steady
+    steady_speed: float = 0.0  # of the last steady motion; 0: there was none
+    steady_voltage: float = 0.0
+
+    def fastest(self, voltage_limit: float) -> float:
+        """Give the least top speed [rad/s] that the last steady motion proves; infinite: there was none."""
+        return self.steady_speed / self.steady_voltage * voltage_limit if self.steady_voltage > 0.0 else inf
+
+
+def follow_motion(motion: Motion, sample: Sample, slot: float, dt: float, voltage_limit: float) -> Motion:
+    """Follow one sample, dt [s] after the last one; slot [rad], 0: the reported speed is taken, no edge is counted."""
+    edges = abs(sample.edge_count - motion.edge_count)
+    if dt <= 0.0:
+        return replace(motion, edge_count=sample.edge_count)
+    seen = edges * slot / dt if slot > 0.0 else abs(sample.speed)
+    voltage = abs(sample.voltage)
+    fast, slow = 1.0 - exp(-dt / FAST), 1.0 - exp(-dt / SLOW)
+    speed = motion.speed + fast * (seen - motion.speed)
+    slow_speed = motion.slow_speed + slow * (seen - motion.slow_speed)
+    slow_voltage = motion.slow_voltage + slow * (voltage - motion.slow_voltage)
+    edge = slot / FAST if slow_speed * FAST < FEW_SLOTS * slot else 0.0  # by which one edge moves the average
+    calm = abs(speed - slow_speed) <= STEADY * slow_speed + edge
+    calm &= abs(voltage - slow_voltage) <= STEADY * voltage_limit and slow_voltage > 0.0 and slow_speed > 0.0
+    calm &= sample.speed * sample.voltage > 0.0
+    steady = motion.steady + dt if calm else 0.0
+    known = (slow_speed, slow_voltage) if steady >= STEADY_TIME else (motion.steady_speed, motion.steady_voltage)
+    silent = 0.0 if edges or (slot == 0.0 and seen > 0.0) else motion.silent + dt
+    return Motion(sample.edge_count, speed, slow_speed, slow_voltage, silent, edges, steady, *known)

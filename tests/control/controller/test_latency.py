@@ -1,0 +1,39 @@
+"""The age of a sample from two clocks: it shows a lag, forgives a drift, and begins anew with the plant."""
+
+import numpy as np
+import pytest
+
+from motor_control.controller.latency import DRIFT, LatencyState, track_latency
+
+
+def ages(arrivals: list[float], rate: float = 200.0, offset: float = 7.0, pace: float = 1.0) -> list[float]:
+    """Samples each 1/rate on a clock that runs `pace` as fast as ours, answered so late [s]."""
+    state: LatencyState | None = None
+    found = []
+    for k, late in enumerate(arrivals):
+        age, state = track_latency(state, round(k / rate * pace * 1e9), offset + k / rate + late)
+        found.append(age)
+    return found
+
+
+def test_a_lag_shows_in_full() -> None:
+    found = ages([0.001] * 200 + [0.1] * 20)
+    assert max(found[:200]) < 1e-6 and found[200] == pytest.approx(0.099, abs=2e-3)
+    assert found[-1] == pytest.approx(0.098 - DRIFT * 19 / 200, abs=1e-4)
+
+
+def test_ordinary_jitter_is_its_own_size() -> None:
+    late = np.random.default_rng(1).exponential(0.001, 2000)
+    found = np.array(ages(list(late)))
+    assert found == pytest.approx(late, abs=1.5e-3) and found.min() >= 0.0
+
+
+@pytest.mark.parametrize("pace", [0.995, 1.0, 1.005])
+def test_a_clock_with_a_ceramic_resonator_is_not_late(pace: float) -> None:
+    assert max(ages([0.001] * 20_000, pace=pace)) < 1e-6
+
+
+def test_a_restarted_plant_has_a_new_clock() -> None:
+    _, state = track_latency(None, 10**9, 5.0)
+    age, state = track_latency(state, 0, 6.0)
+    assert age == 0.0 and track_latency(state, 5_000_000, 6.015)[0] == pytest.approx(0.01, abs=1e-3)

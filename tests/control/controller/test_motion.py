@@ -1,0 +1,47 @@
+"""Counting edges: the speed, its averages, and what the last steady motion was."""
+
+from math import exp, inf, tau
+
+import pytest
+
+from motor_control.controller.motion import FAST, Motion, follow_motion
+from motor_model.sample import Sample
+
+SLOT = tau / 96
+
+
+def follow(rows: list[tuple[float, float]], slot: float = SLOT, rate: float = 200.0) -> list[Motion]:
+    """Rows of (speed [rad/s], voltage [V])."""
+    motion, angle, seen = Motion(), 0.0, []
+    for k, (speed, voltage) in enumerate(rows):
+        angle += abs(speed) / rate
+        sample = Sample(k * 5_000_000, speed, voltage, int(angle / SLOT))
+        motion = follow_motion(motion, sample, slot, 1.0 / rate, 12.0)
+        seen.append(motion)
+    return seen
+
+
+@pytest.mark.parametrize("slot", [SLOT, 0.0])
+def test_the_averages_follow_the_speed(slot: float) -> None:
+    seen = follow([(60.0, 5.0)] * 200, slot)
+    assert seen[-1].speed == pytest.approx(60.0, rel=0.02)
+    assert seen[9].speed == pytest.approx(60.0 * (1.0 - exp(-0.05 / FAST)), rel=0.1)
+
+
+@pytest.mark.parametrize(("speed", "voltage"), [(100.0, 7.3), (3.0, 0.6), (-40.0, -3.0)])
+def test_a_steady_motion_is_remembered(speed: float, voltage: float) -> None:
+    last = follow([(speed, voltage)] * 200 + [(0.0, 12.0)] * 100)[-1]
+    assert last.steady_speed == pytest.approx(abs(speed), rel=0.1)
+    assert last.steady_voltage == pytest.approx(abs(voltage), rel=0.03)
+    assert last.fastest(12.0) == pytest.approx(12.0 * abs(speed / voltage), rel=0.12)
+    assert last.silent == pytest.approx(0.5, abs=0.03)
+
+
+def test_coasting_and_braking_are_no_steady_motion() -> None:
+    assert follow([(100.0, 0.0)] * 200)[-1].fastest(12.0) == inf
+    assert follow([(100.0, -3.0)] * 200)[-1].steady_speed == 0.0
+
+
+def test_a_repeated_sample_changes_no_average() -> None:
+    motion = follow([(60.0, 5.0)] * 50)[-1]
+    assert follow_motion(motion, Sample(0, 1.0, 1.0, motion.edge_count), SLOT, 0.0, 12.0) == motion

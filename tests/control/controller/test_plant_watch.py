@@ -1,0 +1,40 @@
+"""One plant, one that was restarted, two at once: told from the order of samples alone."""
+
+import pytest
+
+from motor_control.controller.plant_watch import PlantWatch, watch_plant
+
+PERIOD = 5_000_000  # [ns]
+
+
+def watch(times: list[int], sample_period: float = 0.005, every: float = 0.005) -> list[PlantWatch]:
+    state: PlantWatch | None = None
+    seen = []
+    for k, time in enumerate(times):
+        state = watch_plant(state, time, k, k * every, sample_period)
+        seen.append(state)
+    return seen
+
+
+def test_one_plant_whose_samples_may_be_lost() -> None:
+    seen = watch([PERIOD * k for k in range(100) if k % 7])
+    assert not any(one.two or one.restarted for one in seen)
+
+
+def test_a_restart_is_one_step_back() -> None:
+    seen = watch([PERIOD * k for k in range(50, 60)] + [PERIOD * k for k in range(20)])
+    assert [one.restarted for one in seen].index(True) == 10 and sum(one.restarted for one in seen) == 1
+    assert not any(one.two for one in seen)
+
+
+@pytest.mark.parametrize("offset", [0, 200_000, 2_500_000, 4_900_000, 10**9 + 1_000_000])
+def test_two_plants_are_told_within_a_few_samples(offset: int) -> None:
+    """Whatever their clocks are apart, equal ones too."""
+    times = [time for k in range(20) for time in (PERIOD * k, PERIOD * k + offset)]
+    seen = watch(times, every=0.0025)
+    assert [one.two for one in seen].index(True) < 6
+
+
+def test_restarts_apart_are_not_two_plants() -> None:
+    seen = watch([PERIOD * k for k in range(150)] * 3)
+    assert sum(one.restarted for one in seen) == 2 and not any(one.two for one in seen)
