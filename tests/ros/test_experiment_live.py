@@ -11,7 +11,7 @@ from std_srvs.srv import SetBool
 from workbench import DOMAIN, Bench
 
 from motor_identification.bag import BagWriter, contents, read_recording
-from motor_identification.live import speed_probe
+from motor_identification.live import run_plan, speed_probe
 from motor_identification.live.experiment_node import Driver
 from motor_identification.live.run_plan import drive
 from motor_model.errors import MotorError
@@ -214,6 +214,18 @@ def test_another_plant_and_another_voltage(stand: Stand) -> None:
             stand.experiment("rich")  # long enough to hear of the other one
     finally:
         stand.bench.node.destroy_publisher(second)
+
+
+def test_plants_elsewhere_are_named(stand: Stand, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run_plan, "PATIENCE", 2.0)
+    left = stand.bench.publisher(MotorInfo, "/left/motor/info", qos.INFO)
+    start_ros()
+    driver = Driver(profile("step"), 6.0, None, "nowhere")
+    said = r"^Nothing on /nowhere/motor/info: there are plants in / and /left: say --topic-namespace / or --topic-nam"
+    with pytest.raises(MotorError, match=said):
+        drive(driver, str(stand.bag), After(lambda: False))  # type: ignore[arg-type]
+    stand.bench.node.destroy_publisher(left)
+    assert not stand.bag.exists()
 
 
 def test_a_bag_that_exists_moves_nothing(stand: Stand) -> None:

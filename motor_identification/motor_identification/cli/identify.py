@@ -3,12 +3,13 @@
 import argparse
 import os
 import sys
+from collections.abc import Sequence
 from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from motor_identification.estimation.request import Request, SearchConfig
-from motor_model.effects import EFFECTS
+from motor_model.effects import EFFECT_BY_NAME, EFFECTS
 from motor_model.errors import MotorError
 from motor_ros.command import CommandParser, ended_by_interrupt, listed_names, shell, whole_between
 from motor_ros.output_files import add_force_option, check_outputs
@@ -17,6 +18,10 @@ if TYPE_CHECKING:
     from motor_identification.bag import Source
     from motor_identification.uncertainty.result import Fit
 
+LONG = (
+    "{} is looked for in a spectrum over the angle and fitted from every line of it: this can take minutes. "
+    "Ctrl-C ends it.\n"
+)
 REPORT_FILES = ("report.html", "fit.png", "fit.json", "model.yaml")
 LIMITS = SearchConfig()
 
@@ -77,6 +82,7 @@ def _identify(options: argparse.Namespace) -> int:
     search = SearchConfig(options.particles, options.epochs, options.seed)
     request = Request(effects, search, os.cpu_count() or 1)
     job = Job(_source(options), request)
+    print(announce_effort(effects), end="", file=sys.stderr)
     with tqdm(total=100, desc="search", delay=2.0, disable=None, bar_format="{desc} {bar} {percentage:3.0f} %") as bar:
 
         def show(stage: str, share: float) -> None:
@@ -86,6 +92,13 @@ def _identify(options: argparse.Namespace) -> int:
         with ended_by_interrupt("The identification was interrupted; nothing was written."):
             fit = run_job(job, show)
     return _present(options, fit)
+
+
+def announce_effort(effects: Sequence[str]) -> str:
+    """Say which effects make a fit long, on a line of its own; empty where none does."""
+    slow = [name for name in effects if name in EFFECT_BY_NAME and EFFECT_BY_NAME[name].periodic]
+    slow = [name for name in slow if not EFFECT_BY_NAME[name].on_disc]  # its number of cycles is not searched
+    return LONG.format(" and ".join(slow)) if slow else ""
 
 
 def _source(options: argparse.Namespace) -> "Source":

@@ -15,6 +15,7 @@ from motor_bags import write_bag
 from patience import PATIENCE
 
 from motor_identification.cli.experiment import main as experiment
+from motor_identification.cli.identify import announce_effort
 from motor_identification.cli.identify import main as identify
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_model.excitation import profile
@@ -65,6 +66,13 @@ def test_prints_the_parameters_and_writes_what_was_asked_for(
     page = (files["report"] / "report.html").read_text(encoding="utf-8")
     assert "<h2>Measured and simulated</h2>" in page and f"model:={files['model.yaml']}" in page
     assert f"report: {files['report'] / 'report.html'}" in out
+
+
+def test_a_long_fit_is_announced_before_it_begins() -> None:
+    assert announce_effort(["coulomb_friction", "backlash", "encoder_eccentricity"]) == ""
+    said = announce_effort(["backlash", "torque_ripple"])
+    assert said.startswith("torque_ripple is looked for in a spectrum")
+    assert said.endswith(": this can take minutes. Ctrl-C ends it.\n")
 
 
 def test_the_same_seed_gives_the_same_answer(good: Path, tmp_path: Path) -> None:
