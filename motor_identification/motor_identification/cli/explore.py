@@ -115,9 +115,9 @@ def _following(diagnosis: "Diagnosis", done: list[str], rounds: int) -> tuple[st
     if not wanted:
         return "", "No further experiment is needed."
     if wanted in done:
-        return "", f"'{wanted}' was suggested again: more of the same would not tell more about this motor."
+        return "", f"'{wanted}' was suggested again: repeating it would not show more of this motor."
     if wanted not in PROFILES:
-        return "", f"'{wanted}' was suggested, which is no profile: record it by hand, and diagnose all bags."
+        return "", f"'{wanted}' was suggested, which is not a profile: record it by hand and diagnose all bags."
     if len(done) == rounds:
         return "", f"'{wanted}' was suggested next; --rounds {rounds} ends here."
     return wanted, f"\nRound {len(done) + 1}: '{wanted}', as suggested."

@@ -127,7 +127,7 @@ def run_reported(
         return Reported(diagnosis, str(write_report(diagnosis, report, Files(model, job.source))), "")
     except Exception as error:  # whatever it is, the diagnosis is worth more
         traceback.print_exc(file=sys.stderr)
-        return Reported(diagnosis, "", f"There is no report: {error}")
+        return Reported(diagnosis, "", f"The report was not written: {error}")
 
 
 def notes_of(diagnosis: "Diagnosis") -> tuple[str, ...]:

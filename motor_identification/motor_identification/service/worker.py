@@ -126,13 +126,13 @@ class Worker:
 
 
 def _broken(error: Exception) -> MotorError:
-    return MotorError(f"the computation broke: {type(error).__name__}: {error}.")
+    return MotorError(f"the computation failed: {type(error).__name__}: {error}.")
 
 
 def _died(code: int) -> str:
     how = f"was killed ({signal.Signals(-code).name})" if code < 0 else f"ended with status {code}"
     return (
-        f"the computing process {how}, perhaps for want of memory: ask again, or for a shorter part of the recording."
+        f"the computing process {how}, possibly for lack of memory: try again, or with a shorter part of the recording."
     )
 
 

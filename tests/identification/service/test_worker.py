@@ -87,7 +87,7 @@ def test_a_killed_process_is_a_sentence_and_replaced(worker: Worker) -> None:
     process = worker.submit(calls.process).answer.result(PATIENCE)
     call = begun(worker, calls.ignore)
     os.kill(process, signal.SIGKILL)
-    with pytest.raises(MotorError, match=r"the computing process was killed \(SIGKILL\).*ask again"):
+    with pytest.raises(MotorError, match=r"the computing process was killed \(SIGKILL\).*try again"):
         call.answer.result(PATIENCE)
     assert still_works(worker)
 
@@ -102,7 +102,7 @@ def test_a_process_killed_between_two_calls_is_replaced(worker: Worker) -> None:
 
 def test_a_listener_that_stumbles_is_a_sentence(worker: Worker) -> None:
     call = worker.submit(calls.obey, heard=lambda *told: [].pop())
-    with pytest.raises(MotorError, match=r"^the computation broke: IndexError: pop from empty list\.$"):
+    with pytest.raises(MotorError, match=r"^the computation failed: IndexError: pop from empty list\.$"):
         call.answer.result(PATIENCE)
     assert still_works(worker)
 
@@ -111,9 +111,9 @@ def test_a_listener_that_stumbles_is_a_sentence(worker: Worker) -> None:
     ("function", "words"),
     [
         (calls.refuse, r"^the motor never moves\.$"),
-        (calls.stumble, r"^the computation broke: ZeroDivisionError: float division by zero\.$"),
+        (calls.stumble, r"^the computation failed: ZeroDivisionError: float division by zero\.$"),
         (calls.vanish, r"^the computing process ended with status 3, "),
-        (calls.unsendable, r"^the computation broke: TypeError: cannot pickle"),
+        (calls.unsendable, r"^the computation failed: TypeError: cannot pickle"),
     ],
 )
 def test_a_failure_is_a_sentence(worker: Worker, function: object, words: str) -> None:
