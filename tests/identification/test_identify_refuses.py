@@ -64,7 +64,7 @@ def test_windows_outside_the_recording_are_refused() -> None:
     for start, stop in ((-0.1, 0.5), (0.0, -1.0), (0.2, -1.0), (0.0, np.nan), (np.nan, 0.5), (np.inf, 0.0)):
         with pytest.raises(RecordingError, match="--start and --stop are seconds after the first sample, 0 or more"):
             recording.between(start, stop)
-    with pytest.raises(RecordingError, match=r"is 1 s long: --start 1\.5 s is behind its end\."):
+    with pytest.raises(RecordingError, match=r"is 1 s long: --start 1\.5 s is after its end\."):
         recording.between(1.5, 2.0)
     with pytest.raises(RecordingError, match=r"fewer than two samples from 0\.101 to 0\.104 s: take more\."):
         recording.between(0.101, 0.104)

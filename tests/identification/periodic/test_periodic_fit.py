@@ -200,5 +200,5 @@ def test_no_other_slips_explain_more(seed: int) -> None:
 
 def test_an_eccentric_disc_cannot_be_seen_in_speeds() -> None:
     recording = as_speed(made({"ks": 0.3}, profiles.staircase(8.0, 2, 0.3), seed=1))
-    with pytest.raises(ModelError, match="encoder_eccentricity needs a recording that counts edges"):
+    with pytest.raises(ModelError, match="encoder_eccentricity needs a recording with encoder counts"):
         identify([recording], Request(("encoder_eccentricity",)))
