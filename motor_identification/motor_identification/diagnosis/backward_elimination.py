@@ -85,7 +85,7 @@ def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequ
 
 
 def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
-    """Whether a test's model is better: more likely by the margin, or nearly as likely with fewer parameters."""
+    """Decide whether a test's model is better: more likely by the margin, or nearly as likely with fewer parameters."""
     simpler = count_parameters(test.effect) < count_parameters(effect)
     margin = -thresholds.RIVAL_MARGIN if simpler else thresholds.RIVAL_MARGIN
     return test.model.likelihood > current.likelihood + margin

@@ -82,7 +82,7 @@ class CandidateTest:
 
 
 def share_explained(before: float, after: float, floor: float) -> float:
-    """Share of a gap's excess over the noise floor, in squares, that is gone after."""
+    """Compute the share of a gap's excess over the noise floor, in squares, that is gone after."""
     return (before**2 - after**2) / (before**2 - floor**2) if before > floor else 1.0
 
 

@@ -50,7 +50,7 @@ def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) ->
 
 
 def likelihood_threshold() -> float:
-    """What the logarithm of the likelihood ratio has to exceed, by Markov's inequality for all effects together."""
+    """Compute what a log likelihood ratio has to exceed, by Markov's inequality for all effects together."""
     return log(len(EFFECT_BY_NAME) / thresholds.FALSE_ALARM_RATE)
 
 
@@ -90,7 +90,7 @@ def _exceeds_chance_harmonic(test: CandidateTest) -> bool:
 
 
 def is_beyond_chance(eccentricity: float, slot: float, share: float) -> bool:
-    """Whether an eccentricity [rad] is beyond the first harmonic of a disc whose slots [rad] are random by a share.
+    """Decide whether an eccentricity [rad] is beyond the first harmonic of slots [rad] that are random by a share.
 
     Of N = 2π/slot independent offsets of standard deviation σ, sine and cosine of a harmonic have the variance 2σ²/N.
     """

@@ -75,7 +75,7 @@ def begin_selection(
 
 
 def may_be_miscounted(robust: Estimate, floor: float) -> bool:
-    """Whether most intervals of a robust fit are near the floor [rad/s], so that a few miscounted ones may be all."""
+    """Decide whether most intervals of a robust fit are near the floor [rad/s]: a few miscounted ones may be all."""
     scatter = measure_scatter(robust).robust * sqrt(len(robust.problem.weight))  # of unweighted residuals
     return scatter < thresholds.MISCOUNTED_GAP * floor
 
@@ -101,7 +101,7 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
 
 
 def may_hide_pair(selection: Selection) -> bool:
-    """Whether a gap is left in which two effects may hide each other, and not too much was found before."""
+    """Decide whether a gap is left in which two effects may hide each other, and not too much was found before."""
     return len(selection.steps) < thresholds.PAIR_MOST_STEPS and not selection.model.at_floor
 
 

@@ -8,13 +8,13 @@ from motor_identification.discrepancy.operating_conditions import OperatingCondi
 from motor_identification.recording import Floats, Integers
 from motor_identification.validation.held_out import HeldOut
 
-BLOCK = 0.3  # [s] learnt from and judged by, in turns
+LEARNING_BLOCK = 0.3  # [s] learnt from and judged by, in turns
 MOST_CYCLES = 24  # a turn: from there on it is the slots themselves that repeat
-PLAIN = 2.0  # times the floor, below which it is not worth asking
-CLEARER = 3.0  # times what waves between the lines explain
-CHANCE = 0.004  # of the excess: what they explain by chance
-FEWEST = 100  # intervals of a run from which on it is worth asking
-MOST_RUNS = 40
+HARMONIC_GAP = 2.0  # times the floor, below which it is not worth asking
+LINE_CONTRAST = 3.0  # times what waves between the lines explain
+CHANCE_SHARE = 0.004  # of the excess: what they explain by chance
+LEAST_RUN_INTERVALS = 100  # intervals of a run from which on it is worth asking
+MOST_RUNS_USED = 40
 
 
 @dataclass(frozen=True)
@@ -26,14 +26,14 @@ class AngleHarmonic:
 
 
 def find_angle_harmonic(held: HeldOut, share: float) -> AngleHarmonic | None:
-    """The strongest line; None where there is none. `share`: irregularity behind the floor, of a slot.
+    """Find the strongest line; None where there is none. `share`: irregularity behind the floor, of a slot.
 
     What moves slowly can be imitated by any wave; so a line has to explain more than waves that fall between the lines.
     """
     seen = find_conditions(held)
     squares = seen.duration * (held.residuals**2 - held.floors(share) ** 2)
     chosen = _longest_runs(seen)
-    if not chosen or held.gap < PLAIN * held.floor(share):
+    if not chosen or held.gap < HARMONIC_GAP * held.floor(share):
         return None
     lines = np.arange(1, MOST_CYCLES + 1)
     explained = [_share(held, seen, squares, chosen, float(cycles)) for cycles in lines]
@@ -41,7 +41,7 @@ def find_angle_harmonic(held: HeldOut, share: float) -> AngleHarmonic | None:
     best = int(np.argmax(explained))
     return (
         AngleHarmonic(int(lines[best]), min(explained[best], 1.0))
-        if explained[best] > CLEARER * max(imitated, CHANCE)
+        if explained[best] > LINE_CONTRAST * max(imitated, CHANCE_SHARE)
         else None
     )
 
@@ -49,10 +49,10 @@ def find_angle_harmonic(held: HeldOut, share: float) -> AngleHarmonic | None:
 def _longest_runs(seen: OperatingConditions) -> list[Integers]:
     """Which intervals belong to each of the longest runs of the measured angle: from one to the next it may slip."""
     numbers, sizes = np.unique(seen.run, return_counts=True)
-    longest = numbers[np.argsort(-sizes, kind="stable")[:MOST_RUNS]]
+    longest = numbers[np.argsort(-sizes, kind="stable")[:MOST_RUNS_USED]]
     order = np.argsort(seen.run, kind="stable")
     bounds = np.searchsorted(seen.run[order], np.column_stack([longest, longest + 1]))
-    return [order[low:high] for low, high in bounds if high - low >= FEWEST]
+    return [order[low:high] for low, high in bounds if high - low >= LEAST_RUN_INTERVALS]
 
 
 def _share(held: HeldOut, seen: OperatingConditions, squares: Floats, runs: list[Integers], cycles: float) -> float:
@@ -68,9 +68,9 @@ def _of_one_law(
 ) -> float:
     explained = total = 0.0
     for run in runs:
-        first = np.floor(seen.time[run] / BLOCK) % 2 == 0
+        first = np.floor(seen.time[run] / LEARNING_BLOCK) % 2 == 0
         learnt, judged = run[first], run[~first]
-        if min(len(learnt), len(judged)) > FEWEST // 4:
+        if min(len(learnt), len(judged)) > LEAST_RUN_INTERVALS // 4:
             explained += _explained(waves, held.residuals, seen.duration, learnt, judged)
             total += float(squares[judged].sum())
     return explained / total if total > 0.0 else 0.0

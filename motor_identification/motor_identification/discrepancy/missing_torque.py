@@ -14,12 +14,12 @@ from motor_identification.discrepancy.operating_conditions import OperatingCondi
 from motor_identification.recording import Bools, Floats, Integers
 from motor_identification.validation.held_out import HeldOut
 
-BINS = 24
-BLOCK = 0.1  # [s] inside of which torques may repeat each other, for the standard error
-FEWEST = 4  # blocks behind a standard error
-CLEAR = 5.0  # standard errors
-SEVERAL = 4  # bins that make a shape
-NAMES = {"speed": "speed [rad/s]", "angle": "shaft angle [rad]", "time": "time [s]"}
+TORQUE_BINS = 24
+ERROR_BLOCK = 0.1  # [s] inside of which torques may repeat each other, for the standard error
+LEAST_ERROR_BLOCKS = 4  # blocks behind a standard error
+CLEAR_ERRORS = 5.0  # standard errors
+LEAST_CLEAR_BINS = 4  # bins that make a shape
+AXIS_NAMES = {"speed": "speed [rad/s]", "angle": "shaft angle [rad]", "time": "time [s]"}
 
 
 @dataclass(frozen=True)
@@ -35,18 +35,18 @@ class MissingTorque:
 
 
 def estimate_missing_torque(held: HeldOut) -> tuple[MissingTorque, ...]:
-    """What torque is missing over speed, and over angle and time of every recording."""
+    """Estimate the missing torque over speed, and over angle and time of every recording."""
     seen = find_conditions(held)
     torque, good = _torque(held, seen)
     top = float(np.abs(seen.speed).max(initial=0.0)) or 1.0
     longest = float(seen.time.max(initial=0.0)) or 1.0
-    block = np.floor(seen.time / BLOCK).astype(np.int64) + 1_000_000 * seen.recording
-    shapes = [_shape("speed", -1, _even(-top, top, BINS + 1), seen.speed, torque, seen.duration, block, good)]
+    block = np.floor(seen.time / ERROR_BLOCK).astype(np.int64) + 1_000_000 * seen.recording
+    shapes = [_shape("speed", -1, _even(-top, top, TORQUE_BINS + 1), seen.speed, torque, seen.duration, block, good)]
     for number in range(len(held.recordings)):
         here = good & (seen.recording == number)
         for axis, edges, values in (
-            ("angle", _even(0.0, tau, BINS), np.mod(seen.angle, tau)),
-            ("time", _even(0.0, longest, BINS), seen.time),
+            ("angle", _even(0.0, tau, TORQUE_BINS), np.mod(seen.angle, tau)),
+            ("time", _even(0.0, longest, TORQUE_BINS), seen.time),
         ):
             shapes.append(_shape(axis, number, edges, values, torque, seen.duration, block, here))
     return tuple(shapes)
@@ -94,7 +94,7 @@ def _shape(
     seconds = np.bincount(index * blocks + which, duration[here], bins * blocks).reshape(bins, blocks)
     sums = np.bincount(index * blocks + which, (duration * torque)[here], bins * blocks).reshape(bins, blocks)
     total, count = seconds.sum(axis=1), np.count_nonzero(seconds, axis=1)
-    enough = count >= FEWEST
+    enough = count >= LEAST_ERROR_BLOCKS
     with np.errstate(invalid="ignore", divide="ignore"):
         mean = sums.sum(axis=1) / total
         # Of a ratio estimator: blocks are independent, what is inside one is not.
@@ -106,20 +106,20 @@ def _shape(
 
 def describe_torque(shapes: tuple[MissingTorque, ...]) -> str:
     """Describe the residual torque over the axis that shows most of it; empty if none is significant."""
-    rows = [(_power(shape), shape) for shape in shapes if np.count_nonzero(_clear(shape)) >= SEVERAL]
+    rows = [(_power(shape), shape) for shape in shapes if np.count_nonzero(_clear(shape)) >= LEAST_CLEAR_BINS]
     if not rows:
         return ""
     _, shape = max(rows, key=lambda row: row[0])
     clear = _clear(shape)
     k = int(np.argmax(np.where(clear, np.abs(shape.torque), 0.0)))
     torque, middle = shape.torque[clear], 0.5 * (shape.edges[k] + shape.edges[k + 1])
-    name, unit = NAMES[shape.axis].rstrip("]").split(" [")
+    name, unit = AXIS_NAMES[shape.axis].rstrip("]").split(" [")
     span = f"{torque.min():.2g} to {torque.max():.2g} V"
     return f"Residual torque over the {name}: {span}, largest near {middle:.2g} {unit}."
 
 
 def _clear(shape: MissingTorque) -> Bools:
-    return np.nan_to_num(np.abs(shape.torque)) > CLEAR * np.nan_to_num(shape.error, nan=np.inf)
+    return np.nan_to_num(np.abs(shape.torque)) > CLEAR_ERRORS * np.nan_to_num(shape.error, nan=np.inf)
 
 
 def _power(shape: MissingTorque) -> float:

@@ -14,8 +14,8 @@ from motor_identification.measurement.measured_angle import Track, make_track
 from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.validation.held_out import HeldOut
 
-RUNS = 1_000_000  # more than any recording has
-SMOOTHING = 0.0125  # [s] to either side of an interval over which its acceleration is taken
+RUNS_PER_RECORDING = 1_000_000  # more than any recording has
+ACCELERATION_SPAN = 0.0125  # [s] to either side of an interval over which its acceleration is taken
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class OperatingConditions:
 
 
 def find_conditions(held: HeldOut) -> OperatingConditions:
-    """What the motor was doing in every interval that counts."""
+    """Find what the motor was doing in every interval that counts."""
     rows = zip(held.recordings, held.intervals, held.angles, strict=True)
     parts = [_of_one(number, recording, data, angle) for number, (recording, data, angle) in enumerate(rows)]
     return OperatingConditions(
@@ -64,7 +64,7 @@ def _of_one(number: int, recording: Recording, data: Intervals, angle: Floats) -
         angle=track.at(middle),
         duration=data.duration,
         recording=np.full(len(middle), number),
-        run=track.run_at(middle) + RUNS * number,
+        run=track.run_at(middle) + RUNS_PER_RECORDING * number,
         still=data.slack > 0.0,
     )
 
@@ -83,6 +83,8 @@ def _since(start: Floats, end: Floats, speed: Floats, still: Bools) -> Floats:
 def _slope(time: Floats, value: Floats) -> Floats:
     """Slope from the first to the last of what is measured around every time: at least its two neighbours."""
     index = np.arange(len(time))
-    low = np.minimum(np.searchsorted(time, time - SMOOTHING), np.maximum(index - 1, 0))
-    high = np.maximum(np.searchsorted(time, time + SMOOTHING, side="right") - 1, np.minimum(index + 1, len(time) - 1))
+    low = np.minimum(np.searchsorted(time, time - ACCELERATION_SPAN), np.maximum(index - 1, 0))
+    high = np.maximum(
+        np.searchsorted(time, time + ACCELERATION_SPAN, side="right") - 1, np.minimum(index + 1, len(time) - 1)
+    )
     return np.asarray((value[high] - value[low]) / np.maximum(time[high] - time[low], 1e-9))

@@ -14,8 +14,8 @@ from motor_identification.discrepancy.operating_conditions import OperatingCondi
 from motor_identification.recording import Bools, Floats
 from motor_identification.validation.held_out import HeldOut
 
-SINCE = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, inf)  # [s]
-ACCELERATIONS = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)  # of the largest
+SINCE_EDGES = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, inf)  # [s]
+ACCELERATION_EDGES = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)  # of the largest
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,9 @@ def _even(bins: int) -> Callable[[Floats], Floats]:
 
 def _fine_at_zero(values: Floats) -> Floats:
     top = float(np.abs(values).max(initial=0.0)) or 1.0
-    return np.array([*(-top * share for share in reversed(ACCELERATIONS)), *(top * share for share in ACCELERATIONS)])
+    return np.array(
+        [*(-top * share for share in reversed(ACCELERATION_EDGES)), *(top * share for share in ACCELERATION_EDGES)]
+    )
 
 
 def _times(values: Floats) -> Floats:
@@ -76,7 +78,7 @@ AXES = (
     Axis("acceleration", "acceleration", "rad/s²", lambda s: np.where(s.still, np.nan, s.acceleration), _fine_at_zero,
          along=True),
     Axis("since", "time since standstill or reversal", "s", lambda s: np.where(s.still, np.nan, s.since),
-         lambda values: np.array(SINCE), along=True),
+         lambda values: np.array(SINCE_EDGES), along=True),
     Axis("time", "time within the recording", "s", lambda s: s.time, _times, of_recording=True),
     Axis("voltage", "voltage", "V", lambda s: s.voltage, _even(15)),
     Axis("angle", "shaft angle", "rad", lambda s: np.mod(s.angle, tau), lambda values: _turn(24),
@@ -85,7 +87,7 @@ AXES = (
 
 
 def map_residuals(held: HeldOut, share: float) -> tuple[Map, ...]:
-    """The residual over every axis; `share` is the irregularity of the slots behind the floor, as a share of a slot."""
+    """Map the residual over every axis; `share` is the irregularity of the slots behind the floor, of a slot."""
     seen = find_conditions(held)
     floors = held.floors(share)
     made = []
@@ -122,5 +124,5 @@ def _map(
 
 
 def project_on_motion(seen: OperatingConditions, left: Floats) -> Floats:
-    """[rad/s] residuals counted along the motion: positive where the simulation is too fast."""
+    """Project residuals [rad/s] on the motion: positive where the simulation is too fast."""
     return np.where(seen.still, np.abs(left), left * np.sign(seen.speed))

@@ -9,12 +9,24 @@ from motor_identification.discrepancy.operating_conditions import OperatingCondi
 from motor_identification.recording import Bools, Floats
 from motor_identification.validation.held_out import HeldOut
 
-EVERYWHERE = 0.05  # [nat] of contrast below which no region is worse than the rest
-SECOND = 0.1  # [nat] that a second condition must add
-UNPHYSICAL = 0.5  # [nat] by which "in this recording" has to be better than what a motor does
-SHARES = (0.01, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9)  # of the largest: thresholds that are tried
-MOMENTS = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)  # [s]
-STEADY = 0.02  # of the largest acceleration
+LEAST_CONTRAST = 0.05  # [nat] of contrast below which no region is worse than the rest
+SECOND_CONTRAST = 0.1  # [nat] that a second condition must add
+RECORDING_PENALTY = 0.5  # [nat] by which "in this recording" has to be better than what a motor does
+THRESHOLD_SHARES = (
+    0.01,
+    0.02,
+    0.05,
+    0.1,
+    0.15,
+    0.2,
+    0.3,
+    0.5,
+    0.7,
+    0.8,
+    0.9,
+)  # of the largest: thresholds that are tried
+SINCE_THRESHOLDS = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)  # [s]
+STEADY_ACCELERATION = 0.02  # of the largest acceleration
 
 
 @dataclass(frozen=True)
@@ -39,7 +51,7 @@ class _Condition:
 
 
 def find_worst_regions(held: HeldOut, share: float, count: int = 3) -> tuple[Region, ...]:
-    """The worst regions that do not overlap, the worst first; none only where no motion is held out."""
+    """Find the worst regions that do not overlap, the worst first; none only where no motion is held out."""
     if not held.counted.any():
         return ()
     seen = find_conditions(held)
@@ -67,21 +79,21 @@ def _worst_of(
     contrast = measure_contrast(np.clip(excess, 0.0, 1.0), time)
     axes = np.array([one.axis for one in conditions])
     of_recording = (axes[:, None] == "recording") | (axes[None, :] == "recording")
-    contrast = np.where(of_recording, contrast - UNPHYSICAL, contrast)
+    contrast = np.where(of_recording, contrast - RECORDING_PENALTY, contrast)
     alone = np.diag(contrast)
     pairs = np.where(axes[:, None] == axes[None, :], 0.0, contrast)
     i, j = np.unravel_index(int(np.argmax(pairs)), pairs.shape)
     single = int(np.argmax(alone))
     chosen = [conditions[single]]
-    if pairs[i, j] > alone[single] + SECOND:
+    if pairs[i, j] > alone[single] + SECOND_CONTRAST:
         chosen = [conditions[min(i, j)], conditions[max(i, j)]]
-    elif alone[single] < EVERYWHERE:
+    elif alone[single] < LEAST_CONTRAST:
         chosen = [_Condition("", "everywhere alike", np.ones(len(squares), dtype=bool))]
     return _region(held, share, seen, squares, chosen, open_)
 
 
 def measure_contrast(excess: Floats, time: Floats) -> Floats:
-    """[nat] Kullback-Leibler divergence of where the excess is from where the time is; 0 where there is less of it."""
+    """Measure the contrast [nat], a Kullback-Leibler divergence of the excess from the time; 0 where there is less."""
     tiny = 1e-12
     inner = excess * np.log((excess + tiny) / (time + tiny))
     outer = (1.0 - excess) * np.log((1.0 - excess + tiny) / (1.0 - time + tiny))
@@ -124,12 +136,12 @@ def _conditions(held: HeldOut, seen: OperatingConditions) -> Iterator[_Condition
         yield _Condition("speed", f"at |ω| > {limit:g} rad/s", size > limit)
     yield _Condition("direction", "in forward motion", seen.speed > 0.0)
     yield _Condition("direction", "in backward motion", seen.speed < 0.0)
-    limit = STEADY * float(np.abs(seen.acceleration[moving]).max(initial=0.0))
+    limit = STEADY_ACCELERATION * float(np.abs(seen.acceleration[moving]).max(initial=0.0))
     yield _Condition("acceleration", "during acceleration", moving & (seen.acceleration > limit))
     yield _Condition("acceleration", "during deceleration", moving & (seen.acceleration < -limit))
     yield _Condition("acceleration", "at constant speed", moving & (np.abs(seen.acceleration) <= limit))
     yield from _driven(seen, moving)
-    for limit in MOMENTS:
+    for limit in SINCE_THRESHOLDS:
         yield _Condition("since", f"within {limit:g} s after a standstill or reversal", moving & (seen.since < limit))
     for limit in choose_thresholds(seen.time):
         yield _Condition("time", f"at t > {limit:g} s", seen.time > limit)
@@ -149,6 +161,6 @@ def _driven(seen: OperatingConditions, moving: Bools) -> Iterator[_Condition]:
 
 
 def choose_thresholds(values: Floats) -> list[float]:
-    """Shares of the largest value, rounded to two digits."""
+    """Choose thresholds: shares of the largest value, rounded to two digits."""
     top = float(values.max(initial=0.0))
-    return sorted({float(f"{share * top:.2g}") for share in SHARES if share * top > 0.0})
+    return sorted({float(f"{share * top:.2g}") for share in THRESHOLD_SHARES if share * top > 0.0})

@@ -16,16 +16,16 @@ from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Floats, Integers, Recording
 from motor_model.effects import EFFECTS
 
-LONG = 60.0  # [s] of all recordings together above which excerpts are searched
-PIECES = 4
-STILL = 0.1  # [s] without any speed before a motor counts as standing
+LONGEST_SEARCHED = 60.0  # [s] of all recordings together above which excerpts are searched
+PIECES_PER_RECORDING = 4
+LEAST_REST = 0.1  # [s] without any speed before a motor counts as standing
 # Effects of something that happens once, or slowly, can be anywhere; phases count from a recording's beginning.
 ANYWHERE = frozenset(effect.name for effect in EFFECTS if effect.anywhere)
 BEGINNING = frozenset(effect.name for effect in EFFECTS if effect.periodic)
 
 
-def take_excerpt(problem: Problem, longest: float = LONG) -> Problem:
-    """A problem with the same unknowns and at most so many seconds of motion; the same one if it is short enough.
+def take_excerpt(problem: Problem, longest: float = LONGEST_SEARCHED) -> Problem:
+    """Take an excerpt of at most so many seconds of motion, with the same unknowns; a short problem as it is.
 
     Join intervals before (`Problem.coarse`), not after: joining starts at the recording's beginning again. Each piece
     counts as a recording: `commands` and `intervals` have as many entries as there are pieces.
@@ -37,7 +37,7 @@ def take_excerpt(problem: Problem, longest: float = LONG) -> Problem:
     recordings, intervals, turning = [], [], []
     for recording, data, moving in zip(problem.recordings, problem.intervals, problem.unknowns.turning, strict=True):
         length = recording.duration * longest / total
-        starts = [0.0] if moving or effects & BEGINNING else _starts(recording, length / PIECES)
+        starts = [0.0] if moving or effects & BEGINNING else _starts(recording, length / PIECES_PER_RECORDING)
         for start in starts:
             piece = _piece(data, start, start + length / len(starts))
             if len(piece.first) > 0:
@@ -58,7 +58,7 @@ def _starts(recording: Recording, length: float) -> list[float]:
     candidates = _standing(recording)
     candidates = candidates[time[candidates] <= max(time[-1] - length, 0.0)]
     ends = np.searchsorted(time, time[candidates] + length)
-    part = np.minimum(time[candidates] / time[-1] * PIECES, PIECES - 1).astype(np.int64)
+    part = np.minimum(time[candidates] / time[-1] * PIECES_PER_RECORDING, PIECES_PER_RECORDING - 1).astype(np.int64)
     starts = []
     for number in np.unique(part):
         here = part == number
@@ -75,7 +75,7 @@ def _standing(recording: Recording) -> Integers:
     time, still = recording.time, recording.speed == 0.0
     began = np.flatnonzero(still & ~np.append(False, still[:-1]))
     ended = np.flatnonzero(still & ~np.append(still[1:], False))
-    long = time[ended] - time[began] >= STILL
+    long = time[ended] - time[began] >= LEAST_REST
     return np.asarray(np.unique(np.append(0, (began[long] + ended[long]) // 2)), dtype=np.int64)
 
 

@@ -139,7 +139,7 @@ def fit_residuals(
 
 
 def improves_fit(before: float, after: float, count: int) -> bool:
-    """Whether a cost fell by more than LEAST_GAIN squared standard deviations of so many residuals."""
+    """Decide whether a cost fell by more than LEAST_GAIN squared standard deviations of so many residuals."""
     return (before - after) * count >= LEAST_GAIN * after
 
 

@@ -24,10 +24,10 @@ Progress = Callable[[float], None]  # share of the evaluations that may be spent
 
 FIRST_PARTICLES = 10  # of the first swarm, for one epoch; both double from swarm to swarm up to what they may be
 MOST_DESCENTS = 3  # after each swarm
-APART = 0.1  # of the box: particles closer than this in every unknown are one start to descend from
+START_DISTANCE = 0.1  # of the box: particles closer than this in every unknown are one start to descend from
 SWARM_STALL, SWARM_TOLERANCE = 25, 1e-3  # a swarm ends after so many epochs without a relative improvement by this
-DIFFERENCE = 1e-6  # of the box: step of forward differences
-TOLERANCE = Tolerance(cost=1e-6, unknowns=1e-9, gradient=1e-14, iterations=60)  # of a descent
+DIFFERENCE_STEP = 1e-6  # of the box: step of forward differences
+DESCENT_TOLERANCE = Tolerance(cost=1e-6, unknowns=1e-9, gradient=1e-14, iterations=60)  # of a descent
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ def _select_starts(swarm: SwarmResult, span: Floats) -> list[Floats]:
     """Select the best few particles that are not at the same θ."""
     chosen: list[Floats] = []
     for theta in swarm.thetas[np.isfinite(swarm.costs)]:
-        if all(np.max(np.abs(theta - other) / span) > APART for other in chosen):
+        if all(np.max(np.abs(theta - other) / span) > START_DISTANCE for other in chosen):
             chosen.append(theta)
         if len(chosen) == MOST_DESCENTS:
             break
@@ -102,7 +102,7 @@ def _select_starts(swarm: SwarmResult, span: Floats) -> list[Floats]:
 def _descend(objective: Objective, start: Floats, swarm: int) -> Descent:
     """Descend with forward differences: half the evaluations of central ones, and a later fit refines anyway."""
     low, high = objective.low, objective.high
-    step = DIFFERENCE * (high - low)
+    step = DIFFERENCE_STEP * (high - low)
     evaluations = 0
     known: tuple[Floats, Floats] = (np.empty(0), np.empty(0))  # the latest θ and its residuals
 
@@ -121,7 +121,7 @@ def _descend(objective: Objective, start: Floats, swarm: int) -> Descent:
         slopes = (objective.residuals(theta + np.diag(steps)) - here) / steps[:, None]
         return np.asarray(np.where(np.isfinite(slopes), slopes, 0.0).T)
 
-    end = minimise_squares(residuals, jacobian, start, Box(low, high, objective.periodic), TOLERANCE)
+    end = minimise_squares(residuals, jacobian, start, Box(low, high, objective.periodic), DESCENT_TOLERANCE)
     return Descent(end.theta, end.cost, evaluations, swarm)
 
 

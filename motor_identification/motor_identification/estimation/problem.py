@@ -20,8 +20,8 @@ from motor_model.errors import RecordingError
 from motor_model.sensing.encoder import show
 from motor_model.simulate import NOWHERE, roll_out
 
-COARSENESS = 4.0  # of the motion while a swarm searches
-STEP = 1e-7  # of the box, for derivatives: 1e-5 of it turns a ripple's phase by 0.3 rad within half a minute
+SEARCH_COARSENESS = 4.0  # of the motion while a swarm searches
+DERIVATIVE_STEP = 1e-7  # of the box, for derivatives: 1e-5 of it turns a ripple's phase by 0.3 rad within half a minute
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,9 @@ class Problem:
     def coarsen(self, duration: float) -> "Problem":
         """The same problem with intervals joined to this length [s] where they follow each other: quicker to search."""
         return replace(
-            self, intervals=tuple(join_intervals(data, duration) for data in self.intervals), coarseness=COARSENESS
+            self,
+            intervals=tuple(join_intervals(data, duration) for data in self.intervals),
+            coarseness=SEARCH_COARSENESS,
         )
 
     def without(self, bad: tuple[Bools, ...]) -> "Problem":
@@ -156,7 +158,7 @@ class Problem:
 
     def jacobian(self, theta: Floats) -> Floats:
         """Derivative of the residuals over the unknowns, central differences, shape (I, D)."""
-        steps = STEP * (self.unknowns.high - self.unknowns.low)
+        steps = DERIVATIVE_STEP * (self.unknowns.high - self.unknowns.low)
         columns = np.empty((len(theta), len(self.weight)))
         share = max(self.workers, 1)  # a few unknowns at a time keep all cores busy and an hour's residuals in memory
         for i in range(0, len(theta), share):

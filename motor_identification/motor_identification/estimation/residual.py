@@ -11,14 +11,14 @@ from motor_model.compiled import compiled
 from motor_model.sensing.encoder import show
 from motor_model.simulate import roll_out
 
-WORTHWHILE = 50_000  # steps of motion (some 3 ms) for which it pays to start threads
+LEAST_THREADED_STEPS = 50_000  # steps of motion (some 3 ms) for which it pays to start threads
 
 
 @compiled
 def fill_residuals(
     angle: Floats, time: Floats, first: Integers, last: Integers, speed: Floats, slack: Floats, residual: Floats
 ) -> None:
-    """Simulated minus measured mean speed [rad/s] of every interval, from the simulated angle [rad] at `time`."""
+    """Fill simulated minus measured mean speed [rad/s] of every interval, from the simulated angle [rad] at `time`."""
     for i in range(len(first)):
         duration = time[last[i]] - time[first[i]]
         travel = angle[last[i]] - angle[first[i]]
@@ -30,7 +30,7 @@ def fill_residuals(
 
 
 def compute_residuals(intervals: Intervals, angle: Floats) -> Floats:
-    """Simulated minus measured mean speed [rad/s], shape (I,), from the simulated angle [rad] at `intervals.time`."""
+    """Compute simulated minus measured mean speed [rad/s] (I,) from the simulated angle [rad] at `intervals.time`."""
     residual = np.empty(len(intervals.first))
     fill_residuals(angle, intervals.time, intervals.first, intervals.last, intervals.speed, intervals.slack, residual)
     return residual
@@ -50,7 +50,7 @@ def fill_swarm(
     slack: Floats,
     residuals: Floats,
 ) -> None:
-    """Residuals (S, I) of a swarm of motors over one recording; see `Intervals` for the data."""
+    """Fill the residuals (S, I) of a swarm of motors over one recording; see `Intervals` for the data."""
     angle, shaft = np.empty(len(time)), np.empty(len(time))
     for s in range(len(vectors)):
         roll_out(vectors[s], starts[s], command_time, command, time, anchor, angle, shaft)
@@ -66,7 +66,7 @@ def simulate_residuals(
     intervals: Sequence[Intervals],
     workers: int,
 ) -> Floats:
-    """Residuals (S, I) [rad/s] of a swarm, the intervals of R recordings one after the other.
+    """Simulate a swarm: residuals (S, I) [rad/s], the intervals of R recordings one after the other.
 
     vectors: parameters, shape (S, R, P). starts: [rad/s] initial speeds, shape (S, R). commands, anchors, intervals: of
     every recording, see `Problem`.
@@ -74,7 +74,7 @@ def simulate_residuals(
     counts = [len(data.first) for data in intervals]
     residuals = np.empty((len(vectors), sum(counts)))
     steps = sum(len(data.time) + len(time) for data, (time, _) in zip(intervals, commands, strict=True))
-    threads = max(workers, 1) if len(vectors) * steps > WORTHWHILE else 1
+    threads = max(workers, 1) if len(vectors) * steps > LEAST_THREADED_STEPS else 1
     share = -(-len(vectors) // threads)
     parts = [slice(i, i + share) for i in range(0, len(vectors), share)]
 

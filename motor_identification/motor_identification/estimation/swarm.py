@@ -21,7 +21,7 @@ Progress = Callable[[int, float], None]  # epoch, best cost so far
 
 INERTIA = 0.7298
 PULL = 1.49618
-FASTEST = 0.5  # of the box per epoch
+FASTEST_MOVE = 0.5  # of the box per epoch
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +66,7 @@ def minimise(
         return np.where(np.isfinite(costs), costs, np.inf)
 
     x = _latin_hypercube(random, config.particles, len(low))
-    velocity = (random.random(x.shape) - 0.5) * FASTEST
+    velocity = (random.random(x.shape) - 0.5) * FASTEST_MOVE
     best, best_cost = x.copy(), evaluate(x)
     trace, stalled = [float(best_cost.min())], 0
     for epoch in range(config.epochs):
@@ -121,7 +121,7 @@ def _fly(
     """Move particles by one epoch; strays are put on the wall they crossed and stopped there."""
     own, others = random.random(x.shape), random.random(x.shape)
     velocity = INERTIA * velocity + PULL * (own * (best - x) + others * (leader - x))
-    velocity = np.clip(velocity, -FASTEST, FASTEST)
+    velocity = np.clip(velocity, -FASTEST_MOVE, FASTEST_MOVE)
     inside = np.clip(x + velocity, 0.0, 1.0)
     return inside, np.where(inside == x + velocity, velocity, 0.0)
 

@@ -35,8 +35,8 @@ EM_ROUNDS = 40  # of expectation maximisation
 MOST_TURNS = 4  # that table, slots and drift are learned from each other
 OUTLIER_SIGMA = 8.0  # standard deviations that no noise reaches
 MOST_OUTLIERS = 0.005  # share of the intervals: more of them are a wrong model
-LEAST_BLUR = 1e-3  # of the typical increment, where the encoder says nothing of its own accuracy
-DRIFTS = tuple(10.0 ** (-0.5 * i) for i in range(20))  # of the mean square increment per second
+LEAST_BLUR_SHARE = 1e-3  # of the typical increment, where the encoder says nothing of its own accuracy
+DRIFT_GRID = tuple(10.0 ** (-0.5 * i) for i in range(20))  # of the mean square increment per second
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ def learn_encoders(estimate: Estimate) -> tuple[Encoder, ...]:
 
 
 def _learn_one(data: Intervals, increments: Floats, angle: Floats, first_harmonic: bool) -> Encoder:
-    noise = make_angle_noise(data, 0.0, LEAST_BLUR * float(np.median(np.abs(increments))) + 1e-12)
+    noise = make_angle_noise(data, 0.0, LEAST_BLUR_SHARE * float(np.median(np.abs(increments))) + 1e-12)
     if data.slot == 0.0:
         drift = _estimate_drift(noise, increments)
         return Encoder(make_whitening(noise, drift), None, 0.0, 0.0, drift)
@@ -98,7 +98,7 @@ def _learn_one(data: Intervals, increments: Floats, angle: Floats, first_harmoni
 
 def _estimate_drift(noise: AngleNoise, increments: Floats) -> float:
     scale = float(np.mean(increments**2) / np.mean(noise.duration))
-    return estimate_drift([noise], [increments], [scale * share for share in DRIFTS])
+    return estimate_drift([noise], [increments], [scale * share for share in DRIFT_GRID])
 
 
 @dataclass(frozen=True)

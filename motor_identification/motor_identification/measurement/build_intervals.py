@@ -20,7 +20,7 @@ from motor_model.sample import Measurement
 
 
 def make_intervals(recording: Recording) -> Intervals:
-    """What the recording says about the motion.
+    """Make the intervals of a recording: what it says about the motion.
 
     Raises:
         RecordingError: there is less than three intervals of motion in it, or its numbers are those of no motor.
@@ -41,7 +41,7 @@ def _from_edges(recording: Recording) -> Intervals:
 
 
 def make_edge_intervals(recording: Recording, edges: Edges) -> Intervals:
-    """What stamped edges with known directions say about the motion."""
+    """Make intervals between stamped edges with known directions."""
     slot = tau / recording.info.edges_per_revolution
     good = mark_one_way(edges)
     first, last = edges.only(np.flatnonzero(good)), edges.only(np.flatnonzero(good) + 1)
@@ -65,7 +65,7 @@ def _from_counts(recording: Recording) -> Intervals:
 
 
 def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
-    """What counts read at the samples say, as mean speeds between the instants at which they fix the angle."""
+    """Make intervals from counts read at the samples, between the instants at which they fix the angle."""
     slot = tau / recording.info.edges_per_revolution
     fixes = locate_fixes(recording, changes)
     good = (np.diff(fixes.run) == 0) & (fixes.way[1:] != 0) & (np.diff(fixes.time) > 0.0)

@@ -26,7 +26,7 @@ class Edges:
 
 
 def extract_edges(recording: Recording) -> Edges:
-    """All edges since the first sample that a recording reports, but for those whose stamps are wrong.
+    """Extract all edges since the first sample that a recording reports, but for those whose stamps are wrong.
 
     A stamp is the timer's last tick before the edge, so that half a tick is added.
     """
@@ -54,7 +54,7 @@ def _passed(count: Integers) -> Integers:
 
 
 def read_directions(speed: Floats) -> Integers:
-    """The reported signs at samples with a fresh edge; the first edge ever has none and takes the next one's."""
+    """Read the reported signs at samples with a fresh edge; the first edge ever has none and takes the next one's."""
     sign = np.sign(speed).astype(np.int64)
     return np.where(sign == 0, np.append(sign[1:], 0), sign)
 

@@ -12,21 +12,23 @@ from motor_identification.measurement.sampled_counts import extract_count_change
 from motor_identification.recording import Floats, Recording
 from motor_model.sample import Measurement
 
-HEAD = 400  # samples in which the beginning shows
-POINTS = 6  # edges that are followed back
-SHARE = 0.5  # of their mean speed that must be left at the beginning: at rest it is none, or a quarter after one τ
-NEAR = 0.75  # slots that the parabola may lead beside the middle of the slot in which the disc was
-BENT = 0.05  # of the slots up to the last of those edges: as much beside, since no motion is a parabola
+HEAD_SAMPLES = 400  # samples in which the beginning shows
+PARABOLA_EDGES = 6  # edges that are followed back
+LEAST_SPEED_SHARE = (
+    0.5  # of their mean speed that must be left at the beginning: at rest it is none, or a quarter after one τ
+)
+MOST_SLOTS_OFF = 0.75  # slots that the parabola may lead beside the middle of the slot in which the disc was
+MOST_SHARE_OFF = 0.05  # of the slots up to the last of those edges: as much beside, since no motion is a parabola
 
 
 def estimate_initial_speed(recording: Recording) -> float:
-    """[rad/s] of a motor that already turned at the first sample; 0 for one that stood, or may have."""
+    """Estimate the speed [rad/s] of a motor that turned at the first sample; 0 for one that stood, or may have."""
     info, reported = recording.info, float(recording.speed[0])
     if info.measurement is Measurement.SPEED:
         return reported
     if reported != 0.0 and not (info.source == "import" and info.measurement is Measurement.COUNTS):
         return reported
-    head = recording.between(0.0, float(recording.time[min(HEAD, len(recording) - 1)]))
+    head = recording.between(0.0, float(recording.time[min(HEAD_SAMPLES, len(recording) - 1)]))
     time, place = _passed(head)
     speed = _followed_back(time, place, _first_voltage(head)) if len(time) > 3 else 0.0
     return speed * _way(head) * 2.0 * np.pi / info.edges_per_revolution
@@ -40,7 +42,7 @@ def _passed(recording: Recording) -> tuple[Floats, Floats]:
     else:
         fixes = locate_fixes(recording, extract_count_changes(recording))
         time, place = fixes.time[fixes.time > 0.0], fixes.place[fixes.time > 0.0]
-    return time[:POINTS], place[:POINTS]
+    return time[:PARABOLA_EDGES], place[:PARABOLA_EDGES]
 
 
 def _followed_back(time: Floats, place: Floats, begin: float) -> float:
@@ -54,8 +56,8 @@ def _followed_back(time: Floats, place: Floats, begin: float) -> float:
         return float((place[free][-1] - place[free][0]) / (time[free][-1] - time[free][0]))
     mean = (place[-1] - place[0]) / (time[-1] - time[0])
     _, slope, was = np.polyfit(time - begin, place, 2)
-    near = abs(was - 0.5) <= max(NEAR, BENT * place[-1])
-    return float(slope) if slope > SHARE * mean and near else 0.0
+    near = abs(was - 0.5) <= max(MOST_SLOTS_OFF, MOST_SHARE_OFF * place[-1])
+    return float(slope) if slope > LEAST_SPEED_SHARE * mean and near else 0.0
 
 
 def _first_voltage(recording: Recording) -> float:

@@ -65,7 +65,7 @@ def index_intervals(
     slot: float = 0.0,
     left_out: int = 0,
 ) -> Intervals:
-    """Intervals over one ascending list of times that starts with the recording."""
+    """Index intervals over one ascending list of times that starts with the recording."""
     count = len(start)
     time, index = np.unique(np.concatenate([[0.0], start, end]), return_inverse=True)
     return Intervals(
@@ -82,7 +82,7 @@ def index_intervals(
 
 
 def append_standstills(moving: Intervals, still: tuple[Floats, Floats], slack: float) -> Intervals:
-    """Together with times [s] in which the motor moved less than `slack` [rad], at the end of the list."""
+    """Append times [s] in which the motor moved less than `slack` [rad], at the end of the list."""
     start, end = still
     blank = np.zeros(len(start))
     return index_intervals(
@@ -98,7 +98,7 @@ def append_standstills(moving: Intervals, still: tuple[Floats, Floats], slack: f
 
 
 def exclude_intervals(intervals: Intervals, bad: Bools) -> Intervals:
-    """The intervals that are not marked; shape of `bad`: (I,)."""
+    """Exclude marked intervals; shape of `bad`: (I,)."""
     good = ~bad
     return replace(
         intervals,
@@ -113,7 +113,7 @@ def exclude_intervals(intervals: Intervals, bad: Bools) -> Intervals:
 
 
 def join_intervals(intervals: Intervals, duration: float) -> Intervals:
-    """The intervals with those that follow each other joined until each is at least `duration` [s] long.
+    """Join intervals that follow each other until each is at least `duration` [s] long.
 
     A mean speed over many slots says as much about the motor as those over its parts, but for what happens within it.
     """

@@ -34,12 +34,12 @@ class Track:
         return np.asarray(self.run[np.maximum(np.searchsorted(self.time, time, side="right") - 1, 0)])
 
     def slipped(self, slips: Floats) -> "Track":
-        """The track with every run's slip [rad] added, shape (number of runs,)."""
+        """Add every run's slip [rad] to the track, shape (number of runs,)."""
         return replace(self, angle=self.angle + slips[np.minimum(self.run, len(slips) - 1)])
 
 
 def make_track(intervals: Intervals, angle: Floats) -> Track:
-    """The track of one recording; `angle` [rad] is a fitted motor's at `intervals.time`, shape (K,)."""
+    """Make the track of one recording; `angle` [rad] is a fitted motor's at `intervals.time`, shape (K,)."""
     order = np.argsort(intervals.time[intervals.first], kind="stable")
     measured = np.full(len(angle), np.nan)
     run = np.zeros(len(angle), dtype=np.int64)

@@ -21,11 +21,11 @@ from numpy.lib.stride_tricks import sliding_window_view
 from motor_identification.measurement.edges import Edges, move_reversals_to_slowest, read_directions
 from motor_identification.recording import Bools, Floats, Integers, Recording
 
-STANDARD = 1.0 / sqrt(12.0)  # standard deviation of what is uniform over 1
-NEIGHBOURS = 3  # changes on either side that tell how fast the disc turns
-WINDOW = 7  # fixes that a parabola is laid through, to see how far stamps jitter
-MEDIAN_SHARE = 0.839  # median over mean of χ² with WINDOW − 3 degrees of freedom
-JITTERY = 1.8  # times the variance that counting leaves, from which on stamps are said to jitter
+UNIFORM_SIGMA = 1.0 / sqrt(12.0)  # standard deviation of what is uniform over 1
+RATE_NEIGHBOURS = 3  # changes on either side that tell how fast the disc turns
+JITTER_WINDOW = 7  # fixes that a parabola is laid through, to see how far stamps jitter
+CHI2_MEDIAN_SHARE = 0.839  # median over mean of χ² with JITTER_WINDOW − 3 degrees of freedom
+JITTER_RATIO = 1.8  # times the variance that counting leaves, from which on stamps are said to jitter
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ class Changes:
 
 
 def extract_count_changes(recording: Recording) -> Changes:
-    """All changes of the count, in runs of one direction."""
+    """Extract all changes of the count, in runs of one direction."""
     steps = np.diff(recording.edge_count)
     sample = np.flatnonzero(steps) + 1
     way = np.sign(steps[sample - 1])
@@ -71,12 +71,12 @@ def extract_count_changes(recording: Recording) -> Changes:
 
 
 def number_runs(sample: Integers, way: Integers) -> Changes:
-    """Changes at these samples (C,) in these directions (C,), numbered by runs of one direction."""
+    """Number the runs of one direction in changes at these samples (C,) in these directions (C,)."""
     return Changes(sample, way, np.cumsum(np.diff(way, prepend=way[:1]) != 0))
 
 
 def locate_fixes(recording: Recording, changes: Changes) -> Fixes:
-    """Every instant at which the counts say where the disc was; `changes` are those of the recording."""
+    """Locate the disc at every instant at which the counts say where it was; `changes` are those of the recording."""
     time = recording.time
     if not len(changes):
         return Fixes(time[:0], time[:0], time[:0], changes.run, changes.way, time[:0])
@@ -96,7 +96,7 @@ def locate_fixes(recording: Recording, changes: Changes) -> Fixes:
     bend = np.interp(time[c], time[changes.sample], rates.growth) * step[c] ** 2 / 8.0
     place = np.concatenate([turned[k] + 0.5, 0.5 * (turned[c] + turned[c - 1] + 1.0) - np.clip(bend, -0.25, 0.25)])
     sharp = np.maximum(travel[c], np.minimum(gap - 1.0, 1.0))
-    blur = STANDARD * np.concatenate([np.ones(len(k)), sharp])
+    blur = UNIFORM_SIGMA * np.concatenate([np.ones(len(k)), sharp])
     order, which = np.argsort(at, kind="stable"), np.concatenate([k, c])
     run, way = changes.run[follows[which]], changes.way[follows[which]]
     fixes = Fixes(at[order], place[order], blur[order], run[order], way[order], rate[which][order])
@@ -127,7 +127,7 @@ def _rates(time: Floats, turned: Integers, changes: Changes) -> Rates:
     there = 0.5 * (turned[changes.sample] + turned[changes.sample - 1])
     first = np.searchsorted(changes.run, changes.run, side="left")
     last = np.searchsorted(changes.run, changes.run, side="right") - 1
-    reach = np.minimum((last - first) // 2, NEIGHBOURS)
+    reach = np.minimum((last - first) // 2, RATE_NEIGHBOURS)
     here = np.arange(len(middle))
     centre = np.clip(here, first + reach, last - reach)
     before, after = centre - reach, centre + reach
@@ -146,26 +146,26 @@ def _rates(time: Floats, turned: Integers, changes: Changes) -> Rates:
 
 
 def estimate_stamp_jitter(fixes: Fixes) -> float:
-    """[s] standard deviation of the samples' stamps, from how far fixes lie beside a parabola through their neighbours.
+    """Estimate the standard deviation [s] of the stamps, from how far fixes lie beside a parabola through neighbours.
 
     0 where that is no more than counting itself leaves. It takes a dozen windows of a motor fast enough to tell.
     """
-    if len(fixes) < 2 * WINDOW:
+    if len(fixes) < 2 * JITTER_WINDOW:
         return 0.0
-    time, place = (sliding_window_view(column, WINDOW) for column in (fixes.time, fixes.place))
+    time, place = (sliding_window_view(column, JITTER_WINDOW) for column in (fixes.time, fixes.place))
     scaled = (time - time.mean(axis=1, keepdims=True)) / np.ptp(time, axis=1)[:, None]
     powers = scaled[:, :, None] ** np.arange(3)
     basis = np.linalg.qr(powers)[0]
     left = place - np.einsum("wik,wjk,wj->wi", basis, basis, place)
-    scatter = np.sum(left**2, axis=1) / (WINDOW - 3)
-    middle = slice(WINDOW // 2, WINDOW // 2 + len(scatter))
+    scatter = np.sum(left**2, axis=1) / (JITTER_WINDOW - 3)
+    middle = slice(JITTER_WINDOW // 2, JITTER_WINDOW // 2 + len(scatter))
     rate, counting = fixes.rate[middle], fixes.blur[middle] ** 2
-    run = sliding_window_view(fixes.run, WINDOW)
-    fast = (rate >= np.quantile(rate, 0.5)) & (fixes.blur[middle] > 0.99 * STANDARD)
+    run = sliding_window_view(fixes.run, JITTER_WINDOW)
+    fast = (rate >= np.quantile(rate, 0.5)) & (fixes.blur[middle] > 0.99 * UNIFORM_SIGMA)
     told = (run[:, 0] == run[:, -1]) & fast
     if np.count_nonzero(told) < 12:
         return 0.0
-    size = float(np.median(scatter[told] / counting[told])) / MEDIAN_SHARE
-    if size < JITTERY:
+    size = float(np.median(scatter[told] / counting[told])) / CHI2_MEDIAN_SHARE
+    if size < JITTER_RATIO:
         return 0.0
-    return sqrt(max(float(np.median((scatter[told] / MEDIAN_SHARE - counting[told]) / rate[told] ** 2)), 0.0))
+    return sqrt(max(float(np.median((scatter[told] / CHI2_MEDIAN_SHARE - counting[told]) / rate[told] ** 2)), 0.0))

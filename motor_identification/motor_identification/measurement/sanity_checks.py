@@ -10,17 +10,17 @@ from motor_identification.recording import Floats, Integers, Recording
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
 
-SUDDEN = 2.0  # times the rate around it by which a count's rate must not differ from that
-ALLOWED = 10.0  # counts by which it may differ besides
-STEADY = 0.2  # of the largest voltage: where it changes by more, even one sample's motion can be real
-CHUNK = 20  # samples over which speed and count are compared
-TELLING = 5  # counts in a chunk from which on it tells the unit
-STRANGE = 0.6  # share of stamps that cannot be right, from which on all of them are those of another clock
-AGREE = 3.0  # factor between speed and count beyond which they do not mean the same; 2π, 9.5 and 57.3 are beyond
+JUMP_RATE = 2.0  # times the rate around it by which a count's rate must not differ from that
+JUMP_COUNTS = 10.0  # counts by which it may differ besides
+STEADY_VOLTAGE = 0.2  # of the largest voltage: where it changes by more, even one sample's motion can be real
+CHUNK_SAMPLES = 20  # samples over which speed and count are compared
+CHUNK_COUNTS = 5  # counts in a chunk from which on it tells the unit
+IMPOSSIBLE_STAMPS = 0.6  # share of stamps that cannot be right, from which on all of them are those of another clock
+SPEED_FACTOR = 3.0  # factor between speed and count beyond which they do not mean the same; 2π, 9.5 and 57.3 are beyond
 
 
 def find_count_jump(time: Floats, count: Integers, voltage: Floats) -> int | None:
-    """The first sample whose count has jumped while the voltage did not; None without one. Arrays of shape (K,).
+    """Find the first sample whose count has jumped while the voltage did not; None without one. Arrays of shape (K,).
 
     A wrap, a reset or a misread count is off for one sample, or for a sample and back. A motor that starts or turns
     moves on afterwards, so that it is like two of the four samples around.
@@ -31,24 +31,24 @@ def find_count_jump(time: Floats, count: Integers, voltage: Floats) -> int | Non
     rate = np.diff(count) / step
     around = sliding_window_view(np.pad(rate, 2, mode="edge"), 5)
     usual = np.median(around[:, (0, 1, 3, 4)], axis=1)
-    off = np.abs(rate - usual) * step > SUDDEN * np.abs(usual) * step + ALLOWED
+    off = np.abs(rate - usual) * step > JUMP_RATE * np.abs(usual) * step + JUMP_COUNTS
     volts = sliding_window_view(np.pad(voltage, 3, mode="edge"), 7)
-    steady = np.ptp(volts, axis=1)[1:] <= STEADY * np.abs(voltage).max()
+    steady = np.ptp(volts, axis=1)[1:] <= STEADY_VOLTAGE * np.abs(voltage).max()
     jumps = np.flatnonzero(off & steady)
     return int(jumps[0]) + 1 if len(jumps) else None
 
 
 def compare_speed_with_count(recording: Recording) -> float | None:
-    """How many times the speed is what the count says, in the middle of the recording's moving parts; None if unknown.
+    """Compare speed with count: how many times it is what the count says, in moving parts; None if unknown.
 
     Both are without sign, so that a single channel's doubt about it does not matter.
     """
     steps = np.abs(np.diff(recording.edge_count))
     travel = np.abs(recording.speed[1:]) * np.diff(recording.time)
-    whole = len(steps) // CHUNK * CHUNK
-    counted = steps[:whole].reshape(-1, CHUNK).sum(axis=1)
-    travelled = travel[:whole].reshape(-1, CHUNK).sum(axis=1)
-    telling = counted >= TELLING
+    whole = len(steps) // CHUNK_SAMPLES * CHUNK_SAMPLES
+    counted = steps[:whole].reshape(-1, CHUNK_SAMPLES).sum(axis=1)
+    travelled = travel[:whole].reshape(-1, CHUNK_SAMPLES).sum(axis=1)
+    telling = counted >= CHUNK_COUNTS
     if np.count_nonzero(telling) < 3:
         return None
     slot = tau / recording.info.edges_per_revolution
@@ -73,7 +73,7 @@ def check_counts(recording: Recording) -> Recording:
     if not sampled:
         _check_stamps(recording)
     ratio = compare_speed_with_count(recording)
-    if ratio is not None and not 1.0 / AGREE < ratio < AGREE:
+    if ratio is not None and not 1.0 / SPEED_FACTOR < ratio < SPEED_FACTOR:
         said = f"{ratio:.3g} ×" if ratio > 1.0 else f"1/{1.0 / max(ratio, 1e-9):.3g} of"
         raise RecordingError(
             f"{recording.uri}: the reported speed is {said} the speed from edge_count. Report speed in rad/s, "
@@ -85,7 +85,7 @@ def check_counts(recording: Recording) -> Recording:
 def _check_stamps(recording: Recording) -> None:
     fresh = np.flatnonzero(np.diff(recording.edge_count)) + 1
     strange = ~mark_possible(recording, fresh, (recording.edge_time[fresh] - recording.sample_time[0]) * 1e-9)
-    if np.count_nonzero(strange) > STRANGE * len(fresh):
+    if np.count_nonzero(strange) > IMPOSSIBLE_STAMPS * len(fresh):
         raise RecordingError(
             f"{recording.uri}: {np.count_nonzero(strange)} of {len(fresh)} edge_time values lie outside the sample "
             "that counted the edge. Stamp edges with the clock of sample_time, or set measurement to counts."

@@ -6,11 +6,11 @@ from motor_identification.measurement.edges import Edges
 from motor_identification.measurement.sampled_counts import Changes
 from motor_identification.recording import Bools, Floats, Recording
 
-MATTERS = 0.1  # [s] without an edge before the lack of edges is evidence
+LEAST_STANDSTILL = 0.1  # [s] without an edge before the lack of edges is evidence
 
 
 def find_standstills_at_edges(recording: Recording, edges: Edges, open_ones: Bools) -> tuple[Floats, Floats]:
-    """Start and end [s] of the times before the first and after the last edge, and from edge to next edge at a turn.
+    """Find start and end [s] of times before the first and after the last edge, and from edge to edge at a turn.
 
     `open_ones`, shape (E − 1,), marks the intervals between edges that say nothing of speed.
     """
@@ -19,7 +19,7 @@ def find_standstills_at_edges(recording: Recording, edges: Edges, open_ones: Boo
     end[0] = min(end[0], _until_the_first(recording))  # several edges may pass before the first one that is reported
     next_one = np.abs(np.diff(edges.count)) <= 1
     told = np.concatenate([[True], open_ones & next_one, [True]]) if len(edges.time) else np.array([True])
-    long = told & (end - start > MATTERS)
+    long = told & (end - start > LEAST_STANDSTILL)
     return start[long], end[long]
 
 
@@ -30,8 +30,8 @@ def _until_the_first(recording: Recording) -> float:
 
 
 def find_standstills_at_reversals(recording: Recording, changes: Changes) -> tuple[Floats, Floats]:
-    """Start and end [s] of the times around a turn in which the count does not change."""
+    """Find start and end [s] of the times around a turn in which the count does not change."""
     turned = np.flatnonzero(np.diff(changes.run) != 0)
     start, end = recording.time[changes.sample[turned]], recording.time[changes.sample[turned + 1] - 1]
-    long = end - start > MATTERS
+    long = end - start > LEAST_STANDSTILL
     return start[long], end[long]

@@ -11,24 +11,24 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from motor_identification.recording import Bools, Floats, Integers, Recording
 
-LATE = 0.05  # of the sample period: how far beside it a board may stamp
-OFF = 0.5  # slots that a stamp must be off: more than a missed edge beside it makes of a right one
-USUAL = 6.0  # times what stamps around it are off
-AROUND = 5  # edges on either side that say what is usual
-EVEN = 0.5  # of what a stamp is off: how unevenly the neighbours may turn beside
+STAMP_MARGIN = 0.05  # of the sample period: how far beside it a board may stamp
+STAMP_ERROR = 0.5  # slots that a stamp must be off: more than a missed edge beside it makes of a right one
+USUAL_ERRORS = 6.0  # times what stamps around it are off
+EDGES_AROUND = 5  # edges on either side that say what is usual
+MOST_UNEVENNESS = 0.5  # of what a stamp is off: how unevenly the neighbours may turn beside
 
 
 def mark_possible(recording: Recording, sample: Integers, time: Floats) -> Bools:
-    """Whether edges that are new in `sample` (E,) can have come at `time` (E,) [s] since the first sample."""
-    margin = LATE * recording.info.sample_period + recording.info.edge_resolution
+    """Mark edges, new in `sample` (E,), that can have come at `time` (E,) [s] since the first sample."""
+    margin = STAMP_MARGIN * recording.info.sample_period + recording.info.edge_resolution
     before = recording.time[np.maximum(sample - 1, 0)]
     return np.asarray((time > before - margin) & (time <= recording.time[sample] + margin))
 
 
 def mark_smooth(time: Floats, count: Integers) -> Bools:
-    """Which edges (E,), in order of their counts, are stamped when a disc that turns evenly would show them."""
+    """Mark edges (E,), in order of their counts, that are stamped when a disc that turns evenly would show them."""
     size = len(time)
-    if size < 2 * AROUND + 1:
+    if size < 2 * EDGES_AROUND + 1:
         return np.ones(size, dtype=bool)
     off, uneven = np.zeros(size), np.full(size, np.inf)
     gap, length = np.diff(count).astype(np.float64), np.diff(time)
@@ -39,6 +39,6 @@ def mark_smooth(time: Floats, count: Integers) -> Bools:
         beside = 0.5 * (rate[:-3] + rate[3:])  # of the intervals before and after those two
         uneven[2:-2] = np.abs(outer[1:-1] / beside - 1.0) * (gap[1:-2] + gap[2:-1])
     off[np.isnan(off)], uneven[np.isnan(uneven)] = np.inf, np.inf
-    padded = np.pad(off, AROUND, mode="edge")
-    usual = np.median(sliding_window_view(padded, 2 * AROUND + 1), axis=1)
-    return np.asarray(~((off > OFF + USUAL * usual) & (uneven < EVEN * off)))
+    padded = np.pad(off, EDGES_AROUND, mode="edge")
+    usual = np.median(sliding_window_view(padded, 2 * EDGES_AROUND + 1), axis=1)
+    return np.asarray(~((off > STAMP_ERROR + USUAL_ERRORS * usual) & (uneven < MOST_UNEVENNESS * off)))

@@ -120,21 +120,21 @@ def fill_adjoint(fresh: Bools, gain: Floats, scale: Floats, white: Floats, incre
 
 
 def make_whitening(noise: AngleNoise, drift: float) -> Whitening:
-    """The filter for a noise and a drift q [rad²/s] of what the model does not know."""
+    """Make the filter for a noise and a drift q [rad²/s] of what the model does not know."""
     gain, scale = np.empty(len(noise.fresh)), np.empty(len(noise.fresh))
     fill_gains(noise.fresh, noise.start, noise.end, noise.duration, drift, gain, scale)
     return Whitening(noise.fresh, gain, scale)
 
 
 def whiten(whitening: Whitening, increments: Floats) -> Floats:
-    """White residuals of unit variance, shape (I,), from angle increments [rad] of shape (I,)."""
+    """Whiten angle increments [rad] (I,): residuals of unit variance, shape (I,)."""
     white = np.empty(len(increments))
     fill_white(whitening.fresh, whitening.gain, whitening.scale, np.ascontiguousarray(increments), white)
     return white
 
 
 def whiten_adjoint(whitening: Whitening, white: Floats) -> Floats:
-    """The transpose of `whiten`, shape (I,) → (I,)."""
+    """Apply the transpose of `whiten`, shape (I,) → (I,)."""
     increments = np.empty(len(white))
     fill_adjoint(whitening.fresh, whitening.gain, whitening.scale, np.ascontiguousarray(white), increments)
     return increments

@@ -16,7 +16,7 @@ PRICE = 5.0  # of a slip by one slot from one run to the next, in natural logari
 
 
 def align_slots(table: SlotTable, white: Floats, offsets: Floats) -> SlotIndex:
-    """Where every run most likely was under a table's offsets [rad] (2N,), from whitened residuals (I,)."""
+    """Align every run where it most likely was under a table's offsets [rad] (2N,), by whitened residuals (I,)."""
     index = table.index
     n = index.size // 2
     farthest = min(FARTHEST, (n - 1) // 2)

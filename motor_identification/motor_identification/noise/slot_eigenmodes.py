@@ -57,7 +57,7 @@ class Modes:
 
 
 def compute_eigenmodes(gram: Floats, seen: Bools, first_harmonic: bool) -> Modes:
-    """The modes of AᵀA (2N, 2N), given which entries were seen, and whether the table may have a first harmonic."""
+    """Compute the modes of AᵀA (2N, 2N), by which entries were seen, and whether a first harmonic is allowed."""
     forbidden = _forbidden(len(gram) // 2, first_harmonic)
     groups = _groups(gram, seen)
     values, vectors = np.zeros(len(gram)), []

@@ -37,7 +37,7 @@ class SlotIndex:
 
 
 def index_slots(intervals: Intervals, angle: Floats) -> SlotIndex:
-    """Follow the disc through a recording; where runs are broken, the simulated angle [rad] bridges the gap."""
+    """Index the slots at every interval's ends; where runs are broken, the simulated angle [rad] bridges the gap."""
     n = round(2.0 * np.pi / intervals.slot)
     known = intervals.edge[:, 0] >= 0
     direction = np.sign(intervals.speed).astype(np.int64)
@@ -158,7 +158,7 @@ class Projection:
 
 
 def estimate_slot_variance(table: SlotTable, white: Floats, guess: float, most: float, rounds: int) -> float:
-    """The variance σ² [rad²] of the seen slots' offsets for whitened residuals (I,), by expectation maximisation.
+    """Estimate the variance σ² [rad²] of the seen slots' offsets, by expectation maximisation on white residuals (I,).
 
     It stays below `most` [rad²]: what is beyond any real disc is an error of the model, and shall not pass for noise.
     """

@@ -15,7 +15,7 @@ from motor_model.compiled import compiled
 
 Complexes = NDArray[np.complex128]
 
-TOGETHER = 32  # numbers of cycles: phasors are turned from one to the next so often before they are had anew
+CYCLES_TOGETHER = 32  # numbers of cycles: phasors are turned from one to the next so often before they are had anew
 
 
 @dataclass(frozen=True)
@@ -32,21 +32,21 @@ class Course:
     inertia: float  # [V·s²/rad] ka
 
     def response(self, cycles: float) -> tuple[Floats, Floats]:
-        """Increments [rad] that loads of sin(cycles·θ) and of cos(cycles·θ), 1 V each, make, (I,) each."""
+        """Compute the increments [rad] that loads of sin(cycles·θ) and of cos(cycles·θ), 1 V each, make, (I,) each."""
         travel = np.zeros(len(self.start), dtype=np.complex128)
         _fill_response(self.order, self.start, self.end, self.duration, self.moving, cycles, self.rate, travel)
         travel /= self.rate * self.inertia
         return travel.imag, travel.real
 
     def products(self, pull: Floats, cycles: Floats, block: Integers) -> Iterator[tuple[Floats, Floats]]:
-        """Products of `pull` (I,) with the responses to evenly spaced `cycles` (C,), summed over every block (B,).
+        """Sum the products of `pull` (I,) with the responses to evenly spaced `cycles` (C,) over every block (B,).
 
         A few numbers of cycles at a time: with sines and with cosines, (few, B) each.
         """
         width = float(cycles[1] - cycles[0]) if len(cycles) > 1 else 0.0
         blocks = int(block.max()) + 1
-        for i in range(0, len(cycles), TOGETHER):
-            sums = np.zeros((blocks, min(TOGETHER, len(cycles) - i)), dtype=np.complex128)
+        for i in range(0, len(cycles), CYCLES_TOGETHER):
+            sums = np.zeros((blocks, min(CYCLES_TOGETHER, len(cycles) - i)), dtype=np.complex128)
             _add_products(
                 self.order, self.start, self.end, self.duration, self.moving, float(cycles[i]), width, self.rate, pull,
                 block, sums,
@@ -55,7 +55,7 @@ class Course:
             yield sums.imag.T, sums.real.T
 
     def transient(self) -> Floats:
-        """Increments [rad] that a speed of 1 rad/s at the beginning of every counted run makes, (I,)."""
+        """Compute the increments [rad] that a speed of 1 rad/s at the beginning of every counted run makes, (I,)."""
         travel = np.zeros(len(self.start))
         _fill_transient(self.order, self.run, self.duration, self.moving, self.rate, travel)
         return travel

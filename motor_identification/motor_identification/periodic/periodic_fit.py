@@ -15,7 +15,7 @@ from motor_identification.periodic.simulated_angle_fit import fit_on_simulated_a
 from motor_identification.recording import Floats
 from motor_model.effects import EFFECT_BY_NAME
 
-ROUNDS = 2  # the second time, the motor that bridges the gaps of the measured angle has the effect already
+PERIODIC_ROUNDS = 2  # the second time, the motor that bridges the gaps of the measured angle has the effect already
 ITERATIONS, TOLERANCE = 25, 1e-8  # of a descent on measured angles
 
 Tracks = tuple[Track, ...]
@@ -58,7 +58,7 @@ def add_periodic_effect(bare: Estimate, effect: str, least: float = 0.0) -> Esti
     tracks = measure_angles(bare, effects)
     cycles_before, cost_without = np.inf, bare.cost
     promise, spent = least, bare.simulations
-    for _ in range(ROUNDS):
+    for _ in range(PERIODIC_ROUNDS):
         start = _STARTS[effect](bare, tracks, promise)
         if start is None or abs(start.cycles - cycles_before) * _turned(start.tracks) < 1.0:  # or the same line again
             break

@@ -23,13 +23,16 @@ from motor_identification.recording import Floats, Integers
 from motor_model.compiled import compiled
 from motor_model.effects import SPEC_BY_NAME
 
-BLOCK = 8.0  # turns
-FINENESS = 4.0  # grid points to the width of a line
-PEAKS, REACH = 32, 2.0  # of the rough spectrum, and how many of its grid points around each are searched
-CANDIDATES = 3  # of those, which are searched in the whole recording
-SLOW = 0.03  # of the largest speed: below that a ripple holds or turns back the shaft, no linear response
-KNOTS = 16  # grid points
-CHANCE, BASE = 4.0, 12  # of the sum of white squares, for each counted run and so many more: slips explain by chance
+BLOCK_TURNS = 8.0  # turns
+POINTS_PER_LINE = 4.0  # grid points to the width of a line
+ROUGH_PEAKS, PEAK_REACH = 32, 2.0  # of the rough spectrum, and how many of its grid points around each are searched
+FINE_CANDIDATES = 3  # of those, which are searched in the whole recording
+LEAST_SPEED = 0.03  # of the largest speed: below that a ripple holds or turns back the shaft, no linear response
+KNOT_DISTANCE = 16  # grid points
+SLIP_CHANCE, SLIP_CHANCE_BASE = (
+    4.0,
+    12,
+)  # of the sum of white squares, for each counted run and so many more: slips explain by chance
 
 
 @dataclass(frozen=True)
@@ -61,22 +64,22 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     problem, runs = estimate.problem, _make_runs(estimate, tracks)
     spec = SPEC_BY_NAME["ripple_cycles"]
     turns = max(np.ptp(np.concatenate([run.course.start, run.course.end])) for run in runs) / tau
-    width = 1.0 / (FINENESS * min(BLOCK, max(turns, 1.0)))
+    width = 1.0 / (POINTS_PER_LINE * min(BLOCK_TURNS, max(turns, 1.0)))
     rough = np.arange(spec.low, spec.high, width)
     blocks = [_blocks(run) for run in runs]
     spectrum = _spectrum(runs, rough, blocks, problem.raise_if_stopped)
     if spectrum.max() - 2.0 * sum(int(block.max()) + 1 for block in blocks) < least:
         return []
-    around = np.arange(-REACH * width, REACH * width, 1.0 / (FINENESS * max(turns, 1.0)))
-    likely = [rough[peak] + around for peak in _peaks(spectrum, PEAKS)]
+    around = np.arange(-PEAK_REACH * width, PEAK_REACH * width, 1.0 / (POINTS_PER_LINE * max(turns, 1.0)))
+    likely = [rough[peak] + around for peak in _peaks(spectrum, ROUGH_PEAKS)]
     counted = [run.course.run for run in runs]
     likely.sort(key=lambda fine: -_spectrum(runs, fine, counted, problem.raise_if_stopped).max())
     found, slots = [], [data.slot for data in problem.intervals]
-    for fine in likely[:CANDIDATES]:
+    for fine in likely[:FINE_CANDIDATES]:
         problem.raise_if_stopped()
         lines = [_fit_line(runs, tracks, cycles, slots) for cycles in fine]
         found.append(max(lines, key=lambda line: line.explained))
-    chance = CHANCE * sum(int(run.course.run.max()) + BASE for run in runs) if least > 0.0 else 0.0
+    chance = SLIP_CHANCE * sum(int(run.course.run.max()) + SLIP_CHANCE_BASE for run in runs) if least > 0.0 else 0.0
     return sorted((line for line in found if line.explained > max(least, chance)), key=lambda line: -line.explained)
 
 
@@ -89,11 +92,11 @@ def _powers(run: _Run, cycles: Floats, block: Integers, go_on: Callable[[], None
     """The same in one recording.
 
     The products with the residual are exact; those of the responses among themselves change slowly with the cycles, and
-    are had at every KNOTS-th only.
+    are had at every KNOT_DISTANCE-th only.
     """
-    shapes = np.array([_sums(run, knot, block) for knot in cycles[::KNOTS]])
+    shapes = np.array([_sums(run, knot, block) for knot in cycles[::KNOT_DISTANCE]])
     knots = 0.5 * (shapes[:, :, 0] + shapes[:, :, 2])  # sine and cosine are as good as independent in every block
-    at = np.arange(len(cycles)) / KNOTS
+    at = np.arange(len(cycles)) / KNOT_DISTANCE
     sizes = np.array([np.interp(at, np.arange(len(knots)), column) for column in knots.T]).T
     squares = []
     for along, across in run.course.products(run.encoder.pull(run.white), cycles, block):
@@ -122,7 +125,7 @@ def _fit_line(runs: Sequence[_Run], tracks: Sequence[Track], cycles: float, slot
 
 
 def _make_runs(estimate: Estimate, tracks: Sequence[Track]) -> list[_Run]:
-    slow = tuple(np.abs(data.speed) < SLOW * np.abs(data.speed).max() for data in estimate.problem.intervals)
+    slow = tuple(np.abs(data.speed) < LEAST_SPEED * np.abs(data.speed).max() for data in estimate.problem.intervals)
     estimate = estimate.on(estimate.problem.without(slow))
     values = estimate.parameters.values
     runs = []
@@ -157,7 +160,7 @@ def _sums(run: _Run, cycles: float, block: Integers) -> Floats:
 
 def _blocks(run: _Run) -> Integers:
     """Number the stretches of a few turns within which the phase is surely kept, shape (I,)."""
-    pairs = np.column_stack([run.course.run, np.floor(run.course.start / (tau * BLOCK)).astype(np.int64)])
+    pairs = np.column_stack([run.course.run, np.floor(run.course.start / (tau * BLOCK_TURNS)).astype(np.int64)])
     return np.asarray(np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1))
 
 

@@ -14,10 +14,10 @@ from motor_identification.noise.viterbi import fill_path
 from motor_identification.recording import Floats
 from motor_model.compiled import compiled
 
-FINENESS = 4  # steps to a slot
-FARTHEST = 12 * FINENESS  # steps of slip
-PRICE = 10.0 / FINENESS  # of a slip by one step, in halves of a squared standard deviation
-ROUNDS = 4
+STEPS_PER_SLOT = 4  # steps to a slot
+MOST_SLIP_STEPS = 12 * STEPS_PER_SLOT  # steps of slip
+SLIP_STEP_PRICE = 10.0 / STEPS_PER_SLOT  # of a slip by one step, in halves of a squared standard deviation
+ALIGNMENT_ROUNDS = 4
 
 
 @dataclass(frozen=True)
@@ -30,23 +30,23 @@ class Aligned:
 
 
 def align_runs(sums: Floats, turn: float) -> Aligned:
-    """The ripple and the slips that explain most; `turn` [rad] is what a slip of one slot turns the ripple's phase by.
+    """Align runs: the ripple and the slips that explain most; a slip of one slot turns its phase by `turn` [rad].
 
     sums: for every run ss, sc, cc, sw, cw with s and c the responses to sine and cosine, w the residual; shape (B, 5).
     """
-    step = turn / FINENESS
+    step = turn / STEPS_PER_SLOT
     alone = _best(sums)
     weight = alone[int(np.argmax(alone.real * sums[:, 3] + alone.imag * sums[:, 4]))]
     slips, before = np.zeros(len(sums), dtype=np.int64), np.zeros(0, dtype=np.int64)
-    scores, explained = np.empty((len(sums), 2 * FARTHEST + 1)), 0.0
-    for _ in range(ROUNDS):
+    scores, explained = np.empty((len(sums), 2 * MOST_SLIP_STEPS + 1)), 0.0
+    for _ in range(ALIGNMENT_ROUNDS):
         _fill_scores(sums, weight.real, weight.imag, step, scores)
-        explained = fill_path(scores, PRICE, slips)
+        explained = fill_path(scores, SLIP_STEP_PRICE, slips)
         weight = _best(_turned(sums, np.asarray(slips * step)).sum(axis=0))
         if np.array_equal(slips, before):
             break
         before = slips.copy()
-    return Aligned(complex(weight), slips / FINENESS, explained)
+    return Aligned(complex(weight), slips / STEPS_PER_SLOT, explained)
 
 
 def _best(sums: Floats) -> NDArray[np.complex128]:
@@ -79,7 +79,7 @@ def _fill_scores(sums: Floats, real: float, imag: float, step: float, scores: Fl
     for b in range(len(sums)):
         ss, sc, cc, sw, cw = sums[b]
         for k in range(scores.shape[1]):
-            angle = step * (k - FARTHEST)
+            angle = step * (k - MOST_SLIP_STEPS)
             x = real * np.cos(angle) - imag * np.sin(angle)
             y = real * np.sin(angle) + imag * np.cos(angle)
             scores[b, k] = 2.0 * (x * sw + y * cw) - (x * x * ss + 2.0 * x * y * sc + y * y * cc)

@@ -17,7 +17,7 @@ RIVALS = tuple(effect.name for effect in EFFECTS if effect.linear_onset)  # thei
 
 
 def scale_unknowns(estimate: Estimate) -> Floats:
-    """What 100 % of each unknown is: itself, or a twentieth of the box where it is near zero; 1 for logarithms."""
+    """Scale unknowns, 100 % of each: itself, or a twentieth of the box where it is near zero; 1 for logarithms."""
     unknowns = estimate.problem.unknowns
     least = LEAST_SCALE * (unknowns.high - unknowns.low)
     return np.where(unknowns.logarithmic, 1.0, np.maximum(np.abs(estimate.theta), least))

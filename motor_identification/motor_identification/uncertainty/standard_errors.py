@@ -10,14 +10,14 @@ from motor_identification.recording import Bools, Floats, Integers
 from motor_identification.uncertainty.identifiability import mark_visible, measure_independence, scale_unknowns
 from motor_identification.uncertainty.whiteness import Series, Whiteness, analyse_whiteness
 
-BLOCKS = (20, 10)  # of equal time; the fewer where the more are not independent
-DEPENDENT = 1.645  # standard deviations of the products of neighbours, from which on blocks are not independent
-LEAST_ROWS = 8  # residuals in a block
-DOUBTFUL = 0.01  # chance under which residuals do not pass for white
-DETERMINED = 0.95  # largest share of a direction that one block may be credited with
-COLLINEAR = 1e-4  # sine of the angle between a column of the Jacobian and the others, below which they are one
-TOO_UNSURE = 0.3  # standard error as a share of the value
-LEVEL = 0.975  # quantile up to which an interval of ±1.96 standard errors shall reach
+JACKKNIFE_BLOCKS = (20, 10)  # of equal time; the fewer where the more are not independent
+DEPENDENT_SIGMA = 1.645  # standard deviations of the products of neighbours, from which on blocks are not independent
+LEAST_BLOCK_ROWS = 8  # residuals in a block
+LEAST_WHITE_P_VALUE = 0.01  # chance under which residuals do not pass for white
+MOST_LEVERAGE = 0.95  # largest share of a direction that one block may be credited with
+COLLINEAR_SINE = 1e-4  # sine of the angle between a column of the Jacobian and the others, below which they are one
+MOST_RELATIVE_ERROR = 0.3  # standard error as a share of the value
+COVERED_QUANTILE = 0.975  # quantile up to which an interval of ±1.96 standard errors shall reach
 
 
 @dataclass(frozen=True)
@@ -62,10 +62,10 @@ def estimate_uncertainty(fit: WhitenedFit, jacobian: Floats) -> Uncertainty:
     whiteness = analyse_whiteness(_series(fit, white))
     covariance = root @ root.T
     errors = np.sqrt(np.diag(covariance))
-    if not whiteness.p_value >= DOUBTFUL and len(white) >= BLOCKS[0] * LEAST_ROWS:
+    if not whiteness.p_value >= LEAST_WHITE_P_VALUE and len(white) >= JACKKNIFE_BLOCKS[0] * LEAST_BLOCK_ROWS:
         covariance, errors = _blocked(fit, scaled, white, root)
     alone = measure_independence(scaled)
-    unsure = (alone < COLLINEAR) | (errors > TOO_UNSURE) | ~mark_visible(fit.estimate, scale)
+    unsure = (alone < COLLINEAR_SINE) | (errors > MOST_RELATIVE_ERROR) | ~mark_visible(fit.estimate, scale)
     names = tuple(name for name, bad in zip(fit.problem.unknowns.names, unsure, strict=False) if bad)
     sigma = np.where(unsure, np.nan, np.sqrt(np.diag(covariance)))
     correlations = np.clip(covariance / np.outer(sigma, sigma), -1.0, 1.0)
@@ -82,7 +82,7 @@ def _root(columns: Floats) -> Floats:
 def _blocked(fit: WhitenedFit, columns: Floats, white: Floats, root: Floats) -> tuple[Floats, Floats]:
     """Covariance (D, D) by the more blocks; errors (D,), by the fewer where the more depend on each other."""
     (covariance, errors, dependent), fewer = (
-        _jackknife(columns, white, root, _block_of(fit, blocks)) for blocks in BLOCKS
+        _jackknife(columns, white, root, _block_of(fit, blocks)) for blocks in JACKKNIFE_BLOCKS
     )
     return covariance, np.where(dependent, np.maximum(errors, fewer[1]), errors)
 
@@ -99,7 +99,7 @@ def _jackknife(columns: Floats, white: Floats, root: Floats, block_of: Integers)
     for block in range(block_of.max() + 1):
         rows = block_of == block
         values, vectors = np.linalg.eigh(unit[rows].T @ unit[rows])
-        values = np.clip(values, 0.0, DETERMINED)
+        values = np.clip(values, 0.0, MOST_LEVERAGE)
         known.append((vectors * values) @ vectors.T)
         weights.append((vectors / (1.0 - values)) @ vectors.T)
         moves.append(root @ weights[-1] @ (unit[rows].T @ white[rows]))
@@ -108,9 +108,9 @@ def _jackknife(columns: Floats, white: Floats, root: Floats, block_of: Integers)
     moved = np.array(moves)
     covariance = moved.T @ moved + table.T @ table
     freedom = np.array([_freedom(direction, np.array(known), np.array(weights)) for direction in root])
-    widening = stdtrit(np.maximum(freedom, 1.0), LEVEL) / ndtri(LEVEL)
+    widening = stdtrit(np.maximum(freedom, 1.0), COVERED_QUANTILE) / ndtri(COVERED_QUANTILE)
     products = moved[1:] * moved[:-1]
-    dependent = products.sum(axis=0) > DEPENDENT * np.sqrt(np.sum(products**2, axis=0))
+    dependent = products.sum(axis=0) > DEPENDENT_SIGMA * np.sqrt(np.sum(products**2, axis=0))
     return covariance, np.sqrt(np.diag(covariance)) * widening, dependent
 
 

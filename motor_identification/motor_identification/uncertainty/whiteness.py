@@ -15,10 +15,19 @@ from scipy.special import chdtrc, ndtr
 
 from motor_identification.recording import Bools, Floats
 
-LAGS = 20  # intervals over which residuals may repeat themselves
-PAST = (0.0, 0.005, 0.01, 0.02, 0.04, 0.08, 0.16, 0.32)  # [s] how long before a residual its voltage is looked at
-FEWEST = 10  # pairs that make a correlation
-FACES = (np.array, np.abs, np.sign)  # of a voltage: itself, its size, its direction
+CORRELATION_LAGS = 20  # intervals over which residuals may repeat themselves
+VOLTAGE_DELAYS = (
+    0.0,
+    0.005,
+    0.01,
+    0.02,
+    0.04,
+    0.08,
+    0.16,
+    0.32,
+)  # [s] how long before a residual its voltage is looked at
+LEAST_PAIRS = 10  # pairs that make a correlation
+VOLTAGE_FACES = (np.array, np.abs, np.sign)  # of a voltage: itself, its size, its direction
 
 
 @dataclass(frozen=True)
@@ -49,9 +58,9 @@ class Whiteness:
 
 
 def analyse_whiteness(series: tuple[Series, ...]) -> Whiteness:
-    """Both tests over all recordings together."""
-    rho, pairs = autocorrelation(series, LAGS)
-    known = pairs >= FEWEST
+    """Analyse the whiteness of residuals by both tests, over all recordings together."""
+    rho, pairs = autocorrelation(series, CORRELATION_LAGS)
+    known = pairs >= LEAST_PAIRS
     if not known.any():
         return Whiteness(nan, nan, 0, nan, nan, nan)
     chance = float(chdtrc(known.sum(), np.sum((pairs * rho**2)[known])))
@@ -81,10 +90,10 @@ def _follows(series: tuple[Series, ...], rho: Floats) -> tuple[float, float, flo
     """
     white = np.concatenate([one.white for one in series])
     best, at, chance = 0.0, 0.0, nan
-    tests = len(FACES) * len(PAST)
-    for past in PAST:
+    tests = len(VOLTAGE_FACES) * len(VOLTAGE_DELAYS)
+    for past in VOLTAGE_DELAYS:
         held = np.concatenate([_held(one, past) for one in series])
-        for face in FACES:
+        for face in VOLTAGE_FACES:
             voltage = face(held)
             voltage = voltage - voltage.mean()
             norms = float(np.linalg.norm(voltage) * np.linalg.norm(white))

@@ -84,7 +84,7 @@ class HeldOut:
         return replace(self, intervals=longer, angles=angles, scored=everything)
 
     def log_likelihood(self, noise: Noise) -> float:
-        """Of the held-out motion, whose drift may be that of the training data or, as likely, one of a few larger ones.
+        """Compute the log likelihood of what counts, under the training data's drift or one of a few larger ones.
 
         A complete model drifts nowhere there; one restart that nobody could predict must not refute it.
         """

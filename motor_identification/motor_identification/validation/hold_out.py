@@ -59,7 +59,7 @@ class OtherRecordings(HoldOut):
         return fit_nuisance_parameters(self.problem, fitted, blocks)
 
     def restrict(self, training: Problem) -> Problem:
-        """All of the training recordings: none of them is held out."""
+        """Keep all of the training recordings: none of them is held out."""
         return training
 
 
@@ -70,7 +70,7 @@ class BlocksOfSame(HoldOut):
     scored_blocks = TimeBlocks(4)
 
     def apply(self, fitted: Estimate) -> Estimate:
-        """The same unknowns, on all blocks."""
+        """Apply the same unknowns to all blocks."""
         here = replace(self.problem, unknowns=fitted.problem.unknowns, tracks=fitted.problem.tracks)
         return fitted.on(here)
 

@@ -16,9 +16,9 @@ from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Bools, Floats
 from motor_model.effects import DURATION, EFFECT_BY_NAME
 
-INSTANTS = 24  # at which an instant is tried: one a second of the rich profile
-TOLERANCE = Tolerance(iterations=30)
-DIFFERENCE = 1e-5  # relative step of forward differences
+INSTANTS_TRIED = 24  # at which an instant is tried: one a second of the rich profile
+NUISANCE_TOLERANCE = Tolerance(iterations=30)
+NUISANCE_DIFFERENCE = 1e-5  # relative step of forward differences
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,9 @@ def _fit(estimate: Estimate, used: Bools) -> Estimate:
         if spec.of_recording and spec.scale == DURATION:
             target = replace(target, estimate=_try_instants(target, i))
     box = Box(unknowns.low[free], unknowns.high[free])
-    minimum = minimise_squares(target.residuals, None, target.estimate.theta[free], box, TOLERANCE, step=DIFFERENCE)
+    minimum = minimise_squares(
+        target.residuals, None, target.estimate.theta[free], box, NUISANCE_TOLERANCE, step=NUISANCE_DIFFERENCE
+    )
     return replace(estimate, theta=target.complete(minimum.theta))
 
 
@@ -89,8 +91,8 @@ def _try_instants(target: NuisanceResiduals, parameter: int) -> Estimate:
     problem, theta = target.estimate.problem, target.estimate.theta
     columns = problem.unknowns.columns[:, parameter]
     for recording, column in zip(problem.recordings, columns, strict=True):
-        trials = np.tile(theta, (INSTANTS, 1))
-        trials[:, column] = np.linspace(0.0, recording.duration, INSTANTS)
+        trials = np.tile(theta, (INSTANTS_TRIED, 1))
+        trials[:, column] = np.linspace(0.0, recording.duration, INSTANTS_TRIED)
         theta = min(trials, key=target.cost)
     return replace(target.estimate, theta=theta)
 
@@ -105,7 +107,7 @@ def _add_phases(bare: Estimate, effect: str, fitted: Estimate, used: Bools) -> E
     nothing = np.zeros(len(larger.unknowns.low), dtype=bool)
     choices: list[tuple[float, Estimate]] = []
     tracks: tuple[Track, ...] = ()
-    for _ in range(periodic_fit.ROUNDS):
+    for _ in range(periodic_fit.PERIODIC_ROUNDS):
         cycles = float(values.get("ripple_cycles", np.array(1.0)))
         start = periodic_fit.estimate_phases(bare, effect, cycles, tracks)
         theta = map_theta(without, bare.theta, larger.unknowns, {**values, **start.values})

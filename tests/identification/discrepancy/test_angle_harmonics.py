@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from diagnosed import held
 
-from motor_identification.discrepancy.angle_harmonics import MOST_CYCLES, PLAIN, find_angle_harmonic
+from motor_identification.discrepancy.angle_harmonics import HARMONIC_GAP, MOST_CYCLES, find_angle_harmonic
 from motor_identification.discrepancy.operating_conditions import find_conditions
 from motor_identification.validation.held_out import HeldOut
 
@@ -37,10 +37,10 @@ def test_between_the_lines_nothing_repeats(cycles: float) -> None:
 @pytest.mark.parametrize(("times", "asked"), [(0.9, False), (1.5, True)])
 def test_near_the_floor_it_is_not_asked(times: float, asked: bool) -> None:
     complete = held()
-    wanted = times * PLAIN * complete.floor(SHARE)
+    wanted = times * HARMONIC_GAP * complete.floor(SHARE)
     a_unit = waving(3, 1.0).gap ** 2 - complete.gap**2
     one = waving(3, float(np.sqrt((wanted**2 - complete.gap**2) / a_unit)))
-    assert (one.gap > PLAIN * one.floor(SHARE)) is asked
+    assert (one.gap > HARMONIC_GAP * one.floor(SHARE)) is asked
     assert (find_angle_harmonic(one, SHARE) is not None) is asked
 
 

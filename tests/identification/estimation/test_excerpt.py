@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.estimation.excerpt import LONG, PIECES, take_excerpt
+from motor_identification.estimation.excerpt import LONGEST_SEARCHED, PIECES_PER_RECORDING, take_excerpt
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import Recording, check, recording_of
@@ -43,10 +43,13 @@ def place_of(task: Problem, **values: float) -> np.ndarray:
 def test_pieces_are_short_begin_at_rest_and_are_simulated_as_the_whole_is(long: Recording) -> None:
     whole = coarse([long])
     pieces = take_excerpt(whole)
-    assert len(pieces.intervals) == PIECES
+    assert len(pieces.intervals) == PIECES_PER_RECORDING
     seen = sum(float(data.time[-1] - data.time[0]) for data in pieces.intervals)
-    assert 0.9 * LONG < seen <= LONG + 0.1
-    assert len({int(data.time[0] / long.duration * PIECES) for data in pieces.intervals}) == PIECES
+    assert 0.9 * LONGEST_SEARCHED < seen <= LONGEST_SEARCHED + 0.1
+    assert (
+        len({int(data.time[0] / long.duration * PIECES_PER_RECORDING) for data in pieces.intervals})
+        == PIECES_PER_RECORDING
+    )
     for place in (place_of(whole), place_of(whole, ka=0.0066), place_of(whole, ks=0.8)):
         everywhere, here = (task.costs(place[None])[0] for task in (whole, pieces))
         assert 0.3 < here / everywhere < 3.0  # a piece that began on a moving motor would be off by its whole speed
@@ -71,7 +74,7 @@ def test_phases_count_from_the_beginning_and_a_turning_motor_has_one_initial_spe
     for recording, effects in ((long, (*EFFECTS, "torque_ripple")), (recorded(6, first=300), EFFECTS)):
         pieces = take_excerpt(coarse([recording], effects))
         assert [float(data.time[0]) for data in pieces.intervals] == [0.0]
-        assert 0.9 * LONG < pieces.intervals[0].time[-1] <= LONG + 0.1
+        assert 0.9 * LONGEST_SEARCHED < pieces.intervals[0].time[-1] <= LONGEST_SEARCHED + 0.1
     turning = coarse([recorded(6, first=300), long])
     assert list(turning.unknowns.turning) == [True, False]
     pieces = take_excerpt(turning)

@@ -30,7 +30,7 @@ def test_without_an_edge_a_slot_is_free(travel: float, left: float) -> None:
 
 @pytest.mark.parametrize("workers", [1, 2, 3])
 def test_a_swarm_has_the_residuals_of_its_motors(workers: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(residual, "WORTHWHILE", 0)
+    monkeypatch.setattr(residual, "LEAST_THREADED_STEPS", 0)
     problem = make_problem([small_recording(0), small_recording(1)], ("coulomb_friction",), workers)
     thetas = THETA + 0.02 * np.random.default_rng(0).standard_normal((7, 3))
     together = problem.evaluate(thetas)

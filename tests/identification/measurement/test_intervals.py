@@ -11,7 +11,7 @@ from recorded import as_counts
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.sampled_counts import (
-    STANDARD,
+    UNIFORM_SIGMA,
     Fixes,
     estimate_stamp_jitter,
     extract_count_changes,
@@ -52,8 +52,8 @@ def test_at_constant_speed_a_slow_disc_is_known_better_than_a_slot() -> None:
             recording, truth = counted(BASE, profiles.step(volts, 3.0), seed=seed, start_speed=speed)
             fixes = fixed(recording)
             inner = slice(1, -1)  # the first and the last sample are fixes of half a slot
-            typical.append(np.median(fixes.blur[inner]) / STANDARD)
-            scatter.append(np.sqrt(np.mean(errors(fixes, truth)[inner] ** 2)) / STANDARD)
+            typical.append(np.median(fixes.blur[inner]) / UNIFORM_SIGMA)
+            scatter.append(np.sqrt(np.mean(errors(fixes, truth)[inner] ** 2)) / UNIFORM_SIGMA)
         assert np.median(typical) == pytest.approx(blur, rel=0.08)
         assert 0.75 < np.mean(scatter) / blur < 1.15
 
@@ -120,7 +120,7 @@ def test_jittering_stamps_are_noticed_and_measured(sigma: float) -> None:
     for seed in range(8):
         recording, truth = counted(RUBBING, profiles.pieces([4.0, 7.3, 11.1], 0.4), seed=seed)
         fixes = fixed(jittering(recording, truth, sigma, seed))
-        found.append(estimate_stamp_jitter(replace(fixes, blur=np.full(len(fixes), STANDARD))))
+        found.append(estimate_stamp_jitter(replace(fixes, blur=np.full(len(fixes), UNIFORM_SIGMA))))
     assert np.median(found) == pytest.approx(sigma, rel=0.15, abs=1e-9)
 
 

@@ -8,8 +8,8 @@ import pytest
 from handmade import PERIOD, turning
 
 from motor_identification.measurement.sampled_counts import (
-    STANDARD,
-    WINDOW,
+    JITTER_WINDOW,
+    UNIFORM_SIGMA,
     estimate_stamp_jitter,
     extract_count_changes,
     locate_fixes,
@@ -41,7 +41,7 @@ def test_every_fix_is_where_the_disc_was_within_its_blur(rate: float) -> None:
 @pytest.mark.parametrize(("rate", "blur"), [(0.2, 0.2), (0.5, 0.5), (0.95, 1.0), (1.05, 1.0), (4.0, 1.0)])
 def test_slow_changes_are_sharp_and_fast_samples_are_one_slot(rate: float, blur: float) -> None:
     recording, fixes, _ = fixes_at(rate)
-    assert np.median(fixes.blur) == pytest.approx(blur * STANDARD, rel=0.06)
+    assert np.median(fixes.blur) == pytest.approx(blur * UNIFORM_SIGMA, rel=0.06)
     if rate > 1.0:
         assert len(fixes) > 0.95 * len(recording)
     else:
@@ -55,14 +55,14 @@ def test_stamps_that_jitter_blur_every_fix_of_a_fast_motor(jitter: float) -> Non
     late = recording.time + np.random.default_rng(0).normal(0.0, jitter, len(recording))
     shaken = replace(recording, edge_count=np.floor(slots(late)).astype(np.int64))
     found = locate_fixes(shaken, extract_count_changes(shaken))
-    expected = np.hypot(STANDARD, jitter * 8.87 / PERIOD)
+    expected = np.hypot(UNIFORM_SIGMA, jitter * 8.87 / PERIOD)
     assert np.median(found.blur) == pytest.approx(expected, rel=0.3)
     assert estimate_stamp_jitter(found) == 0.0  # once it is in the blur, none is left
 
 
 def test_a_dozen_fixes_tell_no_jitter() -> None:
-    _, fixes, _ = fixes_at(9.0, (2 * WINDOW - 4) * PERIOD)
-    assert len(fixes) < 2 * WINDOW and estimate_stamp_jitter(fixes) == 0.0
+    _, fixes, _ = fixes_at(9.0, (2 * JITTER_WINDOW - 4) * PERIOD)
+    assert len(fixes) < 2 * JITTER_WINDOW and estimate_stamp_jitter(fixes) == 0.0
 
 
 def test_a_disc_that_does_not_turn_has_no_fixes() -> None:

@@ -6,7 +6,13 @@ import numpy as np
 import pytest
 from handmade import PERIOD, turning
 
-from motor_identification.measurement.timestamp_checks import AROUND, LATE, OFF, mark_possible, mark_smooth
+from motor_identification.measurement.timestamp_checks import (
+    EDGES_AROUND,
+    STAMP_ERROR,
+    STAMP_MARGIN,
+    mark_possible,
+    mark_smooth,
+)
 from motor_identification.recording import Floats
 
 
@@ -20,7 +26,7 @@ def test_an_edge_came_between_two_samples(side: float, beyond: float, right: boo
     recording = turning(evenly, 0.1)
     sample = np.array([10])
     bound = recording.time[9 if side < 0 else 10]
-    margin = LATE * PERIOD * beyond
+    margin = STAMP_MARGIN * PERIOD * beyond
     assert mark_possible(recording, sample, np.array([bound + side * margin]))[0] == right
 
 
@@ -32,7 +38,9 @@ def test_a_timers_tick_is_allowed_besides() -> None:
     assert mark_possible(coarse, np.array([10]), late)[0]
 
 
-@pytest.mark.parametrize(("slots", "right"), [(0.9 * OFF, True), (1.2 * OFF, False), (-1.2 * OFF, False)])
+@pytest.mark.parametrize(
+    ("slots", "right"), [(0.9 * STAMP_ERROR, True), (1.2 * STAMP_ERROR, False), (-1.2 * STAMP_ERROR, False)]
+)
 def test_one_stamp_that_is_off_by_half_a_slot(slots: float, right: bool) -> None:
     """It makes one interval too short and the next too long by as much."""
     count = np.arange(40)
@@ -53,6 +61,6 @@ def test_speeding_up_missing_an_edge_and_an_irregular_disc_are_right() -> None:
 
 
 def test_too_few_edges_say_nothing() -> None:
-    time = 0.01 * np.arange(2.0 * AROUND)
+    time = 0.01 * np.arange(2.0 * EDGES_AROUND)
     time[5] += 0.008
-    assert mark_smooth(time, np.arange(2 * AROUND)).all()
+    assert mark_smooth(time, np.arange(2 * EDGES_AROUND)).all()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from motor_identification.periodic.linear_response import TOGETHER, Course
+from motor_identification.periodic.linear_response import CYCLES_TOGETHER, Course
 
 RATE, INERTIA = 12.5, 0.0055
 
@@ -45,7 +45,7 @@ def test_a_load_makes_the_travel_that_the_differential_equation_says(cycles: flo
 
 def test_a_spectrum_is_the_products_with_every_response() -> None:
     seen, random = course(400, 1), np.random.default_rng(2)
-    cycles = np.arange(1.0, 5.0, 1.0 / 32.0)[: 2 * TOGETHER + 5]
+    cycles = np.arange(1.0, 5.0, 1.0 / 32.0)[: 2 * CYCLES_TOGETHER + 5]
     pull, block = random.normal(size=400), random.integers(0, 6, 400)
     along, across = (np.concatenate(parts) for parts in zip(*seen.products(pull, cycles, block), strict=True))
     assert along.shape == across.shape == (len(cycles), 6)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.periodic.run_alignment import FARTHEST, FINENESS, PRICE, align_runs
+from motor_identification.periodic.run_alignment import MOST_SLIP_STEPS, SLIP_STEP_PRICE, STEPS_PER_SLOT, align_runs
 
 TURN = 0.7  # [rad] of the wave's phase to a slot
 WAVE = 0.3 * np.exp(0.5j)
@@ -24,14 +24,14 @@ def test_every_run_says_how_far_it_is_off(slips: list[float]) -> None:
     assert found.slips - found.slips[0] == pytest.approx(slips)
     assert abs(found.weight) == pytest.approx(abs(WAVE), rel=1e-9)
     powers = len(slips) * 1e4 * abs(WAVE) ** 2
-    price = PRICE * FINENESS * np.abs(np.diff([0.0, *found.slips])).sum()
+    price = SLIP_STEP_PRICE * STEPS_PER_SLOT * np.abs(np.diff([0.0, *found.slips])).sum()
     assert found.explained == pytest.approx(powers - price, rel=1e-6)
 
 
 @pytest.mark.parametrize(("times", "slipped"), [(0.9, False), (1.1, True)])
 def test_a_slip_is_taken_if_it_explains_more_than_its_price(times: float, slipped: bool) -> None:
     """Two slots in one of two runs: it gains 2·A·|w|²·(1 − cos 2·turn), under the wave of the other."""
-    price = PRICE * 2 * FINENESS
+    price = SLIP_STEP_PRICE * 2 * STEPS_PER_SLOT
     gain = 2.0 * abs(WAVE) ** 2 * (1.0 - np.cos(2.0 * TURN))
     weak = times * price / gain
     sums = np.vstack([sums_of([0.0], 1e6), sums_of([2.0], weak)])
@@ -41,7 +41,7 @@ def test_a_slip_is_taken_if_it_explains_more_than_its_price(times: float, slippe
 
 def test_no_run_slips_further_than_the_farthest() -> None:
     found = align_runs(sums_of([0.0, 30.0], 1e5), 0.01)
-    assert np.abs(found.slips).max() <= FARTHEST / FINENESS
+    assert np.abs(found.slips).max() <= MOST_SLIP_STEPS / STEPS_PER_SLOT
 
 
 def test_runs_that_say_nothing_have_no_wave() -> None:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from motor_identification.discrepancy.missing_torque import NAMES, MissingTorque
+from motor_identification.discrepancy.missing_torque import AXIS_NAMES, MissingTorque
 from motor_identification.discrepancy.residual_maps import Map
 from motor_identification.recording import Floats
 from motor_identification.reporting.html.svg import AFTER, BEFORE, FLOOR, svg_style, to_svg
@@ -107,7 +107,7 @@ def draw_torque(missing: MissingTorque, recording: str) -> str:
             elinewidth=1,
             markersize=5,
         )
-        axes.set_xlabel(NAMES[missing.axis])
+        axes.set_xlabel(AXIS_NAMES[missing.axis])
         axes.set_ylabel("residual torque [V]")
         if recording:
             axes.set_title(recording)
