@@ -18,7 +18,7 @@ from motor_control.announcements import Told, announce, describe_start
 from motor_control.controller import controller
 from motor_control.controller.output import Output
 from motor_control.messages import control_state_message, diagnostics_message
-from motor_control.parameters import ROWS
+from motor_control.parameters import PROGRAM, ROWS
 from motor_control.settings import Settings
 from motor_model.errors import MotorError
 from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed, MotorVoltage
@@ -127,4 +127,4 @@ class MotorControl(Node):
 
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_control motor_control`."""
-    return run(MotorControl, args, quick_executor)
+    return run(MotorControl, args, quick_executor, PROGRAM)

@@ -11,6 +11,7 @@ from motor_model.model_file import load
 from motor_model.parameters import Parameters
 from motor_model.sample import Info, Measurement
 from motor_ros.parameters import Row, Value
+from motor_ros.program import Program
 
 MEASURED, OBSERVER = "measured", "observer"
 
@@ -53,6 +54,17 @@ ROWS = (
     Row("speed_source", MEASURED, f"speed that the law uses: {MEASURED} (by the plant) or {OBSERVER} (by the model)"),
     Row("model", "", "model file (YAML) for observer and feed-forward, as identify writes it; empty: none"),
     Row("feedforward", False, "add the voltage that the model needs for the reference"),
+)
+PROGRAM = Program(
+    "motor_control",
+    "motor_control",
+    "Holds the speed on motor/reference: answers every sample of a plant with a voltage (PI, observer, feed-forward).\n"
+    "Without a reference it leaves the motor alone; Ctrl-C leaves the motor at 0 V.",
+    ROWS,
+    "ros2 run motor_control motor_control --ros-args -p kp:=0.1 -p model:=model.yaml -p speed_source:=observer",
+    publishes=("motor/voltage", "motor/control_state", "/diagnostics"),
+    subscribes=("motor/speed", "motor/info", "motor/reference"),
+    services=("motor/reset",),
 )
 
 NO_MODEL = "No model is loaded, so {}: set the parameter model to a file that identify wrote."
