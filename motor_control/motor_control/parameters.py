@@ -64,7 +64,7 @@ PROGRAM = Program(
     "ros2 run motor_control motor_control --ros-args -p kp:=0.1 -p model:=model.yaml -p speed_source:=observer",
     publishes=("motor/voltage", "motor/control_state", "/diagnostics"),
     subscribes=("motor/speed", "motor/info", "motor/reference"),
-    services=("motor/reset",),
+    services=("motor/reset", "motor/release"),
 )
 
 NO_MODEL = "No model is loaded, so {}: set the parameter model to a file that identify wrote."

@@ -42,6 +42,7 @@ SERVICES = (
     Service("motor/enable", "std_srvs/srv/SetBool", "false switches the output off and latches that, true clears it",
             "plant"),
     Service("motor/reset", "std_srvs/srv/Trigger", "clears its latched stop", "controller"),
+    Service("motor/release", "std_srvs/srv/Trigger", "drops the reference: 0 V, then others may drive", "controller"),
     Service("motor/identify", "motor_msgs/srv/Identify", "fit a model to bags", "identification"),
     Service("motor/diagnose", "motor_msgs/action/Diagnose", "find what the model lacks", "identification"),
 )  # fmt: skip
