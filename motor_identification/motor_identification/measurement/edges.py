@@ -36,6 +36,8 @@ def extract_edges(recording: Recording) -> Edges:
     latest = (stamp[fresh] - recording.sample_time[0]) * 1e-9 + 0.5 * info.edge_resolution
     period = recording.edge_period[fresh]
     direction = read_directions(recording.speed[fresh])
+    if not info.single_channel:
+        direction = open_returns(direction, period)
     right = mark_possible(recording, fresh, latest)
     right[right] = mark_smooth(latest[right], _passed(count[fresh][right] - count[0]))
     second = right & (np.abs(steps) >= 2) & (period > 0.0) & (latest - period > 0.0)
@@ -51,6 +53,16 @@ def extract_edges(recording: Recording) -> Edges:
 def _passed(count: Integers) -> Integers:
     """Edges passed either way, from counts (E,) that two channels also count down."""
     return np.asarray(np.abs(np.diff(count, prepend=0)).cumsum())
+
+
+def open_returns(direction: Integers, period: Floats) -> Integers:
+    """Leave the direction (E,) open of edges by which a second channel takes the one before back.
+
+    There the shaft leaves a hole by the flank by which it entered it, and the next flank is half a slot away, not one.
+    A board tells such edges by a period [s] of 0.
+    """
+    turned = np.append(False, direction[1:] * direction[:-1] < 0)[: len(direction)]
+    return np.where(turned & (period == 0.0), 0, direction)
 
 
 def read_directions(speed: Floats) -> Integers:

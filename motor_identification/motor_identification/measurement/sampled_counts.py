@@ -67,12 +67,25 @@ def extract_count_changes(recording: Recording) -> Changes:
         middle = 0.5 * (recording.time[sample] + recording.time[sample - 1])
         edges = Edges(middle, recording.edge_count[sample], read_directions(recording.speed[sample]))
         way = move_reversals_to_slowest(edges, recording).direction
-    return number_runs(sample, way)
+    changes = number_runs(sample, way)
+    own_board = not recording.info.single_channel and recording.info.source != "import"
+    return part_returns(changes) if own_board else changes
 
 
 def number_runs(sample: Integers, way: Integers) -> Changes:
     """Number the runs of one direction in changes at these samples (C,) in these directions (C,)."""
     return Changes(sample, way, np.cumsum(np.diff(way, prepend=way[:1]) != 0))
+
+
+def part_returns(changes: Changes) -> Changes:
+    """Part the first change after every turn from the next: it may take back the one before.
+
+    Our boards count a flank back by which the shaft leaves a hole again; the next flank is half a slot away then, else
+    a whole one, and a count does not tell which.
+    """
+    turned = np.diff(changes.run, prepend=changes.run[:1]) != 0
+    after = np.append(False, turned[:-1])[: len(turned)] & ~turned
+    return replace(changes, run=np.cumsum(turned | after))
 
 
 def locate_fixes(recording: Recording, changes: Changes) -> Fixes:

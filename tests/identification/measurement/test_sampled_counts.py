@@ -13,6 +13,8 @@ from motor_identification.measurement.sampled_counts import (
     estimate_stamp_jitter,
     extract_count_changes,
     locate_fixes,
+    number_runs,
+    part_returns,
 )
 from motor_identification.recording import Floats
 from motor_model.sample import Measurement
@@ -69,3 +71,14 @@ def test_a_disc_that_does_not_turn_has_no_fixes() -> None:
     recording = turning(lambda time: 1e-6 * time, 0.5, Measurement.COUNTS)
     assert len(extract_count_changes(recording)) == 0
     assert len(locate_fixes(recording, extract_count_changes(recording))) == 0
+
+
+def test_the_first_change_after_a_turn_stands_alone() -> None:
+    """A second channel may take the last one back there, half a slot from the next; between others nothing changes."""
+    way = np.array([1, 1, 1, -1, -1, -1, 1, 1])
+    changes = part_returns(number_runs(np.arange(8), way))
+    assert changes.run.tolist() == [0, 0, 0, 1, 2, 2, 3, 4]
+    straight = number_runs(np.arange(3), np.array([1, 1, 1]))
+    assert part_returns(straight).run.tolist() == [0, 0, 0]
+    rocking = part_returns(number_runs(np.arange(4), np.array([1, -1, 1, -1])))
+    assert rocking.run.tolist() == [0, 1, 2, 3]
