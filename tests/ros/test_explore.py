@@ -76,5 +76,5 @@ def test_leaves_the_motor_at_rest_when_it_is_interrupted(
     assert process.returncode == 130 and "Traceback" not in err
     assert_at_rest(bench, samples)
     assert voltages[-1].voltage == 0.0
-    recording = read_recording(tmp_path / "found" / "1_staircase")  # what there was is not lost
+    recording = read_recording(tmp_path / "found" / "1_staircase_incomplete")  # what there was is not lost
     assert recording.voltage.max() > 1.0 and recording.duration < 5.8

@@ -337,7 +337,8 @@ def test_at_1_khz_the_newest_sample_is_answered(plant: FakePlant, process: subpr
 
 
 @pytest.mark.parametrize(
-    ("assignment", "words"), [("kp:=-1.0", "kp"), ("voltage_limit:=1", "float"), ("ki:=lots", "for example 2.5")]
+    ("assignment", "words"),
+    [("kp:=-1.0", "kp"), ("voltage_limit:=1", "number from 0 to 100 V"), ("ki:=lots", "for example 2.5")],
 )
 def test_a_bad_start_is_one_sentence(assignment: str, words: str) -> None:
     process = start("motor_control", "motor_control", "--ros-args", "-p", assignment)

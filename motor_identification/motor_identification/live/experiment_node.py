@@ -112,8 +112,11 @@ class Driver(Node):
     def _on_voltage(self, message: MotorVoltage) -> None:
         if self._following and message.header.frame_id != OURS and not self.problem:
             infos = self.get_publishers_info_by_topic(self._voltage.topic_name)
-            names = {f"{info.node_namespace.rstrip('/')}/{info.node_name}" for info in infos}
-            others = ", ".join(sorted(names - {self.get_fully_qualified_name()})) or "unknown"
+            known = [info for info in infos if not info.node_name.startswith("_NODE_NAME_UNKNOWN")]  # just discovered
+            names = {f"{info.node_namespace.rstrip('/')}/{info.node_name}" for info in known}
+            others = (
+                ", ".join(sorted(names - {self.get_fully_qualified_name()})) or message.header.frame_id or "unknown"
+            )
             self.problem = f"Another node publishes motor/voltage: {others}. End it, and start anew."
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
