@@ -31,7 +31,7 @@ _motor_ros2() {
     line="$executable$line"
     COMPREPLY=($(COMP_LINE=$line COMP_POINT=${#line} COMP_TYPE=$COMP_TYPE _ARGCOMPLETE=1 _ARGCOMPLETE_SHELL=bash \
       _ARGCOMPLETE_COMP_WORDBREAKS=$COMP_WORDBREAKS _ARGCOMPLETE_SUPPRESS_SPACE=1 _ARGCOMPLETE_IFS=$IFS \
-      timeout 5 "$file" 8>&1 9>/dev/null >/dev/null 2>&1))
+      timeout "${MOTOR_COMPLETION_PATIENCE:-5}" "$file" 8>&1 9>/dev/null >/dev/null 2>&1))
     [[ "${COMPREPLY-}" =~ [=/,:]$ ]] && compopt -o nospace 2>/dev/null
   elif [ -n "$_motor_ros2_before" ]; then
     "$_motor_ros2_before" "$@"

@@ -25,7 +25,7 @@ printf '%s\\n' "${COMPREPLY[@]}"
 
 
 def complete(line: str) -> list[str]:
-    environment = workbench.ENVIRONMENT | {"ROOT": str(ROOT)}
+    environment = workbench.ENVIRONMENT | {"ROOT": str(ROOT), "MOTOR_COMPLETION_PATIENCE": "25"}
     command = ["bash", "--norc", "-c", ASK, "ask", line]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=30.0)
     assert done.returncode == 0, done.stderr
