@@ -114,9 +114,7 @@ class Driver(Node):
             infos = self.get_publishers_info_by_topic(self._voltage.topic_name)
             known = [info for info in infos if not info.node_name.startswith("_NODE_NAME_UNKNOWN")]  # just discovered
             names = {f"{info.node_namespace.rstrip('/')}/{info.node_name}" for info in known}
-            others = (
-                ", ".join(sorted(names - {self.get_fully_qualified_name()})) or message.header.frame_id or "unknown"
-            )
+            others = ", ".join(sorted(names - {self.get_fully_qualified_name()})) or "its name is not known yet"
             self.problem = f"Another node publishes motor/voltage: {others}. End it, and start anew."
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
