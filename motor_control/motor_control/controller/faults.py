@@ -4,8 +4,8 @@
     too few    the motor turns slower than 30 % of what the model predicts, or of what it last did under less voltage,
                while the voltage rises: a line that is lost (whether or not noise still counts), a shaft that is held
     irregular  full voltage, and periods that jump: noise, no motor
-    runaway    the voltage is 0 or against the motion, and yet the speed grows: a wrong sign, a bridge that stays on,
-               a load
+    runaway    the voltage is 0 or strongly against the motion, and yet the speed grows: a wrong sign, a bridge that
+               stays on, a load
     overspeed  faster than full voltage can drive the motor of the model: edges that are none, or a load
 
 The speed is the one the law uses, or counted edges (`motion`); the voltage is the one the plant says it applies; times
@@ -23,7 +23,9 @@ FULL = 0.98  # of the voltage limit
 REPORTABLE = 10.0  # [edges/s] slower than this, every plant reports a standstill
 RUNAWAY_TIME = 0.25  # [s] longer than any plant takes to see that a single channel has turned round
 RUNAWAY_GROWTH = 1.2  # of the smallest speed since then; and on top
-RUNAWAY_SHARE, RUNAWAY_EDGES = 0.06, 2.0  # of the top speed; where that is not known, edges in the average's 50 ms
+RUNAWAY_SHARE = 0.06  # of the top speed; where that is not known, [edges/s] at 0 V, and in the average's 50 ms else:
+RUNAWAY_RATE, RUNAWAY_EDGES = 150.0, 2.0
+STRONG = 0.5  # of the voltage limit; below, and not 0 V, a loop answers a load that drives the motor
 OVERSPEED, OVERSPEED_TIME = 1.3, 0.05  # of what the supply gives; [s]: not one period of a doubtful edge
 FEW = 0.3  # of the expected speed; a load that slows a motor down to this takes 70 % of its stall torque
 FORGET = 0.3  # [s] time constant with which that is forgotten while edges fit
@@ -184,12 +186,13 @@ def check_runaway(config: Config, state: State, seen: Seen) -> tuple[str, State]
     fast = seen.motion.speed
     if seen.speed == 0.0:
         return "", replace(state, undriven=0.0, slowest=0.0)
-    if seen.sample.voltage * seen.speed > 0.0:
+    voltage = seen.sample.voltage
+    if voltage * seen.speed > 0.0 or 0.0 < abs(voltage) < STRONG * seen.voltage_limit:
         return "", replace(state, undriven=0.0, slowest=inf)
     undriven = state.undriven + seen.dt
     slowest = min(state.slowest, max(fast, abs(seen.speed)))  # the average is late, the reported speed irregular
     top = min(config.fastest, seen.motion.fastest(seen.voltage_limit))
-    rise = RUNAWAY_SHARE * top if top < inf else RUNAWAY_EDGES * config.slot / FAST
+    rise = RUNAWAY_SHARE * top if top < inf else (RUNAWAY_EDGES / FAST if voltage else RUNAWAY_RATE) * config.slot
     away = undriven >= RUNAWAY_TIME and fast > RUNAWAY_GROWTH * slowest + rise
     reason = RUNAWAY.format(slowest, fast) if away else ""
     return reason, replace(state, undriven=undriven, slowest=slowest)

@@ -1,0 +1,48 @@
+"""An encoder line that is lost, quiet or noisy: the motor stops in time, and does not go to full speed on the way."""
+
+import pytest
+from bench_board import motor
+from lost_line import lose_line
+
+from motor_control.controller import controller
+
+
+@pytest.mark.parametrize("rate", [200.0, 1000.0])
+@pytest.mark.parametrize("strays", [0.0, 2.0, 5.0, 50.0, 100.0])
+@pytest.mark.parametrize(("source", "known"), [("measured", False), ("measured", True), ("observer", True)])
+def test_a_line_lost_at_100_rad_per_s(source: str, known: bool, strays: float, rate: float) -> None:
+    """It was full voltage for ever wherever an edge came now and then."""
+    loss = lose_line(motor(), 100.0, strays, rate=rate, source=source, model=motor() if known else None)
+    assert loss.stopped is not None and 0.05 < loss.stopped < 0.5
+    assert "Edges do not fit the voltage" in loss.reason and "motor/reset" in loss.reason
+
+
+@pytest.mark.parametrize(("source", "known"), [("measured", False), ("measured", True), ("observer", True)])
+def test_a_line_lost_at_3_rad_per_s_does_not_take_the_motor_to_full_speed(source: str, known: bool) -> None:
+    """It was 168 rad/s for 1.3 to 1.9 s."""
+    loss = lose_line(motor(), 3.0, 0.0, source=source, model=motor() if known else None)
+    assert loss.stopped is not None and loss.stopped < 0.7 and 20.0 < loss.fastest < 90.0
+
+
+def test_without_an_integral_too() -> None:
+    """The gain alone asks for half the voltage, which was never a stall; known by the model."""
+    loss = lose_line(motor(), 3.0, 0.0, model=motor(), kp=2.0, ki=0.0)
+    assert loss.stopped is not None and loss.stopped < 0.5
+
+
+@pytest.mark.parametrize("volts", [1.2, 12.0, 48.0])
+@pytest.mark.parametrize(("top", "edges"), [(6.0, 2400), (30.0, 480), (174.0, 96), (600.0, 24)])
+def test_whatever_the_top_speed_and_the_voltage(top: float, edges: int, volts: float) -> None:
+    kv = volts / top
+    plant = motor(kv=kv, ka=0.08 * kv, ks=0.03 * volts, breakaway_voltage=0.06 * volts, stribeck_speed=0.02 * top)
+    gains = {"kp": 4.0 * kv, "ki": 50.0 * kv, "voltage_limit": volts}
+    plant = type(plant)(plant.values, plant.effects, max_voltage=volts)
+    for known in (False, True):
+        loss = lose_line(plant, 0.57 * top, 5.0, model=plant if known else None, edges=edges, **gains)
+        assert loss.stopped is not None and loss.stopped < 0.5
+
+
+def test_a_line_that_holds_is_no_fault() -> None:
+    for source in ("measured", "observer"):
+        loss = lose_line(motor(), 100.0, 0.0, source=source, lost=9.0)
+        assert loss.stopped is None and controller.STOPPED not in loss.reason

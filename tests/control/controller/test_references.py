@@ -1,0 +1,119 @@
+"""A reference is obeyed until what it was for is over; then the motor waits for a fresh one."""
+
+from dataclasses import replace
+
+import pytest
+from bench_board import DEFAULTS
+
+from motor_control.controller import controller
+from motor_control.controller.controller import Config, State
+from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
+from motor_control.parameters import config_of
+from motor_model.sample import Info, Sample
+
+CONFIG = config_of(DEFAULTS, Info())
+MS = 1_000_000
+
+
+def feed(
+    state: State,
+    times: list[int],
+    fresh: float | None = None,
+    config: Config = CONFIG,
+    later: float = 0.0,
+    on: bool = True,
+) -> tuple[Output, State]:
+    """Samples at these times [ms] on the plant's clock, `later` [s] on ours; a reference may come with the first."""
+    for k, time in enumerate(times):
+        voltage = state.run.asked if state.run and on else 0.0
+        sample = Sample(time * MS, 50.0, voltage, 4 * time // 5 + 1, time * MS - 9, 1.3e-3)
+        output, state = controller.update(config, state, sample, fresh if k == 0 else None, time * 1e-3 + later)
+    return output, state
+
+
+def running() -> State:
+    output, state = feed(State(), list(range(0, 200, 5)), 60.0)
+    assert output.state == RUNNING and output.terms.voltage > 0.0
+    return state
+
+
+def waits(output: Output, words: str) -> None:
+    assert output.state == DISABLED and output.terms.voltage == 0.0
+    assert words in output.reason and "fresh reference" in output.reason
+
+
+def test_a_reference_holds_without_being_repeated() -> None:
+    output, _ = feed(running(), list(range(200, 20_000, 5)))
+    assert output.state == RUNNING
+
+
+def test_a_restarted_plant_waits() -> None:
+    output, state = feed(running(), [0, 5, 10], later=0.3)
+    waits(output, "restarted")
+    assert feed(state, [15], 60.0, later=0.3)[0].state == RUNNING
+
+
+@pytest.mark.parametrize(("away", "resumes"), [(900, True), (1100, False)])
+def test_a_plant_that_was_away_waits(away: int, resumes: bool) -> None:
+    output, _ = feed(running(), [195 + away, 200 + away])
+    assert (output.state == RUNNING) == resumes
+    if not resumes:
+        waits(output, "away")
+
+
+def test_a_reset_waits() -> None:
+    state = controller.stop(running(), "It is blocked.")
+    output, state = feed(state, [200, 205], 60.0)  # a reference during the stop is none for after it
+    assert output.state == STOPPED and output.drives
+    said, state = controller.reset(state)
+    assert said == "Cleared: It is blocked."
+    output, state = feed(state, [210, 215])
+    waits(output, "cleared")
+    assert feed(state, [220], 60.0)[0].state == RUNNING
+
+
+def test_an_output_that_was_off_waits() -> None:
+    state = running()
+    output, state = feed(state, list(range(200, 600, 5)), on=False)
+    assert output.state == RUNNING and "motor/enable" in output.reason
+    output, state = feed(state, list(range(600, 1000, 5)), on=False)
+    waits(output, "motor/enable")
+    output, state = feed(state, [1000, 1005])  # it is on again
+    waits(output, "motor/enable")
+    assert feed(state, [1010], 60.0)[0].state == RUNNING
+
+
+@pytest.mark.parametrize(("timeout", "drops"), [(0.0, False), (0.5, True)])
+def test_a_reference_has_an_age(timeout: float, drops: bool) -> None:
+    config = replace(CONFIG, reference_timeout=timeout)
+    state = feed(State(), list(range(0, 450, 5)), 60.0, config)[1]
+    output, state = feed(state, list(range(450, 600, 5)), config=config)
+    assert (output.state == DISABLED) == drops
+    if drops:
+        waits(output, "older than reference_timeout (0.5 s)")
+        assert feed(state, [600], 60.0, config)[0].state == RUNNING
+
+
+def test_a_released_motor_gets_one_last_zero_and_is_left_to_others() -> None:
+    _, state = controller.release(running())
+    first, state = feed(state, [200])
+    second, state = feed(state, [205])
+    waits(first, "released")
+    assert (first.drives, second.drives) == (True, False)
+
+
+def test_two_plants_stop_the_motor_and_are_named() -> None:
+    state = replace(running(), speakers="(/motor_driver, /motor_sim)")
+    output, state = feed(state, [200, 5000, 205, 5005, 210, 5010])
+    assert output.state == STOPPED and output.terms.voltage == 0.0
+    assert "Two plants publish motor/speed (/motor_driver, /motor_sim)" in output.reason and state.latched
+
+
+def test_a_sample_that_is_too_old_is_answered_with_zero_and_its_age() -> None:
+    """A lag of 100 ms let the speed swing from 12 to 137 rad/s in the state running."""
+    state = running()
+    late, state = feed(state, [200], later=0.1)
+    assert late.state == STOPPED and late.terms.voltage == 0.0 and late.drives
+    assert late.latency == pytest.approx(0.1, abs=3e-3) and "ms old and latency_limit is 20 ms" in late.reason
+    in_time, _ = feed(state, [205], later=0.01)
+    assert in_time.state == RUNNING and in_time.terms.voltage > 0.0 and in_time.latency < 0.02
