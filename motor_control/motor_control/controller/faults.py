@@ -24,7 +24,7 @@ REPORTABLE = 10.0  # [edges/s] slower than this, every plant reports a standstil
 RUNAWAY_TIME = 0.25  # [s] longer than any plant takes to see that a single channel has turned round
 RUNAWAY_GROWTH = 1.2  # of the smallest speed since then; and on top
 RUNAWAY_SHARE = 0.06  # of the top speed; where that is not known, [edges/s] at 0 V, and in the average's 50 ms else:
-RUNAWAY_RATE, RUNAWAY_EDGES = 150.0, 2.0
+RUNAWAY_RATE, RUNAWAY_EDGES, RUNAWAY_UNKNOWN = 150.0, 2.0, 2.0  # the latter: growth, then
 STRONG = 0.5  # of the voltage limit; below, and not 0 V, a loop answers a load that drives the motor
 OVERSPEED, OVERSPEED_TIME = 1.3, 0.05  # of what the supply gives; [s]: not one period of a doubtful edge
 FEW = 0.3  # of the expected speed; a load that slows a motor down to this takes 70 % of its stall torque
@@ -191,9 +191,14 @@ def check_runaway(config: Config, state: State, seen: Seen) -> tuple[str, State]
         return "", replace(state, undriven=0.0, slowest=inf)
     undriven = state.undriven + seen.dt
     slowest = min(state.slowest, max(fast, abs(seen.speed)))  # the average is late, the reported speed irregular
-    top = min(config.fastest, seen.motion.fastest(seen.voltage_limit))
-    rise = RUNAWAY_SHARE * top if top < inf else (RUNAWAY_EDGES / FAST if voltage else RUNAWAY_RATE) * config.slot
-    away = undriven >= RUNAWAY_TIME and fast > RUNAWAY_GROWTH * slowest + rise
+    learnt, least = seen.motion.fastest(seen.voltage_limit), RUNAWAY_EDGES / FAST * config.slot
+    if config.fastest < inf:
+        rise, growth = RUNAWAY_SHARE * config.fastest, RUNAWAY_GROWTH
+    elif learnt < inf or voltage:  # a motor that has only been seen under a load may be much faster than that says
+        rise, growth = max(RUNAWAY_SHARE * learnt if learnt < inf else 0.0, least), RUNAWAY_UNKNOWN
+    else:
+        rise, growth = RUNAWAY_RATE * config.slot, RUNAWAY_UNKNOWN
+    away = undriven >= RUNAWAY_TIME and fast > growth * slowest + rise
     reason = RUNAWAY.format(slowest, fast) if away else ""
     return reason, replace(state, undriven=undriven, slowest=slowest)
 

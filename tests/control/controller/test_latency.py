@@ -37,3 +37,12 @@ def test_a_restarted_plant_has_a_new_clock() -> None:
     _, state = track_latency(None, 10**9, 5.0)
     age, state = track_latency(state, 0, 6.0)
     assert age == 0.0 and track_latency(state, 5_000_000, 6.015)[0] == pytest.approx(0.01, abs=1e-3)
+
+
+@pytest.mark.parametrize(("pause", "late"), [(0.3, True), (0.5, False), (3600.0, False)])
+def test_a_plant_whose_clock_stood_still_is_not_late_for_ever(pause: float, late: bool) -> None:
+    """A simulation that was held up, a computer that slept: samples pause, and their clock with them."""
+    _, state = track_latency(None, 0, 5.0)
+    age, state = track_latency(state, 5_000_000, 5.005 + pause)
+    assert (age > 0.5 * pause) == late
+    assert (track_latency(state, 10_000_000, 5.01 + pause)[0] > 0.05) == late
