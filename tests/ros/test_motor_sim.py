@@ -8,6 +8,7 @@ from subprocess import Popen
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from workbench import PATIENCE, Bench, end
 
@@ -210,3 +211,21 @@ def test_simulated_ros_time_stops_nothing(bench: Bench, start: Start, user: User
     user.voltage = 5.0
     user.until(lambda sample: sample.speed > 60.0, "motion")
     assert user.samples[-1].header.stamp.sec == 0
+
+
+def test_after_a_restart_an_old_reference_waits_and_a_fresh_one_drives(bench: Bench, start: Start, user: User) -> None:
+    """Plant and controller each drop what was before; nobody has to call motor/enable."""
+    user.sending = False  # the controller does
+    reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+    first = start("motor_sim", "motor_sim")
+    start("motor_control", "motor_control")
+    bench.heard(reference)
+    reference.publish(Float64(data=60.0))
+    user.until(lambda sample: sample.speed > 50.0, "motion")
+    first.kill()
+    count = len(user.samples)
+    start("motor_sim", "motor_sim")
+    bench.wait(lambda: len(user.samples) > count + 300, "samples of the next plant")
+    assert {sample.voltage for sample in user.samples[count:]} == {0.0}
+    reference.publish(Float64(data=60.0))
+    user.until(lambda sample: sample.speed > 50.0, "motion by a fresh reference")
