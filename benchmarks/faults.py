@@ -23,10 +23,10 @@ AT_REFERENCE, AFTER = 1.5, 3.0  # [s]
 
 
 NOTE = """\
-Not within their time, and why: at 3 % of the top speed the 6 and 30 rad/s motors make 2.8 and 14 edges a second, so that
-the next edge is not due for up to 0.36 s, and a loop that is as slow needs as long to raise its voltage (up to 724 ms).
-50 and 100 stray edges a second are what slow motors make themselves (92 and 458 a second at the top): the loop takes
-them for a speed, and a 6 rad/s motor runs on at up to 97 % of its top speed; from 174 rad/s on they stop it."""
+Not within their time, and why: at 3 % of the top speed the 6 and 30 rad/s motors make 2.8 and 14 edges a second, so
+that the next edge is not due for up to 0.36 s, and a loop that is as slow needs as long to raise its voltage (up to 724
+ms). 50 and 100 stray edges a second are what slow motors make themselves (92 and 458 a second at the top): the loop
+takes them for a speed, and a 6 rad/s motor runs on at up to 97 % of its top speed; from 174 rad/s on they stop it."""
 
 
 @dataclass(frozen=True)
