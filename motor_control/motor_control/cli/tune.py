@@ -9,6 +9,7 @@ from motor_control.tuning.speed_feedback import MEASURED, OBSERVER, Encoder
 from motor_model import model_file
 from motor_model.parameters import Parameters
 from motor_ros.command import CommandParser, positive, shell
+from motor_ros.output_files import add_force_option, check_outputs
 
 
 def share(text: str) -> float:
@@ -32,7 +33,7 @@ def parser() -> argparse.ArgumentParser:
         "--output",
         type=Path,
         metavar="FILE",
-        help="write the gains here (ROS 2 parameter file; never over an existing one)",
+        help="write the gains here (ROS 2 parameter file)",
     )
     parser.add_argument("--figure", type=Path, metavar="FILE", help="draw the predicted step here (PNG, PDF or SVG)")
     parser.add_argument(
@@ -61,6 +62,7 @@ def parser() -> argparse.ArgumentParser:
         metavar="SHARE",
         help="speed ripple, peak to peak, that an irregular disc may cause (default 0.02)",
     )
+    add_force_option(parser)
     _add_encoder(parser)
     return parser
 
@@ -83,6 +85,7 @@ def _tune(options: argparse.Namespace) -> int:
     from motor_control.tuning.gain_file import save_gains
     from motor_control.tuning.table import as_table, cautions
 
+    check_outputs([path for path in (options.output, options.figure) if path], options.force)
     parameters = model_file.load(options.model)
     encoder = Encoder(options.edges_per_revolution, options.slot_irregularity, options.edge_resolution)
     wish = Wish(
@@ -97,7 +100,7 @@ def _tune(options: argparse.Namespace) -> int:
     for caution in cautions(tuning, parameters):
         print(f"\n{caution}")
     if options.output:
-        save_gains(options.output, tuning, Path(options.model))
+        save_gains(options.output, tuning, Path(options.model), options.force)
         print(f"gains: {options.output}")
     if options.figure:
         _draw(options, tuning, parameters)

@@ -40,14 +40,14 @@ def gain_text(tuning: Tuning, model: Path) -> str:
     return "\n".join(lines) + "\n"
 
 
-def save_gains(path: Path, tuning: Tuning, model: Path) -> None:
-    """Write the parameter file, never over another one.
+def save_gains(path: Path, tuning: Tuning, model: Path, force: bool = False) -> None:
+    """Write the parameter file, over another one only by `force`.
 
     Raises:
         MotorError: the file exists, or cannot be written.
     """
     try:
-        with path.open("x", encoding="utf-8") as file:
+        with path.open("w" if force else "x", encoding="utf-8") as file:
             file.write(gain_text(tuning, model))
     except FileExistsError as error:
         raise MotorError(

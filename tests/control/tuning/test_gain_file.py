@@ -31,3 +31,5 @@ def test_another_file_is_left_as_it_is(tmp_path: Path) -> None:
     with pytest.raises(MotorError, match="exists already and is left as it is: choose another name"):
         save_gains(path, tuning(time_constant=0.1), Path("m.yaml"))
     assert path.read_bytes() == written
+    save_gains(path, tuning(time_constant=0.1), Path("m.yaml"), force=True)
+    assert path.read_bytes() != written
