@@ -248,7 +248,9 @@ def test_an_attempt_that_failed_leaves_its_name_to_the_next(stand: Stand) -> Non
 
 def test_a_plant_that_is_switched_off_and_then_lost(stand: Stand) -> None:
     assert stand.bench.call(SetBool, "motor/enable", SetBool.Request(data=False)).success
-    with pytest.raises(MotorError, match=r"^The output is off: call motor/enable with data: true\. The rec"):
+    with pytest.raises(
+        MotorError, match=r"^The (?:plant's )?output is off: call motor/enable with data: true\. The rec"
+    ):
         stand.experiment("step")
     assert stand.bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
     stand.bag = stand.bag.with_name("lost")

@@ -56,7 +56,7 @@ def test_a_bag_cut_at_60_percent_gives_its_first_part_and_says_so(tmp_path: Path
     assert 700 < count < 1400
     assert_is(recording, SAMPLES[:count])
     (note,) = recording.notes
-    assert note == f"{bag} is cut off: {count} samples, {(count - 1) * 0.005:.2f} s up to the cut."
+    assert note == f"{bag} is cut off: {count} samples, {recording.duration:.2f} s up to the cut."
 
 
 def test_an_uncompressed_bag_loses_only_what_is_cut(tmp_path: Path) -> None:
