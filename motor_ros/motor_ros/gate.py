@@ -14,6 +14,8 @@ from motor_ros.sender import Sender
 
 QUIET = 2_000_000_000  # [ns] without any voltage; where nobody counts, who sent before would have been heard by then
 PACE = 50_000_000, 500_000_000  # [ns] after its first command within which a sender's pace is judged
+SLOWED = 2.0  # a busy computer may let commands come so many times slower than they were sent before
+SLACK = 100_000_000  # [ns] by which a sender may have begun too early: nobody starts a plant again so quickly
 HOLD = 500_000_000  # [ns] of silence after which another sender is obeyed: longer than a busy computer holds one up
 CONFLICT = 1_500_000_000  # [ns] for which a second sender is reported: longer than from one diagnostic to the next
 
@@ -116,4 +118,5 @@ def _began(first: Sender, number: int | None, now: int, since: int) -> bool:
     listened = now - first.at
     if not PACE[0] <= listened <= PACE[1]:
         return False
-    return first.at - (first.number - 1) * listened / max(number - first.number, 1) >= since
+    pace = listened / max(number - first.number, 1)
+    return first.at - (first.number - 1) * pace / SLOWED >= since - SLACK

@@ -40,7 +40,7 @@ def test_voltages_that_flowed_before_the_plant_came_up_wait_for_0_volt_or_enable
 
 
 @pytest.mark.parametrize("period", [1, 5, 50])
-@pytest.mark.parametrize(("start", "acts"), [(0, True), (5, True), (300, True), (-5, False), (-4000, False)])
+@pytest.mark.parametrize(("start", "acts"), [(0, True), (5, True), (300, True), (-50, True), (-4000, False)])
 def test_a_sender_that_begins_while_the_plant_listens_acts(period: int, start: int, acts: bool) -> None:
     """It begins so many ms after the plant has come up; its first ten commands are lost until it is found."""
     lost = max(0, -start) // period + 10
