@@ -222,6 +222,7 @@ def of_the_latest_plant(user: User) -> list[MotorSpeed]:
     return user.samples[back[-1] :] if back else []
 
 
+@pytest.mark.on_time
 def test_after_a_restart_an_old_reference_waits_and_a_fresh_one_drives(bench: Bench, start: Start, user: User) -> None:
     """Plant and controller each drop what was before; nobody has to call motor/enable."""
     user.sending = False  # the controller does
