@@ -29,7 +29,7 @@ def drop_stand_ins(selection: Selection) -> Selection:
     That is every finding that leaves a visible part of what it should explain, and what was found after it; a line in
     the spectrum over the angle is its own evidence.
     """
-    if selection.model.at_floor:
+    if selection.model.complete:
         return selection
     for i, step in enumerate(selection.steps):
         if step.explains < thresholds.STAND_IN_SHARE and not EFFECT_BY_NAME[step.found.effect].periodic:

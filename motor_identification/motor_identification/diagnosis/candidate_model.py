@@ -2,10 +2,25 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import sqrt
+
+import numpy as np
 
 from motor_identification.diagnosis import thresholds
+from motor_identification.discrepancy.motion_history import make_history
+from motor_identification.discrepancy.structure import Rest, Structure, find_structure
 from motor_identification.estimation.estimate import Estimate
+from motor_identification.measurement.intervals import Intervals
+from motor_identification.noise.error_model import (
+    Disturbance,
+    ErrorData,
+    ErrorModel,
+    estimate_disturbance,
+    learn_error_model,
+    make_error_data,
+)
 from motor_identification.noise.likelihood import Noise, estimate_noise
+from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
 
@@ -46,8 +61,83 @@ class Model:
 
     @property
     def above_floor(self) -> bool:
-        """Whether something is; neither where there is nothing to judge by, and the gap no number."""
+        """Whether the sensor leaves less; neither where there is nothing to judge by, and the gap no number."""
         return self.held.gap > thresholds.EXPLAINED_GAP * self.floor
+
+    @cached_property
+    def errors(self) -> ErrorModel:
+        """What sensor and random torque leave in the training data; only the sensor where it explains what is left."""
+        if not self.above_floor:
+            return ErrorModel(self.noise.share, 0.0, 0.0, 1.0)
+        return learn_error_model(self._error_data(), *self._rate())
+
+    @cached_property
+    def structure(self) -> tuple[Structure, ...]:
+        """What free curves predict of what is left, the most telling variable first; nothing at the sensor's floor."""
+        return self._find_structure() if self.above_floor else ()
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing is left that can be predicted: the sensor explains it, or it is random."""
+        return not self.above_floor or not any(one.certain for one in self.structure)
+
+    @property
+    def unpredictable_gap(self) -> float:
+        """[rad/s] of the gap, what no free curve predicts; the sensor's floor where it explains what is left."""
+        if not self.above_floor:
+            return self.floor
+        share = max((one.share for one in self.structure if one.certain), default=0.0)
+        return max(self.held.gap * sqrt(max(1.0 - share, 0.0)), self.floor)
+
+    @property
+    def sensor_floor(self) -> float:
+        """[rad/s] the gap that the sensor alone would leave, irregular slots told from a random torque."""
+        return self.held.floor(self.errors.share)
+
+    @property
+    def noise_floor(self) -> float:
+        """[rad/s] the gap that sensor and random torque would leave of a perfect model."""
+        return float(np.sqrt(self.sensor_floor**2 + self.held.weight @ self._random_variance(self.held)))
+
+    def estimate_disturbance(self) -> Disturbance | None:
+        """Estimate the random torque beside the model, with its standard errors; None where there is none."""
+        return estimate_disturbance(self._error_data(), self.errors, *self._rate())
+
+    def whiten_held_out(self) -> tuple[Floats, ...]:
+        """White residuals of every interval of the held-out recordings, counted or not."""
+        rows = zip(self.held.intervals, self.held.increments, strict=True)
+        return tuple(make_error_data(data, part).whiten(self.errors, *self._rate())[1][0] for data, part in rows)
+
+    def _rate(self) -> tuple[float, float]:
+        """kv/ka [1/s] and ka [V·s²/rad]."""
+        values = self.estimate.parameters.values
+        return values["kv"] / values["ka"], values["ka"]
+
+    def _error_data(self) -> list[ErrorData]:
+        rows = zip(self.estimate.problem.intervals, self.estimate.increments, strict=True)
+        return [make_error_data(intervals, increments) for intervals, increments in rows]
+
+    def _random_variance(self, held: HeldOut) -> Floats:
+        """[rad²/s²] that the random torque leaves in each interval that counts."""
+        duration = np.concatenate([data.duration for data in held.intervals])[held.counted]
+        return self.errors.speed_variance(duration, *self._rate())
+
+    def _find_structure(self) -> tuple[Structure, ...]:
+        values, held, problem = self.estimate.parameters.values, self.held, self.estimate.problem
+        same = all(a is b for a, b in zip(held.recordings, problem.recordings, strict=False))
+
+        def rest(recording: Recording, data: Intervals, angle: Floats, increments: Floats, judged: Bools) -> Rest:
+            history = make_history(recording, data, angle, values["kv"], values.get("delay", 0.0))
+            return Rest(make_error_data(data, increments), history, ~judged, judged)
+
+        rows = zip(held.recordings, held.intervals, held.angles, held.increments, held.scored, strict=True)
+        own = [rest(*row) for row in rows]
+        nothing = [np.zeros(len(data.first), dtype=bool) for data in problem.intervals]
+        training = zip(
+            problem.recordings, problem.intervals, self.estimate.angles, self.estimate.increments, nothing, strict=True
+        )
+        others = [] if same else [rest(*row) for row in training]
+        return find_structure(own, others, self.errors, *self._rate())
 
 
 @dataclass(frozen=True)
@@ -66,7 +156,7 @@ class CandidateTest:
     @property
     def explains(self) -> float:
         """Share of the excess over the noise floor that it takes away."""
-        return share_explained(self.before.held.gap, self.model.held.gap, self.model.floor)
+        return share_explained(self.before.held.gap, self.model.held.gap, self.model.unpredictable_gap)
 
     @cached_property
     def relevant(self) -> bool:

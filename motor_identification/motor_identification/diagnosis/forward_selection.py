@@ -95,14 +95,14 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
         if not pair:
             return selection
         further = select_forward(selection.add(pair), reporter, pairs=False)
-        if not further.model.at_floor and pair[-1].explains <= thresholds.STAND_IN_SHARE:
+        if not further.model.complete and pair[-1].explains <= thresholds.STAND_IN_SHARE:
             return selection
         selection = further
 
 
 def may_hide_pair(selection: Selection) -> bool:
     """Decide whether a gap is left in which two effects may hide each other, and not too much was found before."""
-    return len(selection.steps) < thresholds.PAIR_MOST_STEPS and not selection.model.at_floor
+    return len(selection.steps) < thresholds.PAIR_MOST_STEPS and not selection.model.complete
 
 
 def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[CandidateTest]:
@@ -155,7 +155,7 @@ def _find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: P
         second = choose_finding(seconds)
         if second is None:
             continue
-        together = share_explained(current.held.gap, second.model.held.gap, second.model.floor)
+        together = share_explained(current.held.gap, second.model.held.gap, second.model.unpredictable_gap)
         steps = [
             SelectionStep(current, first, tuple(tests), (), together),
             SelectionStep(first.model, second, tuple(seconds), find_rivals(second, seconds), together),
@@ -170,7 +170,7 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
     While others are missing too, one effect can do as well as another, and the wrong one ends in a local minimum of the
     selection; not one that explains nearly everything.
     """
-    if not selection.steps or selection.model.at_floor:
+    if not selection.steps or selection.model.complete:
         return selection
     first = selection.steps[0]
     for test in list_other_firsts(first):

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from enum import Enum
 
+from motor_identification.discrepancy.structure import Structure
+from motor_identification.noise.error_model import Disturbance
 from motor_identification.recording import Floats
 from motor_identification.uncertainty.result import Fit
 from motor_identification.validation.held_out import HeldOut
@@ -51,7 +53,10 @@ class Diagnosis:
     model: Fit
     gap_before: float
     gap_after: float
-    noise_floor: float
+    noise_floor: float  # what sensor and random torque leave together
+    sensor_floor: float  # what the sensor alone leaves
+    disturbance: Disturbance | None  # the random torque, where there is one
+    structure: tuple[Structure, ...]  # what free curves still predict, the most telling variable first
     undetectable: tuple[str, ...]  # effects that this recording could not have shown
     suggested_experiment: str
     before: HeldOut  # the baseline on held-out data

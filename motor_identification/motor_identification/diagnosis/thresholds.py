@@ -63,3 +63,6 @@ SECOND_START_EVIDENCE = 0.75
 ELIMINATION_RIVALS = 3
 # Miscounted intervals from which on edges are missing: one to four may be wrong stamps.
 LEAST_MISSED_EDGES = 5
+# Standard deviations of what sensor and random torque leave, beyond which an interval that is short by whole slots has
+# lost edges: no random torque does that in one interval of 500 million.
+MISSED_EDGE_SIGMA = 6.0

@@ -32,7 +32,7 @@ def conclude(
     model, baseline = _summarise(last, search, elapsed), _summarise(base, search, elapsed)
     gaps = [step.before.held.gap for step in selection.steps[1:]] + [last.held.gap]  # after each step, fitted again
     findings = tuple(_make_finding(step, model, gap) for step, gap in zip(selection.steps, gaps, strict=False))
-    share, missed = last.noise.share, find_missed_edges(last)
+    share, missed = last.errors.share, find_missed_edges(last)
     before = base.held
     if missed is not None:
         findings = (*findings, missed)
@@ -45,7 +45,10 @@ def conclude(
         model=model,
         gap_before=before.gap,
         gap_after=last.held.gap,
-        noise_floor=last.held.floor(share),
+        noise_floor=last.noise_floor,
+        sensor_floor=last.sensor_floor,
+        disturbance=last.estimate_disturbance(),
+        structure=last.structure,
         undetectable=hidden,
         suggested_experiment=suggestion,
         before=before,
@@ -98,15 +101,16 @@ def find_missed_edges(model: Model) -> Finding | None:
     """Find missed edges: intervals that a complete model sees short by whole slots."""
     held = model.held
     short = total = 0.0
-    for data, increments in zip(held.intervals, held.increments, strict=True):
+    for data, increments, white in zip(held.intervals, held.increments, model.whiten_held_out(), strict=True):
         if data.slot == 0.0:
             return None
-        counted = (data.slack == 0.0) & (data.edge[:, 0] >= 0)
+        surprising = np.abs(white) > thresholds.MISSED_EDGE_SIGMA  # no random torque did it
+        counted = (data.slack == 0.0) & (data.edge[:, 0] >= 0) & surprising
         slots = np.round(np.abs(increments) / data.slot) * np.sign(increments * data.speed)
         short += float(np.sum(slots[counted & (slots > 0.0)]))
         total += float(np.sum(np.abs(data.edge[counted, 1] - data.edge[counted, 0])))
     least = thresholds.LEAST_MISSED_EDGES
-    if short < least or held.miscounted < least or model.above_floor:
+    if short < least or held.miscounted < least or not model.complete:
         return None
     rate = short / (total + short)
     everything = replace(held, scored=tuple(np.ones_like(part) for part in held.scored))
@@ -126,10 +130,10 @@ def find_missed_edges(model: Model) -> Finding | None:
 def decide(findings: Sequence[Finding], last: Model, hidden: tuple[str, ...]) -> tuple[Verdict, str]:
     """Decide how it ended, and the profile to record next."""
     unclear = next((finding.suggested_experiment for finding in findings if finding.ambiguous_with), "")
-    if last.above_floor:
+    if not last.complete:
         return Verdict.UNEXPLAINED, unclear or ("rich" if hidden else "")
     if unclear:
         return Verdict.UNDECIDED, unclear
-    if hidden:
+    if hidden and not findings:
         return Verdict.UNDECIDED, EFFECT_BY_NAME[hidden[0]].shown_by  # the table begins with what is most common
     return (Verdict.EXPLAINED if findings else Verdict.NOTHING_MISSING), ""

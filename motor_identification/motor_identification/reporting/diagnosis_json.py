@@ -3,7 +3,11 @@
 from typing import Any
 
 from motor_identification.diagnosis.result import Diagnosis, Finding
+from motor_identification.discrepancy.structure import Structure
+from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.json_values import to_estimate, to_model, to_number
+
+VARIABLES = {"speed_voltage": "drive", "past": "drive"}  # finer than what the interfaces promise
 
 
 def diagnosis_to_json(diagnosis: Diagnosis) -> dict[str, Any]:
@@ -12,15 +16,33 @@ def diagnosis_to_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "bags": list(diagnosis.bags),
         "validation": list(diagnosis.validation),
         "noise_floor": to_number(diagnosis.noise_floor),
+        "sensor_floor": to_number(diagnosis.sensor_floor),
+        "disturbance": _disturbance_to_json(diagnosis.disturbance),
+        "structure": [_structure_to_json(one) for one in diagnosis.structure],
         "gap_before": to_number(diagnosis.gap_before),
         "gap_after": to_number(diagnosis.gap_after),
         "verdict": diagnosis.verdict.value,
         "undetectable": list(diagnosis.undetectable),
+        "not_testable": list(diagnosis.undetectable),
         "suggested_experiment": diagnosis.suggested_experiment or None,
         "baseline": to_model(diagnosis.baseline),
         "findings": [_finding_to_json(one) for one in diagnosis.findings],
         "model": to_model(diagnosis.model),
     }
+
+
+def _disturbance_to_json(disturbance: Disturbance | None) -> dict[str, Any] | None:
+    if disturbance is None:
+        return None
+    return {
+        "rms_voltage": to_estimate(disturbance.rms_voltage, disturbance.rms_error),
+        "correlation_time": to_estimate(disturbance.correlation_time, disturbance.time_error),
+    }
+
+
+def _structure_to_json(one: Structure) -> dict[str, Any]:
+    variable = VARIABLES.get(one.variable, one.variable)
+    return {"variable": variable, "share": to_number(one.share), "significance": to_number(one.significance)}
 
 
 def _finding_to_json(one: Finding) -> dict[str, Any]:

@@ -5,13 +5,24 @@ from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, LASTING_INT
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.reporting.names import capitalize, effect_name, join_effects, join_names
-from motor_identification.reporting.numbers import format_change, format_quantity, format_ratio
+from motor_identification.reporting.numbers import format_change, format_measured, format_quantity, format_ratio
 from motor_identification.uncertainty.result import Fit
 from motor_model.text_table import align_columns
 
 GAP = "validation RMS error (gap)"
 TOO_SHORT = "The recording is too short to keep a part of it for validation: record more motion."
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
+
+STRUCTURE_NAMES = {
+    "speed": "speed",
+    "voltage": "commanded voltage",
+    "drive": "drive (voltage less back-EMF)",
+    "speed_voltage": "speed and the voltage together",
+    "angle": "shaft angle",
+    "time": "time within the recording",
+    "spectrum": "time (a periodic load or supply)",
+    "past": "motion and the command just before",
+}
 
 
 def summarize_diagnosis(diagnosis: Diagnosis) -> str:
@@ -53,18 +64,44 @@ def format_parameters(finding: Finding) -> str:
 
 def _explained(diagnosis: Diagnosis) -> str:
     model = "it" if len(diagnosis.findings) == 1 else "them"
-    return f"{_describe_found(diagnosis.findings)}. With {model}, {describe_gap_reduction(diagnosis)}."
+    text = f"{_describe_found(diagnosis.findings)}. With {model}, {describe_gap_reduction(diagnosis)}."
+    return " ".join(part for part in (text, describe_disturbance(diagnosis), _describe_untestable(diagnosis)) if part)
 
 
 def _nothing_missing(diagnosis: Diagnosis) -> str:
-    return f"Nothing is missing: {_describe_gap(diagnosis)}."
+    text = f"Nothing is missing: {_describe_gap(diagnosis)}."
+    return " ".join(part for part in (text, describe_disturbance(diagnosis)) if part)
+
+
+def describe_disturbance(diagnosis: Diagnosis) -> str:
+    """Say how strong the random torque is that nothing predicts, with standard errors; empty where there is none."""
+    found = diagnosis.disturbance
+    if found is None:
+        return ""
+    strength = format_measured(found.rms_voltage, found.rms_error, "V RMS")
+    time = format_measured(found.correlation_time, found.time_error, "s")
+    return f"The rest is random: a torque of {strength}, correlated over {time}."
+
+
+def describe_structure(diagnosis: Diagnosis) -> str:
+    """Say which variable predicts most of what is left; empty where none does."""
+    certain = [one for one in diagnosis.structure if one.certain]
+    if not certain:
+        return ""
+    share = min(100.0 * certain[0].share, 100.0)
+    return f"Of what is left, {share:.0f} % can be predicted from the {STRUCTURE_NAMES[certain[0].variable]}."
+
+
+def _describe_untestable(diagnosis: Diagnosis) -> str:
+    if not diagnosis.undetectable:
+        return ""
+    return f"This recording could not show {join_effects(diagnosis.undetectable)}."
 
 
 def _unexplained(diagnosis: Diagnosis) -> str:
     worst = capitalize(describe_error(diagnosis.after, diagnosis.slot_share))
-    rest = " ".join(
-        part for part in (f"{worst}.", describe_torque(estimate_missing_torque(diagnosis.after)), UNMODELLED) if part
-    )
+    torque = describe_torque(estimate_missing_torque(diagnosis.after))
+    rest = " ".join(part for part in (describe_structure(diagnosis), f"{worst}.", torque, UNMODELLED) if part)
     if diagnosis.findings:
         found = f"{_describe_findings(diagnosis)} {capitalize(describe_gap_reduction(diagnosis))}."
         return f"{found} Another effect, which is not in the table, is missing. {rest}"

@@ -49,6 +49,12 @@ def format_quantity(name: str, value: float, error: float) -> str:
     return f"{name} = {format_value(value, error)} ± {format_error(error)}{unit}"
 
 
+def format_measured(value: float, error: float, unit: str) -> str:
+    """Write a measured value with its standard error and unit: `0.150 ± 0.004 V`."""
+    known = f" ± {format_error(error)}" if isfinite(error) else ""
+    return f"{format_value(value, error)}{known} {unit}"
+
+
 def format_ratio(value: float) -> str:
     """Write how many times larger something is, to two digits: 1.3, 28, 148."""
     return f"{value:.2g}" if value < 99.5 else f"{value:.0f}"

@@ -42,7 +42,8 @@ def drive(u: float, speed: float, p: Any) -> float:
     """Drive [V] before the lag: effective voltage less back-EMF, shared with a sagging supply."""
     duty = abs(u) / p.max_voltage
     back_emf = p.kv * speed * (1.0 - p.coast_share * (1.0 - duty))
-    return (u - back_emf) / (1.0 + p.sag * duty * duty)
+    pull = (u - back_emf) / (1.0 + p.sag * duty * duty)
+    return min(max(pull, -p.current_limit_voltage), p.current_limit_voltage)
 
 
 @njit(cache=True)
@@ -56,11 +57,20 @@ def warmth(t: float, p: Any) -> float:
 
 
 @njit(cache=True)
-def loads(angle: float, stepped: bool, p: Any) -> float:
-    """Loads [V] of the cold motor: bias, step and torque ripple."""
-    load = p.bias_voltage
+def outer_load(t: float, stepped: bool, random: float, p: Any) -> float:
+    """Load [V] that comes from outside at a time [s]: the step, a wave, and a random torque [V]."""
+    load = random
     if stepped:
         load += p.step_voltage
+    if p.load_wave != 0.0:
+        load += p.load_wave * sin(2.0 * pi * p.load_wave_frequency * t)
+    return load
+
+
+@njit(cache=True)
+def loads(angle: float, outer: float, p: Any) -> float:
+    """Loads [V] of the cold motor: bias, torque ripple and, as `outer`, what comes from outside (see `outer_load`)."""
+    load = p.bias_voltage + outer
     if p.ripple_voltage != 0.0:
         load += p.ripple_voltage * sin(p.ripple_cycles * angle + p.ripple_phase)
     return load
@@ -83,7 +93,7 @@ def dry_friction(angle: float, speed: float, pull: float, p: Any) -> float:
 
 
 @njit(cache=True)
-def balance(y: State, t: float, v: float, stepped: bool, p: Any) -> Balance:
+def balance(y: State, t: float, v: float, outer: float, p: Any) -> Balance:
     """(pull, loads, dry friction, warmth, rate of the lagged drive, torque of the spring), all [V] but the rate."""
     angle, speed, lagged, _, far_angle, far_speed = y
     pull = drive(bridge(v, t, p), speed, p)
@@ -95,14 +105,14 @@ def balance(y: State, t: float, v: float, stepped: bool, p: Any) -> Balance:
     if p.compliance_fraction > 0.0:
         spring = p.compliance_stiffness * (angle - far_angle) + p.compliance_damping * (speed - far_speed)
     dry = dry_friction(angle, speed, pull, p)
-    return pull, loads(angle, stepped, p) + spring, dry, warmth(t, p), lag_rate, spring
+    return pull, loads(angle, outer, p) + spring, dry, warmth(t, p), lag_rate, spring
 
 
 @njit(cache=True)
-def rates(y: State, t: float, v: float, stepped: bool, way: float, share: float, p: Any) -> State:
+def rates(y: State, t: float, v: float, outer: float, way: float, share: float, p: Any) -> State:
     """dy/dt while the motor moves one way (+1, -1) or is held (0), with `share` of ka on the shaft."""
     _, speed, _, bristle, _, far_speed = y
-    pull, load, dry, warm, lag_rate, spring = balance(y, t, v, stepped, p)
+    pull, load, dry, warm, lag_rate, spring = balance(y, t, v, outer, p)
     grip = way
     bristle_rate = 0.0
     if p.presliding_angle > 0.0:
@@ -111,6 +121,8 @@ def rates(y: State, t: float, v: float, stepped: bool, way: float, share: float,
     acceleration = 0.0
     if way != 0.0:
         resisting = load + dry * grip + p.drag * speed * abs(speed)
+        if p.speed_wave != 0.0:
+            resisting += p.speed_wave * sin(speed / p.speed_wave_scale)
         acceleration = (pull / warm - resisting) / (p.ka * share)
     far_acceleration = 0.0
     if p.compliance_fraction > 0.0:
@@ -119,9 +131,9 @@ def rates(y: State, t: float, v: float, stepped: bool, way: float, share: float,
 
 
 @njit(cache=True)
-def push_at_rest(y: State, t: float, v: float, stepped: bool, p: Any) -> tuple[float, float]:
+def push_at_rest(y: State, t: float, v: float, outer: float, p: Any) -> tuple[float, float]:
     """(push, hold) [V]: what is left of drive and loads on a motor at rest, and what holds it there."""
-    pull, load, dry, warm, _, _ = balance(y, t, v, stepped, p)
+    pull, load, dry, warm, _, _ = balance(y, t, v, outer, p)
     if p.presliding_angle > 0.0:
         return pull - warm * (load + dry * y[3]), 0.0
     return pull - warm * load, warm * dry

@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
+from scipy.signal import lfilter
 
-from .forces import State, bridge, drive, push_at_rest, rates
+from .forces import State, bridge, drive, outer_load, push_at_rest, rates
 from .parameters import Values, record_of
 
 Floats = NDArray[np.float64]
@@ -27,6 +28,7 @@ Floats = NDArray[np.float64]
 Mode = tuple[float, float, float, float]
 _STEPS_PER_NODE = 5
 _INSTANT = 1e-14  # [s] to which events are located
+_RANDOM_STEP = 1e-4  # [s] for which a random torque stays as it is
 _EVENTS_PER_STEP = 50  # more than that within 10 µs is chatter: held for the rest of the step
 
 
@@ -56,9 +58,20 @@ def move(
     which = np.searchsorted(switches, middles, side="right") - 1
     commands = np.where(which >= 0, voltages[np.maximum(which, 0)], 0.0)
     stepped = middles - start > p["step_time"]
-    nodes, at_bounds = _run(p, bounds, commands, stepped, step, start_speed)
+    nodes, at_bounds = _run(p, bounds, commands, stepped, random_torque(p, bounds[-1]), step, start_speed)
     at = at_bounds[np.searchsorted(bounds, times - start)]
     return Motion(nodes[:, 0], nodes[:, 1], nodes[:, 2], at)
+
+
+def random_torque(p: Any, duration: float) -> Floats:
+    """An Ornstein-Uhlenbeck load [V] over so many seconds, a value for each 0.1 ms; always the same for one seed."""
+    count = int(duration / _RANDOM_STEP) + 2
+    if p["random_torque"] == 0.0:
+        return np.zeros(count)
+    remembered = np.exp(-_RANDOM_STEP / p["random_torque_time"])
+    shocks = np.random.default_rng(int(p["random_torque_seed"])).normal(size=count)
+    shocks[1:] *= np.sqrt(1.0 - remembered**2)
+    return np.asarray(p["random_torque"] * lfilter([1.0], [1.0, -remembered], shocks))
 
 
 @njit(cache=True)
@@ -67,39 +80,39 @@ def _shifted(y: State, k: State, h: float) -> State:
 
 
 @njit(cache=True)
-def _step(y: State, mode: Mode, t: float, h: float, v: float, slope: float, stepped: bool, p: Any) -> State:
+def _step(y: State, mode: Mode, t: float, h: float, v: float, slope: float, outer: float, p: Any) -> State:
     """One classic Runge-Kutta step; the voltage is v + slope·(time into the step)."""
     way = mode[0]
     share = (1.0 - p.compliance_fraction) * (1.0 - p.load_fraction if mode[1] == 0.0 else 1.0)
     half = 0.5 * h
-    a = rates(y, t, v, stepped, way, share, p)
-    b = rates(_shifted(y, a, half), t + half, v + slope * half, stepped, way, share, p)
-    c = rates(_shifted(y, b, half), t + half, v + slope * half, stepped, way, share, p)
-    d = rates(_shifted(y, c, h), t + h, v + slope * h, stepped, way, share, p)
+    a = rates(y, t, v, outer, way, share, p)
+    b = rates(_shifted(y, a, half), t + half, v + slope * half, outer, way, share, p)
+    c = rates(_shifted(y, b, half), t + half, v + slope * half, outer, way, share, p)
+    d = rates(_shifted(y, c, h), t + h, v + slope * h, outer, way, share, p)
     return _shifted(_shifted(_shifted(_shifted(y, a, h / 6.0), b, h / 3.0), c, h / 3.0), d, h / 6.0)
 
 
 @njit(cache=True)
-def _above(y: State, t: float, v: float, stepped: bool, p: Any, which: int, level: float) -> float:
+def _above(y: State, t: float, v: float, outer: float, p: Any, which: int, level: float) -> float:
     """State number `which` less a level; for -1, by how much [V] the push at rest exceeds what holds."""
     if which >= 0:
         return y[which] - level
-    push, hold = push_at_rest(y, t, v, stepped, p)
+    push, hold = push_at_rest(y, t, v, outer, p)
     return abs(push) - hold
 
 
 @njit(cache=True)
 def _reach(
-    y: State, mode: Mode, t: float, h: float, v: float, slope: float, stepped: bool, p: Any, which: int, level: float
+    y: State, mode: Mode, t: float, h: float, v: float, slope: float, outer: float, p: Any, which: int, level: float
 ) -> float:
     """The part of a step [s] after which `_above` has just changed sign: false position, Illinois variant."""
     low, high = 0.0, h
-    f_low = _above(y, t, v, stepped, p, which, level)
-    f_high = _above(_step(y, mode, t, h, v, slope, stepped, p), t + h, v + slope * h, stepped, p, which, level)
+    f_low = _above(y, t, v, outer, p, which, level)
+    f_high = _above(_step(y, mode, t, h, v, slope, outer, p), t + h, v + slope * h, outer, p, which, level)
     while high - low > 2.0 * _INSTANT:
         x = (low * f_high - high * f_low) / (f_high - f_low) if f_high != f_low else 0.5 * (low + high)
         x = min(max(x, low + _INSTANT), high - _INSTANT)
-        f = _above(_step(y, mode, t, x, v, slope, stepped, p), t + x, v + slope * x, stepped, p, which, level)
+        f = _above(_step(y, mode, t, x, v, slope, outer, p), t + x, v + slope * x, outer, p, which, level)
         if (f > 0.0) == (f_high > 0.0):
             high, f_high, f_low = x, f, 0.5 * f_low
         else:
@@ -122,40 +135,40 @@ def _started(y: State, mode: Mode, push: float, p: Any) -> Mode:
 
 @njit(cache=True)
 def _rest(
-    y: State, mode: Mode, t: float, h: float, v: float, slope: float, stepped: bool, p: Any
+    y: State, mode: Mode, t: float, h: float, v: float, slope: float, outer: float, p: Any
 ) -> tuple[State, Mode, float, bool]:
     """(state, mode, time used, whether something happened) of a motor at rest for at most h seconds."""
-    push, hold = push_at_rest(y, t, v, stepped, p)
+    push, hold = push_at_rest(y, t, v, outer, p)
     if abs(push) > hold:
         return y, _started(y, mode, push, p), 0.0, True
-    new = _step(y, mode, t, h, v, slope, stepped, p)
-    push, hold = push_at_rest(new, t + h, v + slope * h, stepped, p)
+    new = _step(y, mode, t, h, v, slope, outer, p)
+    push, hold = push_at_rest(new, t + h, v + slope * h, outer, p)
     if abs(push) <= hold:
         return new, mode, h, False
-    used = _reach(y, mode, t, h, v, slope, stepped, p, -1, 0.0)
-    return _step(y, mode, t, used, v, slope, stepped, p), mode, used, True
+    used = _reach(y, mode, t, h, v, slope, outer, p, -1, 0.0)
+    return _step(y, mode, t, used, v, slope, outer, p), mode, used, True
 
 
 @njit(cache=True)
 def _advance(
-    y: State, mode: Mode, t: float, h: float, v: float, slope: float, stepped: bool, p: Any
+    y: State, mode: Mode, t: float, h: float, v: float, slope: float, outer: float, p: Any
 ) -> tuple[State, Mode, float, bool]:
     """(state, mode, time used, whether something happened) after at most h seconds, up to the first event."""
     way, contact, low, high = mode
     if way == 0.0:
-        return _rest(y, mode, t, h, v, slope, stepped, p)
+        return _rest(y, mode, t, h, v, slope, outer, p)
     flank = high if way > 0.0 else low
     if contact == 0.0 and way * (y[0] - flank) >= 0.0:
         return y, (way, way, low, high), 0.0, True
-    new = _step(y, mode, t, h, v, slope, stepped, p)
+    new = _step(y, mode, t, h, v, slope, outer, p)
     used = h
     stops = way * new[1] <= 0.0
     if stops:
-        used = _reach(y, mode, t, h, v, slope, stepped, p, 1, 0.0)
-        new = _step(y, mode, t, used, v, slope, stepped, p)
+        used = _reach(y, mode, t, h, v, slope, outer, p, 1, 0.0)
+        new = _step(y, mode, t, used, v, slope, outer, p)
     if contact == 0.0 and way * (new[0] - flank) >= 0.0:
-        used = _reach(y, mode, t, used, v, slope, stepped, p, 0, flank)
-        new = _step(y, mode, t, used, v, slope, stepped, p)
+        used = _reach(y, mode, t, used, v, slope, outer, p, 0, flank)
+        new = _step(y, mode, t, used, v, slope, outer, p)
         return (flank, new[1], new[2], new[3], new[4], new[5]), mode, used, True
     if stops:
         return (new[0], 0.0, new[2], new[3], new[4], new[5]), (0.0, contact, low, high), used, True
@@ -172,7 +185,13 @@ def _put(nodes: Floats, count: int, t: float, y: State) -> tuple[Floats, int]:
 
 @njit(cache=True)
 def _run(
-    p: Any, bounds: Floats, commands: Floats, stepped: NDArray[np.bool_], step: float, start_speed: float
+    p: Any,
+    bounds: Floats,
+    commands: Floats,
+    stepped: NDArray[np.bool_],
+    random: Floats,
+    step: float,
+    start_speed: float,
 ) -> tuple[Floats, NDArray[np.int64]]:
     """Nodes (time, angle, speed), shape (M, 3), and the number of the node at each bound."""
     y = (0.0, start_speed, drive(bridge(0.0, 0.0, p), start_speed, p), np.sign(start_speed), 0.0, start_speed)
@@ -185,6 +204,7 @@ def _run(
         h = (bounds[k + 1] - bounds[k]) / steps
         for i in range(steps):
             begin = bounds[k] + i * h
+            outer = outer_load(begin, stepped[k], random[int((begin - bounds[0]) / _RANDOM_STEP)], p)
             change = commands[k] - v
             slope = 0.0
             if p.slew_rate > 0.0:
@@ -196,9 +216,9 @@ def _run(
                 left = h - done
                 if events == _EVENTS_PER_STEP:
                     y, mode = (y[0], 0.0, y[2], y[3], y[4], y[5]), (0.0, mode[1], mode[2], mode[3])
-                    y = _step(y, mode, begin + done, left, v + slope * done, slope, stepped[k], p)
+                    y = _step(y, mode, begin + done, left, v + slope * done, slope, outer, p)
                     break
-                y, mode, used, happened = _advance(y, mode, begin + done, left, v + slope * done, slope, stepped[k], p)
+                y, mode, used, happened = _advance(y, mode, begin + done, left, v + slope * done, slope, outer, p)
                 done = h if used == left else done + used
                 if happened:
                     events += 1

@@ -54,9 +54,21 @@ BEYOND_THE_TABLE: dict[str, float] = {
     "supply_ripple": 0.0,  # [-] u_eff breathes by this share ...
     "supply_ripple_frequency": 0.0,  # [Hz] ... as a sine from the recording's start
     "slew_rate": 0.0,  # [V/s] the bridge follows the command no faster than this; 0: at once
+    "speed_wave": 0.0,  # [V] a load speed_wave*sin(speed/speed_wave_scale): resonances, fans, seals
+    "speed_wave_scale": 1.0,  # [rad/s]
+    "current_limit_voltage": inf,  # [V] the bridge limits the current: |drive| goes no further
+    "load_wave": 0.0,  # [V] a load periodic in time ...
+    "load_wave_frequency": 0.0,  # [Hz] ... as a sine from the recording's start
 }
 
-_DEFAULTS = TABLE | BEYOND_THE_TABLE
+# A torque that no model can predict; not an effect, but what every real motor has beside its effects.
+DISTURBANCE: dict[str, float] = {
+    "random_torque": 0.0,  # [V] RMS of an Ornstein-Uhlenbeck load
+    "random_torque_time": 0.05,  # [s] its correlation time
+    "random_torque_seed": 0.0,
+}
+
+_DEFAULTS = TABLE | BEYOND_THE_TABLE | DISTURBANCE
 # Numba's cache looks at the file of a function only, not at the files of what it calls: an edited forces.py would
 # leave the old forces in motor.py's cache. A field named after its contents gives every version a type of its own.
 _VERSION = f"forces_{crc32(Path(__file__).with_name('forces.py').read_bytes()):08x}"
@@ -76,6 +88,7 @@ _RANGES = {
         *("kv", "ka", "ks", "breakaway_voltage", "stribeck_speed", "drag", "dead_zone_voltage", "limit_voltage"),
         *("reverse_gain", "sag", "electrical_time_constant", "delay", "backlash_angle", "warm_up_time"),
         *("angle_friction", "presliding_angle", "compliance_stiffness", "compliance_damping", "slew_rate"),
+        *("current_limit_voltage", "random_torque", "random_torque_time", "random_torque_seed"),
     ),
     (0.0, inf),
 )

@@ -41,6 +41,7 @@ def _left_out(diagnosis: Diagnosis) -> list[str]:
 
 
 def _noise_floor(diagnosis: Diagnosis) -> list[str]:
+    """Say what the noise floor is made of, and how strong the random torque is."""
     info = diagnosis.after.recordings[0].info
     sensor, parts = diagnosis.after.floor(0.0), []
     if info.measurement is Measurement.EDGES and info.edge_resolution > 0.0:
@@ -48,8 +49,11 @@ def _noise_floor(diagnosis: Diagnosis) -> list[str]:
     elif sensor > 0.0:
         parts.append(f"{sensor:.3g} rad/s from counts that are sampled, not stamped")
     if diagnosis.slot_share > 0.0 and info.edges_per_revolution:
-        rest = max(diagnosis.noise_floor**2 - sensor**2, 0.0) ** 0.5
+        rest = max(diagnosis.sensor_floor**2 - sensor**2, 0.0) ** 0.5
         parts.append(f"{rest:.3g} rad/s from slots that are irregular by {100 * diagnosis.slot_share:.2g} %")
+    if diagnosis.disturbance is not None:
+        rest = max(diagnosis.noise_floor**2 - diagnosis.sensor_floor**2, 0.0) ** 0.5
+        parts.append(f"{rest:.3g} rad/s from a random torque of {diagnosis.disturbance.rms_voltage:.2g} V RMS")
     if not parts:
         return [NO_NOISE]
     return [f"The noise floor is {diagnosis.noise_floor:.3g} rad/s: {' and '.join(parts)} (root sum of squares)."]

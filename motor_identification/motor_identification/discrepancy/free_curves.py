@@ -1,0 +1,142 @@
+"""Free curves: torques that depend on one variable of the measured motion in any way, learnt as knots.
+
+Whatever a model lacks is, as long as it can be predicted at all, a torque over something: speed, drive, commanded
+voltage, angle, time, what was just before. A family has a column for every knot (or wave) of one such variable: the
+torque [V] of 1 V at that knot, in each short segment of a recording, and what it makes of the angle in every interval.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import exp, expm1
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.discrepancy.motion_history import MotionHistory
+from motor_identification.recording import Bools, Floats
+from motor_model.compiled import compiled
+
+KNOTS = 12  # of a curve over each direction of the motion
+GRID = 7  # knots along each side of a curve over two variables
+HARMONICS = 16  # of a turn
+TIME_KNOTS = 15  # over a recording
+
+
+@dataclass(frozen=True)
+class Reach:
+    """How far recordings reach, so that they share their knots."""
+
+    speed: float
+    voltage: float
+    drive: float
+    duration: float
+    lines: tuple[float, ...] = ()  # [Hz] where the spectrum of what is left is highest
+
+
+def hats(values: Floats, knots: NDArray[np.floating[Any]]) -> Floats:
+    """Evaluate linear hat functions over knots (M,) at values (S,), shape (S, M); constant beyond the ends."""
+    return np.stack([np.interp(values, knots, unit) for unit in np.eye(len(knots))], axis=1)
+
+
+def _both_ways(values: Floats, way: Floats, most: float) -> Floats:
+    """Hats over a variable, apart for motion forward and backward."""
+    knots = np.linspace(-most, most, 2 * KNOTS + 1)
+    each = hats(values, knots)
+    return np.concatenate([each * (way > 0.0)[:, None], each * (way < 0.0)[:, None]], axis=1)
+
+
+def _speed(h: MotionHistory, most: Reach) -> Floats:
+    knots = most.speed * np.concatenate([[0.0], np.geomspace(0.01, 1.0, KNOTS)])
+    size = hats(np.abs(h.speed), knots)
+    return np.concatenate([size * (h.speed > 0.0)[:, None], size * (h.speed < 0.0)[:, None]], axis=1)
+
+
+def _voltage(h: MotionHistory, most: Reach) -> Floats:
+    return _both_ways(h.voltage, h.speed, most.voltage)
+
+
+def _drive(h: MotionHistory, most: Reach) -> Floats:
+    return _both_ways(h.drive, h.speed, most.drive)
+
+
+def _speed_by_voltage(h: MotionHistory, most: Reach) -> Floats:
+    speed = hats(h.speed, np.linspace(-most.speed, most.speed, GRID))
+    voltage = hats(h.voltage, np.linspace(-most.voltage, most.voltage, GRID))
+    return np.asarray((speed[:, :, None] * voltage[:, None, :]).reshape(len(h.speed), -1))
+
+
+def _angle(h: MotionHistory, most: Reach) -> Floats:
+    phases = np.arange(1, HARMONICS + 1) * h.angle[:, None]
+    waves, way = np.concatenate([np.sin(phases), np.cos(phases)], axis=1), np.sign(h.speed)[:, None]
+    few = [0, 1, HARMONICS, HARMONICS + 1]
+    return np.concatenate([waves, waves[:, few] * way, waves[:, few] * (h.drive / most.drive)[:, None]], axis=1)
+
+
+def _time(h: MotionHistory, most: Reach) -> Floats:
+    curve = hats(h.time, np.linspace(0.0, most.duration, TIME_KNOTS))
+    return np.concatenate([curve, curve * np.sign(h.speed)[:, None], curve * (h.drive / most.drive)[:, None]], axis=1)
+
+
+def _spectrum(h: MotionHistory, most: Reach) -> Floats:
+    phases = 2.0 * np.pi * np.asarray(most.lines) * h.time[:, None]
+    waves = np.concatenate([np.sin(phases), np.cos(phases)], axis=1)
+    return np.concatenate(
+        [waves, waves * np.sign(h.speed)[:, None], waves * (h.voltage / most.voltage)[:, None]], axis=1
+    )
+
+
+def _past(h: MotionHistory, most: Reach) -> Floats:
+    way = np.sign(h.speed)[:, None]
+    since = hats(np.log(np.maximum(h.since, 1e-4)), np.log(np.geomspace(0.003, 3.0, KNOTS))) * way
+    travel = hats(np.log(np.maximum(h.travel, 1e-3)), np.log(np.geomspace(0.01, 10.0, KNOTS))) * way
+    share = h.past / most.voltage
+    return np.concatenate([since, travel, h.past, share * np.abs(h.past)], axis=1)
+
+
+FAMILIES: dict[str, Callable[[MotionHistory, Reach], Floats]] = {
+    "speed": _speed,
+    "voltage": _voltage,
+    "drive": _drive,
+    "speed_voltage": _speed_by_voltage,
+    "angle": _angle,
+    "time": _time,
+    "spectrum": _spectrum,
+    "past": _past,
+}
+
+OF_ONE_RECORDING = ("time", "spectrum")  # what is different in every recording is learnt and judged in the same one
+
+
+def respond(history: MotionHistory, torques: Floats, rate: float, ka: float) -> Floats:
+    """Compute what torques [V] (S, C) make of simulated minus measured travel [rad] in every interval, shape (C, I)."""
+    travel = np.zeros((len(torques) + 1, torques.shape[1]))
+    fill_travel(history.duration, history.still, np.ascontiguousarray(torques), rate, 1.0 / ka, travel)
+    return np.ascontiguousarray((travel[history.at_end] - travel[history.at_start]).T)
+
+
+@compiled
+def fill_travel(duration: Floats, still: Bools, torque: Floats, rate: float, gain: float, travel: Floats) -> None:
+    """Integrate dd/dt = −rate·d + gain·T and its angle over segments of constant torque; a standing motor has d = 0."""
+    columns = torque.shape[1]
+    speed = np.zeros(columns)
+    for s in range(len(duration)):
+        h = duration[s]
+        decay, reach = exp(-rate * h), -expm1(-rate * h) / rate
+        for c in range(columns):
+            if still[s]:
+                speed[c] = 0.0
+                travel[s + 1, c] = travel[s, c]
+            else:
+                push = gain * torque[s, c]
+                travel[s + 1, c] = travel[s, c] + speed[c] * reach + push * (h - reach) / rate
+                speed[c] = speed[c] * decay + push * reach
+
+
+def measure_reach(histories: Sequence[MotionHistory]) -> Reach:
+    """Measure how far the motion of some recordings reaches."""
+
+    def largest(name: str) -> float:
+        return max(float(np.abs(getattr(history, name)).max(initial=0.0)) for history in histories) or 1.0
+
+    return Reach(largest("speed"), largest("voltage"), largest("drive"), largest("time"))

@@ -1,0 +1,266 @@
+"""Filter the error of a simulated angle that a random torque disturbs: a Kalman filter of angle, speed and torque.
+
+A motor with a torque T [V] more against it than its model falls behind the simulation. With b the simulated minus the
+true angle and d the same of the speed,
+
+    db/dt = d,   dd/dt = −α d + T/ka,   dT/dt = −T/τ + √(2σ²/τ)·w,   α = kv/ka
+
+T is an Ornstein–Uhlenbeck process with strength σ and correlation time τ, filtered by the motor as any torque is. What
+is observed is the angle at the ends of intervals, e = b + n, n ~ R (timer tick, irregular slots, counts); along a run
+of intervals e is known up to a constant. The innovations of the filter give the likelihood (Schweppe 1965), and divided
+by their standard deviations they are white. With σ = 0 and a growth q [rad²/s] of b this is the filter of
+`angle_noise.py`.
+
+An interval may hold an error that no noise makes (a wrong stamp, an unseen reversal), so that its density is
+contaminated: with a probability of ε the innovation comes from a Cauchy density. It is a density, so that likelihood
+ratios mean what they say; a clipped square is none.
+"""
+
+from math import exp, expm1, log, pi, sqrt
+
+import numpy as np
+
+from motor_identification.recording import Bools, Floats
+from motor_model.compiled import compiled
+
+OUTLIERS = 1e-4  # ε: share of intervals whose error is none of the noise
+WIDTH = 10.0  # scale of their density, in standard deviations of the others
+_PANEL = 0.5  # of the faster time constant: first panel of a quadrature, the next ones are twice as long each
+_NODES = (0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970262)  # Gauss-Legendre on 0..1
+_WEIGHTS = (0.17392742256872692, 0.32607257743127305, 0.32607257743127305, 0.17392742256872692)
+GAINS = 12  # numbers of an interval that the transpose needs
+_LONG = 40.0  # time constants after which nothing is remembered
+
+
+@compiled
+def _ramp(x: float) -> float:
+    """(1 − e^(−x))/x."""
+    return -expm1(-x) / x if x > 1e-12 else 1.0
+
+
+@compiled
+def _lag_response(alpha: float, beta: float, s: float) -> float:
+    """(e^(−β s) − e^(−α s))/(α − β): what is left in a lag α, s after an impulse in a lag β."""
+    difference = (alpha - beta) * s
+    return exp(-beta * s) * s * _ramp(difference) if difference >= 0.0 else exp(-alpha * s) * s * _ramp(-difference)
+
+
+@compiled
+def _angle_response(alpha: float, beta: float, s: float) -> float:
+    """∫ of `_lag_response` from 0 to s; by quadrature where its difference of two ramps would cancel."""
+    if max(alpha, beta) * s > 1e-2 and abs(alpha - beta) > 1e-3 * max(alpha, beta):
+        return s * (_ramp(beta * s) - _ramp(alpha * s)) / (alpha - beta)
+    total = 0.0
+    for i in range(4):
+        total += _WEIGHTS[i] * s * _lag_response(alpha, beta, _NODES[i] * s)
+    return total
+
+
+@compiled
+def _fill_growth(alpha: float, beta: float, duration: float, growth: Floats) -> None:
+    """∫ g gᵀ over a duration [s] for g = (angle, speed, torque) after an impulse of torque: bb, bd, bT, dd, dT, TT.
+
+    Panels that double resolve the fast part at the beginning and the slow one at the end.
+    """
+    for i in range(6):
+        growth[i] = 0.0
+    begin, length = 0.0, _PANEL / max(alpha, beta)
+    while begin < duration:
+        panel = min(length, duration - begin)
+        for i in range(4):
+            s, weight = begin + _NODES[i] * panel, _WEIGHTS[i] * panel
+            angle, speed, torque = _angle_response(alpha, beta, s), _lag_response(alpha, beta, s), exp(-beta * s)
+            growth[0] += weight * angle * angle
+            growth[1] += weight * angle * speed
+            growth[2] += weight * angle * torque
+            growth[3] += weight * speed * speed
+            growth[4] += weight * speed * torque
+            growth[5] += weight * torque * torque
+        begin += panel
+        length = begin  # doubles
+
+
+@compiled
+def run_filter(  # noqa: C901, PLR0915
+    fresh: Bools,
+    still: Bools,
+    pause: Floats,
+    duration: Floats,
+    start: Floats,
+    end: Floats,
+    alpha: float,
+    beta: float,
+    strength: float,
+    growth: float,
+    increments: Floats,
+    counted: Bools,
+    white: Floats,
+    gains: Floats,
+) -> float:
+    """Fill white residuals of C rows of increments [rad], both (C, I), and return the first row's log likelihood.
+
+    The filter is linear: the other rows (derivatives, responses to other torques) pass the same gains as the first.
+
+    fresh: a run begins, `pause` [s] after the last one ended. still: the motor stood; its increment is by how far the
+    simulated one left the slot. duration [s], start, end [rad²]: of each interval, and the angle's variance at either
+    end.
+    gains: (I, GAINS), filled for `fill_adjoint`; (0, GAINS) where that is not wanted.
+    alpha, beta [1/s]: kv/ka and 1/τ. strength [rad²/s⁴] (σ/ka)². growth [rad²/s]. counted: whose likelihood is wanted.
+    """
+    rows = len(increments)
+    # State (b, d, T/ka) of every row and its covariance; a motor of which nothing is known is in the stationary state.
+    b, d, t, level = np.zeros(rows), np.zeros(rows), np.zeros(rows), np.zeros(rows)
+    bb = bd = bt = 0.0
+    dd, dt, tt = strength / (alpha * (alpha + beta)), strength / (alpha + beta), strength
+    speed_variance = dd
+    of_interval, of_pause = -1.0, -1.0
+    q, p = np.zeros(6), np.zeros(6)
+    phi_d = phi_t = by_t = angle_d = angle_t = 0.0
+    noise = 2.0 * beta * strength
+    value = 0.0
+    for k in range(len(fresh)):
+        h = duration[k]
+        if still[k]:
+            variance = end[k] + speed_variance * h * h
+            for c in range(rows):
+                white[c, k] = increments[c, k] / sqrt(variance)
+            if len(gains):
+                gains[k, 0] = 1.0 / sqrt(variance)
+            if counted[k]:
+                value += _density(increments[0, k], variance)
+            continue
+        fd = ft = by = 0.0
+        if fresh[k]:
+            if strength > 0.0:
+                if not min(alpha, beta) * pause[k] < _LONG:
+                    d[:] = 0.0
+                    t[:] = 0.0
+                    dd, dt, tt = speed_variance, strength / (alpha + beta), strength
+                elif pause[k] == 0.0:
+                    fd, ft = 1.0, 1.0
+                elif pause[k] > 0.0:
+                    if pause[k] != of_pause:
+                        of_pause = pause[k]
+                        _fill_growth(alpha, beta, of_pause, p)
+                    fd, ft, by = exp(-alpha * of_pause), exp(-beta * of_pause), _lag_response(alpha, beta, of_pause)
+                    for c in range(rows):
+                        d[c], t[c] = fd * d[c] + by * t[c], ft * t[c]
+                    dd, dt, tt = (
+                        fd * fd * dd + 2.0 * fd * by * dt + by * by * tt + noise * p[3],
+                        ft * (fd * dt + by * tt) + noise * p[4],
+                        ft * ft * tt + noise * p[5],
+                    )
+            b[:] = 0.0
+            level[:] = 0.0
+            bb, bd, bt = start[k], 0.0, 0.0
+        if strength > 0.0:
+            if h != of_interval:
+                of_interval = h
+                _fill_growth(alpha, beta, h, q)
+                phi_d, phi_t, by_t = exp(-alpha * h), exp(-beta * h), _lag_response(alpha, beta, h)
+                angle_d, angle_t = h * _ramp(alpha * h), _angle_response(alpha, beta, h)
+            for c in range(rows):
+                b[c] += angle_d * d[c] + angle_t * t[c]
+                d[c], t[c] = phi_d * d[c] + by_t * t[c], phi_t * t[c]
+            # F P Fᵀ + Q with F = [[1, angle_d, angle_t], [0, phi_d, by_t], [0, 0, phi_t]].
+            b_d, b_t = bd + angle_d * dd + angle_t * dt, bt + angle_d * dt + angle_t * tt
+            d_d, d_t = phi_d * dd + by_t * dt, phi_d * dt + by_t * tt
+            bb = bb + angle_d * (bd + b_d) + angle_t * (bt + b_t) + noise * q[0]
+            bd, bt = phi_d * b_d + by_t * b_t + noise * q[1], phi_t * b_t + noise * q[2]
+            dd, dt, tt = (
+                phi_d * d_d + by_t * d_t + noise * q[3],
+                phi_t * d_t + noise * q[4],
+                phi_t * phi_t * tt + noise * q[5],
+            )
+        bb += growth * h
+        variance = bb + end[k]
+        root = 1.0 / sqrt(variance)
+        kb, kd, kt = bb / variance, bd / variance, bt / variance
+        off = level[0] + increments[0, k] - b[0]
+        if counted[k]:
+            value += _density(off, variance)
+        trust = _trust(off, variance)
+        lost = trust < 0.5  # the angle has jumped (an uncounted edge, an unseen reversal): known from here on only
+        if lost:
+            kb, kd, kt = 1.0, 0.0, 0.0
+        else:  # moments of the mixture of a regular interval and one that says nothing
+            kb, kd, kt = trust * kb, trust * kd, trust * kt
+        for c in range(rows):
+            level[c] += increments[c, k]
+            each = level[c] - b[c]
+            white[c, k] = each * root
+            b[c] += kb * each
+            d[c] += kd * each
+            t[c] += kt * each
+        if len(gains):
+            gains[k] = (root, kb, kd, kt, phi_d, phi_t, by_t, angle_d, angle_t, fd, ft, by)
+        if lost:
+            bb, bd, bt = end[k], 0.0, 0.0
+        else:
+            taken = variance / trust - (1.0 - trust) * off * off / trust
+            bb, bd, bt = bb - taken * kb * kb, bd - taken * kb * kd, bt - taken * kb * kt
+            dd, dt, tt = dd - taken * kd * kd, dt - taken * kd * kt, tt - taken * kt * kt
+    return value
+
+
+@compiled
+def fill_white(fresh: Bools, still: Bools, gains: Floats, increments: Floats, white: Floats) -> None:
+    """Fill white residuals (I,) of increments (I,), with the gains that `run_filter` filled for other increments."""
+    level = b = d = t = 0.0
+    for k in range(len(fresh)):
+        root, kb, kd, kt, phi_d, phi_t, by_t, angle_d, angle_t, fd, ft, by = gains[k]
+        if still[k]:
+            white[k] = increments[k] * root
+            continue
+        if fresh[k]:
+            level = b = 0.0
+            d, t = fd * d + by * t, ft * t
+        b += angle_d * d + angle_t * t
+        d, t = phi_d * d + by_t * t, phi_t * t
+        level += increments[k]
+        off = level - b
+        white[k] = off * root
+        b, d, t = b + kb * off, d + kd * off, t + kt * off
+
+
+@compiled
+def fill_adjoint(fresh: Bools, still: Bools, gains: Floats, white: Floats, increments: Floats) -> None:
+    """Fill the transpose of the filter applied to white residuals (I,), with the gains that `run_filter` filled."""
+    level = b = d = t = 0.0  # costates of the state after each interval
+    for k in range(len(fresh) - 1, -1, -1):
+        root, kb, kd, kt, phi_d, phi_t, by_t, angle_d, angle_t, fd, ft, by = gains[k]
+        if still[k]:
+            increments[k] = white[k] * root
+            continue
+        off = white[k] * root + kb * b + kd * d + kt * t
+        level += off
+        b -= off
+        increments[k] = level
+        d, t = angle_d * b + phi_d * d, angle_t * b + by_t * d + phi_t * t
+        if fresh[k]:
+            level = b = 0.0
+            d, t = fd * d, by * d + ft * t
+
+
+@compiled
+def _density(off: float, variance: float) -> float:
+    """Logarithm of the contaminated density of an innovation [rad] of a variance [rad²]."""
+    square = off * off / variance
+    regular = -0.5 * (square + log(2.0 * pi * variance))
+    if square < 9.0:  # there the other part is below 1e-4 of it
+        return regular + log(1.0 - OUTLIERS)
+    wide = log(OUTLIERS / (pi * WIDTH)) - 0.5 * log(variance) - log(1.0 + square / (WIDTH * WIDTH))
+    regular += log(1.0 - OUTLIERS)
+    top = max(regular, wide)
+    return top + log(exp(regular - top) + exp(wide - top))
+
+
+@compiled
+def _trust(off: float, variance: float) -> float:
+    """Probability that an innovation is regular."""
+    square = off * off / variance
+    if square < 9.0:
+        return 1.0
+    regular = (1.0 - OUTLIERS) * exp(-0.5 * square) / sqrt(2.0 * pi)
+    wide = OUTLIERS / (pi * WIDTH * (1.0 + square / (WIDTH * WIDTH)))
+    return regular / (regular + wide)

@@ -1,0 +1,74 @@
+"""What a model lacks is told from what is random, and in which variable it is; ridge and lines on made-up numbers."""
+
+import numpy as np
+import pytest
+from plant import profiles, record
+
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.forward_selection import begin_selection
+from motor_identification.discrepancy.structure import CERTAIN, LEAST_SHARE, Structure, solve_ridge
+from motor_identification.estimation.global_search import search_globally
+from motor_identification.estimation.multistart import SearchConfig
+from motor_identification.estimation.problem import make_problem
+from motor_identification.recording import check
+from motor_identification.validation.hold_out import make_hold_out
+
+
+def fitted(hidden: dict[str, float], effects: tuple[str, ...] = (), torque: float = 0.1) -> Model:
+    """A model with some effects, fitted to a motor with more."""
+    values = {"kv": 0.07, "ka": 0.0055, "random_torque": torque, "random_torque_seed": 2.0} | hidden
+    recording = check(record(values, *profiles.rich(12.0, 4), seed=4, irregularity=0.005, disc_seed=4)[0])
+    hold_out = make_hold_out([recording], [])
+    estimate, _search = search_globally(hold_out.restrict(make_problem([recording], effects)), SearchConfig())
+    return begin_selection(estimate, hold_out, 1).model
+
+
+def test_a_random_torque_is_no_structure() -> None:
+    model = fitted({})
+    assert model.above_floor and model.complete
+    assert all(one.share < 0.05 for one in model.structure)
+    assert 0.9 < model.held.gap / model.noise_floor < 1.1
+    disturbance = model.estimate_disturbance()
+    assert disturbance is not None and 0.08 < disturbance.rms_voltage < 0.12
+
+
+@pytest.mark.parametrize(
+    ("hidden", "effects", "variables"),
+    [
+        ({"speed_wave": 0.4, "speed_wave_scale": 12.0}, (), {"speed"}),
+        ({"ks": 0.4, "angle_friction": 0.8}, ("coulomb_friction",), {"angle"}),
+        ({"load_friction": 0.15}, (), {"drive", "speed_voltage", "past"}),
+        ({"current_limit_voltage": 8.0}, (), {"drive", "speed_voltage"}),
+    ],
+    ids=["speed", "angle", "drive", "limited current"],
+)
+def test_what_is_missing_is_found_in_its_variable(
+    hidden: dict[str, float], effects: tuple[str, ...], variables: set[str]
+) -> None:
+    model = fitted(hidden, effects)
+    assert not model.complete
+    assert model.structure[0].variable in variables
+    assert model.structure[0].share > 2.0 * LEAST_SHARE
+    assert model.unpredictable_gap < 0.9 * model.held.gap
+
+
+@pytest.mark.parametrize(
+    ("share", "significance", "certain"),
+    [
+        (LEAST_SHARE + 0.01, CERTAIN + 0.1, True),
+        (LEAST_SHARE - 0.01, CERTAIN + 0.1, False),
+        (LEAST_SHARE + 0.01, CERTAIN - 0.1, False),
+    ],
+)
+def test_structure_is_large_and_significant(share: float, significance: float, certain: bool) -> None:
+    assert Structure("speed", share, significance).certain == certain
+
+
+@pytest.mark.parametrize("scale", [0.0, 0.3])
+def test_ridge_finds_what_is_there_and_nothing_else(scale: float) -> None:
+    random = np.random.default_rng(7)
+    x = random.normal(size=(2000, 20))
+    true = scale * random.normal(size=20)
+    z = x @ true + random.normal(size=2000)
+    knots = solve_ridge(x.T @ x, x.T @ z)
+    assert np.sqrt(np.mean((knots - true) ** 2)) < (0.03 if scale else 0.008)
