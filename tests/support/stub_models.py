@@ -1,12 +1,15 @@
 """Models of made-up gaps and likelihoods: what rules of acceptance are tested on, on either side of each."""
 
+from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
 
 from motor_identification.diagnosis.candidate_model import CandidateTest, Model
+from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.intervals import index_intervals
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.noise.likelihood import Noise
 from motor_identification.validation.held_out import HeldOut
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
@@ -34,11 +37,29 @@ def stub_held(gap: float, lasting: float | None = None, miscounted: int = 0) -> 
     return HeldOut((), (data,), (angle,), motor, (np.ones(COUNT, dtype=bool),), miscounted)
 
 
+@dataclass(frozen=True)
+class StubModel(Model):
+    """A model without an estimate; all that is left above the floor is structure, unless it is said to be random."""
+
+    random: bool = False
+
+    @property
+    def errors(self) -> ErrorModel:  # type: ignore[override]
+        return ErrorModel(0.0, 0.0, 0.0, 1.0)
+
+    @property
+    def structure(self) -> tuple[Structure, ...]:  # type: ignore[override]
+        return (Structure("speed", 1.0, 1000.0),) if self.above_floor and not self.random else ()
+
+    def _rate(self) -> tuple[float, float]:
+        return PAPER_KV / PAPER_KA, PAPER_KA
+
+
 def stub_model(
     gap: float, lasting: float | None = None, likelihood: float = 0.0, estimate: Estimate | None = None
 ) -> Model:
     """A model of this gap and logarithmic likelihood, without a disc."""
-    return Model(cast(Estimate, estimate), stub_held(gap, lasting), Noise(0.0, 0.0), likelihood)
+    return StubModel(cast(Estimate, estimate), stub_held(gap, lasting), Noise(0.0, 0.0), likelihood)
 
 
 def stub_test(effect: str, before: Model, gap: float, evidence: float, lasting: float | None = None) -> CandidateTest:

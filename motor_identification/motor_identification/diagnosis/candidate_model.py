@@ -103,10 +103,14 @@ class Model:
         """Estimate the random torque beside the model, with its standard errors; None where there is none."""
         return estimate_disturbance(self._error_data(), self.errors, *self._rate())
 
-    def whiten_held_out(self) -> tuple[Floats, ...]:
-        """White residuals of every interval of the held-out recordings, counted or not."""
-        rows = zip(self.held.intervals, self.held.increments, strict=True)
-        return tuple(make_error_data(data, part).whiten(self.errors, *self._rate())[1][0] for data, part in rows)
+    def scatter_of_travel(self) -> tuple[Floats, ...]:
+        """[rad] standard deviation that sensor and random torque leave in the travel of every held-out interval."""
+        scatter = []
+        for data in self.held.intervals:
+            variance = data.floor_squared(self.errors.share * data.slot)
+            variance = variance + self.errors.speed_variance(data.duration, *self._rate())
+            scatter.append(np.sqrt(variance) * data.duration)
+        return tuple(scatter)
 
     def _rate(self) -> tuple[float, float]:
         """kv/ka [1/s] and ka [V·s²/rad]."""

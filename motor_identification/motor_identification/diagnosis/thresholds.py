@@ -64,5 +64,5 @@ ELIMINATION_RIVALS = 3
 # Miscounted intervals from which on edges are missing: one to four may be wrong stamps.
 LEAST_MISSED_EDGES = 5
 # Standard deviations of what sensor and random torque leave, beyond which an interval that is short by whole slots has
-# lost edges: no random torque does that in one interval of 500 million.
-MISSED_EDGE_SIGMA = 6.0
+# lost edges: chance makes one of 11,000 that short, and five of 10,000 in two recordings of a thousand.
+MISSED_EDGE_SIGMA = 3.75

@@ -45,9 +45,9 @@ def conclude(
         model=model,
         gap_before=before.gap,
         gap_after=last.held.gap,
-        noise_floor=last.noise_floor,
+        noise_floor=last.noise_floor if last.complete else last.sensor_floor,
         sensor_floor=last.sensor_floor,
-        disturbance=last.estimate_disturbance(),
+        disturbance=last.estimate_disturbance() if last.complete else None,  # else structure is in it
         structure=last.structure,
         undetectable=hidden,
         suggested_experiment=suggestion,
@@ -101,13 +101,13 @@ def find_missed_edges(model: Model) -> Finding | None:
     """Find missed edges: intervals that a complete model sees short by whole slots."""
     held = model.held
     short = total = 0.0
-    for data, increments, white in zip(held.intervals, held.increments, model.whiten_held_out(), strict=True):
+    for data, increments, scatter in zip(held.intervals, held.increments, model.scatter_of_travel(), strict=True):
         if data.slot == 0.0:
             return None
-        surprising = np.abs(white) > thresholds.MISSED_EDGE_SIGMA  # no random torque did it
-        counted = (data.slack == 0.0) & (data.edge[:, 0] >= 0) & surprising
+        counted = (data.slack == 0.0) & (data.edge[:, 0] >= 0)
+        surprising = np.abs(increments) > thresholds.MISSED_EDGE_SIGMA * scatter  # no random torque did it
         slots = np.round(np.abs(increments) / data.slot) * np.sign(increments * data.speed)
-        short += float(np.sum(slots[counted & (slots > 0.0)]))
+        short += float(np.sum(slots[counted & surprising & (slots > 0.0)]))
         total += float(np.sum(np.abs(data.edge[counted, 1] - data.edge[counted, 0])))
     least = thresholds.LEAST_MISSED_EDGES
     if short < least or held.miscounted < least or not model.complete:

@@ -7,6 +7,8 @@ from math import nan
 import pytest
 
 from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.discrepancy.structure import Structure
+from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.diagnosis_json import diagnosis_to_json
 
 
@@ -14,8 +16,8 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     nameless = replace(found, model=replace(found.model, standard_errors=found.model.standard_errors | {"ks": nan}))
     content = json.loads(json.dumps(diagnosis_to_json(nameless), allow_nan=False))
     assert list(content) == [
-        "bags", "validation", "noise_floor", "gap_before", "gap_after", "verdict", "undetectable",
-        "suggested_experiment", "baseline", "findings", "model",
+        "bags", "validation", "noise_floor", "sensor_floor", "disturbance", "structure", "gap_before", "gap_after",
+        "verdict", "undetectable", "not_testable", "suggested_experiment", "baseline", "findings", "model",
     ]  # fmt: skip
     assert content["bags"] == ["train.bag"] and content["validation"] == ["held_out.bag"]
     assert content["gap_before"] == found.gap_before and content["noise_floor"] == found.noise_floor
@@ -32,3 +34,16 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     assert finding["parameters"]["ks"]["value"] == pytest.approx(0.4, abs=0.002)
     assert list(finding["alternatives"][0]) == ["effect", "gap_after"]
     assert diagnosis_to_json(variants[Verdict.UNDECIDED])["findings"][0]["suggested_experiment"] == "coast"
+
+
+def test_a_random_torque_and_what_curves_predict(found: Diagnosis) -> None:
+    torque = Disturbance(0.15, 0.004, 0.05, nan)
+    left = (Structure("past", 0.4, 90.0), Structure("speed", 0.2, 12.0))
+    content = diagnosis_to_json(replace(found, disturbance=torque, structure=left, sensor_floor=0.1))
+    assert diagnosis_to_json(found)["disturbance"] is None and diagnosis_to_json(found)["structure"] == []
+    assert content["sensor_floor"] == 0.1
+    assert content["disturbance"]["rms_voltage"] == {"value": 0.15, "standard_error": 0.004}
+    assert content["disturbance"]["correlation_time"] == {"value": 0.05, "standard_error": None}
+    assert [one["variable"] for one in content["structure"]] == ["drive", "speed"]
+    assert content["structure"][1] == {"variable": "speed", "share": 0.2, "significance": 12.0}
+    assert content["not_testable"] == content["undetectable"]

@@ -4,6 +4,8 @@ import re
 from dataclasses import replace
 
 from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.discrepancy.structure import Structure
+from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.diagnosis_text import format_diagnosis, summarize_diagnosis
 from motor_identification.reporting.names import capitalize, join_effects
 from motor_model.effects import EFFECTS
@@ -15,7 +17,8 @@ def test_summaries(variants: dict[Verdict, Diagnosis]) -> None:
     ratio = f"{one.gap_after / one.noise_floor:.2g} × the noise floor of {one.noise_floor:.3g} rad/s"
     fell = f"validation RMS error (gap) falls from {one.gap_before:.3g} to {one.gap_after:.3g} rad/s ({ratio})"
     assert re.match(r"Coulomb friction \(ks = 0\.4\d* ± [\d.e-]+ V\) was missing\.", said[Verdict.EXPLAINED])
-    assert said[Verdict.EXPLAINED].endswith(f"With it, the {fell}.")
+    hidden = f" This recording could not show {join_effects(one.undetectable)}." if one.undetectable else ""
+    assert said[Verdict.EXPLAINED].endswith(f"With it, the {fell}.{hidden}")
     assert said[Verdict.NOTHING_MISSING] == (
         f"Nothing is missing: the validation RMS error (gap) is {one.gap_after:.3g} rad/s, {ratio}."
     )
@@ -42,3 +45,19 @@ def test_the_table_has_the_numbers(found: Diagnosis) -> None:
     assert (
         lines[3].startswith("noise floor") and lines[4] == f"Evidence for Coulomb friction: {found.findings[0].where}"
     )
+
+
+def test_a_random_torque_is_said_with_its_strength(variants: dict[Verdict, Diagnosis]) -> None:
+    torque = Disturbance(0.1503, 0.0042, 0.0512, 0.0031)
+    for verdict in (Verdict.EXPLAINED, Verdict.NOTHING_MISSING):
+        said = summarize_diagnosis(replace(variants[verdict], disturbance=torque))
+        assert "The rest is random: a torque of 0.1503 ± 0.0042 V RMS, correlated over 0.0512 ± 0.0031 s." in said
+        assert "random" not in summarize_diagnosis(replace(variants[verdict], disturbance=None))
+
+
+def test_the_variable_that_predicts_the_rest_is_named(variants: dict[Verdict, Diagnosis]) -> None:
+    left = (Structure("speed", 0.62, 90.0), Structure("angle", 0.2, 50.0))
+    said = summarize_diagnosis(replace(variants[Verdict.UNEXPLAINED], structure=left))
+    assert "Of what is left, 62 % can be predicted from the speed." in said
+    faint = (Structure("speed", 0.05, 90.0),)
+    assert "predicted" not in summarize_diagnosis(replace(variants[Verdict.UNEXPLAINED], structure=faint))
