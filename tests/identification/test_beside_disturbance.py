@@ -1,0 +1,58 @@
+"""Effects are named beside a random torque, which is measured; what is not in the table is told from it."""
+
+import pytest
+from plant import profiles, record
+
+from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.recording import check
+
+TORQUE, TIME = 0.15, 0.05  # [V] 1.25 % of the supply, [s]
+
+
+def diagnosed(hidden: dict[str, float], seed: int) -> Diagnosis:
+    values = {"kv": 0.07, "ka": 0.0055, "random_torque": TORQUE, "random_torque_time": TIME, "random_torque_seed": seed}
+    recording, _truth = record(
+        values | hidden, *profiles.rich(12.0, seed), seed=seed, irregularity=0.005, disc_seed=seed
+    )
+    return diagnose([check(recording)])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("hidden", "named"),
+    [
+        ({}, ()),
+        ({"ks": 0.3, "delay": 0.006}, ("coulomb_friction", "transport_delay")),
+        ({"limit_voltage": 9.0}, ("voltage_limit",)),
+    ],
+    ids=["nothing", "friction and delay", "limit"],
+)
+def test_effects_are_named_and_the_torque_is_measured(hidden: dict[str, float], named: tuple[str, ...]) -> None:
+    found = diagnosed(hidden, 11)
+    assert tuple(sorted(one.effect for one in found.findings)) == named
+    assert found.verdict is (Verdict.EXPLAINED if named else Verdict.NOTHING_MISSING)
+    for name, value in hidden.items():
+        assert found.model.parameters.values[name] == pytest.approx(value, rel=0.15)
+    assert found.disturbance is not None
+    assert 0.8 * TORQUE < found.disturbance.rms_voltage < 1.2 * TORQUE
+    assert 0.6 * TIME < found.disturbance.correlation_time < 1.6 * TIME
+    assert 0.85 < found.gap_after / found.noise_floor < 1.2
+    assert found.sensor_floor < 0.5 * found.noise_floor
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("hidden", "variables"),
+    [
+        ({"speed_wave": 0.5, "speed_wave_scale": 12.0}, {"speed"}),
+        ({"load_friction": 0.15}, {"drive", "speed_voltage"}),
+    ],
+    ids=["a wave over the speed", "friction of loaded gears"],
+)
+def test_what_is_not_in_the_table_is_told_from_the_torque(hidden: dict[str, float], variables: set[str]) -> None:
+    found = diagnosed(hidden, 12)
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert not found.findings and found.disturbance is None
+    assert found.structure[0].variable in variables and found.structure[0].certain
+    assert found.noise_floor == found.sensor_floor < 0.2 * found.gap_after
