@@ -16,6 +16,9 @@ QUIET = 2_000_000_000  # [ns] without any voltage; where nobody counts, who sent
 PACE = 50_000_000, 500_000_000  # [ns] after its first command within which a sender's pace is judged
 SLOWED = 2.0  # a busy computer may let commands come so many times slower than they were sent before
 SLACK = 100_000_000  # [ns] by which a sender may have begun too early: nobody starts a plant again so quickly
+# [ns] of commands that a sender may have sent unheard, before plant and sender found each other. One that answers
+# samples sends nothing while there is no plant: its numbers stand still while time goes on.
+YOUNG = 1_000_000_000
 HOLD = 500_000_000  # [ns] of silence after which another sender is obeyed: longer than a busy computer holds one up
 CONFLICT = 1_500_000_000  # [ns] for which a second sender is reported: longer than from one diagnostic to the next
 
@@ -119,4 +122,5 @@ def _began(first: Sender, number: int | None, now: int, since: int) -> bool:
     if not PACE[0] <= listened <= PACE[1]:
         return False
     pace = listened / max(number - first.number, 1)
-    return first.at - (first.number - 1) * pace / SLOWED >= since - SLACK
+    age = (first.number - 1) * pace
+    return age <= YOUNG and first.at - age / SLOWED >= since - SLACK

@@ -144,4 +144,4 @@ def test_ctrl_c_in_an_experiment_leaves_zero_volts_and_a_readable_bag(
     begun = time.monotonic()
     bench.wait(lambda: any(sample.voltage == 0.0 for sample in samples[first:]), "0 V")
     assert time.monotonic() - begun < 1.0
-    assert 0.1 < read_recording(str(tmp_path / "bag")).duration < 20.0
+    assert 0.1 < read_recording(str(tmp_path / "bag_incomplete")).duration < 20.0

@@ -153,3 +153,10 @@ def test_whatever_happens_the_motor_gets_a_fresh_number_that_began_or_0_volt(on:
         voltage = plant.voltage(now)
         assert voltage == 0.0 or (on and begun)
         assert voltage == 0.0 or voltage in [volts for at, volts in newest.values() if now - at <= 100 * MS]
+
+
+@pytest.mark.parametrize(("sent", "begun"), [(190, True), (210, False)])
+def test_who_has_sent_for_a_second_is_no_new_sender_however_late_it_is_heard(sent: int, begun: bool) -> None:
+    """A sender that answers samples stands still while there is no plant, and may be discovered seconds after it."""
+    plant = stream(gate(), 6.0, range(3000, 3100, 5), sent)
+    assert (plant.voltage(T0 + 3095 * MS) == 6.0) is begun

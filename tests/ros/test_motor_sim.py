@@ -155,11 +155,12 @@ def messages(status: list[DiagnosticArray]) -> str:
 
 @pytest.mark.on_time
 def test_a_voltage_that_flowed_before_the_start_waits_for_0_volt(bench: Bench, start: Start, user: User) -> None:
-    """The plant is started again under a sender that does not know of it."""
+    """The plant is started again under a sender that does not know of it, and has been at it for two seconds."""
     status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
     first = start("motor_sim", "motor_sim")
     user.voltage = 5.0
     user.until(lambda sample: sample.voltage == 5.0, "motion")
+    bench.wait(lambda: len(user.samples) > 400, "two seconds of it")
     first.kill()
     start("motor_sim", "motor_sim")
     bench.wait(lambda: "5 V was already being sent on motor/voltage" in messages(status), "what it waits for")

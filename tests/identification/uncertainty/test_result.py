@@ -29,7 +29,7 @@ def test_everything_a_user_should_know() -> None:
     assert 0.999 < result.r_squared < 1.0 and result.evaluations == fit.estimate.simulations
     assert result.duration == 2.5 and result.notes[-2:] == ("one", "two")
     assert result.uris == ("small 0",) and result.start_speeds == (0.0,)
-    assert result.correlations["kv"]["kv"] == 1.0 and result.search.rms.tolist() == [2.0, 1.0]
+    assert result.correlations["kv"]["kv"] == pytest.approx(1.0) and result.search.rms.tolist() == [2.0, 1.0]
     assert set(result.standard_errors) == set(TRUE) and all(error > 0.0 for error in result.standard_errors.values())
 
 
