@@ -51,6 +51,10 @@ class StubModel(Model):
     def structure(self) -> tuple[Structure, ...]:  # type: ignore[override]
         return (Structure("speed", 1.0, 1000.0),) if self.above_floor and not self.random else ()
 
+    @property
+    def is_random(self) -> bool:
+        return True
+
     def _rate(self) -> tuple[float, float]:
         return PAPER_KV / PAPER_KA, PAPER_KA
 

@@ -79,12 +79,18 @@ class Model:
     @property
     def complete(self) -> bool:
         """Whether nothing is left that can be predicted: the sensor explains it, or it is random."""
-        return not self.above_floor or not any(one.certain for one in self.structure)
+        return not self.above_floor or (self.is_random and not any(one.certain for one in self.structure))
+
+    @property
+    def is_random(self) -> bool:
+        """Whether the random torque that was learned leaves about as much as is left: else it does not describe it."""
+        low, high = thresholds.RANDOM_GAP
+        return low < self.held.gap / self.noise_floor < high
 
     @property
     def unpredictable_gap(self) -> float:
         """[rad/s] of the gap, what no free curve predicts; the sensor's floor where it explains what is left."""
-        if not self.above_floor:
+        if not self.above_floor or not self.is_random:
             return self.floor
         share = max((one.share for one in self.structure if one.certain), default=0.0)
         return max(self.held.gap * sqrt(max(1.0 - share, 0.0)), self.floor)

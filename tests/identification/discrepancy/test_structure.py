@@ -72,3 +72,10 @@ def test_ridge_finds_what_is_there_and_nothing_else(scale: float) -> None:
     z = x @ true + random.normal(size=2000)
     knots = solve_ridge(x.T @ x, x.T @ z)
     assert np.sqrt(np.mean((knots - true) ** 2)) < (0.03 if scale else 0.008)
+
+
+@pytest.mark.parametrize(("slew", "random"), [(0.0, True), (150.0, False)])
+def test_a_torque_that_would_leave_much_more_is_no_description(slew: float, random: bool) -> None:
+    """A bridge that slews, which an inductance stands in for, leaves rare large errors and nothing between them."""
+    model = fitted({"slew_rate": slew} if slew else {}, ("armature_inductance",), torque=0.0 if slew else 0.1)
+    assert model.is_random == random == model.complete
