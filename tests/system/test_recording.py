@@ -84,7 +84,7 @@ def test_two_controlled_motors_in_one_bag_do_not_meet(bench: Bench, start: Start
         references["left"].publish(Float64(data=left))
         references["right"].publish(Float64(data=right))
         counts = {name: len(samples) for name, samples in heard.items()}
-        bench.wait(lambda: all(len(heard[name]) > count + 200 for name, count in counts.items()), "a second")  # noqa: B023
+        bench.wait(lambda: all(len(heard[name]) > count + 240 for name, count in counts.items()), "a second")  # noqa: B023
     end(record)
     for name, parameters in MOTORS.items():
         recording = read_recording(tmp_path / "bag", name)
