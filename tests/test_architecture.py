@@ -29,9 +29,10 @@ BELOW = {
 }
 ROS = {"rclpy", "motor_msgs", "motor_ros", "std_msgs", "std_srvs", "sensor_msgs", "diagnostic_msgs", "rcl_interfaces"}
 ROS |= {"builtin_interfaces"}
-# Where ROS may be imported: node files, command files, and the modules that turn messages into plain values.
+# Where ROS may be imported: node files, command files, the modules that turn messages into plain values, and the one
+# that looks up what is installed.
 SHELLS = re.compile(
-    r"(/node\.py|/messages\.py|/diagnose_action\.py|/cli/\w+\.py|/live/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(control|driver)/parameters\.py|/service/parameters\.py)$"
+    r"(/node\.py|/messages\.py|/diagnose_action\.py|/cli/\w+\.py|/live/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(control|driver)/parameters\.py|/service/parameters\.py|/bag/definition\.py)$"
 )
 # Effects are rows of a table, and nothing else knows one of them by name; but for:
 SPECIAL = {
@@ -46,8 +47,8 @@ BAGS = re.compile(r"motor_identification/bag/\w+\.py$")
 # Inside a package too: its rooms (folders, or files beside them) from the ground up; each may import those before it.
 ROOMS = {
     "motor_model": (
-        "compiled errors text_table effect effects sample parameters model_file excitation dynamics sensing simulate "
-        "warm_up"
+        "compiled printable errors text_table effect effects sample parameters model_file excitation dynamics sensing "
+        "simulate warm_up"
     ),
     "motor_control": (
         "checks filter controller announcements tuning parameters warm_up preparation settings messages node cli"

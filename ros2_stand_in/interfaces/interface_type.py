@@ -1,9 +1,9 @@
 """Type names such as `std_msgs/msg/Float64`, and the Python classes they stand for."""
 
-import importlib
 from typing import Any
 
 from motor_model.errors import MotorError
+from motor_ros import interface_types
 from ros2_stand_in.interfaces import packages
 
 
@@ -18,12 +18,8 @@ def load(name: str, kind: str) -> Any:
         parts.insert(1, kind)
     if len(parts) != 3 or parts[1] != kind:
         raise MotorError(f"'{name}' is not a {kind} type name; one looks like {_EXAMPLES[kind]}.")
-    package, _, base = parts
     packages.definition("/".join(parts))
-    try:
-        return getattr(importlib.import_module(f"{package}.{kind}"), base)
-    except (ImportError, AttributeError) as error:
-        raise MotorError(f"{name} cannot be loaded ({error}): build its package, then source env.sh.") from error
+    return interface_types.load("/".join(parts))
 
 
 _EXAMPLES = {"msg": "std_msgs/msg/Float64", "srv": "std_srvs/srv/SetBool", "action": "motor_msgs/action/Diagnose"}

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+from motor_ros.interface_types import NotInstalled, definition_file
 
 _SEPARATOR = "=" * 80
 _FIELD = re.compile(r"^\s*([A-Za-z]\w*(?:/\w+)*)", re.MULTILINE)
@@ -34,10 +34,9 @@ def installed(type_name: str) -> Definition:
 
 
 def _file(type_name: str, suffix: str) -> Path | None:
-    package, _, rest = type_name.partition("/")
     try:
-        path = Path(get_package_share_directory(package)) / f"{rest}{suffix}"
-    except (PackageNotFoundError, ValueError):
+        path = definition_file(type_name, suffix)
+    except NotInstalled:
         return None
     return path if path.is_file() else None
 

@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 
 from motor_ros.command import CommandParser, in_place, not_negative, positive, shell
 
+ANNOUNCED_GAP = 10.0  # [s] who sees nothing happen that long asks why
+LONGEST_GAP = 30 * 86400.0  # [s] no bag of a motor pauses for a month; garbled log times lie centuries off
+
 if TYPE_CHECKING:
     from motor_identification.bag import Contents
     from motor_identification.live.playback_schedule import Schedule
@@ -96,6 +99,8 @@ def _play(options: argparse.Namespace) -> int:
     finally:
         rclpy.try_shutdown()
     in_place("")
+    if publishers.garbled:
+        print(f"{publishers.garbled} messages are not of their types and were not played.", file=sys.stderr)
     print(_summary(options.bag, schedule))
     return 0
 
@@ -136,6 +141,7 @@ def _publish(
             if not begun:
                 schedule.begin(log_time)
                 begun = True
+            _check_gap(options.bag, schedule.gap(log_time))
             if not schedule.wait(log_time, interrupted):
                 return
             publishers.publish(topic, data)
@@ -143,6 +149,22 @@ def _publish(
                 shown = time.monotonic()
                 in_place(f"{schedule.elapsed(log_time):.0f} of {bag.duration:.0f} s, {schedule.played} messages")
         going = options.loop and begun
+
+
+def _check_gap(uri: str, gap: float) -> None:
+    """Announce a long pause [s], and refuse one that no recording has.
+
+    Raises:
+        RecordingError: a garbled log time, which would have us wait for ever.
+    """
+    from motor_model.errors import RecordingError
+
+    if gap > LONGEST_GAP:
+        days = gap / 86400.0
+        raise RecordingError(f"{uri}: the next message is {days:.0f} days later, so its log time is damaged: end here.")
+    if gap > ANNOUNCED_GAP:
+        in_place("")
+        print(f"{uri}: the next message comes {gap:.0f} s later.", file=sys.stderr)
 
 
 def _from(start: int, uri: str, wanted: "Publishers") -> Iterator[tuple[str, int, bytes]]:

@@ -45,6 +45,10 @@ class Schedule:
         """[s] since the first message of the round, as recorded."""
         return (log_time - self._first) * 1e-9
 
+    def gap(self, log_time: int) -> float:
+        """[s] since the message before in this round, as recorded; 0 for its first."""
+        return (log_time - self._last) * 1e-9 if self._count else 0.0
+
     def late_at_most(self, share: float) -> float:
         """[s] by which that share of the latest messages was late at most; 0 without any."""
         late = sorted(self.late)

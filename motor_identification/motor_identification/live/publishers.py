@@ -5,16 +5,20 @@ import time
 from collections.abc import Callable, Mapping
 
 from rclpy.duration import Duration
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.serialization import deserialize_message
 
 from motor_identification.bag import Contents, Topic
 from motor_identification.live.qos_profiles import to_play
-from motor_identification.live.recorder import message_type
 from motor_model.errors import RecordingError
+from motor_model.printable import escape
 from motor_msgs.msg import MotorVoltage
+from motor_ros.interface_types import NotInstalled, load_message
 
+RMWError = rclpy_implementation.RMWError
 _SETTLED = 0.5  # [s] without a new subscriber until playing starts
 _PATIENCE = 4.0  # [s] without any subscriber until it does: one that tells of itself every 3 s, as ROS 2 does, is found
 _ARRIVAL = 2.0  # [s] for the last messages to arrive
@@ -39,13 +43,14 @@ class Publishers:
         _check(uri, there, [*(chosen or []), *names])
         self._node = node
         self._names = {name: names.get(name, name) for name in chosen or there}
-        self._last_voltage: dict[str, bytes] = {}
+        self.garbled = 0  # messages that were not sent, because they are not of their type
+        self._last_voltage: dict[str, MotorVoltage] = {}
         self._by_topic: dict[str, Publisher] = {}  # by the name in the bag
         for name in self._names:
             self._open(there[name])
         if not self._by_topic:
             raise RecordingError(
-                f"{uri} has no topic whose type is installed here: install its messages and source them."
+                f"{uri} has no topic that can be played here: install the packages of its messages and source them."
             )
 
     def __contains__(self, topic: object) -> bool:
@@ -56,11 +61,16 @@ class Publishers:
         return ", ".join(old if old == new else f"{old} as {new}" for old, new in played)
 
     def publish(self, topic: str, data: bytes) -> None:
-        """Send a serialised message."""
+        """Send a serialised message; one that is not of its type would end whoever hears it, and is not sent."""
         publisher = self._by_topic[topic]
+        try:
+            message = deserialize_message(data, publisher.msg_type)
+        except RMWError:
+            self.garbled += 1
+            return
         publisher.publish(data)
         if publisher.msg_type is MotorVoltage:
-            self._last_voltage[topic] = data
+            self._last_voltage[topic] = message
 
     def wait_for_subscribers(self, interrupted: Callable[[], bool]) -> None:
         """Let those connect who listen already, so that they get the first message too; finding them takes a while."""
@@ -90,8 +100,7 @@ class Publishers:
 
     def close(self) -> None:
         """Leave no motor under a voltage, and wait until the last messages have arrived."""
-        for topic, data in self._last_voltage.items():
-            last = deserialize_message(data, MotorVoltage)
+        for topic, last in self._last_voltage.items():
             if last.voltage != 0.0:
                 last.voltage = 0.0
                 self._by_topic[topic].publish(last)
@@ -99,12 +108,14 @@ class Publishers:
             publisher.wait_for_all_acked(Duration(seconds=_ARRIVAL))
 
     def _open(self, topic: Topic) -> None:
-        message_class = message_type(topic.type_name)
-        if message_class is None:
-            print(f"{topic.name} is not played: its type {topic.type_name} is not installed here.", file=sys.stderr)
-        else:
-            name, profile = self._names[topic.name], to_play(topic.qos)
+        name, profile = self._names[topic.name], to_play(topic.qos)
+        try:
+            message_class = load_message(topic.type_name)
             self._by_topic[topic.name] = self._node.create_publisher(message_class, name, profile)
+        except NotInstalled as error:
+            print(f"{escape(topic.name)} is not played: {error}", file=sys.stderr)
+        except InvalidTopicNameException:
+            print(f"{escape(name)} is not played: nothing in ROS has such a name; --remap helps.", file=sys.stderr)
 
 
 def _check(uri: str, there: Mapping[str, Topic], wanted: list[str]) -> None:

@@ -4,10 +4,8 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from importlib import import_module
 from operator import itemgetter
 from types import MappingProxyType
-from typing import Any
 
 from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
@@ -17,6 +15,8 @@ from rclpy.subscription import Subscription
 from motor_identification.bag import FLUSH_EVERY, BagWriter
 from motor_identification.live.qos_profiles import DEPTH, offered, to_hear
 from motor_model.errors import RecordingError
+from motor_model.printable import escape
+from motor_ros.interface_types import NotInstalled, load_message
 
 LOOK_EVERY = 0.2  # [s] how long a topic that appears later may go unheard
 DRAIN_EVERY = 0.02  # [s] how long a message waits in DDS, which stamps it and has room for a thousand
@@ -135,10 +135,11 @@ class Recorder:
                 self._channel(topic, publishers)
 
     def _subscribe(self, topic: str, type_name: str, profile: QoSProfile) -> None:
-        message_class = message_type(type_name)
-        if message_class is None:
+        try:
+            message_class = load_message(type_name)
+        except NotInstalled as error:
             self._unusable.add(topic)
-            self.notes.append(f"{topic} is not recorded: its type {type_name} is not installed here.")
+            self.notes.append(f"{escape(topic)} is not recorded: {error}")
             return
         before = self._subscriptions.pop(topic, None)
         if before is not None:
@@ -164,12 +165,3 @@ class Recorder:
             yield
         except RecordingError as error:
             self.refusal = error
-
-
-def message_type(type_name: str) -> Any:
-    """The class of `package/msg/Name`; None where it is not installed."""
-    package, kind, name = type_name.split("/") if type_name.count("/") == 2 else ("", "", "")
-    try:
-        return getattr(import_module(f"{package}.{kind}"), name, None)
-    except (ImportError, ValueError, TypeError):
-        return None

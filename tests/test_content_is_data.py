@@ -1,0 +1,111 @@
+"""What comes in as data stays data: every place where a string becomes an import, a command or a socket is listed."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDERS = ("motor_*/motor_*", "ros2_stand_in", "demo", "docs", "benchmarks")
+FILES = sorted({path for folder in FOLDERS for place in ROOT.glob(folder) for path in place.rglob("*.py")})
+
+# Where each of these may stand, and why that is no content's choice. A new place is a decision: write its reason here.
+IMPORTS = {
+    "motor_ros/motor_ros/interface_types.py": "installed interfaces, by form, ament index and place",
+    "ros2_stand_in/main.py": "a row of the table of verbs",
+    "benchmarks/peers.py": "names that stand in the same file",
+}
+COMMANDS = {
+    "motor_board/motor_board/build.py": "compilers with their arguments, as a list",
+    "motor_board/motor_board/programmer.py": "avrdude with its arguments, as a list",
+    "ros2_stand_in/verbs/run.py": "an executable of an installed package, as the user has typed",
+    "demo/demo.py": "the commands that it shows",
+}
+SOCKETS = {"motor_board/motor_board/port.py": "a name without a file that is bound and never listened on: a lock"}
+PROCESSES = {"motor_identification/motor_identification/service/worker.py": "a pipe to its own child; see its test"}
+LIBRARIES = {
+    "motor_board/motor_board/chip.py": "the emulator that it has built itself",
+}
+NEVER = {"pickle", "cPickle", "dill", "cloudpickle", "joblib", "shelve", "marshal", "runpy", "code", "codeop", "imp"}
+NEVER_CALLED = {"eval", "exec", "compile", "__import__", "execfile", "input"}
+NETWORK = {"socket", "socketserver", "http", "xmlrpc", "asyncio", "ssl", "ftplib", "smtplib", "urllib", "requests"}
+
+
+def name_of(path: Path) -> str:
+    return path.relative_to(ROOT).as_posix()
+
+
+def nodes(kind: type) -> Iterator[tuple[str, ast.AST]]:
+    for path in FILES:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, kind):
+                yield name_of(path), node
+
+
+def imported() -> Iterator[tuple[str, str]]:
+    """Files and the modules that they import, whole names."""
+    for name, node in nodes(ast.Import):
+        yield from ((name, alias.name) for alias in node.names)
+    for name, node in nodes(ast.ImportFrom):
+        yield name, node.module or ""
+
+
+def called() -> Iterator[tuple[str, str, ast.Call]]:
+    """Files and what they call, as it is written: `subprocess.run`, `eval`."""
+    for name, node in nodes(ast.Call):
+        if isinstance(node.func, (ast.Name, ast.Attribute)):
+            yield name, ast.unparse(node.func), node
+
+
+def users(*modules: str) -> set[str]:
+    """Files, benchmarks apart, that import one of the modules."""
+    return {name for name, module in imported() if module.split(".")[0] in modules and not _is_benchmark(name)}
+
+
+def _is_benchmark(name: str) -> bool:
+    return name.startswith("benchmarks/")
+
+
+def test_there_are_files() -> None:
+    assert len(FILES) > 250
+
+
+def test_nothing_is_unpickled_and_no_text_is_run() -> None:
+    assert [(name, module) for name, module in imported() if module.split(".")[0] in NEVER] == []
+    assert [(name, what) for name, what, _ in called() if what in NEVER_CALLED] == []
+    assert [name for name, _, call in called() if any(word.arg == "allow_pickle" for word in call.keywords)] == []
+
+
+def test_names_become_imports_in_these_places_only() -> None:
+    ways = ("import_module", "spec_from_file_location", "SourceFileLoader", "entry_points")
+    assert {name for name, what, _ in called() if what.rpartition(".")[2] in ways} == set(IMPORTS)
+
+
+def test_commands_are_started_in_these_places_only_and_never_by_a_shell() -> None:
+    ways = ("system", "popen", "execv", "execve", "execvp", "execvpe", "execl", "spawnv", "spawnlp", "posix_spawn")
+    by_os = {name for name, what, _ in called() if what.split(".")[0] == "os" and what.rpartition(".")[2] in ways}
+    assert users("subprocess") | by_os == set(COMMANDS)
+    shells = [name for name, _, call in called() if any(word.arg == "shell" for word in call.keywords)]
+    assert shells == []
+
+
+def test_no_port_is_opened_beyond_dds() -> None:
+    assert users(*NETWORK) == set(SOCKETS)
+    listening = [name for name, what, _ in called() if what.rpartition(".")[2] in ("listen", "accept", "create_server")]
+    assert listening == []
+    assert users("multiprocessing") == set(PROCESSES)
+    # Its Pipe is a pair of sockets that only the two processes have; Listener, Client and Manager would have addresses.
+    parts = {module for name, module in imported() if module.startswith("multiprocessing.")}
+    names = {alias.name for _, node in nodes(ast.ImportFrom) if node.module in parts for alias in node.names}
+    assert names == {"Connection"}
+
+
+def test_libraries_are_loaded_in_these_places_only() -> None:
+    ways = ("CDLL", "PyDLL", "LoadLibrary", "dlopen")
+    assert {name for name, what, _ in called() if what.rpartition(".")[2] in ways} == set(LIBRARIES)
+
+
+@pytest.mark.parametrize("table", [IMPORTS, COMMANDS, SOCKETS, PROCESSES, LIBRARIES])
+def test_every_place_has_its_reason(table: dict[str, str]) -> None:
+    assert all((ROOT / name).is_file() and len(reason) > 10 for name, reason in table.items())
