@@ -7,6 +7,10 @@ import numpy as np
 from motor_identification.measurement.timestamp_checks import mark_possible, mark_smooth
 from motor_identification.recording import Bools, Floats, Integers, Recording
 
+MANY_SLOTS = 4  # slots since the voltage turned, from which on a motor that turned was slow in between
+STILL_FAST = 0.5  # of the largest speed since the voltage turned: a motor that has turned was slower than this
+SLOW_THEN = 0.3  # of the speed before: where it is slower afterwards, it turned there
+
 
 @dataclass(frozen=True)
 class Edges:
@@ -83,13 +87,44 @@ def move_reversals_to_slowest(edges: Edges, recording: Recording) -> Edges:
         speed = np.abs(np.diff(edges.count)) / np.diff(edges.time)
     opposed = _opposed_since(recording, edges.time[changes], direction[changes])
     begin = np.searchsorted(edges.time, opposed, side="left") - 1
-    for change, first in zip(changes, begin, strict=True):
+    # The tick makes the speed between two edges within a sample uneven.
+    long = np.diff(edges.time) > 0.5 * recording.info.sample_period
+    for change, first, later in zip(changes, begin, _driven_until(edges, recording, changes), strict=True):
         new = direction[change]
         first = max(min(int(first), change - 1), 0)
         slowest = first + int(np.argmin(speed[first:change]))
+        before, after = slice(first, change), slice(change, later)
+        many = edges.count[change] - edges.count[first] >= MANY_SLOTS
+        if many and _is_too_early(speed[before][long[before]], speed[after][long[after]]):
+            slowest = change + int(np.argmin(speed[change:later]))
+            direction[change : slowest + 1] = -new
         direction[slowest + 1 : change] = new
         direction[slowest : slowest + 2] = 0
     return Edges(edges.time, edges.count, direction)
+
+
+def _is_too_early(before: Floats, after: Floats) -> bool:
+    """Whether a sign changed while the disc still turned fast the old way, by mean speeds [slots/s] over samples.
+
+    Where edges come as fast as the timer ticks, a board takes a tick for a longer period. But the disc cannot have
+    turned where it was never slow, if soon after it was.
+    """
+    if not len(before) or not len(after):
+        return False
+    return bool(before.min() > STILL_FAST * before.max() and after.min() < SLOW_THEN * before.min())
+
+
+def _driven_until(edges: Edges, recording: Recording, changes: Integers) -> Integers:
+    """Up to which edge the voltage drives the way of each change without a break, and no other sign is reported."""
+    clock = recording.time
+    latest = np.searchsorted(clock, edges.time[changes], side="right") - 1
+    end = np.append(changes[1:], len(edges.time) - 1)
+    for way in (-1, 1):
+        here = np.flatnonzero(edges.direction[changes] == way)
+        otherwise = np.append(np.flatnonzero(recording.voltage * way <= 0.0), len(clock) - 1)
+        stop = clock[otherwise[np.minimum(np.searchsorted(otherwise, latest[here] + 1), len(otherwise) - 1)]]
+        end[here] = np.minimum(end[here], np.searchsorted(edges.time, stop))
+    return np.asarray(np.maximum(end, changes))
 
 
 def _opposed_since(recording: Recording, time: Floats, new_direction: Integers) -> Floats:

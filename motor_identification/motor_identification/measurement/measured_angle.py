@@ -64,7 +64,7 @@ def _follow(
             continue
         gap = angle[first[i]] - angle[at]
         if count >= 0 and edge[i, 0] >= 0:  # no further than the edges in the gap, and one slot to either flank
-            most = (edge[i, 0] - count + 1) * slot
+            most = (abs(edge[i, 0] - count) + 1) * slot  # two channels count down backward
             gap = min(max(gap, -most), most)
         here += gap
         number += 1 if first[i] > at or slack[i] > 0.0 else 0

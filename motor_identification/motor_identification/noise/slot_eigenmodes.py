@@ -8,6 +8,7 @@ directions share neither intervals nor prior, so that each has modes of its own.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import eigh
@@ -33,12 +34,15 @@ class Modes:
     values: Floats  # [1/rad²] what the recording knows of each
     blocks: tuple[Block, ...]
 
-    def scores(self, scores: Floats) -> Floats:
-        """Vᵀs: (2N,) over entries → (2N,) over modes."""
+    def coordinates(self, scores: Floats, variance: float, guess: Floats | None = None) -> Floats:  # noqa: ARG002
+        """Compute the table's coordinates (2N,) from Aᵀz (2N,) over entries, under a prior's variance [rad²].
+
+        They are in units of the prior: their squares over the variance are its share of the cost.
+        """
         out = np.zeros(len(self.values))
         for block in self.blocks:
             out[block.places] = scores[block.entries] @ block.vectors
-        return out
+        return out / (self.values + 1.0 / variance)
 
     def table(self, coordinates: Floats) -> Floats:
         """Vx: (2N,) over modes → (2N,) over entries, 0 where never seen."""
@@ -47,7 +51,11 @@ class Modes:
             out[block.entries] = block.vectors @ coordinates[block.places]
         return out
 
-    @property
+    def posterior(self, variance: float) -> float:
+        """[rad²] the sum of all seen entries' posterior variances."""
+        return float(np.sum(self.spread / (self.values + 1.0 / variance)))
+
+    @cached_property
     def spread(self) -> Floats:
         """VᵀV's diagonal: how much variance a unit of each mode's gives to all entries together, shape (2N,)."""
         out = np.zeros(len(self.values))
@@ -58,12 +66,12 @@ class Modes:
 
 def compute_eigenmodes(gram: Floats, seen: Bools, first_harmonic: bool) -> Modes:
     """Compute the modes of AᵀA (2N, 2N), by which entries were seen, and whether a first harmonic is allowed."""
-    forbidden = _forbidden(len(gram) // 2, first_harmonic)
+    forbidden = forbidden_shapes(len(gram) // 2, first_harmonic)
     groups = _groups(gram, seen)
     values, vectors = np.zeros(len(gram)), []
     filled = np.count_nonzero(~seen)  # the first ones are 0: nothing is known of what was not seen
     for entries in groups:
-        root = _prior_root(forbidden, entries)
+        root = prior_root(forbidden, entries)
         known, basis = eigh(_on_both_sides(root, gram[np.ix_(entries, entries)]), overwrite_a=True, driver="evd")
         values[filled : filled + len(entries)] = np.maximum(known, 0.0)
         vectors.append(_reduced(root, basis))
@@ -84,7 +92,7 @@ def _groups(gram: Floats, seen: Bools) -> list[Integers]:
     return [part for part in parts if len(part)]
 
 
-def _forbidden(n: int, first_harmonic: bool) -> Floats:
+def forbidden_shapes(n: int, first_harmonic: bool) -> Floats:
     """What either direction's table may not have, unit shapes as columns (2N, 2 or 6)."""
     phase = 2.0 * np.pi * np.arange(n) / n
     shapes = [np.full(n, 1.0 / np.sqrt(n))]
@@ -93,7 +101,7 @@ def _forbidden(n: int, first_harmonic: bool) -> Floats:
     return np.kron(np.eye(2), np.column_stack(shapes))
 
 
-def _prior_root(forbidden: Floats, entries: Integers) -> Floats:
+def prior_root(forbidden: Floats, entries: Integers) -> Floats:
     """U (B, C) such that (I − UUᵀ)² is the prior's covariance, for unit variance, of some entries.
 
     Of all entries it is (I + STIFF·FFᵀ)⁻¹ = I − F(I/STIFF + FᵀF)⁻¹Fᵀ, F the forbidden shapes; of some, their rows.

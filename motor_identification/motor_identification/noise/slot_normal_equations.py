@@ -70,6 +70,17 @@ def fill_gram(fresh: Bools, gain: Floats, scale: Floats, first: Integers, last: 
 
 
 @compiled
+def fill_diagonal(fresh: Bools, gain: Floats, scale: Floats, first: Integers, last: Integers, diagonal: Floats) -> None:
+    """About the diagonal of AᵀA, added to `diagonal` (2N + 1,): but for what an entry has in the state already."""
+    foresight = np.empty(len(fresh))
+    fill_foresight(fresh, gain, scale, foresight)
+    for k in range(len(fresh)):
+        if fresh[k]:
+            diagonal[first[k]] += scale[k] ** 2 + (1.0 - gain[k]) ** 2 * foresight[k]
+        diagonal[last[k]] += scale[k] ** 2 + gain[k] ** 2 * foresight[k]
+
+
+@compiled
 def fill_scores(
     fresh: Bools, gain: Floats, scale: Floats, first: Integers, last: Integers, white: Floats, sums: Floats
 ) -> None:

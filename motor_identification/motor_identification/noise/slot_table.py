@@ -6,7 +6,8 @@ with it the residual that no table explains, is had in closed form (variable pro
 Anal. 10, 1973), under a Gaussian prior of variance σ² that makes unseen slots no special case.
 
 Per direction the table has no mean, which is the starting angle. Its first harmonic is eccentricity: where that is
-fitted as an effect of its own, the table may not take it too. The linear algebra is in `slot_eigenmodes.py`.
+fitted as an effect of its own, the table may not take it too. The linear algebra is in
+`slot_eigenmodes.py`, and for many slots in `slot_conjugate_gradient.py`.
 """
 
 from dataclasses import dataclass
@@ -16,10 +17,14 @@ import numpy as np
 
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.angle_noise import Whitening
-from motor_identification.noise.slot_eigenmodes import Modes, compute_eigenmodes
-from motor_identification.noise.slot_normal_equations import fill_explained, fill_gram, fill_scores
+from motor_identification.noise.slot_conjugate_gradient import IterativeSolver
+from motor_identification.noise.slot_eigenmodes import Modes, compute_eigenmodes, forbidden_shapes, prior_root
+from motor_identification.noise.slot_normal_equations import fill_diagonal, fill_explained, fill_gram, fill_scores
 from motor_identification.recording import Bools, Floats, Integers
 from motor_model.compiled import compiled
+
+MOST_MODES = 400  # entries: their eigenmodes take some 20 ms, about as long as all else that a fit asks of them
+VARIANCE_TOLERANCE = 1e-4  # relative change of the variance at which expectation maximisation ends
 
 
 @dataclass(frozen=True)
@@ -87,7 +92,7 @@ def _follow(
         begun, way = True, direction[k] if direction[k] != 0 else way
         base = 0 if way > 0 else n
         first[k] = base + place % n
-        place += way * (edge[k, 1] - edge[k, 0])
+        place += way * abs(edge[k, 1] - edge[k, 0])  # two channels count down backward
         last[k] = base + place % n
         at = end[k]
 
@@ -130,9 +135,15 @@ class SlotTable:
         return left
 
     @cached_property
-    def modes(self) -> Modes:
-        """AᵀA in the prior's own coordinates."""
-        return compute_eigenmodes(self.gram, self.seen > 0, self.first_harmonic)
+    def solver(self) -> Modes | IterativeSolver:
+        """What solves for the table: by eigenmodes, or where those would take long by conjugate gradients."""
+        if self.index.size <= MOST_MODES:
+            return compute_eigenmodes(self.gram, self.seen > 0, self.first_harmonic)
+        forbidden = forbidden_shapes(self.index.size // 2, self.first_harmonic)
+        root = prior_root(forbidden, np.arange(self.index.size))
+        diagonal = np.zeros(self.index.size + 1)
+        fill_diagonal(*self._filter, diagonal)
+        return IterativeSolver(self._filter, np.ascontiguousarray(root.T), diagonal[:-1], self.seen > 0)
 
 
 @dataclass(frozen=True)
@@ -142,18 +153,16 @@ class Projection:
     table: SlotTable
     variance: float
 
-    def _coordinates(self, white: Floats) -> Floats:
-        modes = self.table.modes
-        return np.asarray(modes.scores(self.table.scores(white)) / (modes.values + 1.0 / self.variance))
-
     def best(self, white: Floats) -> Floats:
         """The most likely table [rad] for whitened residuals (I,), shape (2N,)."""
-        return self.table.modes.table(self._coordinates(white))
+        solver = self.table.solver
+        return solver.table(solver.coordinates(self.table.scores(white), self.variance))
 
     def __call__(self, white: Floats) -> Floats:
         """(I,) → (I + 2N,): what is left, then the table's own share of the cost."""
-        coordinates = self._coordinates(white)
-        left = self.table.left(white, self.table.modes.table(coordinates))
+        solver = self.table.solver
+        coordinates = solver.coordinates(self.table.scores(white), self.variance)
+        left = self.table.left(white, solver.table(coordinates))
         return np.concatenate([left, coordinates / np.sqrt(self.variance)])
 
 
@@ -162,13 +171,13 @@ def estimate_slot_variance(table: SlotTable, white: Floats, guess: float, most: 
 
     It stays below `most` [rad²]: what is beyond any real disc is an error of the model, and shall not pass for noise.
     """
-    modes = table.modes
-    scores, spread = modes.scores(table.scores(white)), modes.spread
+    solver, scores = table.solver, table.scores(white)
     count = np.count_nonzero(table.seen)
-    variance = guess
+    variance, coordinates = guess, None
     for _ in range(rounds):
-        precision = modes.values + 1.0 / variance
-        mean = modes.table(scores / precision)
-        posterior = float(np.sum(spread / precision))
-        variance = min((float(mean @ mean) + posterior) / count, most)
+        coordinates = solver.coordinates(scores, variance, coordinates)
+        mean = solver.table(coordinates)
+        before, variance = variance, min((float(mean @ mean) + solver.posterior(variance)) / count, most)
+        if abs(variance - before) < VARIANCE_TOLERANCE * before:
+            break
     return variance

@@ -63,6 +63,20 @@ def test_no_interval_that_is_kept_has_a_wrong_direction(motor: str, drive: str) 
         assert np.count_nonzero(kept) > 0.96 * len(kept)
 
 
+@pytest.mark.parametrize("edges", [2880, 8192])
+def test_a_sign_that_changes_by_a_tick_is_moved_to_where_the_motor_turned(edges: int) -> None:
+    """At 167 rad/s such edges come every few ticks: the board takes a tick more or less for a turn, at full speed."""
+    drive = profiles.reversals(12.0, 8, 0.4)
+    recording, truth = record(BASE | {"ks": 0.4, "delay": 0.006}, *drive, edges=edges, seed=1)
+    found = extract_edges(recording)
+    number = true_number(found, truth)
+    sign = np.sign(recording.speed[np.searchsorted(recording.time, found.time)])
+    speed, right = truth.edge_speed[number], truth.edge_direction[number]
+    assert np.count_nonzero((sign != right) & (np.abs(speed) > 20.0)) > 50
+    assert not np.any((found.direction != 0) & (found.direction != right) & (np.abs(speed) > 1.0))
+    assert np.count_nonzero(found.direction == 0) <= 3 * np.count_nonzero(np.diff(right))
+
+
 def test_two_channels_leave_out_only_the_interval_with_the_turn() -> None:
     """And the next one where the edge before was taken back: the next flank is half a slot away then."""
     for seed in range(4):
