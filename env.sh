@@ -10,8 +10,21 @@ if [ ! -x "$_motor_root/.venv/bin/python" ] || [ ! -f "$_motor_root/install/loca
   return 1 2>/dev/null || exit 1
 fi
 
-# Nothing leaves this machine, and no stranger's node moves a motor, unless you say so.
+# Nothing leaves this machine, and no stranger's node moves a motor, unless you say so: export
+# ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET before this (motor_ros/motor_ros/loopback.py says the same to programs).
 export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"
+case "$ROS_AUTOMATIC_DISCOVERY_RANGE" in
+  SUBNET | SYSTEM_DEFAULT) _motor_profile=quick_discovery.xml ;;
+  *) _motor_profile=loopback.xml ;;
+esac
+case "${FASTRTPS_DEFAULT_PROFILES_FILE:-loopback.xml}" in
+  *loopback.xml | *quick_discovery.xml)
+    export FASTRTPS_DEFAULT_PROFILES_FILE="$_motor_root/motor_ros/motor_ros/$_motor_profile"
+    ;;
+  *) echo "FASTRTPS_DEFAULT_PROFILES_FILE is your own: it decides who can reach the motors, the workbench's loopback.xml is not used." >&2 ;;
+esac
+export SKIP_DEFAULT_XML_FILE="${SKIP_DEFAULT_XML_FILE:-1}" # a profile in the working directory is not read
+unset _motor_profile
 
 _motor_install=local_setup.bash
 if [ -f "$_motor_root/.venv/share/rclpy/package.xml" ]; then # ROS 2 from PyPI: the venv is the ament prefix

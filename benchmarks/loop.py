@@ -27,7 +27,7 @@ from motor_model.model_file import save
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
-from motor_ros.run import stay_on_this_machine
+from motor_ros.loopback import stay_on_this_machine
 
 RESULTS = Path(__file__).with_name("results")
 BARE = Path(__file__).with_name("loop_peer.py")

@@ -24,8 +24,8 @@ from motor_identification.bag import contents
 from motor_model.errors import MotorError
 from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
+from motor_ros.loopback import stay_on_this_machine
 from motor_ros.messages import time_message, voltage_message
-from motor_ros.run import stay_on_this_machine
 
 RESULTS = Path(__file__).with_name("results")
 PEER = Path(__file__).with_name("recording_peer.py")

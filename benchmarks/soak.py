@@ -21,7 +21,7 @@ from soak_peer import PEER
 from soak_process import DOMAIN, Process, program
 
 from motor_model.errors import MotorError
-from motor_ros.run import stay_on_this_machine
+from motor_ros.loopback import stay_on_this_machine
 
 RESULTS = Path(__file__).with_name("results")
 BARE = Path(__file__).with_name("soak_peer.py")

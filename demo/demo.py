@@ -22,6 +22,7 @@ from motor_model.errors import MotorError
 from motor_model.model_file import load, save
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_msgs.msg import ControlState, MotorSpeed
+from motor_ros.loopback import stay_on_this_machine
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "out" / "demo"
@@ -151,7 +152,7 @@ def real_motor() -> None:
 def main() -> int:
     """Run it all; 0 if the fit is right and the speed is held."""
     begun = time.monotonic()
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    stay_on_this_machine()
     os.environ["ROS_DOMAIN_ID"] = str(215 + os.getpid() % 18)  # 215 to 232: nobody else's motor, nor a test's
     shutil.rmtree(OUT, ignore_errors=True)
     OUT.mkdir(parents=True)

@@ -8,7 +8,7 @@ setup(
     description="What every node does alike: QoS, parameter tables, the plant's shell, starting and stopping.",
     license="Apache-2.0",
     packages=find_packages(exclude=["test"]),
-    package_data={package_name: ["py.typed", "quick_discovery.xml"]},
+    package_data={package_name: ["py.typed", "loopback.xml", "quick_discovery.xml"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),

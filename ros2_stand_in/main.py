@@ -7,6 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from motor_model.errors import MotorError
+from motor_ros.loopback import stay_on_this_machine
 from ros2_stand_in.verb_table import VERBS, Verb
 
 ABOUT = """\
@@ -20,7 +21,7 @@ READER_GONE = 141
 
 def main(words: Sequence[str]) -> int:
     """Run one command line (without the leading `ros2`) and return its exit status."""
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")  # no stranger's node moves a motor
+    stay_on_this_machine()  # no stranger's node moves a motor
     sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
     try:
         status = _run(list(words))

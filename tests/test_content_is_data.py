@@ -109,3 +109,21 @@ def test_libraries_are_loaded_in_these_places_only() -> None:
 @pytest.mark.parametrize("table", [IMPORTS, COMMANDS, SOCKETS, PROCESSES, LIBRARIES])
 def test_every_place_has_its_reason(table: dict[str, str]) -> None:
     assert all((ROOT / name).is_file() and len(reason) > 10 for name, reason in table.items())
+
+
+def yaml_places() -> set[tuple[str, str]]:
+    return {(name, what) for name, what, _ in called() if what.startswith("yaml.") and "dump" not in what}
+
+
+def test_yaml_is_read_in_one_place() -> None:
+    assert yaml_places() == {("motor_model/motor_model/yaml_file.py", call) for call in ("yaml.load", "yaml.parse")}
+    text = (ROOT / "motor_model/motor_model/yaml_file.py").read_text(encoding="utf-8")
+    assert 'getattr(yaml, "CSafeLoader", yaml.SafeLoader)' in text and text.count("Loader=_Loader") == 2
+
+
+def test_files_are_written_whole_or_not_at_all() -> None:
+    """But for bags, which are written while they are recorded, and the sketch that the firmware is copied into."""
+    ways = ("write_text", "write_bytes")
+    here = {name for name, what, _ in called() if what.rpartition(".")[2] in ways and what not in ways}
+    here = {name for name in here if not _is_benchmark(name) and not name.startswith("docs/")}
+    assert here == {"motor_board/motor_board/sketch.py", "motor_board/motor_board/wire_header.py"}

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from motor_board.places import share
+from motor_model import yaml_file
 
 LETTERS = {"u8": "B", "i8": "b", "u16": "H", "i16": "h", "u32": "I", "i32": "i"}
 
@@ -72,7 +71,7 @@ def _field(row: Mapping[str, Any]) -> Field:
 
 def load_table(path: Path | None = None) -> WireTable:
     """Read wire.yaml."""
-    raw = yaml.safe_load((path or share() / "protocol" / "wire.yaml").read_text(encoding="utf-8"))
+    raw = yaml_file.read(path or share() / "protocol" / "wire.yaml")
     rows = [
         FrameRow(name, row["type"], row["from"], row["about"], tuple(map(_field, row["fields"])))
         for name, row in raw["frames"].items()

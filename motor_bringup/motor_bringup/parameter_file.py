@@ -6,12 +6,10 @@ goes by the first file that names a section; so the files are read here and the 
 
 import re
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
-import yaml
-
 from motor_bringup.program import Value
+from motor_model import yaml_file
 from motor_model.errors import MotorError
 
 HERE = "ros__parameters"
@@ -41,9 +39,10 @@ def parameters_named(node: str, path: str) -> dict[str, Value]:
 
 def _sections(path: str) -> Iterator[tuple[str, dict[str, Any]]]:
     try:
-        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-    except (OSError, ValueError, yaml.YAMLError) as error:
-        raise MotorError(f"{path} cannot be read as YAML: correct it, or name another file.") from error
+        content = yaml_file.read(path)
+    except (OSError, MotorError) as error:
+        reason = error.strerror if isinstance(error, OSError) else f"it {error}"
+        raise MotorError(f"{path} cannot be read as YAML ({reason}): correct it, or name another file.") from error
     sections = list(_below("", content)) if isinstance(content, dict) else []
     if not sections:
         raise MotorError(f"{path} is no parameter file: it needs '/**:' or the name of a node, and '{HERE}:' in it.")

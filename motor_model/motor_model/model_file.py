@@ -16,9 +16,11 @@ from typing import Any
 
 import yaml
 
+from motor_model import yaml_file
 from motor_model.effects import SPEC_BY_NAME
 from motor_model.errors import ModelError
 from motor_model.parameters import Parameters
+from motor_model.regular_file import Unfit, write_text
 
 
 def load(path: str | Path) -> Parameters:
@@ -28,15 +30,13 @@ def load(path: str | Path) -> Parameters:
         ModelError: there is no such file, it is not YAML of this form, or it does not describe a motor.
     """
     try:
-        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        content = yaml_file.read(path)
     except OSError as error:
         raise ModelError(f"cannot read the model file {path}: {error.strerror}.") from error
-    except (
-        yaml.YAMLError,
-        ValueError,
-        RecursionError,
-    ) as error:  # ValueError: bytes that are no text, dates that are none
-        raise ModelError(f"{path} is not YAML; write one with 'identify --output model.yaml'.") from error
+    except Unfit as error:
+        raise ModelError(str(error)) from error
+    except yaml_file.NotYaml as error:
+        raise ModelError(f"{path} {error}; write one with 'identify --output model.yaml'.") from error
     try:
         return _parameters(content, Path(path).stem)
     except ModelError as error:
@@ -95,6 +95,6 @@ def save(
         "origin": dict(origin or {}),
     }
     try:
-        Path(path).write_text(yaml.safe_dump(content, sort_keys=False, allow_unicode=True), encoding="utf-8")
+        write_text(path, yaml.safe_dump(content, sort_keys=False, allow_unicode=True))
     except OSError as error:
         raise ModelError(f"cannot write the model file {path}: {error.strerror}.") from error

@@ -1,10 +1,8 @@
 """How every node of the workbench starts and ends: on this machine only, without a traceback, never with power on."""
 
-import os
 import signal
 import sys
 from collections.abc import Callable
-from pathlib import Path
 from types import FrameType
 
 import rclpy
@@ -13,17 +11,11 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from motor_model.errors import MotorError
+from motor_ros.loopback import stay_on_this_machine
 from motor_ros.parameters import unknown_parameters
 from motor_ros.program import Program, answer
 
-QUICK_DISCOVERY = Path(__file__).with_name("quick_discovery.xml")
 LOOK_FOR_SIGNALS_EVERY = 0.1  # [s] how long an idle node takes at most to notice Ctrl-C
-
-
-def stay_on_this_machine() -> None:
-    """Keep discovery on the loopback, and quick, unless the user has decided otherwise."""
-    os.environ.setdefault("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    os.environ.setdefault("FASTRTPS_DEFAULT_PROFILES_FILE", str(QUICK_DISCOVERY))
 
 
 def start_ros(args: list[str] | None = None) -> None:

@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-import yaml
 from rosidl_parser.definition import (
     AbstractNestedType,
     AbstractSequence,
@@ -16,7 +15,9 @@ from rosidl_parser.definition import (
     NamespacedType,
 )
 
+from motor_model import yaml_file
 from motor_model.errors import MotorError
+from motor_model.printable import escape
 from ros2_stand_in.interfaces import interface_type
 
 Setter = Callable[[Any], None]  # takes a builtin_interfaces/msg/Time
@@ -33,9 +34,9 @@ def parse(text: str) -> dict[str, Any]:
         ValueRefused: this is not YAML, or not a mapping.
     """
     try:
-        values = yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        raise ValueRefused(f"'{text}' is not YAML: {' '.join(str(error).split())}.") from error
+        values = yaml_file.parse(text)
+    except yaml_file.NotYaml as error:
+        raise ValueRefused(f"'{escape(text)}' {error}.") from error
     if values is None:
         return {}
     if not isinstance(values, dict):

@@ -5,8 +5,7 @@ import datetime
 from pathlib import Path
 from typing import Any
 
-import yaml
-
+from motor_model import yaml_file
 from motor_model.errors import MotorError
 from ros2_stand_in.arguments import not_negative, positive
 from ros2_stand_in.interfaces import packages
@@ -103,9 +102,9 @@ def _metadata(bag: Path) -> dict[str, Any]:
             f"{bag} has no metadata.yaml: it is not a bag, or was cut off; then `ros2 bag reindex {bag}` helps."
         )
     try:
-        metadata: dict[str, Any] = yaml.safe_load(file.read_text())["rosbag2_bagfile_information"]
+        metadata: dict[str, Any] = yaml_file.read(file)["rosbag2_bagfile_information"]
         return metadata
-    except (yaml.YAMLError, KeyError, TypeError) as error:
+    except (OSError, MotorError, KeyError, TypeError) as error:
         raise MotorError(f"{file} is not a bag's metadata; restore it, or record again.") from error
 
 

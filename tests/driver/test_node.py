@@ -19,7 +19,7 @@ from motor_driver import link
 from motor_driver.node import NO_THREAD, MotorDriver
 from motor_model.errors import MotorError
 from motor_model.parameters import paper_motor
-from motor_ros.run import stay_on_this_machine
+from motor_ros.loopback import stay_on_this_machine
 
 Make = Callable[..., MotorDriver]
 

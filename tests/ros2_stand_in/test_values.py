@@ -66,7 +66,7 @@ def test_automatic_stamps_are_set_later():
             "builtin_interfaces/msg/Time has no field 's'; it has: sec, nanosec.",
         ),
         (Float64(), "5", "'5' does not name fields; write"),
-        (Float64(), "{data: ", "'{data: ' is not YAML: while parsing a flow"),
+        (Float64(), "{data: ", "'{data: ' is not YAML (did not find"),
     ],
 )
 def test_what_names_no_field_is_a_sentence(message, text, sentence):

@@ -18,7 +18,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile
 
 from motor_ros import qos
-from motor_ros.run import stay_on_this_machine
+from motor_ros.loopback import stay_on_this_machine
 
 DOMAIN = str(free_domain())
 MANNERS = 5.0  # [s] for a process to end after its signal, once a test is over

@@ -1,5 +1,6 @@
 """Draw a tuning: the step as predicted and as simulated, its voltage, and the ripple over the speed."""
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -8,6 +9,7 @@ import numpy as np
 from motor_control.tuning.design import Tuning
 from motor_control.tuning.simulated_loop import Rehearsal
 from motor_model.errors import MotorError
+from motor_model.regular_file import write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,6 +26,7 @@ def draw_tuning(tuning: Tuning, rehearsal: Rehearsal, title: str, path: Path) ->
     import matplotlib
 
     matplotlib.use("Agg")
+    matplotlib.rcParams["text.parse_math"] = False  # a name may have $ in it
     from matplotlib import pyplot as plt
 
     figure, ((speed, small), (voltage, swing)) = plt.subplots(
@@ -37,7 +40,8 @@ def draw_tuning(tuning: Tuning, rehearsal: Rehearsal, title: str, path: Path) ->
         axes.grid(alpha=0.25)
         axes.spines[["top", "right"]].set_visible(False)
     try:
-        figure.savefig(path, dpi=120)
+        figure.savefig(drawn := BytesIO(), format=path.suffix[1:] or "png", dpi=120)
+        write_bytes(path, drawn.getvalue())
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else "its name must end in .png, .pdf or .svg"
         raise MotorError(f"cannot write {path}: {reason}.") from error

@@ -6,6 +6,7 @@ from pathlib import Path
 from motor_control.tuning.design import Tuning
 from motor_control.tuning.speed_feedback import OBSERVER
 from motor_model.errors import MotorError
+from motor_model.regular_file import write_text
 
 NODE = "/**/motor_control"  # in any namespace
 
@@ -46,13 +47,10 @@ def save_gains(path: Path, tuning: Tuning, model: Path, force: bool = False) -> 
     Raises:
         MotorError: the file exists, or cannot be written.
     """
+    if path.exists() and not force:
+        raise MotorError(f"{path} exists already and is left as it is: choose another name, or move it away.")
     try:
-        with path.open("w" if force else "x", encoding="utf-8") as file:
-            file.write(gain_text(tuning, model))
-    except FileExistsError as error:
-        raise MotorError(
-            f"{path} exists already and is left as it is: choose another name, or move it away."
-        ) from error
+        write_text(path, gain_text(tuning, model))
     except OSError as error:
         raise MotorError(f"cannot write {path}: {error.strerror}.") from error
 

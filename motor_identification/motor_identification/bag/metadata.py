@@ -9,6 +9,9 @@ import yaml
 
 from motor_identification.bag.contents import Contents, Span
 from motor_identification.bag.topic import Qos, Topic
+from motor_model import yaml_file
+from motor_model.errors import MotorError
+from motor_model.regular_file import write_text
 
 VERSION = 9
 FILE_NAME = "metadata.yaml"
@@ -46,18 +49,14 @@ def write_metadata(bag: Path, metadata: dict[str, Any]) -> None:
     Raises:
         OSError: it cannot be written.
     """
-    # First whole, then under its name: a reader never sees half of it.
-    unfinished = bag / f"{FILE_NAME}.tmp"
-    unfinished.write_text(yaml_text({KEY: metadata}), encoding="utf-8")
-    unfinished.replace(bag / FILE_NAME)
+    write_text(bag / FILE_NAME, yaml_text({KEY: metadata}))
 
 
 def read_metadata(bag: Path) -> dict[str, Any]:
     """What `metadata.yaml` says; empty where it is missing or damaged."""
     try:
-        content: Any = yaml.safe_load((bag / FILE_NAME).read_text(encoding="utf-8"))
-        return dict(content[KEY])
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, KeyError, TypeError, ValueError):
+        return dict(yaml_file.read(bag / FILE_NAME)[KEY])
+    except (OSError, MotorError, KeyError, TypeError, ValueError):
         return {}
 
 

@@ -8,7 +8,8 @@ from rosbags.interfaces import Qos as StoredQos
 from rosbags.rosbag2.errors import ReaderError
 from rosbags.rosbag2.metadata import parse_qos
 
-from motor_model.errors import RecordingError
+from motor_model import yaml_file
+from motor_model.errors import MotorError, RecordingError
 
 # What rosbag2 writes for "no limit": the largest duration that fits 64 bits of nanoseconds.
 _INFINITE = {"sec": 9223372036, "nsec": 854775807}
@@ -65,8 +66,8 @@ def named_topic(name: str, topics: Iterable[str]) -> str:
 def load_profiles(text: str) -> tuple[Qos, ...]:
     """Profiles from that text, in any version of rosbag2; none where it cannot be understood."""
     try:
-        return from_stored(parse_qos(text))
-    except (ReaderError, KeyError, TypeError):
+        return from_stored(parse_qos(yaml_file.parse(text)))
+    except (ReaderError, MotorError, KeyError, TypeError, ValueError, AttributeError):
         return ()
 
 

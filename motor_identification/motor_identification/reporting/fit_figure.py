@@ -1,5 +1,6 @@
 """Draw a fit as a picture: measured and simulated speed, voltage and residual over time."""
 
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ from motor_identification.reporting.fit_text import describe_residual, format_fi
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
 from motor_model.parameters import Parameters
+from motor_model.regular_file import write_bytes
 from motor_model.simulate import simulate
 
 if TYPE_CHECKING:
@@ -50,6 +52,7 @@ def draw_fit(recording: Recording, fit: Fit, path: Path) -> None:
     import matplotlib
 
     matplotlib.use("Agg")
+    matplotlib.rcParams["text.parse_math"] = False  # a name may have $ in it
     from matplotlib import pyplot as plt
 
     start = fit.start_speeds[fit.uris.index(recording.uri)] if recording.uri in fit.uris else 0.0
@@ -69,7 +72,8 @@ def draw_fit(recording: Recording, fit: Fit, path: Path) -> None:
     voltage.grid(alpha=0.25)
     _draw_residual(rest, make_fit_curves(recording, fit))
     try:
-        figure.savefig(path, dpi=120)
+        figure.savefig(drawn := BytesIO(), format="png", dpi=120)
+        write_bytes(path, drawn.getvalue())
     except OSError as error:
         raise MotorError(f"cannot write {path}: {error.strerror}.") from error
     finally:

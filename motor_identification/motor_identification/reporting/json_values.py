@@ -7,6 +7,7 @@ from typing import Any
 
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
+from motor_model.regular_file import write_text
 
 
 def to_number(value: float) -> float | None:
@@ -35,6 +36,6 @@ def write_json(path: Path, content: dict[str, Any]) -> None:
         MotorError: the file cannot be written.
     """
     try:
-        path.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+        write_text(path, json.dumps(content, indent=1, ensure_ascii=False) + "\n")
     except OSError as error:
         raise MotorError(f"cannot write {path}: {error.strerror}.") from error

@@ -13,6 +13,7 @@ from motor_identification.reporting.html.fit_page import render_fit
 from motor_identification.reporting.html.next_steps import NO_FILES, Files
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
+from motor_model.regular_file import write_text
 
 __all__ = ["Files", "write_fit_report", "write_report"]
 
@@ -41,7 +42,7 @@ def _write(text: str, target: str | Path) -> Path:
         path = path / "report.html"
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+        write_text(path, text)
     except OSError as error:
         raise MotorError(f"cannot write {path}: {error.strerror}.") from error
     return path

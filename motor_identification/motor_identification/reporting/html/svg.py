@@ -26,6 +26,7 @@ def svg_style() -> Iterator[None]:
             "svg.fonttype": "none",
             "svg.hashsalt": "report",
             "font.size": FONT,
+            "text.parse_math": False,  # a name may have $ in it
             "text.color": TEXT,
             "axes.labelcolor": TEXT,
             "axes.edgecolor": FAINT,

@@ -1,0 +1,60 @@
+"""What decides who can reach the motors: the environment of a program, and that of a shell with env.sh."""
+
+import os
+import subprocess
+import xml.etree.ElementTree as Tree
+from pathlib import Path
+
+import pytest
+
+from motor_ros.loopback import CLOSED, OPEN, PROFILE, RANGE, stay_on_this_machine
+
+ROOT = Path(__file__).resolve().parents[2]
+SUPPORT = ROOT / "tests" / "support"
+CASES = [
+    ({}, "LOCALHOST", CLOSED.name),
+    ({RANGE: "OFF"}, "OFF", CLOSED.name),
+    ({RANGE: "SUBNET"}, "SUBNET", OPEN.name),
+    ({RANGE: "SYSTEM_DEFAULT"}, "SYSTEM_DEFAULT", OPEN.name),
+    ({RANGE: "LOCALHOST", PROFILE: f"/old/{OPEN.name}"}, "LOCALHOST", CLOSED.name),
+    ({RANGE: "SUBNET", PROFILE: f"/old/{CLOSED.name}"}, "SUBNET", OPEN.name),
+    ({PROFILE: "/home/own.xml"}, "LOCALHOST", "own.xml"),
+]
+
+
+@pytest.mark.parametrize(("environment", "wanted", "profile"), CASES)
+def test_sockets_are_closed_unless_the_user_opens_them(environment: dict[str, str], wanted: str, profile: str) -> None:
+    ours = dict(environment)
+    stay_on_this_machine(ours)
+    assert (ours[RANGE], Path(ours[PROFILE]).name, ours["SKIP_DEFAULT_XML_FILE"]) == (wanted, profile, "1")
+    assert profile == "own.xml" or Path(ours[PROFILE]).is_file()
+
+
+@pytest.mark.parametrize(("environment", "wanted", "profile"), CASES)
+def test_env_sh_says_the_same(environment: dict[str, str], wanted: str, profile: str) -> None:
+    bare = {name: os.environ[name] for name in ("PATH", "HOME") if name in os.environ}
+    script = f'source env.sh && echo "${RANGE} ${PROFILE} $SKIP_DEFAULT_XML_FILE"'
+    done = subprocess.run(
+        ["bash", "-c", script], env=bare | environment, cwd=ROOT, capture_output=True, text=True, timeout=30.0
+    )
+    said = done.stdout.split()
+    assert (said[0], Path(said[1]).name, said[2]) == (wanted, profile, "1")
+    assert ("is your own" in done.stderr) == (profile == "own.xml")
+
+
+def transports(path: Path) -> tuple[list[str], list[str], str]:
+    """Kinds of the transports, addresses of the white list, whether the built-in ones stay."""
+    name = "{http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles}"
+    tree = Tree.parse(path)
+    texts = {tag: [node.text or "" for node in tree.iter(name + tag)] for tag in ("type", "address")}
+    return (
+        sorted(texts["type"]),
+        texts["address"],
+        "".join(node.text or "" for node in tree.iter(name + "useBuiltinTransports")),
+    )
+
+
+@pytest.mark.parametrize("path", [CLOSED, SUPPORT / "quick_announcements.xml"])
+def test_the_profile_has_the_loopback_and_shared_memory_only(path: Path) -> None:
+    assert transports(path) == (["SHM", "UDPv4"], ["127.0.0.1"], "false")
+    assert transports(OPEN) == ([], [], "")
