@@ -7,6 +7,9 @@ import numpy as np
 from motor_identification.measurement.timestamp_checks import mark_possible, mark_smooth
 from motor_identification.recording import Bools, Floats, Integers, Recording
 
+LEAST_TICKS = (
+    20.0  # of the timer between two edges of a sample that both count: nearer, the speed is off by 2 % or more
+)
 MANY_SLOTS = 4  # slots since the voltage turned, from which on a motor that turned was slow in between
 STILL_FAST = 0.5  # of the largest speed since the voltage turned: a motor that has turned was slower than this
 SLOW_THEN = 0.3  # of the speed before: where it is slower afterwards, it turned there
@@ -32,7 +35,8 @@ class Edges:
 def extract_edges(recording: Recording) -> Edges:
     """Extract all edges since the first sample that a recording reports, but for those whose stamps are wrong.
 
-    A stamp is the timer's last tick before the edge, so that half a tick is added.
+    A stamp is the timer's last tick before the edge, so that half a tick is added. Of two edges in a sample that are
+    hardly further apart than the timer ticks, the latest one says it all.
     """
     info, count, stamp = recording.info, recording.edge_count, recording.edge_time
     fresh = np.flatnonzero(np.diff(count, prepend=count[0]) != 0)
@@ -44,7 +48,7 @@ def extract_edges(recording: Recording) -> Edges:
         direction = open_returns(direction, period)
     right = mark_possible(recording, fresh, latest)
     right[right] = mark_smooth(latest[right], _passed(count[fresh][right] - count[0]))
-    second = right & (np.abs(steps) >= 2) & (period > 0.0) & (latest - period > 0.0)
+    second = right & (np.abs(steps) >= 2) & (period > LEAST_TICKS * info.edge_resolution) & (latest - period > 0.0)
     second[second] = mark_possible(recording, fresh[second], (latest - period)[second])
     time = np.concatenate([(latest - period)[second], latest[right]])
     numbers = np.concatenate([(count[fresh] - np.sign(steps))[second], count[fresh][right]]) - count[0]
