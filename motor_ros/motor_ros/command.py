@@ -12,6 +12,8 @@ from types import FrameType
 from typing import Any
 
 from motor_model.errors import MotorError
+from motor_model.internal_error import report
+from motor_ros.terminal import OutputLost, escaped_output
 
 INTERRUPTED = 130  # exit status after Ctrl-C
 _CLEAR = "\r\x1b[K"  # the line of a terminal
@@ -71,24 +73,45 @@ def listed_names(names: Sequence[str]) -> Callable[..., list[str]]:
 
 
 def shell(work: Callable[[], int]) -> int:
-    """Run a command's work and return its exit status: 1 with the sentence of a MotorError, 130 after Ctrl-C."""
+    """Run a command's work and return its exit status: 1 with a sentence where it fails, 130 after Ctrl-C.
+
+    A MotorError has its sentence; what nobody foresaw says that it is the workbench's mistake, and where its log is.
+    """
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # so a script's `command &` starts; `kill -INT` is meant
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if signal.getsignal(signal.SIGTERM) == signal.SIG_DFL:  # what is half done is taken back then, too
         signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        status = work()
-        sys.stdout.flush()
-        return status
-    except MotorError as error:
-        print(error, file=sys.stderr)
-        return 1
-    except BrokenPipeError:  # nobody reads any further, as behind `| head`
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
-    except KeyboardInterrupt:
-        print(f"{_CLEAR if sys.stderr.isatty() else ''}Interrupted.", file=sys.stderr)
-        return INTERRUPTED
+    with escaped_output():
+        try:
+            status = work()
+            sys.stdout.flush()
+            return status
+        except OutputLost as error:
+            _drop_output()
+            print(error, file=sys.stderr)
+            return 1
+        except MotorError as error:
+            print(error, file=sys.stderr)
+            return 1
+        except BrokenPipeError:  # nobody reads any further, as behind `| head`
+            _drop_output()
+            return 0
+        except KeyboardInterrupt:
+            print(f"{_CLEAR if sys.stderr.isatty() else ''}Interrupted.", file=sys.stderr)
+            return INTERRUPTED
+        except Exception as error:
+            print(_capitalized(report(error)), file=sys.stderr)
+            return 1
+
+
+def _drop_output() -> None:
+    """Have what is still to be shown go nowhere: Python would try again at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _capitalized(error: MotorError) -> str:
+    text = str(error)
+    return text[:1].upper() + text[1:]
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import re
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from rclpy.utilities import remove_ros_args
 from motor_ros.parameters import Row
 from motor_ros.topics import SERVICES, TOPICS
 
+INVALID_ARGUMENTS = (rclpy_implementation.RCLInvalidROSArgsError, rclpy_implementation.UnknownROSArgsError)
 PLANT_PUBLISHES = ("motor/speed", "motor/info", "joint_states", "/diagnostics")
 
 
@@ -47,8 +49,8 @@ def answer(program: Program, words: Sequence[str]) -> None:
         _complete(program)
     try:
         rest = remove_ros_args([program.name, *words])[1:]
-    except (rclpy_implementation.RCLInvalidROSArgsError, rclpy_implementation.UnknownROSArgsError) as error:
-        parser.error(_plain(error))
+    except INVALID_ARGUMENTS as error:
+        parser.error(plain_sentence(error))
     parser.parse_args(rest)
 
 
@@ -67,11 +69,12 @@ def _complete(program: Program) -> None:
     autocomplete(parser, always_complete_options=False)
 
 
-def _plain(error: Exception) -> str:
+def plain_sentence(error: Exception) -> str:
     """What ROS says of arguments that it does not understand, without the places in its sources."""
     if isinstance(error, rclpy_implementation.UnknownROSArgsError):
         return f"unknown ROS arguments: {str(error).strip('[]')}"
-    return str(error).removeprefix("Failed to parse ROS arguments: ").split(". Error:")[0].strip()
+    text = str(error).removeprefix("Failed to parse ROS arguments: ").removeprefix("failed to initialize rcl: ")
+    return " ".join(re.split(r"\. Error:|, at /", text)[0].split())
 
 
 class _Parser(argparse.ArgumentParser):

@@ -1,27 +1,55 @@
 """How every node of the workbench starts and ends: on this machine only, without a traceback, never with power on."""
 
+import os
 import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from types import FrameType
 
 import rclpy
 from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from motor_model.errors import MotorError
+from motor_model.internal_error import report
 from motor_ros.loopback import stay_on_this_machine
 from motor_ros.parameters import unknown_parameters
-from motor_ros.program import Program, answer
+from motor_ros.program import INVALID_ARGUMENTS, Program, answer, plain_sentence
 
 LOOK_FOR_SIGNALS_EVERY = 0.1  # [s] how long an idle node takes at most to notice Ctrl-C
 
 
 def start_ros(args: list[str] | None = None) -> None:
-    """Initialise rclpy with our own handling of signals, so that a node can still publish after Ctrl-C."""
+    """Initialise rclpy with our own handling of signals, so that a node can still publish after Ctrl-C.
+
+    Raises:
+        MotorError: the arguments or the environment do not allow it.
+    """
     stay_on_this_machine()
-    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    check_security(os.environ)
+    try:
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    except (rclpy_implementation.RCLError, *INVALID_ARGUMENTS) as error:
+        raise MotorError(f"ROS 2 cannot start: {plain_sentence(error)}: correct that, and start again.") from error
+
+
+def check_security(environment: Mapping[str, str]) -> None:
+    """Refuse to run without the security that the user has asked for.
+
+    Raises:
+        MotorError: there is no keystore.
+    """
+    if environment.get("ROS_SECURITY_ENABLE") != "true":
+        return
+    keystore = environment.get("ROS_SECURITY_KEYSTORE", "")
+    if not keystore or not Path(keystore).is_dir():
+        raise MotorError(
+            f"ROS_SECURITY_ENABLE is true and there is no keystore (ROS_SECURITY_KEYSTORE is '{keystore}'): "
+            "make one as docs/security.md says, or unset ROS_SECURITY_ENABLE."
+        )
 
 
 class Interrupt:
@@ -84,15 +112,18 @@ def run(
     if program is not None:
         answer(program, sys.argv[1:] if args is None else args)
     interrupt = Interrupt()
-    start_ros(args)
     node: Node | None = None
     try:
+        start_ros(args)
         node = create()
         for warning in unknown_parameters(node, program.rows if program else ()):
             node.get_logger().warning(warning)
         spin(node, lambda: bool(interrupt), make_executor)
     except MotorError as error:
         print(error, file=sys.stderr)
+        return 1
+    except Exception as error:
+        print(report(error), file=sys.stderr)
         return 1
     finally:
         if node is not None:

@@ -44,5 +44,6 @@ SERVICES = (
     Service("motor/reset", "std_srvs/srv/Trigger", "clears its latched stop", "controller"),
     Service("motor/release", "std_srvs/srv/Trigger", "drops the reference: 0 V, then others may drive", "controller"),
     Service("motor/identify", "motor_msgs/srv/Identify", "fit a model to bags", "identification"),
+    Service("motor/cancel", "std_srvs/srv/Trigger", "end the fits that are computed or wait", "identification"),
     Service("motor/diagnose", "motor_msgs/action/Diagnose", "find what the model lacks", "identification"),
 )  # fmt: skip

@@ -4,6 +4,7 @@ import argparse
 import subprocess
 import sys
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -66,3 +67,34 @@ raise SystemExit(shell(work))
 def test_an_interrupt_while_computing_is_one_sentence(name: str) -> None:
     done = subprocess.run([sys.executable, "-c", END.format(name)], capture_output=True, text=True, timeout=30.0)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "It was interrupted; nothing was written.\n")
+
+
+def test_a_mistake_of_ours_says_so_and_keeps_its_log(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
+    assert shell(lambda: [].pop()) == 1
+    said = capsys.readouterr().err
+    (log,) = tmp_path.iterdir()
+    assert said.startswith(
+        "This is a mistake of the workbench, not yours (IndexError: pop from empty list); the log is "
+    )
+    assert said.count("\n") == 1 and str(log) in said and "Traceback" in log.read_text()
+
+
+PRINTS = "from motor_ros.command import shell\nraise SystemExit(shell(lambda: print('x' * 100) or 0))"
+
+
+@pytest.mark.parametrize(
+    ("redirected", "status", "said"),
+    [
+        ("> /dev/full", 1, "what was to be shown could not be written (No space left on device); files were.\n"),
+        (">&-", 0, ""),
+        ("2>&-", 0, ""),
+        ("| true; exit ${PIPESTATUS[0]}", 0, ""),
+    ],
+)
+def test_output_that_goes_nowhere_is_no_traceback(redirected: str, status: int, said: str) -> None:
+    line = f'"{sys.executable}" -c "{PRINTS}" {redirected}'
+    done = subprocess.run(["bash", "-c", line], capture_output=True, text=True, timeout=30.0)
+    assert (done.returncode, done.stderr) == (status, said)

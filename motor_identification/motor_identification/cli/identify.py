@@ -3,7 +3,7 @@
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -113,18 +113,26 @@ def _present(options: argparse.Namespace, fit: "Fit") -> int:
     from motor_identification.reporting.fit_text import describe_residual, format_fit, list_cautions
     from motor_identification.reporting.json_values import write_json
 
+    created = datetime.now(timezone.utc).isoformat(timespec="seconds")
+    written, troubles = [], []
+    tasks: tuple[tuple[str, str | None, Callable[[Path], object]], ...] = (
+        ("model", options.output, lambda path: save_model(path, fit, created)),
+        ("", options.json, lambda path: write_json(path, fit_to_json(fit))),
+        ("report", options.report, lambda path: _report(path, fit, options, created)),
+    )
+    for name, place, write in tasks:  # first: whoever reads what is printed may stop reading
+        try:
+            if place:
+                done = write(Path(place))
+                written += [f"{name}: {done or place}"] if name else []
+        except MotorError as error:  # the fit is worth more
+            troubles.append(str(error))
     print(format_fit(fit))
     print(f"\n{describe_residual(fit)}; {fit.evaluations} simulations in {fit.duration:.2f} s")
-    for caution in list_cautions(fit):
-        print(caution)
-    created = datetime.now(timezone.utc).isoformat(timespec="seconds")
-    if options.output:
-        save_model(options.output, fit, created)
-        print(f"model: {options.output}")
-    if options.json:
-        write_json(Path(options.json), fit_to_json(fit))
-    if options.report:
-        print(f"report: {_report(Path(options.report), fit, options, created)}")
+    for line in (*list_cautions(fit), *written):
+        print(line)
+    if troubles:
+        raise MotorError(" ".join(troubles))
     return 0
 
 

@@ -27,8 +27,10 @@ class DiagnoseAction:
         worker: where the computing is done.
         job_of: what to compute for a goal, and the files for its report and its model ("": none); may raise a
             MotorError.
+        limit: [s] that a diagnosis may take, now.
         awaited: turns a call into what a coroutine of the node can wait for.
-        keep: does with the model of each success what the node does with its models, and returns it as a message.
+        keep: does with the model of each success what the node does with its models, and returns it as a message,
+            with a sentence about what could not be done (empty: nothing).
     """
 
     def __init__(
@@ -36,10 +38,12 @@ class DiagnoseAction:
         node: Node,
         worker: Worker,
         job_of: Callable[[Diagnose.Goal], tuple[DiagnosisJob, str, str]],
+        limit: Callable[[], float],
         awaited: Callable[[Call], Awaitable[Any]],
-        keep: Callable[[Fit], MotorModel],
+        keep: Callable[[Fit], tuple[MotorModel, str]],
     ) -> None:
         self._node, self._worker, self._job_of, self._awaited, self._keep = node, worker, job_of, awaited, keep
+        self._limit = limit
         self._running: Call | None = None
         self._goal: ServerGoalHandle | None = None
         self._progress = 0.0  # of it; its parts are done in any order, and nobody wants to see it fall
@@ -59,11 +63,11 @@ class DiagnoseAction:
     async def _diagnosed(self, goal: ServerGoalHandle) -> Diagnose.Result:
         job, report, model = self._job_of(goal.request)
         self._node.get_logger().info(f"diagnosing {', '.join(job.source.uris)}")
-        self._running = self._worker.submit(run_reported, job, report, model, heard=self._hear)
+        self._running = self._worker.submit(run_reported, job, report, model, heard=self._hear, limit=self._limit())
         if goal.is_cancel_requested:  # before there was anything to stop
             self._running.stop()
         reported: Reported = await self._awaited(self._running)
-        result = result_message(reported, self._keep(reported.diagnosis.model))
+        result = result_message(reported, *self._keep(reported.diagnosis.model))
         goal.succeed()
         self._node.get_logger().info(result.message)
         return result

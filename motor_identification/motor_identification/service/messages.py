@@ -41,10 +41,10 @@ def model_message(fit: Fit, stamp: Time) -> MotorModel:
     return message
 
 
-def fill_response(response: Identify.Response, fit: Fit, model: MotorModel) -> None:
-    """Put a fit, and the message of its model, into the service's answer."""
+def fill_response(response: Identify.Response, fit: Fit, model: MotorModel, trouble: str = "") -> None:
+    """Put a fit, and the message of its model, into the service's answer; `trouble` is what went wrong beside it."""
     response.success = True
-    response.message = summarize_fit(fit)
+    response.message = f"{summarize_fit(fit)} {trouble}".rstrip()
     response.model = model
     response.r_squared = fit.r_squared
     response.duration = fit.duration
@@ -66,12 +66,14 @@ def feedback_message(stage: Stage, progress: float) -> Diagnose.Feedback:
     return Diagnose.Feedback(stage=stage.text, progress=progress, best_effect=stage.best_effect, gap=float(stage.gap))
 
 
-def result_message(reported: Reported, model: MotorModel) -> Diagnose.Result:
-    """A diagnosis, and the message of its model, as the action's result."""
+def result_message(reported: Reported, model: MotorModel, trouble: str = "") -> Diagnose.Result:
+    """A diagnosis, and the message of its model, as the action's result; `trouble` is what else went wrong."""
     diagnosis = reported.diagnosis
     return Diagnose.Result(
         success=True,
-        message=" ".join(filter(None, (summarize_diagnosis(diagnosis), *notes_of(diagnosis), reported.trouble))),
+        message=" ".join(
+            filter(None, (summarize_diagnosis(diagnosis), *notes_of(diagnosis), reported.trouble, trouble))
+        ),
         verdict=diagnosis.verdict.value,
         effects=[finding.effect for finding in diagnosis.findings],
         model=model,

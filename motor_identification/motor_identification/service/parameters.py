@@ -6,16 +6,30 @@ from motor_ros.program import Program
 
 LIMITS = SearchConfig()
 PARAMETERS = (
-    Row("bag_directory", "", "where relative bag_uris are looked for; empty: the working directory"),
-    Row("model_file", "", "file for the model that was identified or diagnosed last (YAML); empty: none"),
+    Row(
+        "bag_directory",
+        "",
+        "where bag_uris are looked for, and nowhere else; empty: the working directory",
+        read_only=True,
+    ),
+    Row("absolute_uris", False, "bag_uris may name any bag, also outside of bag_directory", read_only=True),
+    Row(
+        "model_file",
+        "",
+        "file for the model that was identified or diagnosed last (YAML); empty: none",
+        read_only=True,
+    ),
     Row(
         "report_directory",
         "",
         "where motor/diagnose writes (and replaces) BAG_diagnosis.html; empty: beside its first bag",
+        read_only=True,
     ),
     Row("particles", LIMITS.particles, "of the swarm", "", 2, 100_000),
     Row("epochs", LIMITS.epochs, "of the swarm at most", "", 1, 1_000_000),
     Row("seed", LIMITS.seed, "of the swarm", "", 0, 2**31 - 1),
+    Row("queue_length", 8, "motor/identify requests that wait while one is computed; more are told: busy", "", 0, 100),
+    Row("time_limit", 3600.0, "that a fit or a diagnosis may take", "s", 1.0, 1e6),
     Row("workers", 0, "threads that simulate; 0: all cores", "", 0, 1024),
 )
 PROGRAM = Program(
@@ -26,5 +40,5 @@ PROGRAM = Program(
     PARAMETERS,
     "ros2 run motor_identification motor_identification --ros-args -p bag_directory:=bags -p model_file:=model.yaml",
     publishes=("motor/model",),
-    services=("motor/identify", "motor/diagnose"),
+    services=("motor/identify", "motor/cancel", "motor/diagnose"),
 )

@@ -4,10 +4,8 @@ import multiprocessing
 import os
 import queue
 import signal
-import sys
 import threading
 import time
-import traceback
 from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import dataclass, field
@@ -15,10 +13,12 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from motor_model.errors import MotorError
+from motor_model.internal_error import report
 
 GRACE = 0.5  # [s] that a computation has to stop by itself; after that its process is ended
 LOOK_EVERY = 0.1  # [s] how long it takes at most to notice that a computation is to stop
 STOPPED = "the computation was stopped."
+LATE = "the computation took longer than {:g} s (time_limit) and was ended: use a shorter part of the recording."
 
 
 class Ended(MotorError):
@@ -32,6 +32,7 @@ class Call:
     function: Callable[..., Any]
     arguments: tuple[Any, ...]
     heard: Callable[..., None] | None  # of progress, also in another thread
+    limit: float = float("inf")  # [s] that it may take
     answer: "Future[Any]" = field(default_factory=Future)
     unwanted: threading.Event = field(default_factory=threading.Event)
 
@@ -54,9 +55,15 @@ class Worker:
         self._server = threading.Thread(target=self._serve, daemon=True)
         self._server.start()
 
-    def submit(self, function: Callable[..., Any], *arguments: Any, heard: Callable[..., None] | None = None) -> Call:
-        """Queue a call. Where `heard` is given, the function gets `progress` and `stopped` by these names."""
-        call = Call(function, arguments, heard)
+    def submit(
+        self,
+        function: Callable[..., Any],
+        *arguments: Any,
+        heard: Callable[..., None] | None = None,
+        limit: float = float("inf"),
+    ) -> Call:
+        """Queue a call that may take `limit` s. With `heard`, the function gets `progress` and `stopped` by names."""
+        call = Call(function, arguments, heard, limit)
         self._calls.put(call)
         return call
 
@@ -89,9 +96,8 @@ class Worker:
             except MotorError as error:
                 call.answer.set_exception(error)
             except Exception as error:  # of who heard the progress: the next call must not get this one's answer
-                traceback.print_exc(file=sys.stderr)
                 self._replace()
-                call.answer.set_exception(_broken(error))
+                call.answer.set_exception(report(error))
 
     def _replace(self) -> None:
         self._process.kill()
@@ -100,7 +106,7 @@ class Worker:
 
     def _computed(self, call: Call) -> Any:
         """What the process says in the end; while it computes, what it tells is handed on."""
-        deadline = float("inf")
+        deadline, latest = float("inf"), time.monotonic() + call.limit
         try:
             self._connection.send((call.function, call.arguments, call.heard is not None))
             while True:
@@ -110,6 +116,9 @@ class Worker:
                 if time.monotonic() > deadline:
                     self._replace()
                     raise Ended(STOPPED)
+                if time.monotonic() > latest:
+                    self._replace()
+                    raise Ended(LATE.format(call.limit))
                 if self._connection.poll(LOOK_EVERY):
                     kind, value = self._connection.recv()
                     if kind == "answer":
@@ -123,10 +132,6 @@ class Worker:
             code = self._process.exitcode or 0
             self._start()
             raise Ended(_died(code)) from None
-
-
-def _broken(error: Exception) -> MotorError:
-    return MotorError(f"the computation failed: {type(error).__name__}: {error}.")
 
 
 def _died(code: int) -> str:
@@ -157,8 +162,7 @@ def _work(connection: Connection, prepare: Callable[[], object]) -> None:
         except MotorError as error:
             say("error", error)
         except Exception as error:
-            traceback.print_exc(file=sys.stderr)
-            say("error", _broken(error))
+            say("error", report(error))
 
 
 def _listen(connection: Connection, calls: "queue.SimpleQueue[tuple[Any, ...]]", unwanted: threading.Event) -> None:

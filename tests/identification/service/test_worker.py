@@ -71,6 +71,13 @@ def test_a_computation_that_does_not_obey_is_ended(worker: Worker) -> None:
     assert not Path(f"/proc/{before}").exists()
 
 
+def test_a_computation_that_takes_too_long_is_ended(worker: Worker) -> None:
+    call = worker.submit(calls.ignore, heard=lambda *told: None, limit=0.5)
+    with pytest.raises(MotorError, match=r"^the computation took longer than 0\.5 s \(time_limit\) and was ended: "):
+        call.answer.result(PATIENCE)
+    assert worker.submit(calls.add, 2, 3, limit=PATIENCE).answer.result(PATIENCE) == 5
+
+
 def test_what_has_not_begun_is_not_begun(worker: Worker) -> None:
     first = begun(worker, calls.obey)
     second = worker.submit(calls.vanish)
@@ -102,7 +109,9 @@ def test_a_process_killed_between_two_calls_is_replaced(worker: Worker) -> None:
 
 def test_a_listener_that_stumbles_is_a_sentence(worker: Worker) -> None:
     call = worker.submit(calls.obey, heard=lambda *told: [].pop())
-    with pytest.raises(MotorError, match=r"^the computation failed: IndexError: pop from empty list\.$"):
+    with pytest.raises(
+        MotorError, match=r"^this is a mistake of the workbench, not yours \(IndexError: pop from empty list\); "
+    ):
         call.answer.result(PATIENCE)
     assert still_works(worker)
 
@@ -111,9 +120,12 @@ def test_a_listener_that_stumbles_is_a_sentence(worker: Worker) -> None:
     ("function", "words"),
     [
         (calls.refuse, r"^the motor never moves\.$"),
-        (calls.stumble, r"^the computation failed: ZeroDivisionError: float division by zero\.$"),
+        (
+            calls.stumble,
+            r"^this is a mistake of the workbench, not yours \(ZeroDivisionError: float division by zero\); ",
+        ),
         (calls.vanish, r"^the computing process ended with status 3, "),
-        (calls.unsendable, r"^the computation failed: TypeError: cannot pickle"),
+        (calls.unsendable, r"^this is a mistake of the workbench, not yours \(TypeError: cannot pickle"),
     ],
 )
 def test_a_failure_is_a_sentence(worker: Worker, function: object, words: str) -> None:

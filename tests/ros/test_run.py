@@ -1,0 +1,48 @@
+"""A node that cannot start says why in one sentence."""
+
+import subprocess
+from pathlib import Path
+
+import pytest
+import workbench
+
+from motor_model.errors import MotorError
+from motor_ros.run import check_security
+
+BAD = [
+    (("--params-file", "{0}/none.yaml"), {}, "Couldn't parse params file"),
+    (("--params-file", "{0}/broken.yaml"), {}, "Couldn't parse params file"),
+    (("--params-file", "/dev/zero"), {}, "Couldn't parse params file"),
+    (("-p", "broken"), {}, "Couldn't parse parameter override rule"),
+    (("-r", "__ns:=bad-name"), {}, "Couldn't parse remap rule"),
+    (("-r", "__node:=a b"), {}, "Couldn't parse remap rule"),
+    (("--log-level", "nonsense"), {}, "Couldn't parse log level"),
+    (("--log-config-file", "/none"), {}, "ROS 2 cannot start: failed to initialize logging"),
+    (("--enclave", "none"), {}, "ROS 2 cannot start: Enclave name is not valid"),
+    (("--unknown",), {}, "unknown ROS arguments: '--unknown'"),
+    ((), {"ROS_DOMAIN_ID": "x"}, "ROS 2 cannot start: ROS_DOMAIN_ID is not an integral number"),
+    ((), {"ROS_SECURITY_ENABLE": "true"}, "ROS_SECURITY_ENABLE is true and there is no keystore"),
+    ((), {"ROS_SECURITY_ENABLE": "true", "ROS_SECURITY_STRATEGY": "Enforce"}, "there is no keystore"),
+]
+
+
+@pytest.mark.parametrize(("words", "environment", "said"), BAD)
+def test_a_wrong_argument_is_one_sentence(
+    tmp_path: Path, words: tuple[str, ...], environment: dict[str, str], said: str
+) -> None:
+    (tmp_path / "broken.yaml").write_text("a: [\n")
+    arguments = ["--ros-args", *(word.format(tmp_path) for word in words)] if words else []
+    command = [workbench.program("motor_sim", "motor_sim"), *arguments]
+    done = subprocess.run(
+        command, env=workbench.ENVIRONMENT | environment, capture_output=True, text=True, timeout=20.0, check=False
+    )
+    ours = [line for line in done.stderr.splitlines() if not line.startswith(("[ERROR] [", "[WARN] ["))]
+    assert done.returncode in (1, 2) and len(ours) == 1 and said in ours[0], done.stderr
+
+
+def test_security_needs_its_keystore(tmp_path: Path) -> None:
+    check_security({})
+    check_security({"ROS_SECURITY_ENABLE": "false"})
+    check_security({"ROS_SECURITY_ENABLE": "true", "ROS_SECURITY_KEYSTORE": str(tmp_path)})
+    with pytest.raises(MotorError, match="there is no keystore .*none"):
+        check_security({"ROS_SECURITY_ENABLE": "true", "ROS_SECURITY_KEYSTORE": str(tmp_path / "none")})
