@@ -54,8 +54,8 @@ ROOMS = {
         "checks filter controller announcements tuning parameters warm_up preparation settings messages node cli"
     ),
     "motor_identification": (
-        "recording progress experiment bag measurement noise estimation periodic uncertainty validation discrepancy "
-        "diagnosis identify diagnose reporting service live logs cli"
+        "recording progress experiment bag sensor measurement noise estimation periodic uncertainty validation "
+        "discrepancy diagnosis identify diagnose reporting service live logs cli"
     ),
 }
 MOST_MODULES = 15  # in one folder of a package

@@ -27,6 +27,7 @@ from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.progress import ProgressReporter, Stage, Stopped
 from motor_identification.recording import Recording
+from motor_identification.sensor.description import note_sensors
 from motor_identification.validation.hold_out import HoldOut, make_hold_out
 from motor_model.effects import normalised
 from motor_model.errors import RecordingError
@@ -56,6 +57,7 @@ def diagnose(
     if not recordings:
         raise RecordingError("there is no recording to diagnose: name at least one bag.")
     check_effects(recordings, request.effects)
+    recordings, validation = note_sensors(recordings), note_sensors(validation)
     reporter = ProgressReporter(progress or (lambda stage: None), stopped or (lambda: False))
     reporter.report("first fit", 0.0, "", float("nan"))
     hold_out = make_hold_out(recordings, validation, reporter.stopped)

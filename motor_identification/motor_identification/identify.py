@@ -14,6 +14,7 @@ from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.progress import Heartbeat
 from motor_identification.recording import Recording
+from motor_identification.sensor.description import note_sensors
 from motor_identification.uncertainty.result import Fit, summarise_fit
 from motor_model.effects import normalised
 from motor_model.errors import RecordingError
@@ -43,6 +44,7 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
         raise RecordingError("there is no recording to fit: name at least one bag.")
     tell = progress or (lambda stage, share: None)
     working = Heartbeat(tell)
+    recordings = note_sensors(recordings)
     check_effects(recordings, request.effects)
     effects = normalised(request.effects)
     whole = make_problem(recordings, drop_periodic_effects(effects), request.workers, working)

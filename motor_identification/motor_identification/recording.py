@@ -69,9 +69,10 @@ class Recording:
         if np.count_nonzero(inside) < 2:
             end = min(end, self.duration)
             raise RecordingError(f"{self.uri} has fewer than two samples from {start:g} to {end:.4g} s: take more.")
-        return self._select(inside)
+        return self.at_rows(inside)
 
-    def _select(self, which: NDArray[np.bool_]) -> "Recording":
+    def at_rows(self, which: Bools | Integers) -> "Recording":
+        """The recording with these of its samples only, by marks (K,) or by ascending indices."""
         return replace(
             self,
             sample_time=self.sample_time[which],

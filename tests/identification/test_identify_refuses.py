@@ -14,10 +14,10 @@ from motor_model.errors import ModelError, MotorError, RecordingError
 REFUSED = {
     "no voltage": (lambda r: replace(r, voltage=0.0 * r.voltage), "the voltage is always 0"),
     "one sample": (
-        lambda r: r._select(np.arange(len(r)) < 1),
+        lambda r: r.at_rows(np.arange(len(r)) < 1),
         r"is too short \(samples: 1\): record at least a second",
     ),
-    "no motion": (lambda r: r._select(np.arange(len(r)) < 2), "the motor never moves"),
+    "no motion": (lambda r: r.at_rows(np.arange(len(r)) < 2), "the motor never moves"),
     "a voltage that is no number": (
         lambda r: replace(r, voltage=np.where(np.arange(len(r)) == 20, np.nan, r.voltage)),
         r"has 1 voltage values that are not numbers \(the first at 0.100 s\)",

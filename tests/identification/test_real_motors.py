@@ -199,6 +199,21 @@ def test_diagnosis_of_a_telegraph_one_way() -> None:
     assert with_static == {"coulomb_friction": ("dead_zone",), "transport_delay": ()}
 
 
+def test_the_same_names_where_nobody_says_what_a_count_is() -> None:
+    """Every speed is a multiple of 6.43 deg/s, and that is what the floor is made of."""
+    form = CsvForm("t", "u", "y", Kind.SPEED, "deg/s")
+    log = read_log(DATA / "undc/prbs_2026-08-14.csv", form)
+    assert log.info.edges_per_revolution == 0
+    found, named = found_in([check(recording_of(log.runs[0].samples, log.info, "prbs"))])
+    assert found.verdict is Verdict.UNDECIDED
+    assert named == {"coulomb_friction": ("load_bias", "dead_zone"), "transport_delay": ()}
+    assert 0.0093 < found.model.parameters.value("delay") < 0.0095
+    assert 0.0455 < found.sensor_floor < 0.0461 and 1.05 < found.gap_after / found.noise_floor < 1.15
+    assert found.model.notes[0] == (
+        "Every speed is a multiple of 0.1122 rad/s (6.429 deg/s): 2,800 counts a turn over 20 ms are assumed."
+    )
+
+
 def test_diagnosis_of_a_coasting_bridge_predicts_its_static_curve() -> None:
     """Two effects that only together explain anything; the same kv as years later with a braking bridge."""
     found, named = found_in(coasting())

@@ -46,7 +46,7 @@ def put(values: np.ndarray, index: int, value: float) -> np.ndarray:
 
 
 BAD = {
-    "one sample": GOOD._select(np.arange(len(GOOD)) == 0),
+    "one sample": GOOD.at_rows(np.arange(len(GOOD)) == 0),
     "a voltage that is no number": changed(voltage=put(GOOD.voltage, 7, np.nan)),
     "a speed that is infinite": changed(speed=put(GOOD.speed, 7, np.inf)),
     "a clock that stands": changed(sample_time=put(GOOD.sample_time, 50, GOOD.sample_time[49])),

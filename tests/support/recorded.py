@@ -28,3 +28,8 @@ def as_speed(recording: Recording, window: int = 1, lag: float | None = None) ->
         edge_resolution=0.0,
     )
     return replace(recording, info=info, speed=speed)
+
+
+def without_count(recording: Recording) -> Recording:
+    """The log does not say which encoder it was."""
+    return replace(recording, info=replace(recording.info, edges_per_revolution=0))

@@ -72,7 +72,7 @@ def _mean_speeds(form: CsvForm, info: Info, values: Floats) -> Motion:
     count = (
         f"One count ({edges} per revolution) within the window is {2.0 * pi / edges / window / unit:.4g} {form.unit}."
         if edges
-        else "The noise level is unknown: give the encoder's --edges-per-revolution if you know it."
+        else "The resolution is not said: a fit finds it in the values (otherwise: --edges-per-revolution)."
     )
     findings = (
         f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",

@@ -15,6 +15,7 @@ from motor_identification.measurement.sampled_counts import Changes, extract_cou
 from motor_identification.measurement.sanity_checks import check_counts
 from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals
 from motor_identification.recording import Recording
+from motor_identification.sensor.speed_sensor import find_speed_sensor
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
 
@@ -80,16 +81,21 @@ def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
 
 
 def _from_speed(recording: Recording) -> Intervals:
-    """A logged speed is a mean over the source's window."""
-    info = recording.info
-    window = info.speed_window if info.speed_window > 0.0 else 1e-6
-    middle = recording.time - info.speed_lag
-    start, end = middle - 0.5 * window, middle + 0.5 * window
+    """A logged speed is a mean over the source's window, with the noise that was said or is found in the values."""
+    sensor = find_speed_sensor(recording)
+    middle = sensor.time - sensor.lag
+    start, end = middle - 0.5 * sensor.window, middle + 0.5 * sensor.window
     inside = start >= -1e-9
-    # Where it is a mean of counts, the angle at either end of the window is truncated to one.
-    count = tau / info.edges_per_revolution if info.edges_per_revolution and info.speed_window else 0.0
     start, end = np.round(np.maximum(start[inside], 0.0), 9), np.round(end[inside], 9)
-    return index_intervals(start, end, speed=recording.speed[inside], blur=np.full(len(start), count / sqrt(12.0)))
+    # A mean of counts is off by what the angle at either end is truncated by; white noise belongs to each value alone.
+    blur = sensor.count / sqrt(12.0) if sensor.step > 0.0 else sensor.sigma * sensor.window / sqrt(2.0)
+    return index_intervals(
+        start,
+        end,
+        speed=recording.speed[sensor.row[inside]],
+        blur=np.full(len(start), blur),
+        independent=sensor.sigma > 0.0,
+    )
 
 
 _READERS = {Measurement.EDGES: _from_edges, Measurement.COUNTS: _from_counts, Measurement.SPEED: _from_speed}

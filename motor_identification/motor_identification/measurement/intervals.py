@@ -19,7 +19,8 @@ class Intervals:
 
     `slack` [rad] is how far the motor may move without contradicting the measurement: one slot where no edge came.
     `blur` [rad] is how well the angle is known at both ends, given perfect slots: the tick of the timer that stamps
-    edges, or the sampling of counts. `edge` numbers the edges at both ends, where the ends are edges.
+    edges, or the sampling of counts. Intervals that follow each other share the error of their common end, unless they
+    are `independent`: speeds with white noise. `edge` numbers the edges at both ends, where the ends are edges.
     """
 
     time: Floats  # [s] ascending; time[0] is the recording's start
@@ -31,6 +32,7 @@ class Intervals:
     edge: Integers  # (I, 2) numbers of the first and the last edge; −1 where there is none
     slot: float  # [rad] 0 where nothing is known of the slots
     left_out: int  # intervals that contain a reversal, or whose direction is open
+    independent: bool = False  # whether each interval has an error of its own at either end
 
     @property
     def duration(self) -> Floats:
@@ -49,6 +51,11 @@ class Intervals:
 
     @property
     def fresh(self) -> Bools:
+        """Which intervals begin with an error of their own, shape (I,): not with that of the one before."""
+        return np.ones(len(self.first), dtype=bool) if self.independent else self.apart
+
+    @property
+    def apart(self) -> Bools:
         """Which intervals do not begin where the one before ended, shape (I,)."""
         follows = np.zeros(len(self.first), dtype=bool)
         follows[1:] = (self.first[1:] == self.last[:-1]) & (self.slack[1:] == 0.0) & (self.slack[:-1] == 0.0)
@@ -64,6 +71,7 @@ def index_intervals(
     edge: Integers | None = None,
     slot: float = 0.0,
     left_out: int = 0,
+    independent: bool = False,
 ) -> Intervals:
     """Index intervals over one ascending list of times that starts with the recording."""
     count = len(start)
@@ -78,6 +86,7 @@ def index_intervals(
         edge=np.full((count, 2), -1) if edge is None else edge,
         slot=slot,
         left_out=left_out,
+        independent=independent,
     )
 
 
@@ -120,29 +129,33 @@ def join_intervals(intervals: Intervals, duration: float) -> Intervals:
     if len(intervals.first) == 0:
         return intervals
     group = np.empty(len(intervals.first), dtype=np.int64)
-    _group(intervals.fresh, intervals.duration, duration, group)
+    _group(intervals.apart, intervals.duration, duration, group)
     begin = np.flatnonzero(np.diff(group, prepend=-1))
     end = np.append(begin[1:], len(group)) - 1
     travel = np.add.reduceat(intervals.speed * intervals.duration, begin)
     start_time, end_time = intervals.time[intervals.first[begin]], intervals.time[intervals.last[end]]
+    blur = np.maximum.reduceat(intervals.blur, begin)
+    if intervals.independent:  # their errors add up, and do not go from one to the next
+        blur = np.sqrt(np.add.reduceat(intervals.blur**2, begin))
     return index_intervals(
         start_time,
         end_time,
         speed=travel / (end_time - start_time),
-        blur=np.maximum.reduceat(intervals.blur, begin),
+        blur=blur,
         slack=intervals.slack[begin],
         edge=np.column_stack([intervals.edge[begin, 0], intervals.edge[end, 1]]),
         slot=intervals.slot,
         left_out=intervals.left_out,
+        independent=intervals.independent,
     )
 
 
 @compiled
-def _group(fresh: Bools, duration: Floats, least: float, group: Integers) -> None:
+def _group(apart: Bools, duration: Floats, least: float, group: Integers) -> None:
     """Number the intervals by the longer ones they are joined to."""
     number, length = -1, 0.0
-    for k in range(len(fresh)):
-        if fresh[k] or length >= least:
+    for k in range(len(apart)):
+        if apart[k] or length >= least:
             number, length = number + 1, 0.0
         group[k] = number
         length += duration[k]

@@ -28,6 +28,7 @@ def diagnosis_to_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "baseline": to_model(diagnosis.baseline),
         "findings": [_finding_to_json(one) for one in diagnosis.findings],
         "model": to_model(diagnosis.model),
+        "notes": list(diagnosis.model.notes),
     }
 
 

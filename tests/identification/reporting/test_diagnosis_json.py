@@ -17,7 +17,7 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     content = json.loads(json.dumps(diagnosis_to_json(nameless), allow_nan=False))
     assert list(content) == [
         "bags", "validation", "noise_floor", "sensor_floor", "disturbance", "structure", "gap_before", "gap_after",
-        "verdict", "undetectable", "not_testable", "suggested_experiment", "baseline", "findings", "model",
+        "verdict", "undetectable", "not_testable", "suggested_experiment", "baseline", "findings", "model", "notes",
     ]  # fmt: skip
     assert content["bags"] == ["train.bag"] and content["validation"] == ["held_out.bag"]
     assert content["gap_before"] == found.gap_before and content["noise_floor"] == found.noise_floor
@@ -26,6 +26,7 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     assert content["model"]["parameters"]["ks"] == {
         "value": found.model.parameters.values["ks"], "standard_error": None
     }  # fmt: skip
+    assert content["notes"] == list(nameless.model.notes)
     (finding,) = content["findings"]
     assert list(finding) == [
         "effect", "gap_before", "gap_after", "where", "parameters", "alternatives", "ambiguous_with",

@@ -1,0 +1,66 @@
+"""Find held samples: a slow sensor in a fast log repeats its value until it has a new one.
+
+A value that repeats because the motor turns evenly changes whenever it likes; one that is held changes no sooner than
+after the sensor's own period, row for row.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from motor_identification.recording import Floats, Integers
+
+QUANTILES = (0.05, 0.25, 0.5)  # of the times between changes: one of them is a frame, the longer ones skip some
+EARLY = 0.12  # share of changes that may come after less than LEAST_GAP of a frame: rows are late now and then
+LEAST_GAP = 0.7
+LEAST_ROWS = 1.5  # in a frame: fewer are rows that jitter
+OFF_GRID = 0.65  # rows beside an even grid that a change may be: half a row either way, and jitter
+LATE = 0.03  # share of changes that may be further off
+CHANCE = 1e-4  # that changes at random rows would be so near a grid
+
+
+@dataclass(frozen=True)
+class Frames:
+    """The frames of a sensor that is slower than its log; arrays of shape (F,)."""
+
+    row: Integers  # the row at which each frame is first seen
+    time: Floats  # [s] when the sensor made it, even but for a row's delay
+    period: float  # [s]
+
+
+def find_frames(time: Floats, values: Floats) -> Frames | None:
+    """Find the frames of held values (K,) at times (K,) [s]; None where every row has a value of its own."""
+    changed = np.flatnonzero(np.diff(values)) + 1
+    if len(changed) < 2:
+        return None
+    seen, row = time[changed], float(np.median(np.diff(time)))
+    gaps = np.diff(seen)
+    for guess in np.unique(np.quantile(gaps, QUANTILES, method="lower")):
+        if guess > LEAST_ROWS * row and np.mean(gaps < LEAST_GAP * guess) <= EARLY:
+            period, begin = _fit_grid(seen, float(np.mean(gaps[np.abs(gaps - guess) < 1.5 * row])))
+            if period > LEAST_ROWS * row and _is_even(seen, period, begin, row):
+                return _make_frames(time, period, begin, row)
+    return None
+
+
+def _fit_grid(seen: Floats, guess: float) -> tuple[float, float]:
+    """Period [s] and begin [s] of an even grid, by least squares; counted by a guess first, then by the period."""
+    number = np.concatenate([[0.0], np.rint(np.diff(seen) / guess).cumsum()])
+    period, begin = np.polyfit(number, seen, 1)
+    period, begin = np.polyfit(np.rint((seen - begin) / period), seen, 1)
+    return float(period), float(begin)
+
+
+def _is_even(seen: Floats, period: float, begin: float, row: float) -> bool:
+    """Whether changes are on the grid, and so many that it is no chance."""
+    beside = (seen - begin + 0.5 * period) % period - 0.5 * period
+    chance = min(2.0 * OFF_GRID * row / period, 1.0) ** len(seen)
+    return bool(np.mean(np.abs(beside) <= OFF_GRID * row) >= 1.0 - LATE and chance < CHANCE)
+
+
+def _make_frames(time: Floats, period: float, begin: float, row: float) -> Frames:
+    ticks = np.arange(np.ceil((time[0] - 0.5 * row - begin) / period), np.floor((time[-1] - begin) / period) + 1.0)
+    made = begin + period * ticks
+    # A row shows a frame up to one row after it was made, half a row on average.
+    shown = np.minimum(np.searchsorted(time, made + 0.5 * row), len(time) - 1)
+    return Frames(shown.astype(np.int64), made - 0.5 * row, period)

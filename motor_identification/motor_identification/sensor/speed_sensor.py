@@ -1,0 +1,81 @@
+"""Find how a log's speeds were measured, where nobody said: counts within a window, or a value with white noise."""
+
+from dataclasses import dataclass
+from math import log10, radians, sqrt, tau
+
+import numpy as np
+
+from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_identification.sensor.held_samples import find_frames
+from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.sensor.white_noise import estimate_white_noise
+
+# Times what counting leaves between neighbours, beyond which noise is more than the lattice, so that counting does not
+# matter: UNDC's random telegraph has 1.7, a micromouse's loop in windows of 0.1 s 4.5. Where the step is one of printed
+# digits, it takes less to believe that it is not a count.
+NOISE_BEYOND, NOISE_BEYOND_DIGITS = 6.0, 1.5
+# Steps: what counts at both ends of chained windows leave between neighbours, as if it were white (20/6/12, root of).
+COUNT_NOISE = sqrt(20.0 / 6.0 / 12.0)
+PRINTED_UNITS = (1.0, radians(1.0), tau / 60.0, tau)  # rad/s, deg/s, rpm, turns/s
+SAME_DIGIT = 1e-3  # of a decade
+SAME_PERIOD = 1e-6  # relative: a window that was not said is set to the sample period
+
+
+@dataclass(frozen=True)
+class SpeedSensor:
+    """How speeds were measured; arrays of shape (F,), one entry for each value of its own."""
+
+    row: Integers  # of the recording
+    time: Floats  # [s] since the first sample, when each value was made
+    window: float  # [s] that each is the mean over
+    lag: float  # [s] how old the middle of that window is then
+    frame: float  # [s] for which each value is held; 0 where every row has one of its own
+    step: float  # [rad/s] of the lattice of values; 0 where there is none
+    sigma: float  # [rad/s] of white noise, independent in each value; 0 where counting is what is known
+    edges_per_revolution: int  # what was said or follows from the step; 0 without
+
+    @property
+    def count(self) -> float:
+        """[rad] one count within the window; 0 without counts."""
+        return self.step * self.window if self.step > 0.0 else 0.0
+
+
+def find_speed_sensor(recording: Recording) -> SpeedSensor:
+    """Find the sensor of a recording of speeds: as far as `info` says, and from its values where it does not."""
+    info, time, speed = recording.info, recording.time, recording.speed
+    row: Integers = np.arange(len(time), dtype=np.int64)
+    made, frame = time, 0.0
+    window, lag = info.speed_window or info.sample_period, info.speed_lag
+    frames = find_frames(time, speed)
+    if frames is not None:
+        row, made, frame = frames.row, frames.time, frames.period
+        if abs(window - info.sample_period) <= SAME_PERIOD * info.sample_period:  # nobody said so
+            window, lag = frame, lag * frame / window
+    step, sigma, edges = _find_noise(speed[row], recording.voltage[row], info.edges_per_revolution, window)
+    return SpeedSensor(row, made, window, lag, frame, step, sigma, edges)
+
+
+def _find_noise(values: Floats, voltage: Floats, edges: int, window: float) -> tuple[float, float, int]:
+    """Step [rad/s], white noise [rad/s] and counts a turn of the values; one of the first two is 0."""
+    if edges:
+        return tau / edges / window, 0.0, edges
+    moving = _mark_motion(values)
+    step, noise = find_lattice(values), estimate_white_noise(values[moving], voltage[moving])
+    beyond = NOISE_BEYOND_DIGITS if _is_last_digit(step) else NOISE_BEYOND
+    if step > 0.0 and noise < beyond * COUNT_NOISE * step:
+        return step, 0.0, round(tau / (step * window))
+    return 0.0, max(noise, step / sqrt(12.0)), 0
+
+
+def _is_last_digit(step: float) -> bool:
+    """Whether a step [rad/s] is 1, 0.1, 0.01 … of a unit that people print speeds in."""
+    if step <= 0.0:
+        return False
+    places = [log10(step / unit) for unit in PRINTED_UNITS]
+    return any(place < 0.5 and abs(place - round(place)) < SAME_DIGIT for place in places)
+
+
+def _mark_motion(values: Floats) -> Bools:
+    """Mark values (K,) that do not repeat those before and after: a motor that stands shows no noise."""
+    same = np.diff(values, prepend=np.nan) == 0.0
+    return np.asarray(~(same & np.append(same[1:], False)))

@@ -1,0 +1,83 @@
+"""Find the lattice that recorded values lie on: multiples of one step, as counts within a window are.
+
+The phases x/h of levels x on a lattice of step h are whole numbers but for the rounding of printed decimals and a
+window that jitters; on any other step they are anywhere. Beside a uniform density, phases with a scatter σ are likelier
+by −ln(σ·√(2πe)) each, which is compared with the number of steps that could fit by chance.
+"""
+
+from math import e, log, sqrt, tau
+
+import numpy as np
+
+from motor_identification.recording import Floats
+
+MOST_LEVELS = 120  # that are looked at: more say nothing new
+FINEST = 1000.0  # steps up to the largest value; a finer lattice matters to nobody
+SCAN = 0.05  # of a period at the largest value: distance of the steps that are tried, so that no peak is jumped
+PEAK = 0.6  # mean cosine of the phases, from which on a step is refined
+MOST_SCATTER = 0.12  # of a step: beyond, noise hides the lattice (uniform phases have 0.29)
+LEAST_SCATTER = 1e-3  # of a step: better than that is no more evidence
+MOST_COARSE = 1.9  # times a step that was found: half of it fits as well
+LEAST_PLACES = 4  # different multiples that must occur
+CHANCE = 1e-4  # that values without a lattice are given one
+PARTS = (1.0, 0.5, 0.25)  # of the largest value: a window that jitters blurs large values, not small ones
+
+
+def find_lattice(values: Floats) -> float:
+    """Find the largest step whose multiples all values (K,) are, within their rounding; 0 where there is none."""
+    levels = np.unique(np.abs(values))
+    levels = levels[levels > 1e-12 * levels[-1]] if len(levels) else levels
+    if len(levels) > MOST_LEVELS:
+        levels = levels[np.linspace(0, len(levels) - 1, MOST_LEVELS).astype(np.int64)]
+    for part in PARTS:
+        some = levels[levels <= part * levels[-1]] if len(levels) else levels
+        step = _find_step(some) if len(some) >= LEAST_PLACES else 0.0
+        if step > 0.0:
+            return step
+    return 0.0
+
+
+def _find_step(levels: Floats) -> float:
+    """Find the largest step whose lattice is no chance, for ascending levels above 0."""
+    top = float(levels[-1])
+    tried = np.asarray(np.arange(LEAST_PLACES - 1.0, FINEST, SCAN) / top, dtype=np.float64)  # 1/step
+    for begin in range(0, len(tried), 2048):  # coarse steps first: most lattices are found at once
+        step = _best_step(levels, tried[begin : begin + 2048], len(tried))
+        if step > 0.0:
+            # Levels far from 0 lie nearly on a coarser lattice too, with every number one less.
+            finer = tried[(tried >= 1.0 / step) & (tried < MOST_COARSE / step)]
+            return _best_step(levels, finer, len(tried))
+    return 0.0
+
+
+def _best_step(levels: Floats, tried: Floats, count: int) -> float:
+    """The step with the least scatter among those near 1/tried whose lattice is no chance; 0 without."""
+    score = np.cos(tau * tried[:, None] * levels).mean(axis=1)
+    steps = [_refine(levels, 1.0 / float(one)) for one in tried[score > PEAK]]
+    lattices = [step for step in steps if _is_lattice(levels, step, count)]
+    return min(lattices, key=lambda step: max(_scatter(levels, step), LEAST_SCATTER), default=0.0)  # or the first
+
+
+def _refine(levels: Floats, step: float) -> float:
+    """Least squares of levels = number × step; numbers again until they stay."""
+    for _ in range(5):
+        numbers = np.rint(levels / step)
+        if not np.any(numbers):
+            return step
+        step = float(numbers @ levels / (numbers @ numbers))
+    return step
+
+
+def _is_lattice(levels: Floats, step: float, tried: int) -> bool:
+    """Whether so many levels lie so near to multiples that no chance makes it, for so many steps tried."""
+    places = len(np.unique(np.rint(levels / step)))
+    scatter = max(_scatter(levels, step), LEAST_SCATTER)
+    if scatter > MOST_SCATTER or places < LEAST_PLACES:
+        return False
+    return -log(scatter * sqrt(tau * e)) * places > log(tried / CHANCE)  # levels of one place share their rounding
+
+
+def _scatter(levels: Floats, step: float) -> float:
+    """RMS distance of the levels from multiples, in steps."""
+    phases = levels / step
+    return sqrt(float(np.mean((phases - np.rint(phases)) ** 2)))

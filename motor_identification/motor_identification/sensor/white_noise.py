@@ -1,0 +1,51 @@
+"""Estimate the white noise of samples: what neighbours do not share, and what neither they nor the voltage predict.
+
+The m-th differences of white noise of variance σ² have the variance (2m over m)·σ²; smooth motion has hardly any, less
+with every order, until random motion begins to count. Where the voltage jumps motion is not smooth: a linear prediction
+from the samples and voltages before (ARX; L. Ljung, System Identification, 1999, 4.2) is off by the innovation, which
+is at least the noise. The least of all of them is nearest to it.
+"""
+
+from math import comb, sqrt
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from motor_identification.recording import Floats
+
+ORDERS = (2, 3, 4)
+PAST = 6  # samples and voltages before that predict the next one
+KEPT = 0.6  # of the differences, the smallest: reversals, starts and wrong samples are among the rest
+KEPT_SHARE = 0.2146  # of a normal distribution's variance, within its KEPT quantile (±0.842 σ)
+LEAST_SAMPLES = 20
+LEAST_PREDICTED = 100  # samples from which on a prediction with 2·PAST + 2 numbers is learned
+
+
+def estimate_white_noise(values: Floats, voltage: Floats) -> float:
+    """Estimate the standard deviation of white noise in evenly spaced values (K,); 0 where there are too few.
+
+    voltage: [V] that held from each sample until the next, shape (K,). A torque that jumps from sample to sample counts
+    as noise.
+    """
+    if len(values) < LEAST_SAMPLES + ORDERS[-1]:
+        return 0.0
+    found = [_trimmed_rms(np.diff(values, n=order)) / sqrt(comb(2 * order, order)) for order in ORDERS]
+    if len(values) >= LEAST_PREDICTED:
+        found.append(_predict(values, voltage))
+    return min(found)
+
+
+def _trimmed_rms(values: Floats) -> float:
+    """Standard deviation of normal values, without the largest."""
+    kept = np.sort(np.abs(values))[: int(KEPT * len(values))]
+    return sqrt(float(np.mean(kept**2)) / KEPT_SHARE)
+
+
+def _predict(values: Floats, voltage: Floats) -> float:
+    """Standard deviation of what a linear prediction from the past leaves."""
+    past = sliding_window_view(values[:-1], PAST)
+    driven = sliding_window_view(voltage, PAST + 1)[: len(past)]
+    columns = np.column_stack([past, driven, np.ones(len(past))])
+    target = values[PAST:]
+    left = target - columns @ np.linalg.lstsq(columns, target, rcond=1e-10)[0]
+    return _trimmed_rms(left) * sqrt(len(target) / (len(target) - columns.shape[1]))

@@ -1,0 +1,67 @@
+"""Speeds that nobody described: the sensor they were made by is found, whichever it was."""
+
+from dataclasses import replace
+from math import sqrt, tau
+
+import numpy as np
+import pytest
+from recorded import as_speed, without_count
+from swinging import noisy, recorded
+
+from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.sensor.speed_sensor import COUNT_NOISE, NOISE_BEYOND_DIGITS, find_speed_sensor
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("edges", [96, 960, 2800])
+def test_counts_within_a_window_are_found(edges: int, seed: int) -> None:
+    said = as_speed(recorded(seed, edges))
+    known, found = find_speed_sensor(said), find_speed_sensor(without_count(said))
+    assert found.edges_per_revolution == edges and found.step == pytest.approx(known.step, rel=1e-6)
+    assert found.window == 0.02 and found.lag == 0.01 and found.frame == found.sigma == known.sigma == 0.0
+    with_it, without = make_intervals(said), make_intervals(without_count(said))
+    assert without.blur == pytest.approx(with_it.blur, rel=1e-6)
+    assert without.blur == pytest.approx(tau / edges / sqrt(12.0), rel=1e-6)
+    assert not without.independent and np.array_equal(without.fresh, with_it.fresh)
+
+
+@pytest.mark.parametrize("sigma", [0.05, 0.5, 5.0])
+def test_white_noise_is_found_where_there_are_no_counts(sigma: float) -> None:
+    recording = noisy(sigma)
+    found = find_speed_sensor(recording)
+    assert found.step == 0.0 and found.edges_per_revolution == 0
+    assert 0.93 * sigma < found.sigma < 1.1 * sigma + 0.08  # friction that turns is some of it
+    data = make_intervals(recording)
+    assert data.sigma == pytest.approx(found.sigma, rel=1e-6) and data.independent and np.all(data.fresh)
+
+
+def test_printed_digits_are_no_counts() -> None:
+    """Where noise is more than the last digit it is noise; where it is less, digits are all there is."""
+    fine, coarse = find_speed_sensor(noisy(0.5, digits=1)), find_speed_sensor(noisy(0.01, digits=0))
+    assert fine.step == 0.0 and 0.5 < fine.sigma < 1.3
+    assert NOISE_BEYOND_DIGITS * COUNT_NOISE < 1.0 and (coarse.step == 1.0 or coarse.sigma > 1.0 / sqrt(12.0))
+
+
+def test_held_speeds_have_the_times_of_their_frames() -> None:
+    """A speed of 20 ms in a log of 5 ms: the intervals are those of the sensor."""
+    slow = without_count(as_speed(recorded(sample_rate=50.0)))
+    rows = np.minimum(np.arange(4 * len(slow) - 3) // 4, len(slow) - 1)
+    fast = slow.at_rows(rows)
+    every = np.round(slow.sample_time[0] + np.arange(len(rows)) * 5e6).astype(np.int64)
+    fast = replace(
+        fast, sample_time=every, info=replace(slow.info, sample_period=0.005, speed_window=0.005, speed_lag=0.0025)
+    )
+    found, alone = find_speed_sensor(fast), find_speed_sensor(slow)
+    assert found.frame == pytest.approx(0.02, rel=1e-6) and found.window == found.frame
+    assert found.lag == pytest.approx(0.01, rel=1e-6)  # the window ends where the frame was made
+    assert found.edges_per_revolution == alone.edges_per_revolution == 960
+    assert np.array_equal(fast.speed[found.row][1:], slow.speed[alone.row][1 : len(found.row)])
+    assert found.time[1:] == pytest.approx(alone.time[1 : len(found.row)], abs=0.003)  # within half a row
+    assert len(make_intervals(fast).first) == pytest.approx(len(make_intervals(slow).first), abs=2)
+
+
+def test_what_was_said_is_not_looked_for() -> None:
+    said = replace(noisy(0.5), info=replace(noisy(0.5).info, edges_per_revolution=100))
+    assert find_speed_sensor(said).step == pytest.approx(tau / 100 / 0.02) and find_speed_sensor(said).sigma == 0.0
+    point = replace(noisy(0.5), info=replace(noisy(0.5).info, speed_window=0.0, speed_lag=0.0))
+    assert find_speed_sensor(point).window == 0.02 and find_speed_sensor(point).lag == 0.0

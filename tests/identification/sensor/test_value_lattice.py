@@ -1,0 +1,53 @@
+"""The step of counts is found in speeds, through printed digits and a window that jitters; or none."""
+
+import numpy as np
+import pytest
+
+from motor_identification.sensor.value_lattice import find_lattice
+
+SAMPLES = 2000
+
+
+def numbers(seed: int, low: float = 0.0, high: float = 60.0) -> np.ndarray:
+    """Counts within a window of a motor whose speed swings between these."""
+    random = np.random.default_rng(seed)
+    swing = 0.5 * (low + high) + 0.5 * (high - low) * np.sin(np.linspace(0.0, 40.0, SAMPLES))
+    return np.floor(swing + random.uniform(0.0, 1.0, SAMPLES))
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("step", [6.428571, 0.7272205, 1.0 / 3.0, 99.99, 2e-6])
+def test_the_step_is_found_whatever_its_size(step: float, seed: int) -> None:
+    signs = np.where(np.arange(SAMPLES) % 700 < 350, 1.0, -1.0)
+    assert find_lattice(signs * numbers(seed) * step) == pytest.approx(step, rel=1e-6)
+    assert find_lattice(numbers(seed, 90.0, 100.0) * step) == pytest.approx(step, rel=1e-6)  # far from 0
+
+
+def test_printed_digits_do_not_hide_it() -> None:
+    step = 6.428571
+    assert find_lattice(np.round(numbers(0) * step, 2)) == pytest.approx(step, rel=1e-4)
+    assert find_lattice(np.round(numbers(0) * step, 0)) == pytest.approx(step, rel=1e-2)
+    assert find_lattice(np.round(numbers(0) * 0.0643, 2)) == pytest.approx(0.0643, rel=1e-2)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_window_that_jitters_does_not_hide_it_until_it_blurs_the_small_values_too(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    for jitter, found in ((0.001, True), (0.005, True), (0.3, False)):
+        values = numbers(seed) * 6.43 * (1.0 + jitter * random.standard_normal(SAMPLES))
+        step = find_lattice(values)
+        assert step == pytest.approx(6.43, rel=0.01) if found else step == 0.0
+
+
+def test_values_without_a_lattice_have_none() -> None:
+    for seed in range(60):
+        random = np.random.default_rng(seed)
+        assert find_lattice(random.normal(50.0, 20.0, SAMPLES)) == 0.0
+        assert find_lattice(random.uniform(0.0, 1.0, 30)) == 0.0
+
+
+def test_a_handful_of_places_decides() -> None:
+    """Three multiples are chance, ten are none; a single value, or none, tells nothing."""
+    assert find_lattice(np.repeat([3.0, 4.0, 5.0], 100) * 6.43) == 0.0
+    assert find_lattice(np.repeat(np.arange(1.0, 11.0), 10) * 6.43) == pytest.approx(6.43)
+    assert find_lattice(np.zeros(100)) == find_lattice(np.full(100, 3.0)) == find_lattice(np.empty(0)) == 0.0

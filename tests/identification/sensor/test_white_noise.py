@@ -1,0 +1,53 @@
+"""The noise between neighbours is the sensor's, whatever the motor does slowly."""
+
+import numpy as np
+import pytest
+
+from motor_identification.recording import Floats
+from motor_identification.sensor.white_noise import estimate_white_noise
+
+
+def noise_of(values: Floats) -> float:
+    """Without any voltage to predict from."""
+    return estimate_white_noise(values, np.zeros(len(values)))
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("sigma", [0.3, 3.0])
+def test_what_the_voltage_does_is_no_noise(sigma: float, seed: int) -> None:
+    """A motor whose time constant is two samples, under a voltage that jumps in every sample."""
+    random = np.random.default_rng(seed)
+    voltage, speed = random.uniform(-6.0, 6.0, 2000), np.zeros(2000)
+    for k in range(1, 2000):
+        speed[k] = 0.6 * speed[k - 1] + 8.0 * voltage[k - 1]
+    values = speed + sigma * random.standard_normal(2000)
+    assert noise_of(values) > 5.0
+    # The prediction cannot know more than six samples: it leaves a few per cent of the noise in what it predicts from.
+    assert 0.95 * sigma < estimate_white_noise(values, voltage) < 1.15 * sigma
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("sigma", [1e-3, 0.5, 40.0])
+def test_white_noise_on_a_smooth_motion_is_recovered(sigma: float, seed: int) -> None:
+    random, time = np.random.default_rng(seed), np.linspace(0.0, 10.0, 2000)
+    motion = 300.0 * sigma * (1.0 - np.exp(-(time % 2.5) / 0.3))  # starts again and again, and jumps between
+    assert noise_of(motion + sigma * random.standard_normal(2000)) == pytest.approx(sigma, rel=0.08)
+
+
+def test_wrong_samples_are_left_out() -> None:
+    random = np.random.default_rng(1)
+    values = random.standard_normal(2000)
+    values[::100] = 1e3
+    assert 1.0 < noise_of(values) < 1.4
+
+
+def test_a_random_walk_counts_for_less_than_half_a_step() -> None:
+    """Motion that is no sensor's: the least over the orders is what is left of it."""
+    walk = np.cumsum(np.random.default_rng(2).standard_normal(4000))
+    assert 0.4 < noise_of(walk) < 0.6  # root of a quarter, and a bit
+
+
+def test_a_few_samples_tell_nothing() -> None:
+    assert noise_of(np.random.default_rng(3).standard_normal(23)) == 0.0
+    assert noise_of(np.random.default_rng(3).standard_normal(40)) > 0.5
+    assert noise_of(np.arange(100.0)) == pytest.approx(0.0, abs=1e-9)

@@ -1,0 +1,28 @@
+"""Sensors that nobody described: what fits and diagnoses make of them, end to end."""
+
+import numpy as np
+import pytest
+from swinging import RUBBING, noisy
+
+from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.result import Verdict
+from motor_identification.identify import Request, identify
+from motor_identification.recording import check
+
+
+@pytest.mark.parametrize("sigma", [0.1, 1.0, 5.0])
+def test_a_fit_of_speeds_with_white_noise_is_right_to_within_its_standard_errors(sigma: float) -> None:
+    score = []
+    for seed in range(4):
+        fit = identify([check(noisy(sigma, seed))], Request(("coulomb_friction",)))
+        score += [(fit.parameters.values[name] - RUBBING[name]) / fit.standard_errors[name] for name in RUBBING]
+        assert fit.parameters.values["ks"] == pytest.approx(RUBBING["ks"], rel=0.002 + 0.02 * sigma)
+        assert sigma * 0.9 < fit.residual_rms < 1.1 * sigma
+        assert not any("effect is missing" in note for note in fit.notes)
+    assert 0.3 < np.sqrt(np.mean(np.square(score))) < 2.0
+
+
+def test_friction_is_named_beside_white_noise_and_nothing_where_there_is_none() -> None:
+    found = diagnose([check(noisy(1.0))])
+    assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED
+    assert 0.87 < found.gap_after / found.noise_floor < 1.1 and 0.9 < found.noise_floor < 1.15
