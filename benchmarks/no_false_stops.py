@@ -9,6 +9,7 @@ cent, as an identified one is. A latched stop is a false one.
 
 import argparse
 import os
+import subprocess
 import sys
 from collections import Counter
 from dataclasses import dataclass
@@ -29,6 +30,7 @@ PAGE = Path(__file__).with_name("results") / "no_false_stops.md"
 DEFAULTS = {row.name: row.default for row in ROWS}
 VOLTAGES = (1.2, 6.0, 12.0, 24.0, 48.0)
 RATES = (200.0, 1000.0)  # [Hz]
+EDGE_RATES = (90.0, 10_000.0)  # [edges/s] at top speed: 96 edges on a motor of 6 to 600 rad/s
 
 
 @dataclass(frozen=True)
@@ -70,7 +72,7 @@ def draw(seed: int, rate: float, seconds: float) -> Setup:
     off = {"kv": 1.0 + 0.02 * rng.standard_normal(), "ka": 1.0 + 0.1 * rng.standard_normal(), "ks": 0.9}
     known = {name: values[name] * float(factor) for name, factor in off.items()}
     model = Parameters(known | {"ks": min(known["ks"], values["breakaway_voltage"])}, ("coulomb_friction",), supply)
-    edges = int(np.clip(round(log_uniform(600.0, 10_000.0) * 2.0 * pi / top), 12, 4000))
+    edges = int(np.clip(round(log_uniform(*EDGE_RATES) * 2.0 * pi / top), 4, 4000))
     board = BoardConfig(
         sample_rate=rate,
         edges_per_revolution=edges,
@@ -121,27 +123,38 @@ def table(results: dict[float, list[Result]]) -> list[str]:
     return lines
 
 
+def page(results: dict[float, list[Result]], commit: str, first: int, seconds: float) -> str:
+    """Write the page of what has been run so far."""
+    runs = ", ".join(f"{len(some)} at {rate:.0f} Hz" for rate, some in results.items())
+    stops = [one.stop for some in results.values() for one in some if one.stop]
+    hours = sum(one.time for some in results.values() for one in some) / 3600.0
+    lines = ["# No false stop", "", (__doc__ or "").split("\n\n")[1].strip(), ""]
+    lines += [f"At {commit}; {machine()}. Random motors from seed {first} on: {runs}, {seconds:g} s each.", ""]
+    lines += [f"**{len(stops)} false stops in {hours:.1f} hours of simulated running.**", "", *table(results), ""]
+    lines += [f"- {count} ×: {text}" for text, count in Counter(stops).most_common()]
+    return "\n".join(lines).rstrip() + "\n"
+
+
 def main() -> int:
-    """Run, print, and write the page."""
+    """Run, and write the page now and then, so that it is true whenever the run ends."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--runs", type=int, default=1000, help="of each rate (default 1000)")
     parser.add_argument("--seconds", type=float, default=36.0, help="simulated, of each run (default 36)")
     parser.add_argument("--first", type=int, default=0, help="seed of the first run (default 0)")
     options = parser.parse_args()
-    results: dict[float, list[Result]] = {rate: [] for rate in RATES}
-    for seed in range(options.first, options.first + options.runs):
-        for rate in RATES:
+    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout
+    results: dict[float, list[Result]] = {}
+    for rate in RATES:
+        results[rate] = []
+        for seed in range(options.first, options.first + options.runs):
             result = run(seed, rate, options.seconds)
             results[rate].append(result)
             if result.stop:
                 print(f"seed {seed}, {rate:.0f} Hz, {result.source}, {result.time:.2f} s: {result.stop}", flush=True)
-    stops = [one.stop for some in results.values() for one in some if one.stop]
-    lines = ["# No false stop", "", (__doc__ or "").split("\n\n")[1].strip().replace("\n", " "), ""]
-    lines += [f"{machine()}. {options.runs} motors at each rate, {options.seconds:g} s each.", "", *table(results), ""]
-    lines += [f"- {count} ×: {text}" for text, count in Counter(stops).most_common()]
-    PAGE.write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
-    print("\n".join(lines))
-    return 1 if stops else 0
+            if seed % 25 == 24 or seed == options.first + options.runs - 1:
+                PAGE.write_text(page(results, commit.strip(), options.first, options.seconds), encoding="utf-8")
+    print(PAGE.read_text(encoding="utf-8"))
+    return 1 if any(one.stop for some in results.values() for one in some) else 0
 
 
 if __name__ == "__main__":

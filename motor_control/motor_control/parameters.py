@@ -4,7 +4,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from math import isfinite, tau
 
-from motor_control.controller import faults, pi
+from motor_control.controller import pi
+from motor_control.controller.faults.evidence import SPARE, SPARE_SINGLE
+from motor_control.controller.faults.evidence import Config as FaultConfig
 from motor_control.controller.speed_law import Config
 from motor_model.errors import MotorError
 from motor_model.model_file import load
@@ -102,14 +104,15 @@ def config_of(
     )
     if info is not None:
         limit, timeout = min(limit, info.max_voltage), max(timeout, 2.0 * info.sample_period)
+    single = info is None or info.single_channel
     config = Config(
         gains=pi.Config(kp, ki, limit),
         voltage_limit=limit,
         sample_timeout=timeout,
         reference_rate_limit=max(rate_limit, 0.0),
         reversal_speed=reversal_speed,
-        single_channel=info is None or info.single_channel,
-        faults=faults.Config(stall_time, slot=slot_of(info)),
+        single_channel=single,
+        faults=FaultConfig(stall_time, slot=slot_of(info), spare=SPARE_SINGLE if single else SPARE),
         note=_lack(values, info, motor, ready),
         plug_limit=plug_limit,
         latency_limit=max(latency_limit, 2.0 * info.sample_period if info else 0.0),

@@ -66,13 +66,14 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     plant = watch_plant(state.plant, sample.sample_time, sample.edge_count, now, config.sample_period)
     if plant.two and not state.latched:
         state = stop(state, TWO_PLANTS)
-    state = replace(_drop_old_reference(config, state, plant, now), plant=plant, latency=latency)
+    state = _drop_old_reference(config, state, plant, now)
     if reference is not None:
         state = refer(state, reference, now)
     output, after = _answer(config, state, sample, age)
     ours = after.reference is not None or bool(after.latched) and state.drives
     drives = state.drives or after.reference is not None
-    return replace(output, latency=age, drives=drives), replace(after, arrival=now, silent=None, drives=ours)
+    after = replace(after, arrival=now, silent=None, drives=ours, plant=plant, latency=latency)
+    return replace(output, latency=age, drives=drives), after
 
 
 def watch(config: Config, state: State, now: float) -> tuple[Output | None, State]:

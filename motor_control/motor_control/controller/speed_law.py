@@ -13,8 +13,11 @@ from math import exp, inf, isfinite, nan
 from typing import TYPE_CHECKING, NamedTuple
 
 from motor_control.checks import at_least
-from motor_control.controller import faults, pi
+from motor_control.controller import pi
 from motor_control.controller import voltage_range as span
+from motor_control.controller.faults import detection
+from motor_control.controller.faults.evidence import Config as FaultConfig
+from motor_control.controller.faults.evidence import Seen
 from motor_control.controller.motion import Motion, follow_motion
 from motor_control.controller.output import RUNNING, STOPPED, Output, halt
 from motor_model.sample import Sample
@@ -51,7 +54,7 @@ class Config:
         float  # [rad/s] a single-channel motor faster than this is not pushed against its motion; 0: by itself
     )
     single_channel: bool = True  # the encoder does not measure direction
-    faults: faults.Config = faults.Config()
+    faults: FaultConfig = FaultConfig()
     observer: Observer | None = None  # None: the law goes by the reported speed
     feedforward: FeedForward | None = None
     note: str = ""  # what was asked for and cannot be had
@@ -83,7 +86,7 @@ class Run:
     watched: Watched | None = None  # the observer's
     asked: float = 0.0  # [V] the latest answer
     ignored: float = 0.0  # [s] for which the plant has applied nothing of what was asked
-    faults: faults.State = faults.State()
+    faults: detection.State = detection.State()
     begins: bool = False  # with this sample: the reference has a sample period to start in
 
 
@@ -100,7 +103,7 @@ def begin(config: Config, sample: Sample, motion: Motion | None = None) -> Run:
     motion = replace(known, edge_count=sample.edge_count, speed=abs(sample.speed), slow_speed=abs(sample.speed))
     motion = replace(motion, steady=0.0, silent=0.0, edges=0, slow_voltage=abs(sample.voltage))
     watched = config.observer.begin(sample, sample.speed) if config.observer else None
-    state = faults.State(expected=sample.speed)
+    state = detection.begin(sample.speed)
     return Run(config, sample.sample_time, sample.speed, pi.State(), motion, watched=watched, faults=state, begins=True)
 
 
@@ -161,8 +164,8 @@ def _apply_law(config: Config, run: Run, sample: Sample, wanted: float, hold: bo
     terms, law = _compute_terms(
         config, run, seen, target, speed, 0.0 if hold or ignored > IGNORED_TIME else dt, allowed
     )
-    look = faults.Seen(sample, speed, motion, target.reference, dt, config.voltage_limit)
-    fault, trouble = faults.find_fault(config.faults, run.faults, look)
+    look = Seen(sample, speed, motion, target.reference, dt, config.voltage_limit)
+    fault, trouble = detection.find_fault(config.faults, run.faults, look)
     reason = BRAKING.format(reversal_speed_of(config, motion)) if allowed.braking else config.note
     if ignored > IGNORED_TIME:
         reason = IGNORED.format(run.asked)
@@ -177,8 +180,19 @@ def _apply_law(config: Config, run: Run, sample: Sample, wanted: float, hold: bo
         warning=ignored > IGNORED_TIME or bool(config.note),
         fault=fault,
     )
-    law_run = Run(config, sample.sample_time, target.reference, law, motion, allowed.reversing, watched)
-    return output, replace(law_run, asked=terms.voltage, ignored=ignored, faults=trouble)
+    after = Run(
+        config,
+        sample.sample_time,
+        target.reference,
+        law,
+        motion,
+        allowed.reversing,
+        watched,
+        asked=terms.voltage,
+        ignored=ignored,
+        faults=trouble,
+    )
+    return output, after
 
 
 def _allow(config: Config, run: Run, target: Target, speed: float, motion: Motion) -> span.Span:

@@ -13,15 +13,15 @@ from motor_control.controller import controller
 def test_a_line_lost_at_100_rad_per_s(source: str, known: bool, strays: float, rate: float) -> None:
     """It was full voltage for ever wherever an edge came now and then."""
     loss = lose_line(motor(), 100.0, strays, rate=rate, source=source, model=motor() if known else None)
-    assert loss.stopped is not None and 0.05 < loss.stopped < 0.5
-    assert "Edges do not fit the voltage" in loss.reason and "motor/reset" in loss.reason
+    assert loss.stopped is not None and 0.02 < loss.stopped < 0.5
+    assert loss.reason.startswith("Edges do not fit") and "motor/reset" in loss.reason
 
 
 @pytest.mark.parametrize(("source", "known"), [("measured", False), ("measured", True), ("observer", True)])
 def test_a_line_lost_at_3_rad_per_s_does_not_take_the_motor_to_full_speed(source: str, known: bool) -> None:
     """It was 168 rad/s for 1.3 to 1.9 s."""
     loss = lose_line(motor(), 3.0, 0.0, source=source, model=motor() if known else None)
-    assert loss.stopped is not None and loss.stopped < 0.7 and 20.0 < loss.fastest < 90.0
+    assert loss.stopped is not None and loss.stopped < 0.6 and 20.0 < loss.fastest < 75.0
 
 
 def test_without_an_integral_too() -> None:

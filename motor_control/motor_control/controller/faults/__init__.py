@@ -1,0 +1,16 @@
+"""Detect faults that stop the motor for good: edges and voltage cannot belong to one motor that runs as it should.
+
+In goes what a sample shows (`evidence`), out comes a sentence, or none (`detection` asks all of them):
+
+    stall            full voltage, and fewer edges than can be told from a standstill for `stall_time`
+    few_edges        the motor turns slower than 30 % of what the model predicts, or of what it last did under less
+                     voltage, while the voltage rises: a line that is lost (whether or not noise still counts), a shaft
+                     that is held
+    irregular_edges  periods that jump back and forth: noise, no motor
+    runaway          the voltage is 0 or strongly against the motion, and yet the speed grows: a wrong sign, a bridge
+                     that stays on, a load
+    overspeed        faster than full voltage can drive the motor of the model: edges that are none, or a load
+
+The speed is the one the law uses, or counted edges (`controller.motion`); the voltage is the one the plant says it
+applies; times are the plant's. All bounds are shares of the motor's own top speed, slot rate and voltage.
+"""

@@ -1,0 +1,36 @@
+"""Detect whether the motor has to stop for good: every check is asked at every sample."""
+
+from dataclasses import dataclass
+
+from motor_control.controller.faults import few_edges, irregular_edges, overspeed, runaway, stall
+from motor_control.controller.faults.evidence import Config, Seen
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """What each check remembers."""
+
+    stalled: stall.State = stall.State()
+    missing: few_edges.State = few_edges.State()
+    periods: irregular_edges.State = irregular_edges.State()
+    undriven: runaway.State = runaway.State()
+    too_fast: float = 0.0  # [s]
+
+
+def begin(speed: float) -> State:
+    """Begin with a motor that turns at a speed [rad/s]."""
+    return State(missing=few_edges.State(expected=speed))
+
+
+def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
+    """Find a fault: a sentence if the motor has to stop, else ""."""
+    regular = state.periods.jump < irregular_edges.IRREGULAR
+    reasons, states = zip(
+        stall.check(config, state.stalled, seen),
+        few_edges.check(config, state.missing, seen, regular),
+        irregular_edges.check(config, state.periods, seen),
+        runaway.check(config, state.undriven, seen),
+        overspeed.check(config, state.too_fast, seen),
+        strict=True,
+    )
+    return next(filter(None, reasons), ""), State(*states)

@@ -1,0 +1,51 @@
+"""What a fault is told by: what is known of the motor, and what a sample shows."""
+
+from dataclasses import dataclass
+from math import inf
+
+from motor_control.checks import at_least
+from motor_control.controller.motion import Motion
+from motor_model.sample import Sample
+
+FULL = 0.98  # of the voltage limit
+# Of the voltage limit that a load may take before anything is wrong. A motor with two channels may hold a weight, and
+# the weight drives it where it falls: of a load of a quarter of the stall torque only the difference is known. With one
+# channel friction has to hold 0 rad/s, so that a load is no larger than friction.
+SPARE, SPARE_SINGLE = 0.25, 0.15
+
+
+@dataclass(frozen=True, slots=True)
+class Config:
+    """When to stop, and what the motor is like.
+
+    Raises:
+        MotorError: a value is negative or not finite.
+    """
+
+    stall_time: float = 0.5  # [s] 0: never
+    fastest: float = inf  # [rad/s] by the model; infinite without one
+    slot: float = 0.0  # [rad] between edges; 0: they are not counted
+    kv: float = 0.0  # [V·s/rad] by the model; 0: there is none
+    time_constant: float = 0.0  # [s] ka/kv, and delay
+    spare: float = SPARE  # of the voltage limit that a load may take
+    friction: float = 0.0  # [V] that the model needs to break loose, loads and dead zone included
+
+    def __post_init__(self) -> None:
+        at_least(0.0, stall_time=self.stall_time)
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What a sample shows."""
+
+    sample: Sample
+    speed: float  # [rad/s] that the law uses
+    motion: Motion
+    reference: float  # [rad/s]
+    dt: float  # [s] since the sample before
+    voltage_limit: float  # [V]
+
+    @property
+    def full(self) -> bool:
+        """Whether the motor gets all that it may."""
+        return abs(self.sample.voltage) >= FULL * self.voltage_limit > 0.0

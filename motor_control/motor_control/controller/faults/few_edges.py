@@ -1,0 +1,76 @@
+"""Detect edges that are too few for the voltage, by the model or by the last steady motion."""
+
+from dataclasses import dataclass
+from math import copysign, exp
+
+from motor_control.controller.faults.evidence import Config, Seen
+from motor_control.controller.motion import FAST
+
+FEW = 0.3  # of the expected speed; a load that slows a motor down to this takes 70 % of its stall torque
+SPIN_UP = 0.3  # [s] time constant that a motor may have of which there is no model
+FORGET = 0.3  # [s] time constant with which that is forgotten while edges fit
+BEHIND = 0.5  # of the reference: a motor that turns as it is told has no fault, whatever its load
+GROWING = 1.2  # of the average of the last 0.15 s: a heavy disc that is still being spun up
+MORE = 1.25  # times the friction of the model that may be needed without a fault
+KEPT = 0.75  # of the voltage of the last steady motion that may be needed at a standstill: the rest was back-EMF
+SILENT = 0.1  # [s] without an edge, and so many slots in which some should have come:
+SILENT_SLOTS = 5.0
+SILENT_EXCESS, FEW_EXCESS = 0.07, 0.35  # of stall_time that the whole voltage may be in excess: no edge, too few
+SENTENCE = (
+    "Edges do not fit the voltage: {:.3g} V, and {:.1f} rad/s where {:.1f} rad/s are expected. See whether the shaft "
+    "is blocked, the encoder is connected, and its line quiet."
+)
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """What the motor should have done."""
+
+    expected: float = 0.0  # [rad/s] signed, of the model without a load
+    excess: float = 0.0  # [s] of the whole voltage, while edges were too few
+    travel: float = 0.0  # [rad] that is expected since the latest edge
+
+
+def check(config: Config, state: State, seen: Seen, regular: bool) -> tuple[str, State]:
+    """Check one sample, whose edges are regular or not: a sentence if the motor has to stop, else ""."""
+    motion, voltage, limit = seen.motion, abs(seen.sample.voltage), seen.voltage_limit
+    if seen.dt <= 0.0:
+        return "", state
+    braking = seen.sample.speed * seen.sample.voltage < 0.0
+    if config.kv > 0.0:
+        foreseen = predict_speed(config, state.expected, seen)
+        load = max(config.friction, motion.steady_voltage - config.kv * motion.steady_speed)
+        allowed = MORE * load + config.kv * motion.speed + config.spare * limit
+    else:
+        foreseen = 0.0 if braking else extrapolate_speed(config, state.expected, seen)
+        allowed = KEPT * motion.steady_voltage + config.spare * limit
+    expected = abs(foreseen)
+    obeys = regular and min(motion.speed, motion.slow_speed) >= BEHIND * abs(seen.reference)
+    if motion.speed >= FEW * expected or obeys or voltage <= allowed:
+        return "", State(foreseen, state.excess * exp(-seen.dt / FORGET), 0.0)
+    growing = motion.speed > GROWING * motion.slow_speed and motion.speed > 2.0 * config.slot / FAST
+    excess = state.excess + (0.0 if growing or braking else (voltage - allowed) / limit * seen.dt)
+    travel = 0.0 if motion.edges else state.travel + expected * seen.dt
+    silent = motion.silent >= SILENT and travel >= SILENT_SLOTS * config.slot
+    bound = config.stall_time * (SILENT_EXCESS if silent else FEW_EXCESS)
+    reason = SENTENCE.format(voltage, motion.speed, expected) if excess >= bound > 0.0 else ""
+    return reason, State(foreseen, excess, travel)
+
+
+def extrapolate_speed(config: Config, expected: float, seen: Seen) -> float:
+    """Extrapolate the last steady speed [rad/s] to a voltage, of which a load takes the spare one."""
+    motion, voltage = seen.motion, abs(seen.sample.voltage)
+    if voltage <= KEPT * motion.steady_voltage or motion.steady_voltage == 0.0:
+        return 0.0
+    spare = config.spare * seen.voltage_limit
+    final = motion.steady_speed * max((voltage - spare) / motion.steady_voltage, 1.0)
+    return min(final, expected + (final - expected) * (1.0 - exp(-seen.dt / SPIN_UP)))
+
+
+def predict_speed(config: Config, expected: float, seen: Seen) -> float:
+    """Predict the speed [rad/s] of the model without a load one sample on."""
+    if config.kv == 0.0 or seen.dt <= 0.0:
+        return expected
+    drive = max(abs(seen.sample.voltage) - config.friction, 0.0)
+    final = copysign(drive, seen.sample.voltage) / config.kv
+    return expected + (final - expected) * (1.0 - exp(-seen.dt / config.time_constant))

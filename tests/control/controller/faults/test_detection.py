@@ -1,0 +1,77 @@
+"""What stops a loop for good, and what must not."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from bench_board import DEFAULTS, drive, motor
+from bench_motor import Plant, close_loop
+
+from motor_control.controller import controller
+from motor_control.controller.controller import State
+from motor_control.controller.output import Output
+from motor_control.parameters import config_of
+from motor_model.sample import Info, Sample
+
+
+@pytest.mark.parametrize("source", ["observer", "measured"])
+def test_a_blocked_shaft_stops_the_loop_until_reset(source: str) -> None:
+    blocked = motor(("load_bias",), bias_voltage=0.0, ks=20.0, breakaway_voltage=30.0)
+    run = drive(blocked, 40.0, 3.0, model=motor(), speed_source=source, feedforward=source == "observer")
+    stopped = [output for output in run.outputs if output.state == controller.STOPPED]
+    assert stopped and all(output.terms.voltage == 0.0 for output in stopped)
+    assert run.outputs[-1].state == controller.STOPPED
+    assert "blocked" in stopped[0].reason and "motor/reset" in stopped[0].reason
+    first = next(k for k, output in enumerate(run.outputs) if output.state == controller.STOPPED)
+    full = np.flatnonzero(run.voltage == 12.0)
+    assert 0.07 < run.time[first] - run.time[full[0]] < 0.6
+
+
+def test_a_wrong_sign_stops_the_loop() -> None:
+    """Two channels, swapped: what the controller means for ahead goes back."""
+    plant = Plant(single_channel=False)
+    config = config_of({**DEFAULTS}, Info(single_channel=False))
+    state, outputs = State(), []
+
+    def answer(sample: Sample, time: float) -> float:
+        nonlocal state
+        seen = replace(sample, speed=-sample.speed, edge_count=-sample.edge_count)
+        output, state = controller.update(config, state, seen, 50.0, time)
+        outputs.append(output)
+        return output.terms.voltage
+
+    trace = close_loop(plant, answer, 1.0)
+    assert outputs[-1].state == controller.STOPPED and "agree on the direction" in outputs[-1].reason
+    assert trace.time[trace.voltages.index(0.0)] < 0.3
+    assert plant.speed < 60.0
+
+
+def ignoring(enabled: list[bool]) -> list[Output]:
+    """A plant at rest whose output is off at some samples."""
+    config, state, outputs = config_of({**DEFAULTS, "kp": 0.01}, Info()), State(), []
+    for k, on in enumerate(enabled):
+        voltage = state.run.asked if state.run and on else 0.0
+        sample = Sample(k * 5_000_000, 0.0, voltage, 0)
+        output, state = controller.update(config, state, sample, 20.0, 0.005 * k)
+        outputs.append(output)
+    return outputs
+
+
+def test_an_output_that_is_off_does_not_wind_up_the_integral() -> None:
+    outputs = ignoring([True] * 5 + [False] * 200 + [True] * 5)
+    off, on = outputs[20:205], outputs[206:]
+    assert len({output.terms.integral for output in off}) == 1
+    assert 0.5 < off[0].terms.integral < 5.5
+    assert all("motor/enable" in output.reason and output.warning for output in off)
+    assert all(output.state == controller.RUNNING for output in outputs)
+    assert on[-1].reason == "" and on[-1].terms.integral > off[-1].terms.integral
+    assert max(output.terms.integral for output in ignoring([True] * 205)) > 11.0
+
+
+def test_no_fault_in_ordinary_motion() -> None:
+    def reference(time: float) -> float:
+        return (100.0, -100.0, 0.0, 3.0, -3.0, 160.0, 0.0)[min(int(time / 0.4), 6)]
+
+    for source in ("observer", "measured"):
+        run = drive(motor(), reference, 2.8, speed_source=source, feedforward=source == "observer")
+        assert run.states() == {"running"}

@@ -1,0 +1,87 @@
+"""Periods that jump back and forth."""
+
+import re
+from math import tau
+
+import numpy as np
+import pytest
+
+from motor_control.controller.faults.evidence import Config, Seen
+from motor_control.controller.faults.irregular_edges import IRREGULAR, State, check, follow_period
+from motor_control.controller.motion import Motion, follow_motion
+from motor_model.sample import Sample
+
+SLOT = tau / 96
+
+
+def mean_jump(periods: np.ndarray) -> float:
+    """The largest mean jump in a row of periods [s]."""
+    state, largest = State(), 0.0
+    for period in periods:
+        state = follow_period(state, float(period))
+        largest = max(largest, state.jump)
+    return largest
+
+
+def test_random_edges_jump_and_motors_do_not() -> None:
+    rng = np.random.default_rng(3)
+    assert mean_jump(0.02 * rng.exponential(size=60)) > IRREGULAR
+    assert mean_jump(0.02 * (1.0 + 0.05 * rng.standard_normal(2000))) < 0.1  # slots
+    assert mean_jump(0.005 * np.exp(0.5 * np.arange(8))) == 0.0  # a motor that is braked hard
+    assert mean_jump(np.tile([0.02, 0.022], 50)) < 0.1
+
+
+def test_mean_jump_of_random_edges_is_as_the_page_says() -> None:
+    rng, state, jumps = np.random.default_rng(1), State(), []
+    for period in 0.01 * rng.exponential(size=20_000):
+        state = follow_period(state, float(period))
+        jumps.append(state.jump)
+    assert np.mean(jumps) == pytest.approx(0.45, abs=0.01)
+
+
+def test_a_period_that_is_not_known_is_no_jump() -> None:
+    """Two channels: an edge that was taken back."""
+    state = follow_period(follow_period(State(), 0.02), 0.0)
+    assert state == State() and follow_period(state, 0.05) == State(0.05)
+
+
+def test_a_standstill_and_a_turn_begin_anew() -> None:
+    state = State(0.02, -0.1, 0.2)
+    assert follow_period(state, 0.099).jump > 0.18 and follow_period(state, 0.1) == State()
+    assert follow_period(state, 0.02, backward=True) == State(backward=True)
+
+
+def noisy(rate: float, voltage: float = 6.0, stall_time: float = 0.5) -> float | None:
+    """When [s] random edges at a rate [1/s] stop the motor, by the median of fifteen; None: not within 2 s."""
+    config, found = Config(stall_time, slot=SLOT), []
+    for seed in range(15):
+        rng, state, motion = np.random.default_rng(seed), State(), Motion()
+        count, at, period, when = 0, 0.0, 0.0, np.inf
+        following = float(rng.exponential(1.0 / rate))
+        for k in range(400):
+            while at + following <= 0.005 * k:
+                at, period, count = at + following, following, count + 1
+                following = float(rng.exponential(1.0 / rate))
+            sample = Sample(k * 5_000_000, 3.0, voltage, count, edge_period=period)
+            motion = follow_motion(motion, sample, SLOT, 0.005, 12.0)
+            reason, state = check(config, state, Seen(sample, 3.0, motion, 3.0, 0.005, 12.0))
+            if reason:
+                assert 1.3 < float(re.findall(r"by a factor of ([\d.]+) on average", reason)[0]) < 2.2
+                when = 0.005 * k
+                break
+        found.append(when)
+    median = float(np.median(found))
+    return median if median < np.inf else None
+
+
+@pytest.mark.parametrize(("rate", "most"), [(50.0, 0.4), (100.0, 0.2), (300.0, 0.1)])
+def test_random_edges_stop_the_motor_whatever_its_speed_and_voltage(rate: float, most: float) -> None:
+    for voltage in (0.5, 12.0):
+        when = noisy(rate, voltage)
+        assert when is not None and 0.02 < when < most
+
+
+def test_what_is_no_fault() -> None:
+    assert noisy(8.0) is None  # an ordinary loop may make a slow motor swing
+    assert noisy(100.0, voltage=0.1) is None  # nothing is driven
+    assert noisy(100.0, stall_time=0.0) is None
