@@ -25,12 +25,9 @@ def begin(speed: float) -> State:
 def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     """Find a fault: a sentence if the motor has to stop, else ""."""
     regular = state.periods.jump < irregular_edges.IRREGULAR
-    reasons, states = zip(
-        stall.check(config, state.stalled, seen),
-        few_edges.check(config, state.missing, seen, regular),
-        irregular_edges.check(config, state.periods, seen),
-        runaway.check(config, state.undriven, seen),
-        overspeed.check(config, state.too_fast, seen),
-        strict=True,
-    )
-    return next(filter(None, reasons), ""), State(*states)
+    still, stalled = stall.check(config, state.stalled, seen)
+    few, missing = few_edges.check(config, state.missing, seen, regular)
+    irregular, periods = irregular_edges.check(config, state.periods, seen)
+    away, undriven = runaway.check(config, state.undriven, seen)
+    fast, too_fast = overspeed.check(config, state.too_fast, seen)
+    return still or few or irregular or away or fast, State(stalled, missing, periods, undriven, too_fast)
