@@ -61,7 +61,7 @@ def assert_the_diagnosis(printed: str) -> None:
 # Blocks that need no node of another block run on their own: the board's, and what works on files alone.
 PARTS = {
     "board": lambda block: bool(BOARD.search(block)),
-    "files": lambda block: bool(re.search(r"--model |import_csv|hidden", block)),
+    "files": lambda block: bool(re.search(r"--model |import_log|hidden", block)),
     "live": lambda block: True,
 }
 

@@ -50,7 +50,7 @@ def test_there_are_executables() -> None:
         ),
         ("ros2 run motor_identification diagnose bag --known-effects warm", ["warm_up"]),
         ("ros2 run motor_identification identify --e", ["--effects", "--epochs"]),
-        ("ros2 run motor_identification import_csv log.csv --unit r", ["rad", "rad/s", "rev", "rpm"]),
+        ("ros2 run motor_identification import_csv log.csv --unit r", ["rad", "rad/s", "rev", "rev/s", "rpm"]),
         ("ros2 run motor_control tune --speed-source o", ["observer"]),
         ("ros2 run motor_sim motor_sim --ros-args -p mo", ["model:="]),
         ("ros2 run nothing nobody --", []),

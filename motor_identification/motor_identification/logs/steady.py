@@ -11,7 +11,8 @@ from math import tau
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.csv_form import UNITS, CsvForm, Kind
+from motor_identification.logs.form import CsvForm
+from motor_identification.logs.count_size import MOST_EDGES
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement, Sample
 
@@ -40,7 +41,7 @@ def read_steady(form: CsvForm, info: Info, voltage: Floats, speed: Floats, runs:
     window = form.speed_window or WINDOW
     if window > LONGEST:
         raise RecordingError(f"A steady speed may be the mean over {LONGEST:g} s at most: reduce --speed-window.")
-    unit = UNITS[Kind.SPEED][form.unit] or 1.0
+    unit = form.unit_size or 1.0
     info = replace(
         info,
         measurement=Measurement.SPEED,
@@ -59,7 +60,10 @@ def read_steady(form: CsvForm, info: Info, voltage: Floats, speed: Floats, runs:
 
 
 def _edges(form: CsvForm, turn: float) -> int:
-    return round(tau / (form.count_quantum * turn)) if form.count_quantum else 0
+    edges = round(min(tau / (form.count_quantum * turn), 2.0 * MOST_EDGES)) if form.count_quantum else 0
+    if edges > MOST_EDGES:
+        raise RecordingError("The counts of a turn come to more than any encoder has: check --count-quantum.")
+    return edges
 
 
 def _stairs(voltage: Floats, speed: Floats) -> tuple[Sample, ...]:

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motor_identification.logs.csv_form import CsvForm, Kind
-from motor_identification.logs.csv_table import Table
+from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.count_size import FINE, MOST_EDGES, position_step
 from motor_identification.logs.motion import Motion, read_motion
+from motor_identification.logs.signals import Signals
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement
 
@@ -20,9 +21,11 @@ RAMP = [3.6 * k for k in range(12)]  # one slot of 100 a row
 
 def read(form: CsvForm, values: list[float]) -> Motion:
     count = len(values)
-    table = Table(Path("log.csv"), tuple(range(2, count + 2)), {"y": [repr(value) for value in values]})
-    time = np.arange(count, dtype=np.int64) * 20_000_000
-    return read_motion(form, Info(sample_period=0.02), table, time, np.full(count, 6.0), [slice(0, count)])
+    unknown, time = np.full(count, np.nan), np.arange(count, dtype=np.int64) * 20_000_000
+    volts, lines = np.full(count, 6.0), np.arange(2, count + 2)
+    runs = {"": slice(0, count)}
+    signals = Signals(Path("log.csv"), lines, time, volts, np.array(values), unknown, unknown, runs)
+    return read_motion(form, Info(sample_period=0.02), signals)
 
 
 def test_positions_become_counts_and_their_difference_quotient() -> None:
@@ -35,10 +38,30 @@ def test_positions_become_counts_and_their_difference_quotient() -> None:
 def test_the_size_of_a_count_is_the_smallest_step_where_nobody_said_it() -> None:
     motion = read(DEGREES, RAMP)
     assert motion.info.edges_per_revolution == 100 and "the smallest step in the data" in motion.findings[0]
-    with pytest.raises(RecordingError, match="show no encoder steps"):
-        read(DEGREES, [k**1.37 for k in range(12)])
-    with pytest.raises(RecordingError, match="show no encoder steps"):
-        read(DEGREES, RAMP[:9])  # too few to tell
+    smooth = read(DEGREES, [k**1.37 for k in range(12)])
+    assert FINE[0] <= smooth.info.edges_per_revolution <= FINE[1] and "show no steps" in smooth.findings[0]
+    assert position_step(np.array(RAMP[:9])) == 0.0 < position_step(np.array(RAMP[:10]))  # too few to tell
+
+
+def test_a_step_that_is_no_share_of_a_turn_is_counted_finely_enough() -> None:
+    motion = read(DEGREES, [0.7 * k for k in range(30)])
+    assert "0.7 deg, no whole share of a turn" in motion.findings[0]
+    assert motion.speed == pytest.approx(np.full(30, 0.7 * tau / 360 / 0.02), rel=0.5)
+
+
+def test_counts_beyond_what_can_be_counted_are_refused() -> None:
+    with pytest.raises(RecordingError, match="y comes to 1e.300 counts, beyond what can be counted"):
+        read(replace(DEGREES, unit="count", edges_per_revolution=360), [0.0, 1.0, 1e300])
+    assert MOST_EDGES < 2**32  # what motor/info can say
+    with pytest.raises(RecordingError, match="more than any encoder has"):
+        read(replace(DEGREES, count_quantum=1e-9), RAMP)
+
+
+def test_metres_need_to_be_told_how_far_a_turn_goes() -> None:
+    metres = replace(SPEED, unit="m/s")
+    with pytest.raises(RecordingError, match="how far a turn goes .--units-per-revolution"):
+        read(metres, [1.0, 2.0])
+    assert read(replace(metres, units_per_revolution=0.5), [1.0, 2.0]).speed == pytest.approx([2 * tau, 4 * tau])
 
 
 def test_a_count_that_does_not_divide_a_turn_is_refused() -> None:
@@ -65,8 +88,8 @@ def test_counts_need_to_be_told_how_many_there_are_in_a_turn() -> None:
 
 def test_a_counter_that_wraps_is_refused_with_its_line() -> None:
     counts = CsvForm("t", "u", "y", Kind.COUNT, "count", edges_per_revolution=100)
-    wrapped = [float(10 * k % 256) for k in range(40)]
-    with pytest.raises(RecordingError, match=r"line 28: y jumps from 250\.0 to 4\.0: the counter wrapped"):
+    wrapped = [float(10 * k % 190) for k in range(60)]
+    with pytest.raises(RecordingError, match=r"line 40: y jumps from 180 to 0, and not for the first time"):
         read(counts, wrapped)
 
 

@@ -5,7 +5,7 @@ from math import tau
 import numpy as np
 import pytest
 
-from motor_identification.logs.csv_form import CsvForm, Kind
+from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.steady import HOLD, LONGEST, read_steady
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement

@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motor_identification.logs.csv_table import Table, read_table
+from motor_identification.logs.csv.reader import read_table
+from motor_identification.logs.csv.table import Table
 from motor_model.errors import RecordingError
 
 

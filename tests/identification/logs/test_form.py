@@ -38,7 +38,7 @@ def test_a_run_from_rest_begins_when_its_voltage_came(tmp_path: Path) -> None:
     assert "The motor stands until 0 s: the bag begins then" in log.findings[-1]
     at_once = read(tmp_path, LATE, replace(ANGLE, rest_until=0.012)).runs[0].samples
     assert len(at_once) == 3 and at_once[0].speed == 0.0 and at_once[0].sample_time == 12_000_000
-    with pytest.raises(RecordingError, match=r"line 2: the run begins at t = 0.012, before --rest-until 0.02: that"):
+    with pytest.raises(RecordingError, match=r"line 2: the run begins at t = 0.012 s, before --rest-until 0.02: that"):
         read(tmp_path, LATE, replace(ANGLE, rest_until=0.02))
 
 
@@ -85,9 +85,7 @@ def test_a_static_curve_is_a_stair_whose_ends_are_compared(tmp_path: Path) -> No
 
 
 WRAPPED = {
-    "wraps after a turn": lambda angle: angle % 360,
     "wraps at a byte": lambda angle: angle % 256,
-    "is reset": lambda angle: np.where(np.arange(len(angle)) > 60, angle - angle[60], angle),
     "is misread once": lambda angle: np.where(np.arange(len(angle)) == 60, 9999, angle),
 }
 
@@ -97,12 +95,24 @@ def test_positions_that_jump_are_refused_with_their_line(tmp_path: Path, case: s
     angle = np.arange(120) * 7
     rows = [(f"{0.005 * k:.3f}", 5, value) for k, value in enumerate(WRAPPED[case](angle))]
     with pytest.raises(
-        RecordingError, match=r"line \d+: y jumps from \d+ to \d+: the counter wrapped or was reset"
+        RecordingError,
+        match=r"line \d+: y jumps from \d+ to \d+[:,] (the counter wrapped or was reset|and not for the first time)",
     ) as bad:
         read(tmp_path, rows, ANGLE)
     assert str(bad.value).endswith(".") and "\n" not in str(bad.value)
     if case.startswith("is "):
         assert "line 62: y" in str(bad.value) or "line 63: y" in str(bad.value)
+    wrapped = [(f"{0.005 * k:.3f}", 5, value) for k, value in enumerate(angle % 256)]
+    said = read(tmp_path, wrapped, replace(ANGLE, wrap=256.0))
+    assert said.runs[0].samples[-1].edge_count == 119 * 7 and "y wraps at 256 deg (3 times)" in " ".join(said.findings)
+    turning = [(f"{0.005 * k:.3f}", 5, value) for k, value in enumerate(angle % 360)]
+    seen = read(tmp_path, turning, ANGLE)
+    assert seen.runs[0].samples[-1].edge_count == 119 * 7 and "y wraps at 360 deg (2 times)" in " ".join(seen.findings)
+    reset = [(f"{0.005 * k:.3f}", 5, value - 420 * (k > 60)) for k, value in enumerate(angle)]
+    parts = read(tmp_path, reset, ANGLE)
+    assert [len(run.samples) for run in parts.runs] == [61, 59] and "y is reset once: 2 runs" in " ".join(
+        parts.findings
+    )
     smooth = [(f"{0.005 * k:.3f}", 5, value) for k, value in enumerate(angle)]
     assert read(tmp_path, smooth, ANGLE).runs[0].samples[-1].edge_count == 119 * 7
 
@@ -145,7 +155,10 @@ def test_the_command_offers_them(tmp_path: Path, capsys: pytest.CaptureFixture[s
         ["--steady", "--time", "t", "--speed", "y", *common],
         ["--steady", "--speed", "y", "--rest-until", "0", *common],
         ["--time", "t", "--speed", "y", "--rest-until", "nan", *common],
-        ["--speed", "y", *common],
+        ["--speed", "y", "--speed-lag", "nan", *common],
+        ["--speed", "y", "--edges-per-revolution", "20000000000", *common],
+        ["--speed", "y", "--full-duty", "255", "--voltage-scale", "2", *common],
+        ["--motor", "left:u", *common],
     ):
         with pytest.raises(SystemExit) as caught:
             main([str(tmp_path / "static.csv"), "--output", str(tmp_path / "no"), *wrong])

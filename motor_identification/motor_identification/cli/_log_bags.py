@@ -1,0 +1,99 @@
+"""Writes the motors of an imported log: a bag for every run of each, or none at all."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from tqdm import tqdm
+
+from motor_identification.bag import BagWriter
+from motor_identification.live.qos_profiles import offered
+from motor_identification.logs.serialised import speed_messages, voltage_messages
+from motor_model.errors import RecordingError
+from motor_ros import qos
+
+if TYPE_CHECKING:
+    from motor_identification.logs import Run
+    from motor_identification.logs.imported import Imported
+    from motor_model.sample import Info
+
+_SINCE_1970 = 10**18  # [ns] the year 2001: a log whose times are later counts from 1970
+_LAST = 2**31 * 10**9  # [ns] the year 2038, which a message's stamp ends with
+_CHUNK = 50_000  # samples serialised at a time
+
+
+def run_import(file: Path, imported: "Imported", output: Path | None, force: bool) -> int:
+    """Say what was found, and write the bags where an output was given."""
+    print(*imported.findings, sep="\n")
+    bags: dict[Path, tuple[Run, Info]] = {}
+    for motor in imported.motors:
+        if motor.label:
+            print(f"\nMotor {motor.label}:")
+        print(*motor.log.findings, sep="\n")
+        for run in motor.log.runs:
+            parts = [part for part in (motor.label, run.label) if part]
+            if output is not None:
+                bags[output.with_name("_".join([output.name, *parts]))] = (run, motor.log.info)
+    if not bags:
+        print("Nothing is written (--dry-run).")
+        return 0
+    write_bags(bags, _offset(file, next(iter(bags.values()))[0]), force)
+    for path, (run, _) in bags.items():
+        print(f"{path}: {len(run.samples)} samples, {run.duration:.2f} s")
+    return 0
+
+
+def write_bags(bags: "dict[Path, tuple[Run, Info]]", offset: int, force: bool = False) -> None:
+    """One bag a run, or none at all: whatever comes in between, what was begun is removed.
+
+    Raises:
+        RecordingError: a path exists already, or cannot be written; times are beyond what a message can say.
+    """
+    for run, _ in bags.values():
+        if not 0 <= offset + run.samples[0].sample_time <= offset + run.samples[-1].sample_time < _LAST:
+            raise RecordingError(
+                "The log's times lie before 1970 or after 2038 as ROS counts: check --time and --time-unit."
+            )
+    writers: list[BagWriter] = []
+    try:
+        writers.extend(BagWriter(path, force) for path in bags)
+        total = sum(len(run.samples) for run, _ in bags.values())
+        with tqdm(total=total, desc="writing", unit="row", delay=2.0, disable=None) as bar:
+            for writer, (run, info) in zip(writers, bags.values(), strict=True):
+                _write(writer, run, info, offset, bar.update)
+                writer.close()
+    except BaseException:
+        for writer in writers:
+            writer.discard()
+        raise
+
+
+def _offset(file: Path, first: "Run") -> int:
+    """[ns] from the log's clock to ROS time: the file's date, where the log itself does not count from 1970."""
+    return 0 if first.samples[0].sample_time > _SINCE_1970 else file.stat().st_mtime_ns
+
+
+def _write(writer: "BagWriter", run: "Run", info: "Info", offset: int, done: Callable[[int], object]) -> None:
+    from rclpy.serialization import serialize_message
+
+    from motor_ros.messages import info_message, time_message
+
+    latched = writer.topic("/motor/info", "motor_msgs/msg/MotorInfo", offered(qos.INFO))
+    speed = writer.topic("/motor/speed", "motor_msgs/msg/MotorSpeed", offered(qos.SPEED))
+    voltage = writer.topic("/motor/voltage", "motor_msgs/msg/MotorVoltage", offered(qos.VOLTAGE))
+    start = offset + run.samples[0].sample_time
+    writer.write(latched, start, serialize_message(info_message(info, time_message(start))))
+    for begin in range(0, len(run.samples), _CHUNK):
+        samples = run.samples[begin : begin + _CHUNK]
+        stamps = np.array([sample.sample_time for sample in samples], np.int64) + offset
+        rows = zip(
+            stamps.tolist(),
+            voltage_messages(samples, stamps, info.name),
+            speed_messages(samples, stamps, info.name),
+            strict=True,
+        )
+        for now, volts, moved in rows:
+            writer.write(voltage, now, volts)
+            writer.write(speed, now, moved)
+        done(len(samples))

@@ -1,0 +1,125 @@
+"""The options of the commands that import logs, and what a user says with them."""
+
+import argparse
+from pathlib import Path
+
+from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.form import TIME_UNITS, UNITS, Kind
+from motor_identification.logs.count_size import MOST_EDGES
+from motor_ros.command import between, positive, whole_between
+from motor_ros.output_files import add_force_option
+
+
+def add_log_options(parser: argparse.ArgumentParser) -> None:
+    """Add all of them: none but `--output` is needed where names and numbers tell the rest."""
+    add = parser.add_argument
+    add("file", type=Path, help="the log")
+    add("--output", type=Path, metavar="BAG", help="where the bag goes; must not exist")
+    add("--dry-run", action="store_true", help="say what would be imported, and write nothing")
+    add("--name", default="motor", help="the motor's name in the bag (default: motor)")
+    add_force_option(parser)
+    _add_columns(parser)
+    _add_meaning(parser)
+
+
+def _add_columns(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("which columns are read (default: guessed from names and numbers)")
+    rows = group.add_mutually_exclusive_group()
+    rows.add_argument("--time", metavar="COL", help="column of times")
+    rows.add_argument(
+        "--steady", action="store_true", help="every row is a steady state, such as those of a static curve"
+    )
+    group.add_argument("--voltage", metavar="COL", help="column of voltages or duties")
+    kind = group.add_mutually_exclusive_group()
+    kind.add_argument("--speed", metavar="COL", help="column of speeds")
+    kind.add_argument("--position", metavar="COL", help="column of positions")
+    kind.add_argument("--count", metavar="COL", help="column of encoder counts, with a sign")
+    kind.add_argument(
+        "--motor",
+        action="append",
+        default=[],
+        metavar="NAME:COL,COL",
+        help="a motor with its columns of voltage and motion, and a bag BAG_NAME; once for each",
+    )
+    group.add_argument("--supply", metavar="COL", help="column of the supply's voltage, for duties")
+    group.add_argument(
+        "--split",
+        metavar="COL",
+        help="a bag BAG_VALUE for every run of one value of this column; time may start again there",
+    )
+
+
+def _add_meaning(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument_group("what the columns mean").add_argument
+    units = sorted({unit for units in UNITS.values() for unit in units})
+    add("--time-unit", choices=list(TIME_UNITS), help="of the times (default: by name, or by how often rows come)")
+    add("--unit", choices=units, help="of speeds or positions (default: by name, or by the encoder's steps)")
+    add("--voltage-scale", type=_scale, metavar="V", help="volts per unit of the voltage column (default 1)")
+    add("--full-duty", type=positive, metavar="D", help="the voltage column holds duties: this one is full duty")
+    add("--supply-voltage", type=positive, metavar="V", help="voltage at full duty")
+    add(
+        "--voltage-before",
+        action="store_true",
+        help="a row's voltage was applied until its time (default: from its time until the next row), as where a "
+        "controller logs what it did before it reads the encoder",
+    )
+    add("--max-voltage", type=positive, metavar="V", help="voltage at full duty (default: the largest in the log)")
+    edges = whole_between(1, MOST_EDGES)
+    add("--edges-per-revolution", type=edges, metavar="N", help="counts of a turn of the shaft that the log is about")
+    add("--count-quantum", type=positive, metavar="Q", help="size of one count in --unit (default: a turn / N)")
+    add("--units-per-revolution", type=positive, metavar="U", help="how many m (or whatever stands there) a turn goes")
+    add("--wrap", type=positive, metavar="R", help="positions begin again after this much (default: seen in them)")
+    add("--speed-window", type=positive, metavar="S", help="[s] what a speed is the mean over (default: sample period)")
+    add(
+        "--speed-lag",
+        type=between(-1e3, 1e3),
+        metavar="S",
+        help="[s] age of that window's middle at the row's time (default: half of it)",
+    )
+    add(
+        "--rest-until",
+        type=between(-1e18, 1e18),
+        metavar="S",
+        help="the motor stood until this time [s] of the column, when the first row's voltage came (such as 0, where "
+        "the rows begin a little later)",
+    )
+
+
+def _scale(text: str) -> float:
+    number = between(-1e9, 1e9)(text)
+    if number == 0.0:
+        raise argparse.ArgumentTypeError("0 V per unit is no voltage")
+    return number
+
+
+def read_log_options(parser: argparse.ArgumentParser, options: argparse.Namespace) -> Said:
+    """The options as what a user said; what does not go together is a usage error."""
+    kind = next((kind for kind in Kind if getattr(options, kind.value) is not None), None)
+    motion = getattr(options, kind.value) if kind else None
+    if kind and options.unit and options.unit not in UNITS[kind]:
+        parser.error(f"--unit {options.unit} does not go with --{kind.value}: take one of {', '.join(UNITS[kind])}")
+    if kind not in (None, Kind.SPEED) and (options.speed_window or options.speed_lag is not None):
+        parser.error("--speed-window and --speed-lag go with --speed only")
+    if options.steady and (kind not in (None, Kind.SPEED) or options.speed_lag is not None or options.voltage_before):
+        parser.error("--steady goes with --speed, and without --speed-lag and --voltage-before")
+    if options.steady and options.rest_until is not None:
+        parser.error("--rest-until takes a time of the --time column")
+    if "count" in (kind.value if kind else "", options.unit) and options.edges_per_revolution is None:
+        parser.error("counts have a size only with --edges-per-revolution")
+    if options.voltage_scale and (options.full_duty or options.supply or options.supply_voltage):
+        parser.error("--voltage-scale does not go with --full-duty, --supply and --supply-voltage")
+    if not options.output and not options.dry_run:
+        parser.error("say where the bag goes (--output BAG), or --dry-run")
+    same = set(Said.__dataclass_fields__) - {"motion", "kind", "motors"}
+    pairs = tuple(_pair(parser, text) for text in options.motor)
+    if len({pair.label for pair in pairs}) < len(pairs):
+        parser.error("every --motor needs a NAME of its own")
+    return Said(motion=motion, kind=kind, motors=pairs, **{name: getattr(options, name) for name in same})
+
+
+def _pair(parser: argparse.ArgumentParser, text: str) -> Pair:
+    label, colon, columns = text.partition(":")
+    voltage, comma, motion = columns.partition(",")
+    if not (colon and comma and label and voltage and motion) or not label.replace("_", "").isalnum():
+        parser.error(f"--motor takes NAME:VOLTAGE_COLUMN,MOTION_COLUMN, and not {text!r}")
+    return Pair(label, voltage.strip(), motion.strip())

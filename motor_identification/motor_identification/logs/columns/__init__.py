@@ -1,0 +1,1 @@
+"""What columns of a log mean: names and numbers in, quantities with units and the motor they belong to out."""

@@ -1,0 +1,42 @@
+"""The unit of a column of times, where its name does not say it: by when it is, and by how often rows come."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.form import TIME_UNITS
+
+Floats = NDArray[np.float64]
+
+SLOWEST = 0.4  # [s] between rows of a recording that shows motion; also the border between units, which are 1,000 apart
+_SINCE_1970 = (1e9, 2.2e9)  # [s] 2001 to 2039
+_ROUND = 100.0  # times that are all multiples of it are no microseconds: nobody's loop is that even
+
+
+def guess_time_unit(values: Floats) -> tuple[str, str]:
+    """The unit of times, shape (K,), and why."""
+    for unit, size in TIME_UNITS.items():
+        low, high = (limit * 1e9 / size for limit in _SINCE_1970)
+        if low <= float(np.median(values)) <= high and row_period(values) < 10.0 * 1e9 / size:
+            return unit, f"they count from 1970 in {unit}"
+    period = row_period(values)
+    rounded = not np.any(values % _ROUND) and bool(np.any(values))
+    for unit, size in TIME_UNITS.items():
+        if period * size * 1e-9 < SLOWEST or (unit == "ms" and rounded and period < 1e5):
+            return unit, f"rows are then {period * size * 1e-6:.4g} ms apart"
+    return "ns", f"rows are then {period * 1e-6:.4g} ms apart"
+
+
+def row_period(values: Floats) -> float:
+    """The median of the steps forward; 0 without one."""
+    steps = np.diff(values)
+    forward = steps[steps > 0.0]
+    return float(np.median(forward)) if len(forward) else 0.0
+
+
+def runs_forward(values: Floats) -> bool:
+    """Whether values, shape (K,), can be times: they go on in nearly every row, by about equal steps."""
+    steps = np.diff(values)
+    if len(steps) < 3 or np.mean(steps >= 0.0) < 0.95 or np.mean(steps > 0.0) < 0.5:
+        return False
+    forward = steps[steps > 0.0]
+    return bool(np.quantile(forward, 0.9) <= 3.0 * np.quantile(forward, 0.1))

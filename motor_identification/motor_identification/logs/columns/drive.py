@@ -1,0 +1,75 @@
+"""Which column drives the motor, and how it becomes volts: voltages, duties of a supply, a battery beside them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.vocabulary import UNITS, Quantity
+
+Floats = NDArray[np.float64]
+
+# What a duty column shows at full duty: shares, per cent, and the registers of timers.
+FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
+_PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control"})
+_STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
+MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
+LARGEST_VOLTS = 60.0  # whole numbers beyond are a duty
+
+
+@dataclass(frozen=True)
+class Drive:
+    """How the driving column becomes volts, and in words why."""
+
+    scale: float | None  # volts, or share of the supply, per unit; None: the supply has to be said
+    why: str
+    full: float | None = None  # a duty's value at full duty
+
+
+def voltage_drive(heading: Heading, values: Floats) -> Drive:
+    """A column that holds volts, or whole numbers that no small motor has as volts."""
+    scale = UNITS[heading.unit][1] if heading.unit in ("V", "mV") else None
+    if scale is not None:
+        return Drive(scale, f"in {heading.unit}")
+    largest = float(np.max(np.abs(values), initial=0.0))
+    if largest > LARGEST_VOLTS and not np.any(values % 1.0):
+        return duty_drive(heading, values)
+    return Drive(1.0, "in V (assumed; otherwise: --full-duty, --voltage-scale)")
+
+
+def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> Drive:
+    """A duty, as a share of the supply's voltage."""
+    if full:
+        return Drive(None, f"as a duty of ±{full:g}", full)
+    largest = float(np.max(np.abs(values), initial=0.0))
+    if heading.unit == "%":
+        return Drive(None, "as a duty in %", 100.0)
+    words = set(heading.words)
+    for candidate in FULL_DUTIES:
+        per_cent = candidate == 100.0 and np.any(values % 1.0) == 0 and largest < 100.0 and not words & _PER_CENT
+        if largest <= candidate and not per_cent:
+            return Drive(None, f"as a duty of ±{candidate:g} (assumed; otherwise: --full-duty)", candidate)
+    return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest)
+
+
+def supply_scale(heading: Heading, values: Floats) -> tuple[float, str]:
+    """Volts per unit of a supply's column, and the unit in words."""
+    if heading.unit in ("V", "mV"):
+        return UNITS[heading.unit][1] or 1.0, heading.unit
+    if float(np.median(values)) > MILLIVOLTS_FROM:
+        return 1e-3, "mV (assumed)"
+    return 1.0, "V"
+
+
+def is_supply(values: Floats, duty: Floats) -> bool:
+    """Whether voltages, shape (K,), are those of a supply: they stay where a duty beside them passes 0 or turns."""
+    largest = float(np.max(np.abs(values), initial=0.0))
+    steady = bool(np.all(values >= _STEADY_SUPPLY * largest)) and largest > 0.0
+    swing = np.ptp(np.abs(duty))
+    return steady and bool(swing > 0.5 * np.max(np.abs(duty), initial=0.0))
+
+
+def drives(heading: Heading) -> bool:
+    """Whether a name is that of what drives a motor."""
+    return heading.quantity in (Quantity.VOLTAGE, Quantity.DUTY)

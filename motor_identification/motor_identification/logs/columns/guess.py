@@ -1,0 +1,85 @@
+"""A table's forms, one a motor: as the user said, and guessed where not; every guess is said."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from motor_identification.logs.columns.clock import SLOWEST, guess_time_unit, row_period
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.motor_form import Notes, Rows, make_form
+from motor_identification.logs.columns.roles import Roles, find_roles
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import TIME_UNITS, CsvForm
+from motor_model.errors import RecordingError
+
+STEPS_BETWEEN = 0.8  # of the rows that a steady curve's voltage changes in
+
+
+@dataclass(frozen=True)
+class Guess:
+    """One form a motor, and a line for each column: what it was taken for and why."""
+
+    forms: tuple[CsvForm, ...]
+    findings: tuple[str, ...]
+
+
+def guess_forms(table: Table, said: Said) -> Guess:
+    """Guess how to read a table.
+
+    Raises:
+        RecordingError: what cannot be guessed, all of it in one sentence with the options that say it.
+    """
+    roles = find_roles(table, said)
+    notes = Notes([], [])
+    rows = _rows(table, roles, said, notes)
+    forms = [make_form(table, pair, roles, said, rows, notes) for pair in roles.pairs]
+    if notes.questions:
+        raise RecordingError(f"{table.path}: {_ask_once(notes.questions)}.")
+    return Guess(tuple(forms), tuple(dict.fromkeys(notes.findings)))
+
+
+def _rows(table: Table, roles: Roles, said: Said, notes: Notes) -> Rows:
+    """When the rows were, and whether they are steady states."""
+    if roles.time is None:
+        if not said.steady:
+            notes.findings.append("No column of times: every row is taken for a steady state (otherwise: --time).")
+        return Rows(None, "s", 0.0)
+    unit, why = _time_unit(table, roles.time, said)
+    notes.findings.append(f"Time: {roles.time} in {unit}{why}.")
+    stamps = table.nanoseconds(roles.time, TIME_UNITS[unit])
+    period = row_period(np.asarray(stamps * 1e-9, dtype=np.float64))
+    if said.time or not _is_steady(table, roles, period):
+        return Rows(roles.time, unit, period)
+    notes.findings.append(
+        f"Rows are {period:.3g} s apart and the voltage changes in each: every row is taken for a steady state "
+        "(assumed; otherwise: --time)."
+    )
+    return Rows(None, unit, period)
+
+
+def _time_unit(table: Table, column: str, said: Said) -> tuple[str, str]:
+    if said.time_unit:
+        return said.time_unit, ""
+    heading = read_heading(column)
+    if heading.unit in TIME_UNITS:
+        return heading.unit, ""
+    try:
+        unit, why = guess_time_unit(table.numbers(column))
+    except RecordingError:  # times of day, or garbage, which is told with its line
+        return "s", ""
+    return unit, f" ({why}; otherwise: --time-unit)"
+
+
+def _is_steady(table: Table, roles: Roles, period: float) -> bool:
+    changes = np.diff(table.numbers(roles.pairs[0].voltage)) != 0.0
+    return period > SLOWEST and float(np.mean(changes)) > STEPS_BETWEEN
+
+
+def _ask_once(questions: Sequence[tuple[str, str]]) -> str:
+    """Each question once, with the columns that need it."""
+    columns: dict[str, list[str]] = {}
+    for column, question in questions:
+        columns.setdefault(question, []).append(column)
+    return "; ".join(f"{' and '.join(dict.fromkeys(names))} {question}" for question, names in columns.items())

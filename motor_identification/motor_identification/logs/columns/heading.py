@@ -1,0 +1,110 @@
+"""A column's name taken apart: its words, its unit, the quantity they tell, the side it belongs to."""
+
+import re
+from dataclasses import dataclass
+
+from motor_identification.logs.columns.vocabulary import (
+    MOVES,
+    SIDES,
+    UNIT_BY_SPELLING,
+    UNITS,
+    WORDS,
+    Quantity,
+)
+
+_BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]")
+_PARTS = re.compile(r"[^\W\d_]+|\d+|%|°")
+_CAMEL = re.compile(r"(?<=[^\W\d_A-ZÀ-Þ])(?=[A-ZÀ-Þ])|(?<=[A-Z])(?=[A-Z][a-z])")
+_ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
+_MOTOR_NUMBER = re.compile(r"(?:m|motor|wheel|enc|encoder)(\d)$", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class Heading:
+    """What a name tells; `quantity` is None and `unit` empty where it tells nothing."""
+
+    name: str
+    words: tuple[str, ...]  # in lower case, without those of the unit
+    quantity: Quantity | None
+    unit: str  # a key of UNITS
+    side: str  # left, right, a number, or empty
+
+
+def read_heading(name: str) -> Heading:
+    """Read a column's name: `leftSpeedRpm`, `Tiempo (s)`, `duty_pct`, `Battery [mV]`."""
+    unit, rest = _unit_in_brackets(name)
+    words = _words(rest)
+    if not unit:
+        unit, words = _unit_at_the_end(words)
+    side = _side(words)
+    return Heading(name, words, _quantity(words, unit), unit, side)
+
+
+def _unit_in_brackets(name: str) -> tuple[str, str]:
+    for match in _BRACKETS.finditer(name):
+        unit = UNIT_BY_SPELLING.get(match[1].strip().lower().replace(" ", ""), "")
+        if unit:
+            return unit, name.replace(match[0], " ")
+    return "", _BRACKETS.sub(r" \1 ", name)
+
+
+def _words(text: str) -> tuple[str, ...]:
+    apart = _CAMEL.sub(" ", text.replace("ω", " ω ").replace("θ", " θ "))
+    return tuple(word.lower() for word in _PARTS.findall(apart))
+
+
+def _unit_at_the_end(words: tuple[str, ...]) -> tuple[str, tuple[str, ...]]:
+    """`speed rad s` is in rad/s, `pos deg` in degrees; a name that is only a unit keeps its word."""
+    for length in (2, 1):
+        unit = UNIT_BY_SPELLING.get("_".join(words[-length:]), "") if len(words) >= length else ""
+        if unit and len(words) > length and words[-1] not in ("a", "v", "l", "r"):
+            return unit, words[:-length]
+        if unit and len(words) == length and unit not in ("A", "m", "s", "V"):
+            return unit, words
+    return "", words
+
+
+def _side(words: tuple[str, ...]) -> str:
+    for word in words:
+        if word in SIDES:
+            return SIDES[word]
+    if "r" in words and len(words) > 1:
+        return "right"
+    numbers = [
+        words[k + 1] for k in range(len(words) - 1) if words[k] in ("m", "motor", "wheel") and words[k + 1].isdigit()
+    ]
+    return numbers[0] if numbers else ""
+
+
+def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
+    told = [
+        kind
+        for kind, known in WORDS.items()
+        if known & set(words) and not (kind is Quantity.REFERENCE and _is_side(words))
+    ]
+    by_unit = UNITS[unit][0] if unit else None
+    if Quantity.OTHER in told and "rate" not in words:
+        return Quantity.OTHER
+    if Quantity.REFERENCE in told:
+        return Quantity.REFERENCE
+    if Quantity.SUPPLY in told and by_unit in (None, Quantity.VOLTAGE):
+        return Quantity.SUPPLY
+    if by_unit is not None:
+        return _moves_by_unit(by_unit, told, words)
+    if MOVES & set(told) and _ORDERS & set(words):
+        return Quantity.REFERENCE
+    if Quantity.VOLTAGE in told and Quantity.DUTY in told:
+        return Quantity.VOLTAGE
+    return told[0] if told else None
+
+
+def _is_side(words: tuple[str, ...]) -> bool:
+    """Whether the r in a name means the right one: `r speed`, not `r` alone."""
+    return "r" in words and len(words) > 1 and not WORDS[Quantity.REFERENCE] & (set(words) - {"r"})
+
+
+def _moves_by_unit(by_unit: Quantity, told: list[Quantity], words: tuple[str, ...]) -> Quantity:
+    """The unit says what it is; of a speed or an angle, the words whether it is measured."""
+    if by_unit in MOVES and _ORDERS & set(words):
+        return Quantity.REFERENCE
+    return by_unit

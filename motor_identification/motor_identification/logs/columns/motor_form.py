@@ -1,0 +1,160 @@
+"""The form of one motor in a table: how its drive becomes volts, what its motion is, when its runs begin."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.columns.clock import row_period
+from motor_identification.logs.columns.drive import Drive, duty_drive, supply_scale, voltage_drive
+from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.movement import ASKED, Unit, guess_kind, guess_position_unit, guess_speed_unit
+from motor_identification.logs.columns.roles import Roles
+from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.columns.vocabulary import MOVES, Quantity
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import TIME_UNITS, UNITS, CsvForm, Kind
+
+Floats = NDArray[np.float64]
+
+FIRST_ROWS = 6.0  # sample periods after 0, within which a run's clock began with its voltage
+_KINDS = {Quantity.SPEED: Kind.SPEED, Quantity.POSITION: Kind.POSITION, Quantity.COUNT: Kind.COUNT}
+_ORDER = (Kind.SPEED, Kind.COUNT, Kind.POSITION)  # `count` is a count before it is a position
+
+
+@dataclass
+class Notes:
+    """Lines for the user, and what he has to be asked: the column, and the question behind its name."""
+
+    findings: list[str]
+    questions: list[tuple[str, str]]
+
+
+@dataclass(frozen=True)
+class Rows:
+    """When the rows of a table were."""
+
+    time: str | None  # column; None where rows are steady states
+    unit: str  # of the times
+    period: float  # [s]
+
+
+def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, notes: Notes) -> CsvForm:
+    """The form of one motor; what is guessed and what is missing goes to the notes."""
+    whose = f" of {pair.label}" if pair.label else ""
+    drive, scale, supply = _drive(table, pair, roles, said, notes)
+    volts = supply_scale(read_heading(supply), table.numbers(supply)) if supply else (1.0, "")
+    beside = f", times {supply} in {volts[1]}" if supply else ""
+    notes.findings.append(f"Voltage{whose}: {pair.voltage} {drive.why}{beside}.")
+    kind, unit = _motion(table, pair, said, rows.period if rows.time else 0.0, notes)
+    why = f" ({unit.why})" if unit.why else ""
+    notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}.")
+    milliamperes = roles.current is not None and read_heading(roles.current).unit == "mA"
+    same = ("edges_per_revolution", "count_quantum", "units_per_revolution", "wrap", "speed_window", "speed_lag")
+    return CsvForm(
+        time=rows.time,
+        voltage=pair.voltage,
+        motion=pair.motion,
+        kind=kind,
+        unit=unit.name or ASKED.get(kind, ("count",))[0],
+        voltage_scale=scale,
+        split=said.split,
+        rest_until=_rest(table, rows, pair, said, notes),
+        voltage_before=said.voltage_before,
+        name=said.name if said.name != "motor" or not pair.label else pair.label,
+        max_voltage=said.max_voltage or (said.supply_voltage if drive.full else None),
+        time_unit=rows.unit,
+        supply=supply,
+        supply_scale=volts[0],
+        current=roles.current,
+        current_scale=1e-3 if milliamperes else 1.0,
+        label=pair.label,
+        **{name: getattr(said, name) for name in same},
+    )
+
+
+def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> tuple[Drive, float, str | None]:
+    """How the driving column becomes volts: in words, per unit, by which supply."""
+    heading, values = read_heading(pair.voltage), table.numbers(pair.voltage)
+    if said.voltage_scale is not None:
+        return Drive(said.voltage_scale, f"times {said.voltage_scale:g} V"), said.voltage_scale, None
+    if said.full_duty or heading.quantity is Quantity.DUTY:
+        drive = duty_drive(heading, values, said.full_duty)
+    else:
+        drive = voltage_drive(heading, values)
+    if drive.scale is not None:
+        return drive, drive.scale, None
+    full = drive.full or 1.0
+    if said.supply_voltage:
+        why = f"{drive.why}, times {said.supply_voltage:g} V"
+        return Drive(None, why, full), said.supply_voltage / full, None
+    if roles.supply:
+        return drive, 1.0 / full, roles.supply
+    why = drive.why.replace(" (assumed; otherwise:", " (otherwise")
+    notes.questions.append((pair.voltage, f"{why}: say the voltage at full duty (--supply-voltage V)"))
+    return drive, 1.0, None
+
+
+def _motion(table: Table, pair: Pair, said: Said, period: float, notes: Notes) -> tuple[Kind, Unit]:
+    """Kind and unit of the column of motion."""
+    heading, values = read_heading(pair.motion), table.numbers(pair.motion)
+    kind = said.kind or _kind_of(heading)
+    if said.unit and not said.kind and (kind is None or said.unit not in UNITS[kind]):
+        kind = next(one for one in _ORDER if said.unit in UNITS[one])
+    if kind is None:
+        kind = guess_kind(values, table.numbers(pair.voltage)) if period else Kind.SPEED
+    unit = _unit(heading, values, kind, said, period)
+    if unit.name == "count" and kind is Kind.POSITION and said.kind is None:
+        kind = Kind.COUNT
+    _ask_about(pair.motion, kind, unit, said, notes)
+    return kind, unit
+
+
+def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: float) -> Unit:
+    if said.unit:
+        return Unit(said.unit, "")
+    if kind is Kind.COUNT:
+        return Unit("count", "")
+    if heading.unit and _kind_of(heading) is kind:
+        return Unit(heading.unit, "")
+    guessed = (
+        guess_speed_unit(values, said.speed_window or period) if kind is Kind.SPEED else guess_position_unit(values)
+    )
+    if not guessed.name and said.motion and said.kind:
+        return Unit(next(iter(UNITS[kind])), "assumed; otherwise: --unit")
+    return guessed
+
+
+def _ask_about(column: str, kind: Kind, unit: Unit, said: Said, notes: Notes) -> None:
+    if not unit.name:
+        options = f"{', '.join(unit.candidates[:-1])} or {unit.candidates[-1]}"
+        notes.questions.append((column, f"in {options}, which the numbers do not tell: say --unit"))
+    if unit.name in ("count", "count/s") and said.edges_per_revolution is None:
+        question = f"in {unit.name}: say how many counts there are in a turn (--edges-per-revolution N)"
+        notes.questions.append((column, question))
+    if unit.name in ("m", "m/s") and said.units_per_revolution is None:
+        notes.questions.append((column, f"in {unit.name}: say how far a turn goes (--units-per-revolution U)"))
+
+
+def _kind_of(heading: Heading) -> Kind | None:
+    return _KINDS[heading.quantity] if heading.quantity in MOVES else None
+
+
+def _rest(table: Table, rows: Rows, pair: Pair, said: Said, notes: Notes) -> float | None:
+    """0, where every run's clock begins with its voltage, shortly before its first row."""
+    if rows.time is None or said.rest_until is not None:
+        return said.rest_until
+    stamps = np.asarray(table.nanoseconds(rows.time, TIME_UNITS[rows.unit]) * 1e-9, dtype=np.float64)
+    begins = np.concatenate(([0], np.flatnonzero(np.diff(stamps) < 0.0) + 1, [len(stamps)]))
+    if len(begins) < 3:
+        return None
+    volts, period = table.numbers(pair.voltage), row_period(stamps)
+    runs = [slice(start, stop) for start, stop in zip(begins[:-1], begins[1:], strict=True) if stop - start > 1]
+    even = all(np.ptp(volts[run]) == 0.0 for run in runs)
+    if not even or not all(0.0 < stamps[run.start] < FIRST_ROWS * period for run in runs):
+        return None
+    notes.findings.append(
+        "Every run has one voltage, and its clock begins just before its first row: the voltage is taken to come upon "
+        "a standing motor at 0 s (assumed; otherwise: --rest-until)."
+    )
+    return 0.0

@@ -1,0 +1,91 @@
+"""What a column of motion holds and in which unit, where its name does not say it: by what its numbers can be."""
+
+from dataclasses import dataclass
+from math import pi, tau
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.form import UNITS, Kind
+from motor_identification.logs.count_size import position_step
+from motor_identification.logs.rows.wraps import RANGES, REACHED, SLACK
+from motor_identification.sensor.value_lattice import find_lattice
+
+Floats = NDArray[np.float64]
+
+# How near the counts of a turn have to come to a whole number for a unit to be believed, and how far all others have
+# to be from one: of any unit 3 % come that near by chance. Of a finer encoder, printed digits leave too little.
+WHOLE = 0.015
+RELATIVE = 5e-6  # of the counts of a turn: what printed digits leave of the step
+MOST_COUNTS = 10_000  # a turn
+FORGETS = 5.0  # time constants in a recording, from which on a column is a speed: a position forgets nothing
+FEWEST_COUNTS = 8  # a turn
+ASKED = {Kind.SPEED: ("rad/s", "deg/s", "rpm"), Kind.POSITION: ("rad", "deg", "rev", "count")}
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit, or those that it may be, and in words why."""
+
+    name: str  # empty: the user has to say
+    why: str
+    candidates: tuple[str, ...] = ()
+
+
+def guess_kind(values: Floats, drive: Floats) -> Kind:
+    """Speed or position: a speed forgets what was (v' = −v/τ + …), a position keeps it. Both of shape (K,)."""
+    step = np.diff(values)
+    columns = np.column_stack([values[:-1], drive[:-1], np.ones(len(step))])
+    scale = np.max(np.abs(columns), axis=0)
+    scale[scale == 0.0] = 1.0
+    slope = np.linalg.lstsq(columns / scale, step, rcond=None)[0] / scale
+    return Kind.SPEED if -float(slope[0]) * len(step) > FORGETS else Kind.POSITION
+
+
+def guess_speed_unit(values: Floats, window: float) -> Unit:
+    """The unit of speeds, shape (K,): the one in which their step is a whole share of a turn within the window [s]."""
+    asked = ASKED[Kind.SPEED]
+    step = find_lattice(values) if len(values) > 20 and window > 0.0 else 0.0
+    if step <= 0.0 or _is_printed(values, step):
+        return Unit("", "", asked)
+    counts = {name: tau / (step * (UNITS[Kind.SPEED][name] or 1.0) * window) for name in asked}
+    whole = [name for name, number in counts.items() if _is_whole(number)]
+    if "rpm" in whole:
+        whole = ["deg/s", "rpm"]  # six times as many a turn are whole too
+    if len(whole) != 1:
+        return Unit("", "", tuple(whole) or asked)
+    number = round(counts[whole[0]])
+    why = f"steps of {step:.4g} are {number} counts a turn in {whole[0]}, and no whole number in other units"
+    return Unit(whole[0], f"{why}; otherwise: --unit")
+
+
+def guess_position_unit(values: Floats) -> Unit:
+    """The unit of positions, shape (K,): by where they wrap, or in which unit their step is a whole share of a turn."""
+    for name in ("rad", "deg"):
+        size = RANGES[name][0]
+        jumps = np.abs(np.diff(values)) > 0.5 * size
+        if REACHED * size < np.ptp(values) <= SLACK * size and jumps.any():
+            return Unit(name, f"they wrap at {size:.4g}; otherwise: --unit")
+    asked = ASKED[Kind.POSITION]
+    step = position_step(values)
+    if step <= 0.0 or not np.any(values % 1.0):
+        return Unit("", "", ("count", "deg") if step > 0.0 else asked)
+    turns = {"rad": 2.0 * pi, "deg": 360.0, "rev": 1.0}
+    whole = [name for name, turn in turns.items() if _is_whole(turn / step) and not _is_printed(values, step)]
+    if len(whole) != 1:
+        return Unit("", "", tuple(whole) or asked)
+    number = round(turns[whole[0]] / step)
+    why = f"steps of {step:.4g} are {number} counts a turn in {whole[0]}, and no whole number in other units"
+    return Unit(whole[0], f"{why}; otherwise: --unit")
+
+
+def _is_whole(number: float) -> bool:
+    return FEWEST_COUNTS <= number <= MOST_COUNTS and abs(number - round(number)) < WHOLE + RELATIVE * number
+
+
+def _is_printed(values: Floats, step: float) -> bool:
+    """Whether a step is that of the last digit that was printed."""
+    place = np.log10(step)
+    return bool(
+        abs(place - round(float(place))) < 1e-3 and np.all(np.abs(values / step - np.rint(values / step)) < 1e-3)
+    )

@@ -1,0 +1,152 @@
+"""Which column is which: those that were named by the user, then by their names, then by how their numbers behave."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from motor_identification.logs.columns.clock import runs_forward
+from motor_identification.logs.columns.drive import drives, is_supply
+from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.columns.vocabulary import MOVES, Quantity
+from motor_identification.logs.csv.table import Table
+from motor_model.errors import RecordingError
+
+_BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
+
+
+@dataclass(frozen=True)
+class Roles:
+    """Names of columns; None where there is none, or where every row is a steady state."""
+
+    time: str | None
+    pairs: tuple[Pair, ...]
+    supply: str | None
+    current: str | None
+
+
+def find_roles(table: Table, said: Said) -> Roles:
+    """Find the columns of the motors in a table.
+
+    Raises:
+        RecordingError: a column is not there, or which one is meant cannot be told: the sentence asks for it.
+    """
+    headings = [read_heading(name) for name in table.names if _is_numeric(table, name)]
+    time = said.time or (None if said.steady else _time_of(table, headings))
+    if said.time:
+        table.column(said.time)
+    free = [heading for heading in headings if heading.name not in (time, said.supply)]
+    pairs = said.motors or _pairs(table, free, said)
+    supply = said.supply or _supply_of(table, free, pairs)
+    named = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs} | {supply}
+    currents = [one.name for one in free if one.quantity is Quantity.CURRENT and one.name not in named]
+    return Roles(time, pairs, supply, currents[0] if len(currents) == 1 and len(pairs) == 1 else None)
+
+
+def _is_numeric(table: Table, name: str) -> bool:
+    try:
+        table.numbers(name)
+    except RecordingError:
+        # Garbage in a column of numbers is told when it is used; a column of words or times of day is none of ours.
+        heading = read_heading(name)
+        return heading.quantity not in (None, Quantity.OTHER)
+    return True
+
+
+def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
+    named = [heading.name for heading in headings if heading.quantity is Quantity.TIME]
+    if len(named) > 1:
+        forward = [name for name in named if runs_forward(table.numbers(name))]
+        named = forward or named
+    if named:
+        return named[0]
+    unnamed = [heading.name for heading in headings if heading.quantity is None]
+    forward = [name for name in unnamed if runs_forward(table.numbers(name))]
+    return forward[0] if forward else None
+
+
+def _pairs(table: Table, headings: Sequence[Heading], said: Said) -> tuple[Pair, ...]:
+    """The motors: one for each side that has a motion, or the only one."""
+    moving = [one for one in headings if one.quantity in MOVES]
+    sides = sorted({one.side for one in moving if one.side})
+    if said.motion or said.voltage or len(sides) < 2:
+        return (_single(table, headings, said),)
+    found = []
+    for side in sides:
+        own = [one for one in headings if one.side in (side, "")]
+        found.append(Pair(side, _driving(table, own, side, ()), _moving(table, own, side)))
+    return tuple(found)
+
+
+def _single(table: Table, headings: Sequence[Heading], said: Said) -> Pair:
+    if said.motion:
+        table.column(said.motion)
+    if said.voltage:
+        table.column(said.voltage)
+    motion = said.motion or ""
+    voltage = said.voltage or ""
+    rest = [one for one in headings if one.name not in (motion, voltage)]
+    if not voltage and not motion and not any(map(drives, rest)) and not any(one.quantity in MOVES for one in rest):
+        return _by_behaviour(table, rest)
+    motion = motion or _moving(table, rest, "")
+    voltage = voltage or _driving(table, [one for one in rest if one.name != motion], "", ("",))
+    return Pair("", voltage, motion)
+
+
+def _by_behaviour(table: Table, headings: Sequence[Heading]) -> Pair:
+    """Two columns without telling names: what changes in fewer rows, and to fewer values, drives the other."""
+    unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
+    if len(unnamed) != 2:
+        raise _ask(table, "voltage or duty", "--voltage", unnamed or table.names)
+    changes = [np.count_nonzero(np.diff(table.numbers(name))) for name in unnamed]
+    if max(changes) < 2 * min(changes) + 1:
+        raise _ask(table, "voltage or duty", "--voltage", unnamed)
+    drive = int(np.argmin(changes))
+    return Pair("", unnamed[drive], unnamed[1 - drive])
+
+
+def _moving(table: Table, headings: Sequence[Heading], side: str) -> str:
+    for quantity in _BEST_FIRST:
+        found = [one.name for one in headings if one.quantity is quantity and one.side == side]
+        found = found or [one.name for one in headings if one.quantity is quantity]
+        if len(found) > 1:
+            raise _ask(table, quantity.value, f"--{quantity.value}", found)
+        if found:
+            return found[0]
+    unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
+    if len(unnamed) == 1:
+        return unnamed[0]
+    raise _ask(table, "motion", "--speed, --position or --count", unnamed or table.names)
+
+
+def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple[str, ...]) -> str:
+    duties = [one.name for one in headings if one.quantity is Quantity.DUTY]
+    for quantity in (Quantity.VOLTAGE, Quantity.DUTY):
+        found = [one.name for one in headings if one.quantity is quantity]
+        own = [one.name for one in headings if one.quantity is quantity and one.side == side and side]
+        found = own or found
+        if quantity is Quantity.VOLTAGE and duties:
+            found = [name for name in found if not is_supply(table.numbers(name), table.numbers(duties[0]))]
+        if len(found) > 1:
+            raise _ask(table, quantity.value, "--voltage", found)
+        if found:
+            return found[0]
+    unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
+    if len(unnamed) == 1 and others:
+        return unnamed[0]
+    raise _ask(table, "voltage or duty", "--voltage", unnamed or table.names)
+
+
+def _supply_of(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair]) -> str | None:
+    taken = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs}
+    free = [one for one in headings if one.name not in taken]
+    named = [one.name for one in free if one.quantity is Quantity.SUPPLY]
+    duty = table.numbers(pairs[0].voltage)
+    volts = [one.name for one in free if one.quantity is Quantity.VOLTAGE and is_supply(table.numbers(one.name), duty)]
+    return next(iter(named + volts), None)
+
+
+def _ask(table: Table, what: str, option: str, names: Sequence[str]) -> RecordingError:
+    shown = list(names)[:12]
+    return RecordingError(f"{table.path}: which column is the {what}? Say {option} and one of {', '.join(shown)}.")

@@ -1,0 +1,43 @@
+"""What a user said about a log; everything else is guessed."""
+
+from dataclasses import dataclass
+
+from motor_identification.logs.form import Kind
+
+
+@dataclass(frozen=True)
+class Pair:
+    """One motor of a file that has several."""
+
+    label: str
+    voltage: str  # column
+    motion: str  # column
+
+
+@dataclass(frozen=True)
+class Said:
+    """Options as they were given; None (or the default) is "not said", and a name is that of a column."""
+
+    time: str | None = None
+    time_unit: str | None = None
+    voltage: str | None = None
+    motion: str | None = None
+    kind: Kind | None = None
+    unit: str | None = None
+    voltage_scale: float | None = None
+    full_duty: float | None = None  # what the voltage column shows at full voltage
+    supply: str | None = None
+    supply_voltage: float | None = None  # [V] at full duty
+    edges_per_revolution: int | None = None
+    count_quantum: float | None = None
+    units_per_revolution: float | None = None
+    wrap: float | None = None
+    speed_window: float | None = None
+    speed_lag: float | None = None
+    split: str | None = None
+    rest_until: float | None = None
+    voltage_before: bool = False
+    steady: bool = False
+    max_voltage: float | None = None
+    name: str = "motor"
+    motors: tuple[Pair, ...] = ()

@@ -1,0 +1,101 @@
+"""Words that people use for the columns of a motor's log, in the languages such logs were found in."""
+
+from enum import Enum
+from math import pi, radians
+
+
+class Quantity(str, Enum):
+    """What a column holds."""
+
+    TIME = "time"
+    VOLTAGE = "voltage"
+    DUTY = "duty"
+    SUPPLY = "supply voltage"
+    CURRENT = "current"
+    SPEED = "speed"
+    POSITION = "position"
+    COUNT = "count"
+    REFERENCE = "reference"
+    OTHER = "other"
+
+
+def _row(words: str) -> frozenset[str]:
+    return frozenset(words.split())
+
+
+# Earlier rows win: a target speed is no speed, a battery's voltage is not the motor's, a speed command is a reference.
+WORDS: dict[Quantity, frozenset[str]] = {
+    Quantity.OTHER: _row(
+        "error err kp ki kd integral gyro temp temperature accel acceleration acc derivative id index loop state mode "
+        "enabled fault torque heading yaw pitch roll rate"
+    ),
+    Quantity.REFERENCE: _row("target setpoint set sp ref reference desired goal soll consigna r wanted demand profile"),
+    Quantity.SUPPLY: _row("supply battery batt bat vbat vbatt vbus bus akku bateria batería batterie vcc vdd vin"),
+    Quantity.TIME: _row(
+        "t time times timestamp stamp tiempo zeit temps tempo tid clock elapsed seconds secs sec millis micros nanos "
+        "milliseconds microseconds ms us ns"
+    ),
+    Quantity.DUTY: _row("duty pwm dutycycle throttle power command cmd effort ctrl control output"),
+    Quantity.COUNT: _row("count counts tick ticks encoder enc pulses pulse edges qei"),
+    Quantity.SPEED: _row(
+        "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w rpm rps dps"
+    ),
+    Quantity.POSITION: _row(
+        "position pos posición posicion posizione angle angulo ángulo theta θ winkel distance dist phi"
+    ),
+    Quantity.VOLTAGE: _row("voltage volt volts voltaje spannung tension tensión tensão u v vm vmotor input applied"),
+    Quantity.CURRENT: _row("current curr amps amp i corriente strom courant"),
+}
+MOVES = frozenset({Quantity.SPEED, Quantity.POSITION, Quantity.COUNT})
+
+# What one unit is: seconds as nanoseconds, volts, A, rad/s, rad; None where something else says (the encoder, a wheel).
+UNITS: dict[str, tuple[Quantity, float | None]] = {
+    "s": (Quantity.TIME, 1e9),
+    "ms": (Quantity.TIME, 1e6),
+    "us": (Quantity.TIME, 1e3),
+    "ns": (Quantity.TIME, 1.0),
+    "V": (Quantity.VOLTAGE, 1.0),
+    "mV": (Quantity.VOLTAGE, 1e-3),
+    "A": (Quantity.CURRENT, 1.0),
+    "mA": (Quantity.CURRENT, 1e-3),
+    "%": (Quantity.DUTY, None),
+    "rad/s": (Quantity.SPEED, 1.0),
+    "deg/s": (Quantity.SPEED, radians(1.0)),
+    "rpm": (Quantity.SPEED, 2.0 * pi / 60.0),
+    "rev/s": (Quantity.SPEED, 2.0 * pi),
+    "count/s": (Quantity.SPEED, None),
+    "m/s": (Quantity.SPEED, None),
+    "rad": (Quantity.POSITION, 1.0),
+    "deg": (Quantity.POSITION, radians(1.0)),
+    "rev": (Quantity.POSITION, 2.0 * pi),
+    "m": (Quantity.POSITION, None),
+    "count": (Quantity.COUNT, None),
+}
+_SPELLINGS = {
+    "s": "s sec secs second seconds",
+    "ms": "ms msec msecs millis millisecond milliseconds",
+    "us": "us µs μs usec micros microsecond microseconds",
+    "ns": "ns nsec nanos nanosecond nanoseconds",
+    "V": "v volt volts",
+    "mV": "mv millivolt millivolts",
+    "A": "a amp amps ampere",
+    "mA": "ma",
+    "%": "% pct percent",
+    "rad/s": "rad/s rad/sec rads rads/s radps rad.s-1 rad_s rad_sec",
+    "deg/s": "deg/s deg/sec °/s dps degps degrees/s deg_s deg_sec",
+    "rpm": "rpm rev/min u/min tr/min 1/min min-1 r/min rev_min",
+    "rev/s": "rps rev/s r/s rotations/s turns/s hz rev_s",
+    "count/s": "count/s counts/s ticks/s cps count_s counts_s ticks_s",
+    "m/s": "m/s mps m_s meters/s metres/s",
+    "rad": "rad radian radians",
+    "deg": "deg degs degree degrees °",
+    "rev": "rev revs turn turns rotation rotations revolutions",
+    "m": "m meter meters metre metres",
+    "count": "count counts tick ticks pulse pulses edges",
+}
+UNIT_BY_SPELLING = {spelling: unit for unit, row in _SPELLINGS.items() for spelling in row.split()}
+
+SIDES = {
+    **dict.fromkeys(_row("left l lft izq izquierda links gauche"), "left"),
+    **dict.fromkeys(_row("right rgt der derecha rechts droite"), "right"),
+}

@@ -1,0 +1,109 @@
+"""Reads a text table: all of its columns, chunk by chunk, with the line of each row."""
+
+import csv
+from collections.abc import Iterable, Sequence
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.csv.dialect import SPACES, Dialect, find_dialect, read_text, split_line
+from motor_identification.logs.csv.table import Table
+from motor_model.errors import RecordingError
+
+_CHUNK = 50_000  # rows: lists of texts take ten times the memory of arrays
+
+
+def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
+    """All columns of a text table; commas, semicolons, tabs, bars or blanks separate them.
+
+    Args:
+        path: the file.
+        wanted: columns that have to be there, once.
+
+    Raises:
+        RecordingError: no such file, not text, empty, a column is missing or there twice, or fewer than 2 rows.
+    """
+    text, encoding = read_text(path)
+    lines = text.splitlines()
+    if not any(line.strip() for line in lines):
+        raise RecordingError(f"{path} is empty: it needs a line of column names and a row for each sample.")
+    dialect = find_dialect(lines)
+    if dialect is None:
+        raise RecordingError(_no_rows(path, lines))
+    for column in wanted:
+        _check_column(path, dialect.header, column)
+    notes = [f"The file is read as {encoding}, as it is not UTF-8."] if encoding else []
+    numbers, columns = _columns(path, lines, dialect, notes)
+    if len(numbers) < 2:
+        raise RecordingError(f"{path} has {len(numbers)} rows below its column names: at least 2 samples are needed.")
+    return Table(path, numbers, columns, dialect.decimal_comma, tuple(notes))
+
+
+def _no_rows(path: Path, lines: Sequence[str]) -> str:
+    rows = sum(bool(line.strip()) for line in lines) - 1
+    if rows < 2:
+        return f"{path} has {rows} rows below its column names: at least 2 samples are needed."
+    return f"{path} has no rows of numbers in its first lines: give a table with a line of column names and then rows."
+
+
+def _columns(
+    path: Path, lines: Sequence[str], dialect: Dialect, notes: list[str]
+) -> tuple[NDArray[np.int64], dict[str, NDArray[Any]]]:
+    """Line numbers and cells of all rows, chunk by chunk; a last line that was cut off is left out."""
+    width, numbers, parts = len(dialect.header), [], []
+    rows = _rows(path, lines, dialect)
+    while chunk := list(islice(rows, _CHUNK)):
+        if any(cell for _, row in chunk for cell in row[width:]):
+            line = next(line for line, row in chunk if any(row[width:]))
+            raise RecordingError(
+                f"{path}, line {line} has more cells than columns are named ({width}): name them all, or separate "
+                "columns by semicolons where commas are decimal signs."
+            )
+        last = chunk[-1]
+        numbers.append([line for line, _ in chunk])
+        padded = [row if len(row) == width else (row + [""] * width)[:width] for _, row in chunk]
+        parts.append([np.char.encode(np.array(column), "utf-8") for column in zip(*padded, strict=True)])
+        cut = len(last[1]) < width
+    if numbers and cut and sum(map(len, numbers)) > 2:
+        notes.append(f"Line {numbers[-1][-1]}, the last, is cut off and left out.")
+        numbers[-1].pop()
+        parts[-1] = [column[:-1] for column in parts[-1]]
+    names = _unique(dialect.header)
+    columns = {name: np.concatenate([part[k] for part in parts]) for k, name in enumerate(names)}
+    return np.array([line for chunk_lines in numbers for line in chunk_lines], np.int64), columns
+
+
+def _rows(path: Path, lines: Sequence[str], dialect: Dialect) -> Iterable[tuple[int, list[str]]]:
+    begin = dialect.first_row
+    if dialect.delimiter == SPACES:
+        yield from ((begin + k + 1, split_line(line, SPACES)) for k, line in enumerate(lines[begin:]) if line.strip())
+        return
+    reader = csv.reader(islice(lines, begin, None), delimiter=dialect.delimiter, skipinitialspace=True)
+    try:
+        for row in reader:
+            cells = [cell.strip() for cell in row]
+            if any(cells):
+                yield begin + reader.line_num, cells
+    except csv.Error as error:
+        raise RecordingError(f"{path}, line {begin + reader.line_num}: {error}; correct that line.") from error
+
+
+def _unique(header: Sequence[str]) -> list[str]:
+    """Names that are there twice get their number, those that are empty their place."""
+    names: list[str] = []
+    for place, name in enumerate(header, start=1):
+        here = name or f"column {place}"
+        names.append(here if here not in names else f"{here} #{place}")
+    return names
+
+
+def _check_column(path: Path, header: Sequence[str], column: str) -> None:
+    if column in _unique(header) and header.count(column) < 2:
+        return
+    if header.count(column) > 1:
+        raise RecordingError(f"{path} has {header.count(column)} columns named {column}: rename all but one of them.")
+    there = ", ".join(name for name in _unique(header))
+    raise RecordingError(f"{path} has no column {column}: name one of {there}.")

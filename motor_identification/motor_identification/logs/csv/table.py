@@ -1,0 +1,141 @@
+"""A table as columns of numbers, with the line of every complaint."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from decimal import Decimal, InvalidOperation
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_model.errors import RecordingError
+
+Cells = Sequence[str] | NDArray[Any]
+
+_LARGEST_TIME = 2**63 - 1  # [ns]
+_ROUNDED_BELOW = 2**50  # [ns] 13 days: below, a float64 of seconds is right to a quarter of a nanosecond
+
+
+@dataclass(frozen=True)
+class Table:
+    """The columns of a file; a row for each line that is not blank, as text or as numbers."""
+
+    path: Path
+    lines: Sequence[int] | NDArray[np.int64]  # the line of each row in the file, from 1
+    cells: Mapping[str, Cells]  # by column
+    decimal_comma: bool = False  # 0,5 is a number
+    notes: tuple[str, ...] = ()  # what had to be assumed to read it
+
+    def __len__(self) -> int:
+        return len(self.lines)
+
+    @property
+    def names(self) -> list[str]:
+        """The columns, from left to right."""
+        return list(self.cells)
+
+    def text(self, column: str, row: int) -> str:
+        """One cell."""
+        return _as_text(self.column(column)[row])
+
+    def column(self, column: str) -> Cells:
+        """The cells of a column.
+
+        Raises:
+            RecordingError: there is none of this name.
+        """
+        if column not in self.cells:
+            there = ", ".join(name for name in self.cells if name)
+            raise RecordingError(f"{self.path} has no column {column}: name one of {there}.")
+        return self.cells[column]
+
+    def numbers(self, column: str) -> NDArray[np.float64]:
+        """The column as finite numbers, shape (K,).
+
+        Raises:
+            RecordingError: a cell is not a finite number.
+        """
+        cells = self.column(column)
+        try:
+            values = self._floats(cells)
+        except ValueError:
+            values = np.array([self._float(cell) for cell in cells])
+        bad = ~np.isfinite(values)
+        if bad.any():
+            raise self._complaint(column, int(np.argmax(bad)))
+        return values
+
+    def nanoseconds(self, column: str, unit: int = 10**9) -> NDArray[np.int64]:
+        """A column of times as whole nanoseconds, shape (K,); exact, which a float64 of seconds since 1970 is not.
+
+        Args:
+            column: its name.
+            unit: [ns] what one unit of it is.
+
+        Raises:
+            RecordingError: a cell is not a number, or is beyond 292 years.
+        """
+        cells = self.column(column)
+        try:
+            values = self._floats(cells) * float(unit)
+            if np.all(np.abs(values) < _ROUNDED_BELOW):
+                return np.rint(values).astype(np.int64)
+        except ValueError:
+            pass
+        times = np.empty(len(cells), np.int64)
+        for row, cell in enumerate(cells):
+            try:
+                times[row] = _exact_nanoseconds(self._with_point(cell), unit)
+            except (ValueError, InvalidOperation) as error:
+                raise self._complaint(column, row) from error
+        return times
+
+    def _floats(self, cells: Cells) -> NDArray[np.float64]:
+        array = np.asarray(cells)
+        if array.dtype.kind == "S" and self.decimal_comma:
+            array = np.char.replace(array, b",", b".")
+        elif array.dtype.kind == "U" and self.decimal_comma:
+            array = np.char.replace(array, ",", ".")
+        return np.asarray(array, dtype=np.float64)
+
+    def _float(self, cell: object) -> float:
+        try:
+            return float(self._with_point(cell))
+        except ValueError:
+            return float("nan")
+
+    def _with_point(self, cell: object) -> str:
+        text = _as_text(cell)
+        return text.replace(",", ".") if self.decimal_comma else text
+
+    def _complaint(self, column: str, row: int) -> RecordingError:
+        cell = self.text(column, row)
+        what = f"'{cell[:40]}' is not a number" if cell else "the cell is empty"
+        return RecordingError(
+            f"{self.path}, line {self.lines[row]}, column {column}: {what}; correct or remove that line."
+        )
+
+
+def _as_text(cell: object) -> str:
+    if isinstance(cell, bytes):
+        return cell.decode("utf-8", "replace")
+    return str(cell)
+
+
+def _exact_nanoseconds(cell: str, unit: int) -> int:
+    if ":" in cell:
+        return _time_of_day(cell)
+    time = Decimal(cell) * unit
+    if not time.is_finite() or abs(time) > _LARGEST_TIME:
+        raise ValueError(cell)
+    return int(time.to_integral_value())
+
+
+def _time_of_day(cell: str) -> int:
+    """[ns] of 12:34:56.789 since midnight, of 2026-05-01T12:34:56.789 since 1970."""
+    before, _, fraction = cell.removesuffix("Z").partition(".")
+    dated = before if "-" in before else f"1970-01-01T{before}"
+    whole = datetime.fromisoformat(f"{dated}+00:00")
+    return round(whole.timestamp()) * 10**9 + int((fraction + "000000000")[:9])

@@ -1,0 +1,88 @@
+"""What a log's motion can show, before anything is fitted: ways, levels, standing, full voltage."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.log import Log, Run
+from motor_model.sample import Measurement
+
+STANDING = 0.01  # of the largest speed: below, the motor stands
+ALIKE = 0.02  # of the largest voltage, within which two levels are one
+MOSTLY = 0.5  # of the rows: standing for longer is worth a word
+FULL = 0.98  # of the full voltage, from which on it is at its limit
+FEW = 0.02  # of the rows: what is rarer shows nothing
+
+
+@dataclass(frozen=True)
+class Excitation:
+    """Shares are of the rows, 0 to 1."""
+
+    low: float  # [V]
+    high: float  # [V]
+    levels: int  # of the voltage but 0, apart by more than a fiftieth of the largest
+    forward: float
+    backward: float
+    standing: float
+    full: float  # at the largest voltage that the log knows
+
+
+def measure_excitation(log: Log) -> Excitation:
+    """Measure what drove the motor in a log, and how it moved."""
+    voltage = np.concatenate([_column(run, "voltage") for run in log.runs])
+    speed = np.concatenate([_column(run, "speed") for run in log.runs])
+    top = float(np.quantile(np.abs(speed), 0.99))
+    still = np.abs(speed) <= STANDING * top if top > 0.0 else np.ones(len(speed), np.bool_)
+    largest = float(np.max(np.abs(voltage)))
+    return Excitation(
+        low=float(voltage.min()),
+        high=float(voltage.max()),
+        levels=_levels(voltage, ALIKE * largest),
+        forward=float(np.mean(~still & (speed > 0.0))),
+        backward=float(np.mean(~still & (speed < 0.0))),
+        standing=float(np.mean(still)),
+        full=float(np.mean(np.abs(voltage) >= FULL * log.info.max_voltage)),
+    )
+
+
+def describe_excitation(log: Log) -> list[str]:
+    """Say what drove the motor, and what can be identified from it and what not."""
+    found = measure_excitation(log)
+    ways = "both ways" if min(found.forward, found.backward) > FEW else "one way only"
+    about = (
+        f"Excitation: {found.low:.3g} to {found.high:.3g} V in {_many(found.levels)}, {ways}; "
+        f"the motor stands in {100 * found.standing:.0f} % of the rows, full voltage in {100 * found.full:.0f} %."
+    )
+    lines = [about]
+    if found.forward + found.backward < FEW:
+        return [*lines, "The motor hardly moves: nothing can be identified from this."]
+    missing = []
+    if ways == "one way only":
+        missing.append("friction, a constant load and a dead zone look alike (it runs one way only)")
+    if found.levels < 2:
+        missing.append("kv and friction cannot be separated (one voltage only)")
+    if log.info.measurement is Measurement.SPEED and log.info.sample_period > 10.0:
+        missing.append("ka and delays cannot be seen (steady states)")
+    lines.append(
+        f"Not to be had from it: {'; '.join(missing)}." if missing else "kv, ka and friction can be identified."
+    )
+    if found.standing > MOSTLY:
+        lines.append(f"The motor stands for {100 * found.standing:.0f} % of the time, which says little.")
+    return lines
+
+
+def _column(run: Run, name: str) -> NDArray[np.float64]:
+    return np.array([getattr(sample, name) for sample in run.samples], dtype=np.float64)
+
+
+def _levels(voltage: NDArray[np.float64], apart: float) -> int:
+    """Different voltages, counted up to 20, of those that last for a share of the rows."""
+    bins = np.rint(voltage / max(apart, 1e-12))
+    values, counts = np.unique(bins, return_counts=True)
+    lasting = values[counts >= min(FEW * len(voltage), 5)]
+    return int(min(np.count_nonzero(lasting), 20))
+
+
+def _many(levels: int) -> str:
+    return {1: "a single level beside 0", 20: "20 levels and more"}.get(levels, f"{levels} levels")

@@ -1,0 +1,74 @@
+"""Which columns of a log mean what, and in which units."""
+
+from dataclasses import dataclass
+from enum import Enum
+from math import pi, radians
+
+
+class Kind(str, Enum):
+    """What the motion column of a log holds."""
+
+    SPEED = "speed"
+    POSITION = "position"
+    COUNT = "count"
+
+
+# By kind: what one unit is in rad/s or in rad; the first row is the default. How large a count is, the encoder says;
+# how far a turn goes, `units_per_revolution`.
+UNITS: dict[Kind, dict[str, float | None]] = {
+    Kind.SPEED: {
+        "rad/s": 1.0,
+        "deg/s": radians(1.0),
+        "rpm": 2.0 * pi / 60.0,
+        "rev/s": 2.0 * pi,
+        "m/s": None,
+        "count/s": None,
+    },
+    Kind.POSITION: {"rad": 1.0, "deg": radians(1.0), "rev": 2.0 * pi, "m": None, "count": None},
+    Kind.COUNT: {"count": None},
+}
+TIME_UNITS = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}  # in nanoseconds
+
+
+@dataclass(frozen=True)
+class CsvForm:
+    """How to read a file; None is "not said"."""
+
+    time: str | None  # column of times; None where every row is a steady state
+    voltage: str  # column; times `voltage_scale` (and the supply) it is volts
+    motion: str  # column of what `kind` says, in `unit`
+    kind: Kind
+    unit: str
+    voltage_scale: float = 1.0
+    edges_per_revolution: int | None = None
+    count_quantum: float | None = None  # the size of one count in `unit`
+    speed_window: float | None = None  # [s] what a speed is the mean over
+    speed_lag: float | None = None  # [s] how old the middle of that window is at the row's time
+    split: str | None = None  # column; each run of one value is a recording of its own
+    rest_until: float | None = None  # [s] by the time column: the motor stood until the first voltage came, then
+    voltage_before: bool = False  # a row's voltage was applied until its time; else from then until the next row
+    name: str = "motor"
+    max_voltage: float | None = None  # [V]
+    time_unit: str = "s"  # a row of TIME_UNITS
+    supply: str | None = None  # column of the supply's voltage, which a duty is a share of
+    supply_scale: float = 1.0  # volts per unit of it
+    current: str | None = None  # column
+    current_scale: float = 1.0  # A per unit of it
+    units_per_revolution: float | None = None  # metres (or whatever) of a turn, for unit m and m/s
+    wrap: float | None = None  # a position begins again at 0 after this much of its unit
+    label: str = ""  # of this motor, where a file has several
+
+    @property
+    def columns(self) -> list[str]:
+        """The columns that are read."""
+        named = (self.time, self.voltage, self.motion, self.split, self.supply, self.current)
+        return [name for name in named if name]
+
+    @property
+    def unit_size(self) -> float | None:
+        """What one unit is in rad/s or rad; None where counts are to be sized by the encoder."""
+        if self.unit in ("m", "m/s") and self.units_per_revolution:
+            return 2.0 * pi / self.units_per_revolution
+        if self.unit == "count/s" and self.edges_per_revolution:
+            return 2.0 * pi / self.edges_per_revolution
+        return UNITS[self.kind][self.unit]

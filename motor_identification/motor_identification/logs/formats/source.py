@@ -1,0 +1,66 @@
+"""A log file of any format as a table: what it is, is found from its content."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.csv.dialect import check_file
+from motor_identification.logs.csv.reader import read_table
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.formats.matlab import read_matlab
+from motor_identification.logs.formats.sysid import read_sysid
+from motor_model.errors import RecordingError
+
+HEAD = 512  # bytes at the beginning that tell the format
+_HDF5, _WPILOG, _ZIP, _PARQUET, _MCAP = b"\x89HDF\r\n\x1a\n", b"WPILOG", b"PK\x03\x04", b"PAR1", b"\x89MCAP"
+
+
+@dataclass(frozen=True)
+class Source:
+    """A table, the format it came in, and what that says of it: as if a user had said so."""
+
+    table: Table
+    format: str
+    said: Said = field(default_factory=Said)
+
+    def with_said(self, said: Said) -> Said:
+        """What the user said, and where he did not, what the file says."""
+        unsaid = {name: value for name, value in self.said.__dict__.items() if getattr(said, name) in (None, ())}
+        return replace(said, **unsaid)
+
+
+def read_source(path: Path) -> Source:
+    """Read a log file.
+
+    Raises:
+        RecordingError: it cannot be read, or is of a format that is not known.
+    """
+    check_file(path)
+    try:
+        with path.open("rb") as file:
+            head = file.read(HEAD)
+    except OSError as error:
+        raise RecordingError(f"{path} cannot be read ({error.strerror}): give a log file.") from error
+    for is_format, cure in _REFUSED:
+        if is_format(head):
+            raise RecordingError(f"{path} is {cure}.")
+    if head.startswith(b"MATLAB 5.0"):
+        return Source(read_matlab(path), "MATLAB 5 file")
+    if head.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"{"):
+        table, units_per_revolution = read_sysid(path)
+        return Source(table, "SysId JSON", Said(split="test", units_per_revolution=units_per_revolution))
+    return Source(read_table(path), "text table")
+
+
+_REFUSED: tuple[tuple[Callable[[bytes], bool], str], ...] = (
+    (lambda head: head.startswith(_HDF5), "a MATLAB 7.3 or HDF5 file: save it with -v7, or as CSV"),
+    (lambda head: head.startswith(_WPILOG), "a WPILOG: export it with SysId or AdvantageScope as JSON or CSV"),
+    (lambda head: head.startswith(_ZIP), "a ZIP or spreadsheet file: unpack it, or export it as CSV"),
+    (
+        lambda head: head.startswith((_PARQUET, b"ARROW1")),
+        "a Parquet or Feather file: export it as CSV",
+    ),
+    (lambda head: head.startswith(_MCAP), "a bag: give it to identify, diagnose or inspect"),
+    (lambda head: head.startswith(b"SQLite format 3"), "a bag: give it to identify, diagnose or inspect"),
+)

@@ -1,0 +1,59 @@
+"""A log file as recordings: its format, its columns, its motors, and what was found on the way."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from motor_identification.logs.columns.guess import guess_forms
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.excitation import describe_excitation
+from motor_identification.logs.formats.source import Source, read_source
+from motor_identification.logs.log import Log, read_motor
+from motor_model.errors import RecordingError
+
+
+@dataclass(frozen=True)
+class Motor:
+    """One motor of a log; `label` is empty where it is the only one."""
+
+    label: str
+    log: Log
+
+
+@dataclass(frozen=True)
+class Imported:
+    """The motors of a file; `findings` are lines for the user about all of it."""
+
+    motors: tuple[Motor, ...]
+    findings: tuple[str, ...]
+
+
+def import_log(path: Path, said: Said) -> Imported:
+    """Read a log file of any known format.
+
+    Raises:
+        RecordingError: it cannot be read, or what cannot be guessed has to be said: the sentence asks for it.
+    """
+    return import_source(read_source(path), said)
+
+
+def import_source(source: Source, said: Said) -> Imported:
+    """Read the motors out of a table.
+
+    Raises:
+        RecordingError: as above.
+    """
+    table = source.table
+    guess = guess_forms(table, source.with_said(said))
+    motors = []
+    for form in guess.forms:
+        log = read_motor(replace(table, notes=()), form)
+        motors.append(Motor(form.label, replace(log, findings=(*log.findings, *describe_excitation(log)))))
+    if not any(motor.log.runs for motor in motors):
+        raise RecordingError(f"{table.path} holds no recording: give a log with at least 2 samples.")
+    about = f"{table.path}: a {source.format} with the columns {_listed(table.names)}."
+    return Imported(tuple(motors), (about, *table.notes, *guess.findings))
+
+
+def _listed(names: list[str]) -> str:
+    shown = ", ".join(names[:12])
+    return f"{shown} and {len(names) - 12} more" if len(names) > 12 else shown

@@ -1,0 +1,170 @@
+"""Turns other people's logs into a motor's samples, and says which assumptions that took."""
+
+from dataclasses import dataclass, replace
+from math import nan
+from pathlib import Path
+
+import numpy as np
+
+from motor_identification.logs.csv.reader import read_table
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import CsvForm
+from motor_identification.logs.motion import Motion, read_motion
+from motor_identification.logs.rows.parts import (
+    check_rest,
+    check_steps,
+    drop_first_rows,
+    split_at_gaps,
+    split_at_restarts,
+    split_by_column,
+)
+from motor_identification.logs.rows.stamps import separate_stamps
+from motor_identification.logs.signals import Floats, Integers, Signals, read_signals
+from motor_identification.logs.steady import read_steady
+from motor_model.errors import RecordingError
+from motor_model.sample import Info, Sample
+
+FROM_THEN = "Assumed: a row's voltage is applied from its time until the next row (otherwise: --voltage-before)."
+BEFORE = "A row's voltage is applied from the time of the row before until its own."
+
+
+@dataclass(frozen=True)
+class Run:
+    """One recording; `label` is what tells it from others made fit for a file name, empty without others."""
+
+    label: str
+    samples: tuple[Sample, ...]
+
+    @property
+    def duration(self) -> float:
+        """[s] from the first sample to the last."""
+        return (self.samples[-1].sample_time - self.samples[0].sample_time) * 1e-9
+
+
+@dataclass(frozen=True)
+class Log:
+    """What a file holds; `findings` are lines for the user: what was found and what was assumed."""
+
+    info: Info
+    runs: tuple[Run, ...]
+    findings: tuple[str, ...]
+
+
+def read_log(path: Path, form: CsvForm) -> Log:
+    """Read a text table as the form says.
+
+    Raises:
+        RecordingError: the file cannot be used as it is; the sentence names line and column.
+    """
+    return read_motor(read_table(path, form.columns), form)
+
+
+def read_motor(table: Table, form: CsvForm) -> Log:
+    """Read one motor out of a table, from whatever format that came.
+
+    Raises:
+        RecordingError: the table cannot be used as it is; the sentence names line and column.
+    """
+    signals = read_signals(table, form, split_by_column(table, form.split))
+    info = Info(
+        name=form.name,
+        source="import",
+        single_channel=False,  # such logs have signs
+        edge_resolution=0.0,  # and no stamps
+        max_voltage=_max_voltage(form, signals),
+    )
+    log = _steady_log(form, info, signals) if form.time is None else _timed_log(table, form, info, signals)
+    return replace(log, findings=(*table.notes, *log.findings))
+
+
+def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log:
+    """Rows with a time of their own."""
+    said: list[str] = []
+    signals, restarts = split_at_restarts(signals, form)
+    signals, stamps = separate_stamps(signals)
+    signals, first = drop_first_rows(signals)
+    signals, gaps = split_at_gaps(signals)
+    said += [*restarts, *stamps, *first, *gaps]
+    check_rest(signals, table, form)
+    check_steps(signals)
+    info = replace(info, sample_period=float(np.median(signals.steps())) * 1e-9)
+    motion = read_motion(form, info, signals)
+    signals = motion.signals
+    samples = _samples(motion, _held(form, signals))
+    about = f"{table.path}: {_about_time(signals)}, up to {info.max_voltage:.4g} V."
+    applied = BEFORE if form.voltage_before else FROM_THEN
+    rest = () if form.rest_until is None else (_about_rest(form.rest_until, len(signals.runs)),)
+    runs = signals.runs.items()
+    return Log(
+        info=motion.info,
+        runs=tuple(Run(label, _from_rest(samples[rows], form, signals.voltage[rows.start])) for label, rows in runs),
+        findings=(about, *said, *motion.findings, applied, *rest),
+    )
+
+
+def _samples(motion: Motion, held: Floats) -> tuple[Sample, ...]:
+    signals = motion.signals
+    count = len(signals)
+    columns = (
+        signals.time.tolist(),
+        motion.speed.tolist(),
+        held.tolist(),
+        motion.counts.tolist(),
+        (0,) * count,
+        (0.0,) * count,
+        (nan,) * count if np.isnan(signals.supply).all() else signals.supply.tolist(),
+        (nan,) * count if np.isnan(signals.current).all() else signals.current.tolist(),
+    )
+    return tuple(map(Sample, *columns))
+
+
+def _held(form: CsvForm, signals: Signals) -> Floats:
+    """[V] what holds from every row's time until the next, shape (K,)."""
+    if not form.voltage_before:
+        return signals.voltage
+    held = np.empty(len(signals))
+    for rows in signals.runs.values():
+        held[rows] = np.append(signals.voltage[rows][1:], signals.voltage[rows][-1])
+    return held
+
+
+def _from_rest(samples: tuple[Sample, ...], form: CsvForm, voltage: float) -> tuple[Sample, ...]:
+    """The samples of a run, beginning at the instant when its first voltage [V] came upon a standing motor."""
+    if form.rest_until is None:
+        return samples
+    begin, (first, *others) = round(form.rest_until * 1e9), samples
+    if first.sample_time == begin:
+        return (replace(first, speed=0.0), *others)
+    return (replace(first, sample_time=begin, speed=0.0, voltage=float(voltage)), *samples)
+
+
+def _about_rest(rest_until: float, runs: int) -> str:
+    which = "every run begins" if runs > 1 else "the bag begins"
+    return (
+        f"The motor stands until {rest_until:g} s: {which} then, at speed 0, with the voltage and the count of its "
+        "first row."
+    )
+
+
+def _steady_log(form: CsvForm, info: Info, signals: Signals) -> Log:
+    """Rows that are steady states."""
+    steady = read_steady(form, info, signals.voltage, signals.motion, list(signals.runs.values()))
+    about = f"{signals.path}: {len(signals)} steady states, up to {info.max_voltage:.4g} V."
+    made = tuple(Run(label, samples) for label, samples in zip(signals.runs, steady.samples, strict=True))
+    return Log(steady.info, made, (about, *steady.findings))
+
+
+def _max_voltage(form: CsvForm, signals: Signals) -> float:
+    largest = form.max_voltage or float(np.max(np.abs(signals.voltage)))
+    if largest == 0.0:
+        raise RecordingError(
+            f"{signals.path}: {form.voltage} is 0 in every row: check --voltage, or give --max-voltage."
+        )
+    return largest
+
+
+def _about_time(signals: Signals) -> str:
+    steps: Integers = signals.steps()
+    span = f"{len(signals)} rows" + (f" in {len(signals.runs)} runs" if len(signals.runs) > 1 else "")
+    shortest, middle, longest = (float(value) * 1e-6 for value in (steps.min(), np.median(steps), steps.max()))
+    return f"{span}, {steps.sum() * 1e-9:.2f} s, sample period {middle:.4g} ms ({shortest:.4g} to {longest:.4g} ms)"

@@ -1,0 +1,178 @@
+"""Rows of a log that belong together: by a column, where time begins again, where rows are missing."""
+
+import re
+from collections.abc import Container
+from itertools import count, groupby
+
+import numpy as np
+
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import CsvForm
+from motor_identification.logs.signals import Bools, Integers, Signals
+from motor_model.errors import RecordingError
+
+GAP = 20.0  # sample periods without a row: what was commanded meanwhile is not known any more
+LATE = 5.0  # sample periods from the first row to the second: it was logged before the recording began
+MOST_RUNS = 1000  # bags that one log may become; a column that is none to split by makes more
+
+
+def split_by_column(table: Table, split: str | None) -> dict[str, slice]:
+    """Rows that belong together, by label: a new run wherever the split column changes.
+
+    Raises:
+        RecordingError: a run of a single row, or too many runs.
+    """
+    runs: dict[str, slice] = {}
+    start = 0
+    column = table.column(split) if split else [b""] * len(table)
+    for _, rows in groupby(column):
+        stop = start + len(list(rows))
+        value = table.text(split, start) if split else ""
+        if stop - start < 2:
+            raise RecordingError(
+                f"{table.path}, line {table.lines[start]}: the run with {split} = {value} has a single row, "
+                "and at least 2 are needed: correct or remove that line."
+            )
+        if len(runs) == MOST_RUNS:
+            raise RecordingError(
+                f"{table.path}: {split} changes more than {MOST_RUNS} times: give --split a column that changes "
+                "between runs only."
+            )
+        runs[_label(value, runs)] = slice(start, stop)
+        start = stop
+    return runs
+
+
+def _label(value: str, taken: Container[str]) -> str:
+    """The value fit for a file name; a value that comes again gets a number."""
+    label = re.sub(r"[^\w.+-]", "_", value)[:80]
+    if label not in taken:
+        return label
+    return next(name for number in count(2) if (name := f"{label}_{number}") not in taken)
+
+
+def split_at_restarts(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]]:
+    """Begin a run wherever time runs backwards.
+
+    Raises:
+        RecordingError: it does so all the time.
+    """
+    back = _inside(signals, np.diff(signals.time, prepend=signals.time[:1]) < 0)
+    if not back.any():
+        return signals, []
+    number = int(back.sum())
+    lost = _lost_order(signals, back)
+    if lost is not None or number >= MOST_RUNS:
+        row = int(np.argmax(back)) if lost is None else lost
+        before, here = (signals.time[k] * 1e-9 for k in (row - 1, row))
+        raise RecordingError(
+            f"{signals.path}, line {signals.lines[row]}: time runs backwards ({form.time} is {here:.10g} s after "
+            f"{before:.10g}), and does not begin again: name the column of times with --time, or correct that line."
+        )
+    parts = signals.split(back)
+    said = f"{form.time} begins again {_times(number)}: {len(parts.runs)} runs, a bag each{_alone(signals, parts)}."
+    return _named_by_voltage(parts), [said]
+
+
+def _lost_order(signals: Signals, back: Bools) -> int | None:
+    """The first row at which time steps back by less than half of its run: rows out of order are no new beginning."""
+    for run in signals.runs.values():
+        start = run.start
+        for row in np.flatnonzero(back[run]) + run.start:
+            elapsed = signals.time[row - 1] - signals.time[start]
+            if 2 * (signals.time[row - 1] - signals.time[row]) <= elapsed:
+                return int(row)
+            start = int(row)
+    return None
+
+
+def split_at_gaps(signals: Signals) -> tuple[Signals, list[str]]:
+    """Begin a run after every gap in the rows."""
+    gap = _inside(signals, np.diff(signals.time, prepend=signals.time[:1]) > GAP * _period(signals))
+    if not gap.any():
+        return signals, []
+    if gap.sum() >= MOST_RUNS:
+        return signals, [f"Caution: {gap.sum()} gaps of more than {GAP:g} sample periods; none is cut out."]
+    lost = float(np.diff(signals.time, prepend=signals.time[:1])[gap].sum()) * 1e-9
+    parts = signals.split(gap)
+    if not parts.runs:
+        return signals, []
+    said = f"Rows are missing {_times(int(gap.sum()))} ({lost:.3g} s in all): {len(parts.runs)} runs, a bag each"
+    return parts, [f"{said}{_alone(signals, parts)}."]
+
+
+def drop_first_rows(signals: Signals) -> tuple[Signals, list[str]]:
+    """Leave out the first row of a run that was logged long before the second."""
+    keep = np.ones(len(signals), np.bool_)
+    limit = LATE * _period(signals)
+    for run in signals.runs.values():
+        if run.stop - run.start > 2 and signals.time[run.start + 1] - signals.time[run.start] > limit:
+            keep[run.start] = False
+    dropped = int((~keep).sum())
+    if not dropped:
+        return signals, []
+    which = "the first row" if dropped == 1 else f"the first rows of {dropped} runs"
+    return signals.only(keep), [f"Left out: {which}, logged more than {LATE:g} sample periods before the second."]
+
+
+def _period(signals: Signals) -> float:
+    """[ns] the median step, of those that are not 0."""
+    steps = signals.steps()
+    forward = steps[steps > 0]
+    return float(np.median(forward)) if len(forward) else 0.0
+
+
+def _inside(signals: Signals, marks: Bools) -> Bools:
+    """Marks on all rows but the first of each run."""
+    inside = marks.copy()
+    inside[[run.start for run in signals.runs.values()]] = False
+    return inside
+
+
+def _named_by_voltage(signals: Signals) -> Signals:
+    """Runs of one voltage each are named by it, if no two have the same."""
+    levels = [np.unique(signals.voltage[run][: run.stop - run.start]) for run in signals.runs.values()]
+    if any(len(level) != 1 for level in levels):
+        return signals
+    names = [f"{level[0]:.4g}V" for level in levels]
+    if len(set(names)) < len(names):
+        return signals
+    return Signals(**{**signals.__dict__, "runs": dict(zip(names, signals.runs.values(), strict=True))})
+
+
+def _alone(before: Signals, after: Signals) -> str:
+    """Rows that are left out, as they are alone in their run."""
+    lost = len(before) - len(after)
+    return f" ({lost} rows that stand alone are left out)" if lost else ""
+
+
+def _times(number: int) -> str:
+    return {1: "once", 2: "twice"}.get(number, f"{number} times")
+
+
+def check_rest(signals: Signals, table: Table, form: CsvForm) -> None:
+    """Refuse a run that begins before the motor's rest ends.
+
+    Raises:
+        RecordingError: one does.
+    """
+    if form.rest_until is None:
+        return
+    for run in signals.runs.values():
+        if signals.time[run.start] < round(form.rest_until * 1e9):
+            raise RecordingError(
+                f"{table.path}, line {signals.lines[run.start]}: the run begins at {form.time} = "
+                f"{signals.time[run.start] * 1e-9:g} s, before --rest-until {form.rest_until:g}: that option is "
+                "for rows that begin after the first voltage was applied."
+            )
+
+
+def check_steps(signals: Signals) -> Integers:
+    """Time from row to row inside runs [ns], all positive.
+
+    Raises:
+        RecordingError: there are none.
+    """
+    if not signals.runs:
+        raise RecordingError(f"{signals.path}: no run has two rows at different times: check --time.")
+    return signals.steps()

@@ -1,0 +1,117 @@
+"""Positions that wrap after a turn or at the size of a counter, and counters that are reset."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import tau
+
+import numpy as np
+
+from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.signals import Floats, Integers, Signals
+from motor_identification.measurement.sanity_checks import find_count_jump
+from motor_model.errors import RecordingError
+
+# Where counters and angles wrap, by unit: a turn, and the sizes of registers.
+RANGES: dict[str, tuple[float, ...]] = {
+    "rad": (tau,),
+    "deg": (360.0,),
+    "rev": (1.0,),
+    "count": (256.0, 1024.0, 2048.0, 4096.0, 8192.0, 16384.0, 65536.0, 2.0**32),
+}
+SLACK = 1.02  # of its range: how far values may reach that wrap there (a turn of 6.3 rad)
+REACHED = 0.75  # of its range that values have to cover, before they are said to wrap at it
+USUAL = 3.0  # times the largest other step by which an unwrapped one may differ from 0
+RESET_STEPS = 3.0  # usual steps from 0, or from a run's first value, within which a counter is said to be reset
+
+
+def unwrap(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]]:
+    """Take the jumps out of positions that wrap, if they wrap at a turn, at a register's size or at the encoder's."""
+    ranges = RANGES.get(form.unit, ())
+    if form.unit == "count" and form.edges_per_revolution:
+        ranges = (float(form.edges_per_revolution), *ranges)
+    if form.wrap is not None:
+        ranges = (form.wrap,)
+    for size in ranges:
+        unwrapped = signals.motion.copy()
+        jumps = 0
+        for run in signals.runs.values():
+            unwrapped[run], number = _without_jumps(signals.motion[run], size)
+            jumps += number
+        if jumps:
+            said = f"{form.motion} wraps at {size:.6g} {form.unit} ({jumps} times): unwrapped."
+            return replace(signals, motion=unwrapped), [said]
+    return signals, []
+
+
+def _without_jumps(values: Floats, size: float) -> tuple[Floats, int]:
+    """The values without jumps of a range's size, and how many there were; none unless all of it fits."""
+    step = np.diff(values)
+    jump = np.abs(step) > 0.5 * size
+    span = float(np.ptp(values))
+    if not jump.any() or not REACHED * size < span <= SLACK * size:
+        return values, 0
+    mended = step - size * np.rint(step / size)
+    usual = float(np.max(np.abs(step[~jump]), initial=0.0))
+    if np.max(np.abs(mended[jump])) > USUAL * max(usual, 0.01 * size):
+        return values, 0
+    turns = np.concatenate(([0.0], np.cumsum(np.where(jump, -np.rint(step / size), 0.0))))
+    return values + size * turns, int(jump.sum())
+
+
+def split_at_resets(
+    signals: Signals, form: CsvForm, count_of: Callable[[Floats], Integers]
+) -> tuple[Signals, list[str]]:
+    """Begin a run wherever a counter is reset to 0 or to the run's first value.
+
+    Args:
+        signals: rows with positions.
+        form: what they are.
+        count_of: converts them to counts.
+
+    Raises:
+        RecordingError: a position jumps to somewhere else.
+    """
+    number = 0
+    tops: list[float] = []
+    while (row := _first_jump(signals, count_of)) is not None:
+        label, run = next((name, run) for name, run in signals.runs.items() if run.start < row < run.stop)
+        motion = signals.motion
+        usual = float(np.median(np.abs(np.diff(motion[run]))))
+        near = RESET_STEPS * max(usual, float(np.quantile(np.abs(np.diff(motion[run])), 0.9)))
+        if min(abs(motion[row]), abs(motion[row] - motion[run.start])) > near:
+            raise _jumped(signals, form, row)
+        if any(abs(top - motion[row - 1]) <= near for top in tops):
+            raise _wrapped(signals, form, row)
+        tops.append(float(motion[row - 1]))
+        begins = np.zeros(len(signals), np.bool_)
+        begins[row] = True
+        signals, number = signals.split(begins), number + 1
+    said = f"{form.motion} is reset {number} times: {len(signals.runs)} runs, a bag each." if number else ""
+    return signals, [said.replace(" 1 times", " once")] if said else []
+
+
+def _first_jump(signals: Signals, count_of: Callable[[Floats], Integers]) -> int | None:
+    counts = count_of(signals.motion)
+    for run in signals.runs.values():
+        time = (signals.time[run] - signals.time[run.start]) * 1e-9
+        jump = find_count_jump(time, counts[run], signals.voltage[run])
+        if jump is not None:
+            return int(run.start) + jump
+    return None
+
+
+def _wrapped(signals: Signals, form: CsvForm, row: int) -> RecordingError:
+    before, here = (f"{signals.motion[k]:.9g}" for k in (row - 1, row))
+    return RecordingError(
+        f"{signals.path}, line {signals.lines[row]}: {form.motion} jumps from {before} to {here}, and not for the "
+        "first time: say where it wraps (--wrap R)."
+    )
+
+
+def _jumped(signals: Signals, form: CsvForm, row: int) -> RecordingError:
+    before, here = (f"{signals.motion[k]:.9g}" for k in (row - 1, row))
+    what = "the counter wrapped or was reset" if form.kind is not Kind.SPEED else "no motor does"
+    return RecordingError(
+        f"{signals.path}, line {signals.lines[row]}: {form.motion} jumps from {before} to {here}: {what}. "
+        "Say where it wraps (--wrap R), or mark the parts in a column for --split."
+    )

@@ -1,0 +1,56 @@
+"""`import_log` as a command."""
+
+from pathlib import Path
+
+import pytest
+
+from motor_identification.bag import read_recording
+from motor_identification.cli._log_bags import write_bags
+from motor_identification.cli.import_log import main
+from motor_identification.logs.log import Run
+from motor_model.errors import RecordingError
+from motor_model.sample import Info, Sample
+
+DATA = Path(__file__).resolve().parents[2] / "data"
+
+
+def test_a_dry_run_says_it_in_one_screen_and_writes_nothing(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([str(DATA / "undc/prbs_2026-08-14.csv"), "--output", str(tmp_path / "bag"), "--dry-run"]) == 0
+    out, err = capsys.readouterr()
+    assert err == "" and out.count("\n") <= 24 and out.endswith("Nothing is written (--dry-run).\n")
+    for word in ("a text table with the columns t, u, y", "sample period 20 ms", "Excitation: 1.83 to 3.08 V"):
+        assert word in out
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_bag_for_every_motor_and_run(tmp_path: Path) -> None:
+    assert main([str(DATA / "frc/drivetrain_sysid.json"), "--output", str(tmp_path / "robot")]) == 0
+    names = sorted(path.name for path in tmp_path.iterdir())
+    tests = ("fast-backward", "fast-forward", "slow-backward", "slow-forward")
+    assert names == [f"robot_{side}_{test}" for side in ("left", "right") for test in tests]
+    assert read_recording(tmp_path / names[0]).info.name == "left"
+
+
+def test_questions_are_one_sentence_and_exit_1(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([str(DATA / "ev3/steps_1s.csv"), "--output", str(tmp_path / "bag")]) == 1
+    out, err = capsys.readouterr()
+    assert out == "" and err.count("\n") == 1 and "(--supply-voltage V)" in err and list(tmp_path.iterdir()) == []
+
+
+def test_an_output_has_to_be_said() -> None:
+    with pytest.raises(SystemExit) as caught:
+        main([str(DATA / "undc/prbs_2026-08-14.csv")])
+    assert caught.value.code == 2
+
+
+def test_what_breaks_in_the_middle_leaves_no_bag(tmp_path: Path) -> None:
+    run = Run("", (Sample(0, 1.0, 1.0), Sample(10, 1.0, 1.0)))
+    broken = Run("", (Sample(0, 1.0, 1.0), Sample(10, "fast", 1.0)))  # type: ignore[arg-type]
+    with pytest.raises(ValueError):
+        write_bags({tmp_path / "a": (run, Info()), tmp_path / "b": (broken, Info())}, 10**18)
+    assert list(tmp_path.iterdir()) == []
+    with pytest.raises(RecordingError, match="before 1970 or after 2038"):
+        write_bags({tmp_path / "a": (run, Info())}, 2**62)
+    assert list(tmp_path.iterdir()) == []
+    write_bags({tmp_path / "a": (run, Info())}, 10**18)
+    assert len(list(tmp_path.iterdir())) == 1

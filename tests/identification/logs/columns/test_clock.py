@@ -1,0 +1,34 @@
+"""The unit of times by when they are, and by how often rows come."""
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.clock import guess_time_unit, runs_forward
+
+
+@pytest.mark.parametrize(
+    ("first", "step", "unit"),
+    [
+        (0.0, 0.02, "s"),
+        (708.416, 0.011, "s"),
+        (0.0, 0.39, "s"),
+        (0.0, 1.0, "ms"),  # 1 kHz, and no log of a row a second
+        (8859.0, 11.0, "ms"),
+        (17800.0, 1100.0, "ms"),  # a static curve: multiples of 100 are no microseconds
+        (17801.0, 5003.0, "us"),
+        (0.0, 390_000.0, "us"),
+        (0.0, 1_000_037.0, "ns"),
+        (1.76e9, 0.005, "s"),
+        (1.76e12, 5.0, "ms"),
+        (1.76e15, 5000.0, "us"),
+        (1.76e18, 5e6, "ns"),
+    ],
+)
+def test_units(first: float, step: float, unit: str) -> None:
+    assert guess_time_unit(first + step * np.arange(100))[0] == unit
+
+
+def test_times_go_on() -> None:
+    even = np.arange(50.0)
+    assert runs_forward(even) and runs_forward(even // 3 * 2 + even % 3) and not runs_forward(-even)
+    assert not runs_forward(np.sin(even)) and not runs_forward(np.cumsum(even**2)) and not runs_forward(even[:3])

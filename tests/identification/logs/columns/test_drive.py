@@ -1,0 +1,54 @@
+"""How the driving column becomes volts."""
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.drive import duty_drive, is_supply, supply_scale, voltage_drive
+from motor_identification.logs.columns.heading import read_heading
+
+WAVE = np.sin(np.arange(100) / 5.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "top", "full"),
+    [
+        ("duty", 1.0, 1.0),
+        ("duty", 0.4, 1.0),
+        ("duty", 80.0, 100.0),
+        ("cmd", 100.0, 100.0),
+        ("pwm", 60.0, 255.0),  # whole numbers of a PWM that never reach 100
+        ("pwm", 255.0, 255.0),
+        ("pwm", 256.0, 1000.0),
+        ("pwm", 1023.0, 1023.0),
+        ("pwm", 32767.0, 32767.0),
+        ("duty_pct", 40.0, 100.0),
+    ],
+)
+def test_full_duty_by_the_largest_value(name: str, top: float, full: float) -> None:
+    values = np.rint(top * WAVE) if top > 1.0 else top * WAVE
+    values[7] = top
+    drive = duty_drive(read_heading(name), values)
+    assert drive.full == full and drive.scale is None
+    assert duty_drive(read_heading(name), values, 500.0).full == 500.0
+
+
+@pytest.mark.parametrize(("top", "scale"), [(60.0, 1.0), (61.0, None)])
+def test_whole_numbers_beyond_a_small_motors_volts_are_a_duty(top: float, scale: float | None) -> None:
+    values = np.rint(top * WAVE)
+    values[3] = top
+    assert voltage_drive(read_heading("u"), values).scale == scale
+    assert voltage_drive(read_heading("u"), values + 0.5).scale == 1.0
+    assert voltage_drive(read_heading("u [mV]"), values).scale == 1e-3
+
+
+def test_a_supply_stays_where_the_duty_turns() -> None:
+    duty = 255.0 * WAVE
+    assert is_supply(12.0 - np.abs(WAVE), duty)
+    assert not is_supply(12.0 * WAVE, duty) and not is_supply(np.full(100, 12.0), np.full(100, 255.0))
+    assert not is_supply(np.zeros(100), duty)
+
+
+def test_the_unit_of_a_supply() -> None:
+    assert supply_scale(read_heading("batteryVoltage"), np.full(5, 7931.0))[0] == 1e-3
+    assert supply_scale(read_heading("battery"), np.full(5, 99.0)) == (1.0, "V")
+    assert supply_scale(read_heading("battery [mV]"), np.full(5, 12.0)) == (1e-3, "mV")

@@ -1,0 +1,93 @@
+"""Whole forms out of tables: what was guessed, what was said, what is asked."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.guess import guess_forms
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.csv.reader import read_table
+from motor_identification.logs.form import CsvForm, Kind
+from motor_model.errors import RecordingError
+
+DATA = Path(__file__).resolve().parents[3] / "data"
+
+
+def guess(name: str, **said: object) -> tuple[CsvForm, ...]:
+    return guess_forms(read_table(DATA / name), Said(**said)).forms  # type: ignore[arg-type]
+
+
+def test_single_letters_with_an_encoders_steps() -> None:
+    (form,) = guess("undc/prbs_2026-08-14.csv")
+    assert form == CsvForm("t", "u", "y", Kind.SPEED, "deg/s")
+    (profile,) = guess("undc/profile_closed_2026-08-18.csv")
+    assert (profile.motion, profile.kind, profile.unit) == ("y", Kind.POSITION, "deg")
+
+
+def test_spanish_names_and_a_duty_beside_the_voltage() -> None:
+    (form,) = guess("esp32/step_response.csv")
+    assert (form.time, form.voltage, form.motion, form.unit) == (
+        "Tiempo (s)",
+        "Voltaje (V)",
+        "Velocidad (rad/s)",
+        "rad/s",
+    )
+
+
+def test_a_battery_in_millivolts_and_a_static_curve_of_two_wheels() -> None:
+    left, right = guess("micromouse/wheelSpeedCalibration3.csv")
+    assert (left.time, left.voltage, left.motion, left.unit, left.label) == (
+        None,
+        "motorCommand",
+        "leftSpeedRpm",
+        "rpm",
+        "left",
+    )
+    assert (left.supply, left.supply_scale, left.voltage_scale) == ("batteryVoltage", 1e-3, 1.0 / 255.0)
+    assert replace(left, motion="", label="", name="") == replace(right, motion="", label="", name="")
+
+
+def test_duties_of_runs_that_begin_from_rest() -> None:
+    with pytest.raises(RecordingError, match=r"duty_pct as a duty in %: say the voltage at full duty"):
+        guess("ev3/steps_1s.csv")
+    (form,) = guess("ev3/steps_1s.csv", supply_voltage=7.4)
+    assert form.voltage_scale == pytest.approx(0.074) and form.max_voltage == 7.4
+    assert (form.unit, form.kind, form.rest_until) == ("deg", Kind.POSITION, 0.0)
+
+
+def test_all_that_cannot_be_told_is_asked_at_once() -> None:
+    with pytest.raises(RecordingError) as caught:
+        guess("micromouse/testPid3.csv")
+    text = str(caught.value)
+    assert text.count("--supply-voltage") == 1 and text.count("--unit") == 1 and "\n" not in text
+    assert "deg/s or rpm" in text and text.endswith(".")
+    left, right = guess("micromouse/testPid3.csv", supply_voltage=7.9, unit="rpm")
+    assert (left.time_unit, left.unit, right.motion) == ("s", "rpm", "rightSpeed")
+    assert guess("micromouse/testPid1.csv", supply_voltage=7.9, unit="rpm")[0].time_unit == "ms"
+
+
+def test_every_guess_is_said_with_the_option_that_corrects_it() -> None:
+    found = guess_forms(read_table(DATA / "undc/prbs_2026-08-14.csv"), Said()).findings
+    assert [line.split(":")[0] for line in found] == ["Time", "Voltage", "Motion"]
+    for line, option in zip(found, ("--time-unit", "--voltage-scale", "--unit"), strict=True):
+        assert option in line
+    said = Said(time="t", time_unit="s", voltage_scale=1.0, motion="y", kind=Kind.SPEED, unit="deg/s")
+    assert "assumed" not in " ".join(guess_forms(read_table(DATA / "undc/prbs_2026-08-14.csv"), said).findings)
+
+
+@pytest.mark.parametrize(("first", "rest"), [(5.9, 0.0), (6.1, None)])
+def test_a_clock_that_begins_shortly_before_the_first_row(tmp_path: Path, first: float, rest: float | None) -> None:
+    """Less than six sample periods before it."""
+    times = 0.01 * (first + np.arange(30))
+    rows = [f"{time:.4f},{volts},{k}" for volts in (3, 5) for k, time in enumerate(times)]
+    (tmp_path / "log.csv").write_text("\n".join(["t,u,pos_deg", *rows]))
+    assert guess_forms(read_table(tmp_path / "log.csv"), Said()).forms[0].rest_until == rest
+
+
+@pytest.mark.parametrize(("period", "steady"), [(0.39, False), (0.41, True)])
+def test_rows_far_apart_with_a_voltage_each_are_steady_states(tmp_path: Path, period: float, steady: bool) -> None:
+    rows = [f"{period * k + 0.001:.4f},{k % 7 + 1},{10 * (k % 7)}" for k in range(40)]
+    (tmp_path / "log.csv").write_text("\n".join(["t [s],u,speed [rpm]", *rows]))
+    assert (guess_forms(read_table(tmp_path / "log.csv"), Said()).forms[0].time is None) == steady

@@ -1,0 +1,59 @@
+"""Names of columns, as they were found in logs."""
+
+import pytest
+
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.vocabulary import Quantity
+
+ROWS = """
+t                 | time           |       |
+time [ms]         | time           | ms    |
+Tiempo (s)        | time           | s     |
+time_us           | time           | us    |
+t_s               | time           | s     |
+elapsed ms        | time           | ms    |
+Timestamp         | time           |       |
+PWM               | duty           |       |
+duty_pct          | duty           | %     |
+motorCommand      | duty           |       |
+leftCommand       | duty           |       | left
+u                 | voltage        |       |
+Voltaje (V)       | voltage        | V     |
+motor_voltage     | voltage        |       |
+cmd_voltage       | voltage        |       |
+Spannung          | voltage        |       |
+batteryVoltage    | supply voltage |       |
+Battery [mV]      | supply voltage | mV    |
+Velocidad (rad/s) | speed          | rad/s |
+leftSpeedRpm      | speed          | rpm   | left
+r_speed           | speed          |       | right
+vel_rad_s         | speed          | rad/s |
+Drehzahl [1/min]  | speed          | rpm   |
+M1 speed          | speed          |       | 1
+ω (rad/s)         | speed          | rad/s |
+pos_deg           | position       | deg   |
+Position (m)      | position       | m     |
+theta             | position       |       |
+encoder_count     | count          | count |
+wheel_left_ticks  | count          | count | left
+I (A)             | current        | A     |
+targetSpeed       | reference      |       |
+speed_cmd         | reference      |       |
+r                 | reference      |       |
+temperature       | other          |       |
+y                 |                |       |
+column 2          |                |       |
+"""
+
+
+@pytest.mark.parametrize("row", ROWS.strip().splitlines())
+def test_a_name_tells_quantity_unit_and_side(row: str) -> None:
+    name, quantity, unit, side = (f"{row}|".split("|")[k].strip() for k in range(4))
+    heading = read_heading(name)
+    assert (heading.quantity.value if heading.quantity else "", heading.unit, heading.side) == (quantity, unit, side)
+
+
+def test_earlier_quantities_win() -> None:
+    assert read_heading("battery voltage").quantity is Quantity.SUPPLY
+    assert read_heading("speed error").quantity is Quantity.OTHER
+    assert read_heading("pwm voltage").quantity is Quantity.VOLTAGE

@@ -1,0 +1,76 @@
+"""The form of one motor: drive, motion, rest."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.motor_form import FIRST_ROWS, Notes, Rows, make_form
+from motor_identification.logs.columns.roles import Roles
+from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import CsvForm, Kind
+
+ROWS = Rows("t", "s", 0.01)
+
+
+def form(said: Said, notes: Notes, motion: str = "speed [rpm]", drive: str = "pwm", **extra: object) -> CsvForm:
+    time = 0.01 * np.arange(1, 101)
+    volts = np.repeat([100.0, -200.0], 50)
+    table = Table(Path("log.csv"), np.arange(100), {"t": time, drive: volts, motion: np.cumsum(volts), **extra})  # type: ignore[arg-type]
+    supply = next((name for name in extra if name == "battery"), None)
+    current = next((name for name in extra if name.startswith("i")), None)
+    return make_form(table, Pair("", drive, motion), Roles("t", (), supply, current), said, ROWS, notes)
+
+
+@pytest.mark.parametrize(
+    ("said", "scale", "full"),
+    [
+        (Said(supply_voltage=12.0), 12.0 / 255.0, 12.0),
+        (Said(supply_voltage=12.0, full_duty=200.0), 12.0 / 200.0, 12.0),
+        (Said(voltage_scale=0.05), 0.05, None),
+        (Said(supply_voltage=12.0, max_voltage=9.0), 12.0 / 255.0, 9.0),
+    ],
+)
+def test_a_duty_becomes_volts(said: Said, scale: float, full: float | None) -> None:
+    notes = Notes([], [])
+    made = form(said, notes)
+    assert (made.voltage_scale, made.max_voltage) == (pytest.approx(scale), full) and notes.questions == []
+
+
+def test_a_duty_without_a_supply_is_asked_about_and_one_beside_a_battery_is_not() -> None:
+    notes = Notes([], [])
+    form(Said(), notes)
+    assert notes.questions == [
+        ("pwm", "as a duty of ±255 (otherwise --full-duty): say the voltage at full duty (--supply-voltage V)")
+    ]
+    notes = Notes([], [])
+    made = form(Said(), notes, battery=np.full(100, 7400.0))
+    assert notes.questions == [] and (made.supply, made.supply_scale) == ("battery", 1e-3)
+
+
+@pytest.mark.parametrize(
+    ("motion", "said", "kind", "unit", "asked"),
+    [
+        ("speed [rpm]", Said(), Kind.SPEED, "rpm", ""),
+        ("speed [rpm]", Said(unit="deg/s"), Kind.SPEED, "deg/s", ""),
+        ("angle", Said(unit="rpm"), Kind.SPEED, "rpm", ""),  # the unit says what it is
+        ("ticks", Said(), Kind.COUNT, "count", "--edges-per-revolution"),
+        ("ticks", Said(edges_per_revolution=48), Kind.COUNT, "count", ""),
+        ("pos [m]", Said(), Kind.POSITION, "m", "--units-per-revolution"),
+        ("pos [m]", Said(units_per_revolution=0.2), Kind.POSITION, "m", ""),
+        ("speed", Said(), Kind.SPEED, "rad/s", "--unit"),
+        ("speed", Said(motion="speed", kind=Kind.SPEED), Kind.SPEED, "rad/s", ""),  # named: the first unit is assumed
+    ],
+)
+def test_kind_and_unit_of_the_motion(motion: str, said: Said, kind: Kind, unit: str, asked: str) -> None:
+    notes = Notes([], [])
+    made = form(Said(**{**said.__dict__, "supply_voltage": 12.0}), notes, motion)
+    assert (made.kind, made.unit) == (kind, unit)
+    assert (asked in notes.questions[0][1]) if asked else notes.questions == []
+
+
+def test_milliamperes() -> None:
+    assert form(Said(voltage_scale=1.0), Notes([], []), **{"i [mA]": np.ones(100)}).current_scale == 1e-3
+    assert form(Said(voltage_scale=1.0), Notes([], []), **{"i [A]": np.ones(100)}).current_scale == 1.0
+    assert FIRST_ROWS > 4.7  # the EV3's runs begin up to 24 ms late, in rows of 5.2 ms

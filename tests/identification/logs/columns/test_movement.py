@@ -1,0 +1,58 @@
+"""What a column of motion holds, by its numbers alone."""
+
+from math import tau
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.movement import guess_kind, guess_position_unit, guess_speed_unit
+from motor_identification.logs.form import UNITS, Kind
+
+RANDOM = np.random.default_rng(5)
+DRIVE = np.repeat(RANDOM.choice([-3.0, 2.0, 5.0], 40), 25)
+
+
+def speeds() -> "np.ndarray[tuple[int], np.dtype[np.float64]]":
+    """[rad/s] of a first-order motor at 100 Hz, with a time constant of 60 ms."""
+    speed = np.zeros(len(DRIVE))
+    for k in range(1, len(DRIVE)):
+        speed[k] = speed[k - 1] + (DRIVE[k - 1] / 0.05 - speed[k - 1]) * (1.0 - np.exp(-0.01 / 0.06))
+    return speed
+
+
+def test_a_speed_forgets_and_a_position_does_not() -> None:
+    assert guess_kind(speeds(), DRIVE) is Kind.SPEED
+    assert guess_kind(np.cumsum(speeds()) * 0.01, DRIVE) is Kind.POSITION
+    assert guess_kind(np.cumsum(np.abs(speeds())) * 0.01, np.abs(DRIVE)) is Kind.POSITION
+
+
+@pytest.mark.parametrize("unit", ["rad/s", "deg/s", "rpm"])
+def test_the_unit_of_speeds_by_the_counts_of_a_turn(unit: str) -> None:
+    """Counts of 97 or 2,800 a turn within 10 ms; what is whole in rpm is so in deg/s too, six times as much."""
+    size = UNITS[Kind.SPEED][unit] or 0.0
+    for edges in (97, 2800):
+        values = np.rint(speeds() * 0.01 * edges / tau) * tau / edges / 0.01 / size
+        found = guess_speed_unit(np.round(values, 8), 0.01)
+        if unit == "rpm":
+            assert found.name == "" and found.candidates == ("deg/s", "rpm")
+        else:
+            assert found.name == unit and f"{edges} counts a turn in {unit}" in found.why
+
+
+def test_speeds_without_counts_do_not_tell_their_unit() -> None:
+    for values in (speeds(), np.round(speeds(), 1), speeds()[:10]):
+        found = guess_speed_unit(values, 0.01)
+        assert found.name == "" and found.candidates == ("rad/s", "deg/s", "rpm")
+    counted = np.rint(speeds() * 0.01 * 360 / tau) * tau / 360 / 0.01 * 60 / tau  # 360 a turn: 2,160 in deg/s
+    assert set(guess_speed_unit(counted, 0.01).candidates) == {"deg/s", "rpm"}
+
+
+def test_the_unit_of_positions_by_wraps_and_steps() -> None:
+    angle = np.cumsum(speeds()) * 0.01
+    assert guess_position_unit(np.cumsum(np.abs(speeds())) * 0.01 % tau).name == "rad"
+    assert guess_position_unit(np.degrees(np.cumsum(np.abs(speeds())) * 0.01) % 360).name == "deg"
+    assert guess_position_unit(np.rint(angle * 1440 / tau) * tau / 1440).name == "rad"
+    assert guess_position_unit(np.rint(angle * 1440 / tau) * 360 / 1440).name in ("deg", "")
+    assert guess_position_unit(np.rint(angle * 97 / tau) * 360 / 97).name == "deg"
+    assert guess_position_unit(np.rint(np.degrees(angle))).candidates == ("count", "deg")
+    assert guess_position_unit(angle).candidates == ("rad", "deg", "rev", "count")

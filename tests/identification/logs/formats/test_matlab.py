@@ -1,0 +1,65 @@
+"""MATLAB files."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.io import savemat
+
+from motor_identification.logs.formats import matlab
+from motor_identification.logs.formats.matlab import read_matlab
+from motor_model.errors import RecordingError
+
+TIME = np.arange(50) * 0.01
+
+
+def test_vectors_columns_and_structs(tmp_path: Path) -> None:
+    content = {
+        "t": TIME,
+        "voltage": TIME[:, None] * 3,
+        "log": {"speed": TIME * 5, "deep": {"pos": TIME * 7}},
+        "data": np.column_stack([TIME, TIME * 2]),
+        "gain": 3.0,
+        "label": "bench",
+        "other": np.arange(7.0),
+    }
+    savemat(tmp_path / "log.mat", content, do_compression=True)
+    table = read_matlab(tmp_path / "log.mat")
+    assert sorted(table.names) == ["data 1", "data 2", "log.deep.pos", "log.speed", "t", "voltage"]
+    assert table.numbers("log.deep.pos") == pytest.approx(TIME * 7) and table.notes == (
+        "Left out, as they have other lengths: other.",
+    )
+
+
+def test_what_has_no_vectors(tmp_path: Path) -> None:
+    savemat(tmp_path / "log.mat", {"a": 1.0})
+    with pytest.raises(RecordingError, match="has no vectors of numbers"):
+        read_matlab(tmp_path / "log.mat")
+    savemat(tmp_path / "log.mat", {"a": TIME})
+    with pytest.raises(RecordingError, match="has no two vectors of one length"):
+        read_matlab(tmp_path / "log.mat")
+
+
+def test_damage_is_a_sentence(tmp_path: Path) -> None:
+    path = tmp_path / "log.mat"
+    savemat(path, {"t": TIME, "u": TIME * 2}, do_compression=True)
+    whole = path.read_bytes()
+    generator = np.random.default_rng(3)
+    for _ in range(150):
+        data = bytearray(whole)
+        for place in generator.integers(0, len(whole), 3):
+            data[place] ^= 1 << int(generator.integers(0, 8))
+        path.write_bytes(bytes(data[: int(generator.integers(100, len(whole) + 1))]))
+        try:
+            assert len(read_matlab(path)) >= 2
+        except RecordingError as error:
+            assert "\n" not in str(error) and str(error).endswith(".")
+
+
+def test_a_file_that_announces_too_much(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    savemat(tmp_path / "log.mat", {"t": TIME, "u": TIME})
+    monkeypatch.setattr(matlab, "LARGEST", 100)
+    assert len(read_matlab(tmp_path / "log.mat")) == 50
+    monkeypatch.setattr(matlab, "LARGEST", 99)
+    with pytest.raises(RecordingError, match="announces 100 numbers, and 99 is the most"):
+        read_matlab(tmp_path / "log.mat")

@@ -1,0 +1,67 @@
+"""Positions that wrap are unwrapped, counters that are reset split, and other jumps refused."""
+
+from math import tau
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.rows.wraps import split_at_resets, unwrap
+from motor_identification.logs.signals import Floats, Integers, Signals
+from motor_model.errors import RecordingError
+
+
+def form(unit: str) -> CsvForm:
+    return CsvForm("t", "u", "y", Kind.POSITION, unit)
+
+
+def whole(values: Floats) -> Integers:
+    return np.rint(values).astype(np.int64)
+
+
+def rows(motion: Floats) -> Signals:
+    count = len(motion)
+    unknown, time = np.full(count, np.nan), np.arange(count) * 10_000_000
+    volts = np.full(count, 5.0)
+    return Signals(
+        Path("log.csv"), np.arange(2, count + 2), time, volts, motion, unknown, unknown, {"": slice(0, count)}
+    )
+
+
+@pytest.mark.parametrize(
+    ("unit", "size", "step"),
+    [("deg", 360.0, 17.0), ("rad", tau, 0.3), ("rev", 1.0, 0.04), ("count", 65536.0, 2900.0), ("count", 4096.0, 90.0)],
+)
+def test_a_turn_and_the_sizes_of_registers_are_known(unit: str, size: float, step: float) -> None:
+    there = np.concatenate([step * np.arange(80), step * np.arange(80, 10, -1)])
+    for shift in (0.0, 0.5 * size):  # from 0, or about 0
+        signals, said = unwrap(rows((there + shift) % size - shift), form(unit))
+        assert np.allclose(np.diff(signals.motion), np.diff(there), atol=1e-9 * size), unit
+        assert said and said[0].startswith(f"y wraps at {size:.6g} {unit} (")
+
+
+def test_positions_that_do_not_wrap_stay() -> None:
+    there = 40.0 * np.sin(np.arange(300) / 30.0)
+    for unit in ("deg", "rad", "count"):
+        signals, said = unwrap(rows(there), form(unit))
+        assert said == [] and np.array_equal(signals.motion, there)
+    fast = 200.0 * np.arange(40)  # more than half a turn a row
+    assert unwrap(rows(fast), form("deg"))[1] == []
+
+
+def test_a_reset_begins_a_run_and_a_second_one_from_the_same_place_is_a_wrap() -> None:
+    once = np.concatenate([10.0 * np.arange(60), 10.0 * np.arange(50)])
+    signals, said = split_at_resets(rows(once), form("deg"), whole)
+    assert [run.stop - run.start for run in signals.runs.values()] == [60, 50]
+    assert said == ["y is reset once: 2 runs, a bag each."]
+    again = np.concatenate([10.0 * np.arange(60), 10.0 * np.arange(60), 10.0 * np.arange(60)])
+    with pytest.raises(RecordingError, match=r"line 122: y jumps from 590 to 0, and not for the first time: say where"):
+        split_at_resets(rows(again), form("deg"), whole)
+
+
+def test_a_jump_to_somewhere_else_is_refused() -> None:
+    there = 10.0 * np.arange(60)
+    there[30:] += 5000.0
+    with pytest.raises(RecordingError, match="line 32: y jumps from 290 to 5300: the counter wrapped or was reset"):
+        split_at_resets(rows(there), form("deg"), whole)

@@ -1,0 +1,55 @@
+"""What a log's motion can show, before anything is fitted."""
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.excitation import describe_excitation, measure_excitation
+from motor_identification.logs.log import Log, Run
+from motor_model.sample import Info, Measurement, Sample
+
+
+def log(voltage: object, speed: object, **info: object) -> Log:
+    rows = zip(np.asarray(voltage, float).tolist(), np.asarray(speed, float).tolist(), strict=True)
+    samples = tuple(Sample(10_000_000 * k, omega, volts) for k, (volts, omega) in enumerate(rows))
+    about = Info(measurement=Measurement.SPEED, max_voltage=6.0, sample_period=0.01)
+    return Log(Info(**{**{name: getattr(about, name) for name in about.__slots__}, **info}), (Run("", samples),), ())  # type: ignore[arg-type]
+
+
+def test_both_ways_at_three_levels() -> None:
+    volts = np.repeat([0.0, 3.0, -3.0, 6.0], 25)
+    found = measure_excitation(log(volts, 20.0 * volts))
+    assert (found.low, found.high, found.levels) == (-3.0, 6.0, 3)
+    assert (found.forward, found.backward, found.standing, found.full) == (0.5, 0.25, 0.25, 0.25)
+    about, can = describe_excitation(log(volts, 20.0 * volts))
+    assert about == (
+        "Excitation: -3 to 6 V in 3 levels, both ways; the motor stands in 25 % of the rows, full voltage in 25 %."
+    )
+    assert can == "kv, ka and friction can be identified."
+
+
+def test_what_a_log_does_not_show() -> None:
+    one_way = " ".join(describe_excitation(log(np.repeat([2.0, 4.0], 50), np.repeat([9.0, 30.0], 50))))
+    assert "one way only" in one_way and "look alike (it runs one way only)" in one_way and "separated" not in one_way
+    step = " ".join(describe_excitation(log(np.repeat([0.0, 4.0], 50), np.repeat([0.0, 30.0], 50))))
+    assert "a single level beside 0" in step and "kv and friction cannot be separated (one voltage only)" in step
+    still = describe_excitation(log(np.repeat([0.0, 4.0], 50), np.zeros(100)))
+    assert still[-1] == "The motor hardly moves: nothing can be identified from this."
+    slow = " ".join(
+        describe_excitation(log(np.repeat([-2.0, 4.0], 50), np.repeat([-9.0, 30.0], 50), sample_period=20.0))
+    )
+    assert "ka and delays cannot be seen (steady states)" in slow
+
+
+@pytest.mark.parametrize(("backward", "ways"), [(2, "one way only"), (3, "both ways")])
+def test_a_fiftieth_of_the_rows_is_a_way(backward: int, ways: str) -> None:
+    speed = np.full(100, 5.0)
+    speed[:backward] = -5.0
+    assert ways in describe_excitation(log(np.repeat([2.0, 4.0], 50), speed))[0]
+
+
+@pytest.mark.parametrize(("standing", "said"), [(50, False), (51, True)])
+def test_a_motor_that_mostly_stands(standing: int, said: bool) -> None:
+    speed = np.full(100, 5.0)
+    speed[:standing] = 0.0
+    text = " ".join(describe_excitation(log(np.repeat([2.0, 4.0], 50), speed)))
+    assert ("of the time, which says little" in text) == said

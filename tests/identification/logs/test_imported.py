@@ -1,0 +1,77 @@
+"""Every public log of tests/data by one line, and logs in other clothes."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.imported import Imported, import_log
+from motor_identification.recording import check, recording_of
+from motor_model.errors import RecordingError
+from motor_model.sample import Measurement
+
+DATA = Path(__file__).resolve().parents[2] / "data"
+MOUSE = {"supply_voltage": 7.9, "unit": "rpm"}
+# What has to be said of each file beyond its name, the motors and runs that come out, and how it was measured.
+LINES: dict[str, tuple[dict[str, object], int, int, str]] = {
+    "undc/prbs_2026-08-14.csv": ({}, 1, 1, "speed"),
+    "undc/prbs_2026-08-18.csv": ({}, 1, 1, "speed"),
+    "undc/prbs_coast_2024-08-03.csv": ({}, 1, 1, "speed"),
+    "undc/prbs_coast_2024-08-05.csv": ({}, 1, 1, "speed"),
+    "undc/step_open_2026-08-18.csv": ({}, 1, 1, "speed"),
+    "undc/step_closed_2026-08-11.csv": ({}, 1, 1, "speed"),
+    "undc/stairs_closed_2026-08-11.csv": ({}, 1, 1, "speed"),
+    "undc/profile_closed_2026-08-18.csv": ({}, 1, 1, "counts"),
+    "undc/static_2026-08-17.csv": ({"unit": "deg/s"}, 1, 1, "speed"),
+    "undc/static_coast_2024-08-05.csv": ({"unit": "deg/s"}, 1, 1, "speed"),
+    "esp32/step_response.csv": ({}, 1, 1, "speed"),
+    "ev3/steps_1s.csv": ({"supply_voltage": 7.4}, 1, 10, "counts"),
+    "micromouse/testPid1.csv": (MOUSE, 2, 1, "speed"),
+    "micromouse/testPid3.csv": (MOUSE, 2, 1, "speed"),
+    "micromouse/controllerDelayImpact1ms.csv": (MOUSE, 2, 1, "speed"),
+    "micromouse/controllerDelayImpact10ms.csv": (MOUSE, 2, 1, "speed"),
+    "micromouse/wheelSpeedCalibration3.csv": ({}, 2, 1, "speed"),
+    "frc/drivetrain_sysid.json": ({}, 2, 4, "counts"),
+}
+
+
+def read(name: str, **said: object) -> Imported:
+    return import_log(DATA / name, Said(**said))  # type: ignore[arg-type]
+
+
+def test_the_table_names_every_log() -> None:
+    there = {path.relative_to(DATA).as_posix() for path in DATA.glob("*/*") if path.suffix in (".csv", ".json")}
+    assert there == set(LINES)
+    assert sum(not said for said, *_ in LINES.values()) >= 11  # need no option at all
+
+
+@pytest.mark.parametrize("name", LINES)
+def test_every_public_log_by_one_line(name: str) -> None:
+    said, motors, runs, measurement = LINES[name]
+    imported = read(name, **said)
+    assert len(imported.motors) == motors
+    for motor in imported.motors:
+        assert len(motor.log.runs) == runs and motor.log.info.measurement is Measurement(measurement)
+        for run in motor.log.runs:
+            check(recording_of(run.samples, motor.log.info, name))
+        assert any(line.startswith("Excitation: ") for line in motor.log.findings)
+    if said:
+        missing = next(iter(said))
+        with pytest.raises(RecordingError, match=f"--{missing.replace('_', '-')}"):
+            read(name, **{key: value for key, value in said.items() if key != missing})
+
+
+def test_two_motors_by_columns_that_no_name_tells(tmp_path: Path) -> None:
+    time = np.arange(100) * 0.01
+    volts = np.repeat([1.0, 3.0, -2.0, 4.0], 25)
+    rows = [
+        f"{t:.2f},{u:.1f},{30 * u + k % 3:.2f},{-u:.1f},{-29 * u - k % 2:.2f}"
+        for k, (t, u) in enumerate(zip(time, volts, strict=True))
+    ]
+    (tmp_path / "log.csv").write_text("\n".join(["t,lc,ls,rc,rs", *rows]))
+    said = Said(motors=(Pair("left", "lc", "ls"), Pair("right", "rc", "rs")), unit="rpm")
+    left, right = import_log(tmp_path / "log.csv", said).motors
+    assert (left.label, right.label, left.log.info.name) == ("left", "right", "left")
+    assert [motor.log.runs[0].samples[30].voltage for motor in (left, right)] == [3.0, -3.0]
+    assert right.log.runs[0].samples[30].speed == pytest.approx(-87.0 * 2 * np.pi / 60)
