@@ -4,8 +4,8 @@ import argparse
 from pathlib import Path
 
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.form import TIME_UNITS, UNITS, Kind
 from motor_identification.logs.count_size import MOST_EDGES
+from motor_identification.logs.form import TIME_UNITS, UNITS, Kind
 from motor_ros.command import between, positive, whole_between
 from motor_ros.output_files import add_force_option
 

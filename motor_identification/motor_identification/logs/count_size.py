@@ -18,7 +18,7 @@ LEAST_LEVELS = 10  # different values, fewer of which show no steps
 FINE = (360, 1_000_000)  # counts a turn that stand for a position without steps: at least, at most
 
 
-def count_size(form: CsvForm, values: Floats) -> tuple[float, int, str]:
+def count_size(form: CsvForm, values: Floats, voltage: Floats) -> tuple[float, int, str]:
     """The size of one count in the form's unit, the counts of a turn, and in words where that comes from.
 
     Raises:
@@ -43,7 +43,7 @@ def count_size(form: CsvForm, values: Floats) -> tuple[float, int, str]:
             return _fine(
                 turn, step, f" (assumed: values are multiples of {step:.4g} {form.unit}, no whole share of a turn)"
             )
-    noise = estimate_white_noise(values)
+    noise = estimate_white_noise(values, voltage)
     return _fine(turn, noise, f" (assumed: the values show no steps; about their noise, {noise:.2g} {form.unit})")
 
 

@@ -92,7 +92,7 @@ def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> Non
 
 def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     signals, wrapped = unwrap(signals, form)
-    quantum, edges, how = count_size(form, signals.motion)
+    quantum, edges, how = count_size(form, signals.motion, signals.voltage)
     largest = float(np.max(np.abs(signals.motion))) / quantum
     if not largest < LARGEST_COUNT:
         raise RecordingError(

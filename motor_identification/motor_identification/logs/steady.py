@@ -11,8 +11,8 @@ from math import tau
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.form import CsvForm
 from motor_identification.logs.count_size import MOST_EDGES
+from motor_identification.logs.form import CsvForm
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement, Sample
 

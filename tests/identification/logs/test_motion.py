@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.count_size import FINE, MOST_EDGES, position_step
+from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.motion import Motion, read_motion
 from motor_identification.logs.signals import Signals
 from motor_model.errors import RecordingError

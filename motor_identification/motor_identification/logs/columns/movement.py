@@ -6,8 +6,8 @@ from math import pi, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.form import UNITS, Kind
 from motor_identification.logs.count_size import position_step
+from motor_identification.logs.form import UNITS, Kind
 from motor_identification.logs.rows.wraps import RANGES, REACHED, SLACK
 from motor_identification.sensor.value_lattice import find_lattice
 
