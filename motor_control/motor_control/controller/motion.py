@@ -14,6 +14,7 @@ FAST, SLOW = 0.05, 0.15  # [s] time constants of the two averages
 STEADY = 0.1  # share of the speed, and of the voltage limit, by which both averages may differ in a steady motion
 FEW_SLOTS = 10.0  # in the faster average: there a single edge shows in it
 STEADY_TIME = 0.15  # [s] for which they have to
+STANDSTILL = 0.1  # [s] without an edge
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,8 +36,13 @@ class Motion:
         return self.steady_speed / self.steady_voltage * voltage_limit if self.steady_voltage > 0.0 else inf
 
 
-def follow_motion(motion: Motion, sample: Sample, slot: float, dt: float, voltage_limit: float) -> Motion:
-    """Follow one sample, dt [s] after the last one; slot [rad], 0: the reported speed is taken, no edge is counted."""
+def follow_motion(
+    motion: Motion, sample: Sample, slot: float, dt: float, voltage_limit: float, regular: bool = True
+) -> Motion:
+    """Follow one sample, dt [s] after the last one; slot [rad], 0: the reported speed is taken, no edge is counted.
+
+    Of edges that are not `regular` nothing is learnt.
+    """
     edges = abs(sample.edge_count - motion.edge_count)
     if dt <= 0.0:
         return replace(motion, edge_count=sample.edge_count)
@@ -49,8 +55,8 @@ def follow_motion(motion: Motion, sample: Sample, slot: float, dt: float, voltag
     edge = slot / FAST if slow_speed * FAST < FEW_SLOTS * slot else 0.0  # by which one edge moves the average
     calm = abs(speed - slow_speed) <= STEADY * slow_speed + edge
     calm &= abs(voltage - slow_voltage) <= STEADY * voltage_limit and slow_voltage > 0.0 and slow_speed > 0.0
-    calm &= sample.speed * sample.voltage > 0.0
+    silent = 0.0 if edges or (slot == 0.0 and seen > 0.0) else motion.silent + dt
+    calm &= sample.speed * sample.voltage > 0.0 and regular and silent < STANDSTILL
     steady = motion.steady + dt if calm else 0.0
     known = (slow_speed, slow_voltage) if steady >= STEADY_TIME else (motion.steady_speed, motion.steady_voltage)
-    silent = 0.0 if edges or (slot == 0.0 and seen > 0.0) else motion.silent + dt
     return Motion(sample.edge_count, speed, slow_speed, slow_voltage, silent, edges, steady, *known)

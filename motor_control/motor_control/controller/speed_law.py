@@ -159,7 +159,7 @@ def _apply_law(config: Config, run: Run, sample: Sample, wanted: float, hold: bo
         return halt(STOPPED, NOT_FINITE.format(speed), target.reference, speed), begin(config, sample, run.motion)
     asked_much = abs(run.asked) > IGNORED_SHARE * config.voltage_limit
     ignored = run.ignored + min(dt, IGNORED_STEP) if sample.voltage == 0.0 and asked_much else 0.0
-    motion = follow_motion(run.motion, sample, config.faults.slot, dt, config.voltage_limit)
+    motion = follow_motion(run.motion, sample, config.faults.slot, dt, config.voltage_limit, run.faults.periods.regular)
     allowed = _allow(config, run, target, speed, motion)
     terms, law = _compute_terms(
         config, run, seen, target, speed, 0.0 if hold or ignored > IGNORED_TIME else dt, allowed

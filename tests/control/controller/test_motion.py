@@ -45,3 +45,19 @@ def test_coasting_and_braking_are_no_steady_motion() -> None:
 def test_a_repeated_sample_changes_no_average() -> None:
     motion = follow([(60.0, 5.0)] * 50)[-1]
     assert follow_motion(motion, Sample(0, 1.0, 1.0, motion.edge_count), SLOT, 0.0, 12.0) == motion
+
+
+@pytest.mark.parametrize(("regular", "learns"), [(True, True), (False, False)])
+def test_nothing_is_learnt_from_edges_that_are_not_regular(regular: bool, learns: bool) -> None:
+    """Stray edges under a rising voltage were taken for what the motor does with it."""
+    motion, angle = Motion(), 0.0
+    for k in range(200):
+        angle += 60.0 / 200.0
+        sample = Sample(k * 5_000_000, 60.0, 5.0, int(angle / SLOT))
+        motion = follow_motion(motion, sample, SLOT, 0.005, 12.0, regular)
+    assert (motion.steady_speed > 0.0) == learns
+
+
+def test_edges_slower_than_a_standstill_teach_nothing() -> None:
+    assert follow([(0.5, 0.6)] * 400)[-1].steady_speed == 0.0  # 7.6 edges a second
+    assert follow([(1.0, 0.6)] * 400)[-1].steady_speed > 0.0

@@ -19,6 +19,7 @@ from motor_control.controller.faults.evidence import Config, Seen
 EDGES = 10.0  # over which the jumps are averaged
 LARGEST = 1.0  # jump that counts: an edge that is one too many makes two such jumps, and is no lost line
 IRREGULAR = 0.3  # mean jump; 50 random edges a second have it after 0.3 s, and after 0.6 s in 95 of 100 cases
+REGULAR = 0.15  # what ordinary motion has nearly always
 STANDSTILL = 0.1  # [s] without an edge
 # [edges/s] A plant reports a standstill after 0.1 s without an edge, and a loop answers that with a push: below this
 # rate the swing of an ordinary loop has mean jumps of up to 0.4, above it none of 400 random motors passes 0.2.
@@ -39,6 +40,12 @@ class State:
     jump: float = 0.0  # mean
     count: int = 0  # of edges
     backward: bool = False  # a second channel counts down
+    steps: int = 0  # periods since it began anew
+
+    @property
+    def regular(self) -> bool:
+        """Whether the edges are a motor's beyond doubt, so that one may learn from them."""
+        return self.jump < REGULAR and self.steps >= EDGES
 
 
 def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
@@ -60,7 +67,7 @@ def follow_period(state: State, period: float, backward: bool = False) -> State:
     if period >= STANDSTILL or backward != state.backward:
         return State(backward=backward)
     if period <= 0.0 or state.period <= 0.0:
-        return State(max(period, 0.0), 0.0, state.jump, backward=backward)
+        return replace(state, period=max(period, 0.0), step=0.0)
     step = log(period / state.period)
     jump = min(abs(step), abs(state.step), LARGEST) if step * state.step < 0.0 else 0.0
-    return State(period, step, state.jump + (jump - state.jump) / EDGES, backward=backward)
+    return State(period, step, state.jump + (jump - state.jump) / EDGES, state.count, backward, state.steps + 1)
