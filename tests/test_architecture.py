@@ -41,7 +41,7 @@ SPECIAL = {
     "live/speed_probe.py": "the model of the short ramp: as little as predicts a speed",
     "motor_control/parameters.py": "a parameter of the node with the same name",
 }
-BAGS = re.compile(r"motor_identification/bag/\w+\.py$")
+BAGS = re.compile(r"motor_identification/bag/(mcap/)?\w+\.py$")
 
 
 # Inside a package too: its rooms (folders, or files beside them) from the ground up; each may import those before it.

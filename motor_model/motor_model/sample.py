@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from enum import Enum
 from math import nan
 
+from motor_model.errors import MotorError
+
 
 class Measurement(str, Enum):
     """What a recording's numbers are exact about."""
@@ -42,3 +44,26 @@ class Info:
     speed_lag: float = 0.0  # [s] how old the middle of that window is at the stamp
     max_voltage: float = 12.0  # [V] at full duty
     decay: str = "unknown"  # brake | coast | unknown
+
+
+# What a plant can be: low and high of each number of Info, in its unit.
+RANGES = {
+    "edges_per_revolution": (0.0, 1e7),  # 0: a speed sensor
+    "edge_resolution": (0.0, 1.0),
+    "sample_period": (1e-6, 100.0),
+    "speed_window": (0.0, 1000.0),
+    "speed_lag": (-1000.0, 1000.0),
+    "max_voltage": (0.0, 1e5),
+}
+
+
+def check_info(info: Info) -> None:
+    """Refuse numbers that no plant has: whoever computes with them would take for ever, or all memory.
+
+    Raises:
+        MotorError: one is out of its range.
+    """
+    for name, (low, high) in RANGES.items():
+        value = getattr(info, name)
+        if not low <= value <= high:
+            raise MotorError(f"motor/info says {name} {value:g}: it must be from {low:g} to {high:g}.")

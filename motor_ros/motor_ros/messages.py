@@ -3,7 +3,8 @@
 from builtin_interfaces.msg import Time
 
 from motor_model.errors import MotorError
-from motor_model.sample import Info, Measurement, Sample
+from motor_model.printable import escape
+from motor_model.sample import Info, Measurement, Sample, check_info
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 
 
@@ -62,12 +63,12 @@ def info_of(message: MotorInfo) -> Info:
     """The plain value of a `motor/info` message.
 
     Raises:
-        MotorError: its `measurement` is none of edges, counts and speed.
+        MotorError: its `measurement` is none of edges, counts and speed, or a number is out of range.
     """
     if message.measurement not in {kind.value for kind in Measurement}:
         raise MotorError(f"motor/info says measurement '{message.measurement}': it must be edges, counts or speed.")
-    return Info(
-        name=message.name,
+    info = Info(
+        name=escape(message.name),
         source=message.source,
         measurement=Measurement(message.measurement),
         edges_per_revolution=message.edges_per_revolution,
@@ -79,6 +80,8 @@ def info_of(message: MotorInfo) -> Info:
         max_voltage=message.max_voltage,
         decay=message.decay,
     )
+    check_info(info)
+    return info
 
 
 def voltage_message(voltage: float, stamp: Time, name: str) -> MotorVoltage:

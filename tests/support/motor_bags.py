@@ -71,8 +71,9 @@ def write_bag(
     namespace: str = "",
     info: Info | None = INFO,
     frame: Callable[[int], str] = lambda k: "wheel",
+    chunk: int = 0,
 ) -> Path:
-    """A bag of these samples, 5 ms of log time apart."""
+    """A bag of these samples, 5 ms of log time apart; `chunk` is the number of samples in one, 0 as it comes."""
     with BagWriter(path) as writer:
         if info is not None:
             latched = (Qos(durability="transient_local", depth=1),)
@@ -82,6 +83,8 @@ def write_bag(
         for k, one in enumerate(samples):
             stamp = time_message(START + k * PERIOD)
             writer.write(channel, START + k * PERIOD, serialize_message(speed_message(one, stamp, frame(k))))
+            if chunk and k % chunk == chunk - 1:
+                writer.flush()
     return path
 
 

@@ -6,17 +6,17 @@ reads them in one go: one message at a time would cost an hour's recording (720,
 """
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from rosbags.serde import SerdeError
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-from rosbags.typesys.base import TypesysError
 
-from motor_model.sample import Info, Measurement, Sample
+from motor_identification.bag.interface_grammar import Field, NotOfGrammar, parse
+from motor_model.errors import MotorError
+from motor_model.printable import escape
+from motor_model.sample import Info, Measurement, Sample, check_info
 
 SPEED_TYPE = "motor_msgs/msg/MotorSpeed"
 INFO_TYPE = "motor_msgs/msg/MotorInfo"
@@ -24,8 +24,9 @@ INFO_TYPE = "motor_msgs/msg/MotorInfo"
 _ENCAPSULATION = 4  # [bytes]
 _FRAME_ID = 16  # where its characters begin: behind encapsulation, stamp and length
 # Types of one size, by names that ROS and NumPy share.
-_PRIMITIVES: dict[object, "np.dtype[Any]"] = {
+_PRIMITIVES: dict[str, "np.dtype[Any]"] = {
     "bool": np.dtype(np.bool_),
+    **dict.fromkeys(("byte", "char"), np.dtype(np.uint8)),
     **{f"{kind}{bits}": np.dtype(f"{kind}{bits}") for kind in ("int", "uint") for bits in (8, 16, 32, 64)},
     **{f"float{bits}": np.dtype(f"float{bits}") for bits in (32, 64)},
 }
@@ -57,19 +58,27 @@ class SpeedDecoder:
             raise Undecodable(f"its {SPEED_TYPE} has no {', '.join(lacking)} in a place that can be read")
 
     def rows(self, messages: Sequence[bytes]) -> Rows:
-        """Decode messages; shape (K,), dtype ROW, in the order given.
+        """Decode messages; shape (K,), dtype ROW, in the order given, without those that are garbled.
 
         Raises:
-            Undecodable: a message is shorter than its type, or not plain CDR.
+            Undecodable: all of them are shorter than their type, or not plain CDR.
         """
         rows = _default_rows(len(messages))
-        for (length, endian, frame_id_length), where in _alike(messages).items():
-            layout = self._layout(length, endian, frame_id_length)
+        readable = np.ones(len(messages), dtype=np.bool_)
+        refusal = None
+        for (length, encapsulation, count), where in _alike(messages).items():
+            try:
+                layout = self._layout(length, *_head(encapsulation, count))
+            except Undecodable as error:
+                readable[where], refusal = False, error
+                continue
             data = np.frombuffer(b"".join([messages[k] for k in where]), dtype=layout)
             for name in set(layout.names or ()) & set(ROW.names or ()):
                 rows[name][where] = data[name]
             rows["stamp"][where] = data["sec"].astype(np.int64) * 1_000_000_000 + data["nanosec"]
-        return rows
+        if refusal is not None and not readable.any():
+            raise refusal
+        return rows[readable]
 
     def _layout(self, length: int, endian: Endian, frame_id_length: int) -> "np.dtype[np.void]":
         """Where each field stands in a message of so many bytes."""
@@ -92,22 +101,49 @@ def decode_info(message: bytes, definition: str) -> Info:
     Raises:
         Undecodable: the message or its definition cannot be understood.
     """
-    store = get_typestore(Stores.EMPTY)
     try:
-        store.register(get_types_from_msg(definition, INFO_TYPE))
-        content: Any = store.deserialize_cdr(message, INFO_TYPE)
-        values = {field.name: getattr(content, field.name) for field in fields(Info) if hasattr(content, field.name)}
-        return Info(**{**values, "measurement": Measurement(values["measurement"])})
-    except (TypesysError, SerdeError, KeyError, ValueError, IndexError, struct.error) as error:
+        values = _values(message, parse(definition, INFO_TYPE))
+        known = {field.name: values[field.name] for field in fields(Info) if field.name in values}
+        named = {key: escape(value) for key, value in known.items() if isinstance(value, str)}
+        info = Info(**{**known, **named, "measurement": Measurement(known["measurement"])})
+        check_info(info)
+        return info
+    except (NotOfGrammar, KeyError, ValueError, TypeError, struct.error, MotorError) as error:
         raise Undecodable(f"a message of {INFO_TYPE} cannot be decoded ({error})") from error
 
 
-def _alike(messages: Sequence[bytes]) -> dict[tuple[int, Endian, int], list[int]]:
-    """Positions of messages that share a layout, by length, byte order and length of the frame_id."""
+def _values(message: bytes, types: Mapping[str, Sequence[Field]]) -> dict[str, Any]:
+    """The texts and numbers of a message behind its header, up to the first field that is neither."""
+    endian, count = _head(message[:2], message[12:16])
+    position = _FRAME_ID + count
+    values: dict[str, Any] = {}
+    for field in types[INFO_TYPE][1:]:
+        if field.count != 1 or not (field.type_name == "string" or field.type_name in _PRIMITIVES):
+            break
+        size = 4 if field.type_name == "string" else _PRIMITIVES[field.type_name].itemsize
+        position += -(position - _ENCAPSULATION) % size
+        if field.type_name == "string":
+            (length,) = struct.unpack_from(f"{endian}I", message, position)
+            position += 4
+            if position + length > len(message):
+                raise ValueError("a text ends behind its end")
+            values[field.name] = message[position : position + length].removesuffix(b"\0").decode()
+            position += length
+        else:
+            kind = _PRIMITIVES[field.type_name].newbyteorder(endian)
+            if position + size > len(message):
+                raise ValueError("it is too short")
+            values[field.name] = np.frombuffer(message, kind, 1, position)[0].item()
+            position += size
+    return values
+
+
+def _alike(messages: Sequence[bytes]) -> dict[tuple[int, bytes, bytes], list[int]]:
+    """Positions of messages that share a layout, by length, encapsulation and length of the frame_id."""
     groups: dict[tuple[int, bytes, bytes], list[int]] = {}
     for k, message in enumerate(messages):
         groups.setdefault((len(message), message[:2], message[12:16]), []).append(k)
-    return {(length, *_head(kind, count)): where for (length, kind, count), where in groups.items()}
+    return groups
 
 
 def _head(encapsulation: bytes, count: bytes) -> tuple[Endian, int]:
@@ -126,15 +162,15 @@ def _default_rows(count: int) -> Rows:
 def _fixed_fields(definition: str) -> list[tuple[str, "np.dtype[Any]"]]:
     """Fields behind the header up to the first that has no fixed size, in their order."""
     try:
-        (_, described) = get_types_from_msg(definition, SPEED_TYPE)[SPEED_TYPE]
-    except (TypesysError, KeyError) as error:
+        described = parse(definition, SPEED_TYPE)[SPEED_TYPE]
+    except NotOfGrammar as error:
         raise Undecodable(f"its definition of {SPEED_TYPE} cannot be understood ({error})") from error
-    if not described or described[0][1][1] != "std_msgs/msg/Header":
+    if not described or (described[0].type_name, described[0].count) != ("std_msgs/msg/Header", 1):
         raise Undecodable(f"its {SPEED_TYPE} does not begin with a header")
     found = []
-    for name, (_, kind) in described[1:]:
-        primitive = _PRIMITIVES.get(kind[0]) if isinstance(kind, tuple) else None
+    for field in described[1:]:
+        primitive = _PRIMITIVES.get(field.type_name) if field.count == 1 else None
         if primitive is None:
             break
-        found.append((name, primitive))
+        found.append((field.name, primitive))
     return found

@@ -16,6 +16,7 @@ from motor_model.errors import RecordingError
 from motor_model.sample import Info
 
 _BATCH = 65_536  # messages decoded at a time: keeps memory at twice that of the arrays, however long the bag
+_BEHIND_STAMP = 12  # bytes: encapsulation, seconds, nanoseconds
 _SPEED = "motor/speed"
 _INFO = "motor/info"
 
@@ -47,10 +48,20 @@ def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.
     if bag.cut:
         span = float(kept["sample_time"][-1] - kept["sample_time"][0]) * 1e-9
         notes = [f"{uri} is cut off: {len(kept)} samples, {span:.2f} s up to the cut.", *notes]
+    if bag.damaged or bag.lost:
+        notes.append(tell_damage(bag, str(uri)))
+    if bag.garbled:
+        notes.append(f"{uri}: {bag.garbled} messages are garbled and were left out.")
     if bag.missing:
         notes.append(f"{uri} lacks {', '.join(bag.missing)}, which its metadata.yaml lists: those samples are missing.")
     info = _info(infos, kept, info_topic, bag.uri, notes)
     return check(_recording(bag.uri, info, kept, tuple(notes)).between(start, stop))
+
+
+def tell_damage(bag: Bag, uri: str) -> str:
+    """What a bag that was read has lost."""
+    lost = f"{bag.lost} messages" if bag.lost else "some messages"
+    return f"{uri} is damaged: {lost} cannot be read; what stands behind them is used."
 
 
 def _motor(bag: Bag, namespace: str) -> tuple[Rows, list[Info], str]:
@@ -68,23 +79,38 @@ def _read(bag: Bag, speed_topic: str, info_topic: str) -> tuple[Rows, list[Info]
     """All samples, and all different infos in the order of their latest appearance."""
     batches: list[Rows] = []
     pending: list[bytes] = []
-    infos: dict[bytes, Topic] = {}
+    infos: dict[Info, None] = {}  # in the order of their latest appearance; where only stamps differ, they are one
+    seen: dict[bytes, Info] = {}
     decoder: SpeedDecoder | None = None
     for topic, _, data in bag.messages({speed_topic, info_topic}):
         if topic.name == info_topic:
-            infos.pop(data, None)
-            infos[data] = _typed(topic, INFO_TYPE, bag.uri)
+            info = _known_info(data, _typed(topic, INFO_TYPE, bag.uri), seen)
+            infos.pop(info, None)
+            infos[info] = None
             continue
         if decoder is None:
             decoder = SpeedDecoder(_definition(_typed(topic, SPEED_TYPE, bag.uri)))
         pending.append(data)
         if len(pending) == _BATCH:
-            batches.append(decoder.rows(pending))
+            batches.append(_decoded(decoder, pending, bag))
             pending = []
     if decoder is not None:
-        batches.append(decoder.rows(pending))
-    decoded = [decode_info(data, _definition(topic)) for data, topic in infos.items()]
-    return (np.concatenate(batches) if batches else np.zeros(0, ROW)), decoded
+        batches.append(_decoded(decoder, pending, bag))
+    return (np.concatenate(batches) if batches else np.zeros(0, ROW)), list(infos)
+
+
+def _decoded(decoder: SpeedDecoder, pending: list[bytes], bag: Bag) -> Rows:
+    rows = decoder.rows(pending)
+    bag.garbled += len(pending) - len(rows)
+    return rows
+
+
+def _known_info(data: bytes, topic: Topic, seen: dict[bytes, Info]) -> Info:
+    """The info in a message, decoded once for all that differ in nothing but their stamps."""
+    rest = data[:4] + data[_BEHIND_STAMP:]
+    if rest not in seen:
+        seen[rest] = decode_info(data, _definition(topic))
+    return seen[rest]
 
 
 def _typed(topic: Topic, type_name: str, uri: str) -> Topic:
@@ -103,6 +129,8 @@ def _definition(topic: Topic) -> str:
 
 def _nothing(bag: Bag, speed_topic: str) -> RecordingError:
     """Why there is no sample, and what to do."""
+    if bag.damaged and speed_topic not in bag.topics:
+        return RecordingError(f"{bag.uri} is damaged before the first sample on {speed_topic}: restore it from a copy.")
     if bag.cut and speed_topic not in bag.topics:
         return RecordingError(f"{bag.uri} is cut off before the first sample on {speed_topic}: record it again.")
     if not bag.topics:

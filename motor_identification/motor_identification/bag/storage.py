@@ -1,22 +1,26 @@
 """A bag as its files: which there are, in which order, and how each is opened."""
 
 import re
+import shutil
 from collections import Counter
 from collections.abc import Callable, Container, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Protocol
+from typing import BinaryIO, Protocol
 
 import zstandard
 
 from motor_identification.bag.contents import Contents, Span
-from motor_identification.bag.mcap_file import McapFile
+from motor_identification.bag.mcap.file import LARGEST_BAG, McapFile
+from motor_identification.bag.mcap.records import LARGEST_RATIO, LARGEST_RECORD, SMALL, unpack_zstd
 from motor_identification.bag.metadata import read_metadata
 from motor_identification.bag.sqlite_file import SqliteFile
 from motor_identification.bag.topic import Topic
 from motor_model.errors import RecordingError
+from motor_model.printable import escape
+from motor_model.regular_file import Unfit, check_regular
 
 Stored = tuple[Topic, int, bytes]  # topic, log time [ns], serialised message
 
@@ -26,6 +30,8 @@ _ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"  # of a compressed message; CDR starts with a 
 
 class _File(Protocol):
     cut: bool
+    damaged: int
+    lost: int
     noted: dict[str, str]
 
     @property
@@ -47,19 +53,25 @@ class Bag:
     """
 
     def __init__(self, uri: str | Path) -> None:
-        self.uri = str(uri)
+        self.uri = escape(str(uri), longest=0)  # as it is shown
         self.cut = False  # after `messages`: a file ended before its end
+        self.damaged = self.lost = 0  # after `messages`: places that cannot be read, and messages in them if counted
+        self.garbled = 0  # messages that whoever decodes them has found to be none
+        self._path = Path(uri)
         self.topics: dict[str, Topic] = {}  # after `messages`: all topics met, by name
         self.files = _files(Path(uri))
         self.missing = _missing(Path(uri), self.files)  # names of files that metadata.yaml knows and nobody has
 
     def messages(self, wanted: Container[str] | None = None) -> Iterator[Stored]:
         """Messages of the wanted topics (None: of all), file after file, each from its beginning to its end or cut."""
+        self.damaged = self.lost = self.garbled = 0
         for path in self.files:
             with _opened(path) as file:
                 for topic, log_time, data in file.messages(wanted):
                     yield topic, log_time, _decompressed(data) if data[:4] == _ZSTD_MAGIC else data
                 self.cut |= file.cut
+                self.damaged += file.damaged
+                self.lost += file.lost
                 self.topics.update({topic.name: topic for topic in file.topics.values()})
 
     def contents(self) -> Contents:
@@ -67,7 +79,7 @@ class Bag:
         contents = Contents()
         for path in self.files:
             contents = contents.joined(self.contents_of(path))
-        noted = read_metadata(Path(self.uri)).get("custom_data")
+        noted = read_metadata(self._path).get("custom_data")
         return replace(contents, custom_data=noted) if isinstance(noted, dict) else contents
 
     def contents_of(self, path: Path) -> Contents:
@@ -91,6 +103,8 @@ def _files(path: Path) -> list[Path]:
     with _readable(path):
         if not path.exists():
             raise RecordingError(f"There is no bag {path}: check the path.")
+        if not path.is_dir():
+            check_regular(path)
         candidates = list(path.iterdir()) if path.is_dir() else [path]
     # Where a crash left a file beside the beginning of its compressed copy, the file itself comes later, and stays.
     compressed_first = sorted(filter(_is_storage, candidates), key=lambda file: file.suffix != _COMPRESSED)
@@ -113,7 +127,7 @@ def _plain_name(path: Path) -> str:
 
 def _by_number(name: str) -> list[tuple[int, str]]:
     """bag_2 comes before bag_10."""
-    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", name)]
+    return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", name)]
 
 
 def _missing(path: Path, files: list[Path]) -> list[str]:
@@ -128,6 +142,8 @@ def _missing(path: Path, files: list[Path]) -> list[str]:
 def _readable(path: Path) -> Iterator[None]:
     try:
         yield
+    except Unfit as error:
+        raise RecordingError(str(error)) from error
     except OSError as error:
         raise RecordingError(
             f"{path} cannot be read ({error.strerror}): check its owner and permissions, and that its disk is mounted."
@@ -150,14 +166,29 @@ def _plain(path: Path) -> Iterator[_File]:
         plain = Path(folder) / _plain_name(path)
         try:
             with path.open("rb") as source, plain.open("wb") as target:
-                zstandard.ZstdDecompressor().copy_stream(source, target)
+                _unpack_file(source, target, path)
         except zstandard.ZstdError as error:
             raise RecordingError(f"{path} cannot be decompressed ({error}): restore it from a copy.") from error
         yield _FORMATS[plain.suffix](plain)
 
 
+def _unpack_file(source: BinaryIO, target: BinaryIO, path: Path) -> None:
+    """Decompress as far as it goes, but no more than a bag can have, and never the last of the disk."""
+    most = min(LARGEST_BAG, shutil.disk_usage(Path(target.name).parent).free // 2)
+    most = min(most, max(SMALL, LARGEST_RATIO * path.stat().st_size))
+    for part in zstandard.ZstdDecompressor().read_to_iter(source, write_size=1 << 20):
+        target.write(part)
+        if target.tell() > most:
+            raise RecordingError(f"{path} unpacks to more than {most / 2**20:.0f} MiB: split it, or make room.")
+
+
 def _decompressed(data: bytes) -> bytes:
-    return zstandard.ZstdDecompressor().decompressobj().decompress(data)
+    """A message; empty where it cannot be decompressed, which is then no message of its type."""
+    try:
+        plain = unpack_zstd(data, LARGEST_RECORD)
+    except zstandard.ZstdError:
+        return b""
+    return plain if len(plain) <= LARGEST_RECORD else b""
 
 
 def _counted(file: _File) -> Contents:

@@ -1,0 +1,1 @@
+"""MCAP files: `records` knows what bytes mean, `summary` the index at the end; `file` reads from front to back."""

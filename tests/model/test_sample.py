@@ -1,0 +1,24 @@
+"""What a plant says of itself is checked where it is read."""
+
+from dataclasses import replace
+from math import inf, nan
+
+import pytest
+
+from motor_model.errors import MotorError
+from motor_model.sample import RANGES, Info, check_info
+
+
+@pytest.mark.parametrize("name", RANGES)
+def test_each_number_has_a_range(name: str) -> None:
+    low, high = RANGES[name]
+    for value in (low, high):
+        check_info(replace(Info(), **{name: value}))
+    for value in (low - 1e-7, high * 1.001, inf, -inf, nan):
+        with pytest.raises(MotorError, match=f"^motor/info says {name} .*: it must be from "):
+            check_info(replace(Info(), **{name: value}))
+
+
+def test_what_plants_are_is_taken() -> None:
+    check_info(Info())
+    check_info(replace(Info(), edges_per_revolution=65_536, sample_period=0.001, max_voltage=400.0))
