@@ -15,6 +15,7 @@ from motor_identification.measurement.sampled_counts import Changes, extract_cou
 from motor_identification.measurement.sanity_checks import check_counts
 from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals
 from motor_identification.recording import Recording
+from motor_identification.sensor.held_counts import drop_held_counts
 from motor_identification.sensor.speed_sensor import find_speed_sensor
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
@@ -26,9 +27,12 @@ def make_intervals(recording: Recording) -> Intervals:
     Raises:
         RecordingError: there is less than three intervals of motion in it, or its numbers are those of no motor.
     """
-    if recording.info.measurement is not Measurement.SPEED:
+    info = recording.info
+    if info.measurement is Measurement.COUNTS and not info.single_channel:  # its directions are read again, row by row
+        recording = drop_held_counts(recording)
+    if info.measurement is not Measurement.SPEED:
         check_counts(recording)
-    intervals = _READERS[recording.info.measurement](recording)
+    intervals = _READERS[info.measurement](recording)
     if len(intervals.first) < 3:
         raise RecordingError(
             f"{recording.uri} shows only {len(intervals.first)} intervals of motion: record longer, or with a "

@@ -1,6 +1,6 @@
-"""Describe the sensor that was found in the values of a recording, as a note beside every result."""
+"""Describe the sensors that were found in the values of recordings, as a note beside every result."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from math import degrees
 
@@ -8,34 +8,47 @@ from motor_identification.recording import Recording
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 from motor_model.sample import Measurement
 
+HELD = "The sensor gives a new speed every {} ms; what repeats it in between is left out."
+LATTICE = "Every speed is a multiple of {} rad/s ({} deg/s): {} counts a turn over {} ms are assumed."
+WHITE = "The speeds lie on no lattice of counts: white noise of {} rad/s, as between neighbours, is assumed."
+
 
 def note_sensors(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
-    """Add to every recording's notes what its values say of a sensor that nobody described."""
-    return tuple(_note_sensor(recording) for recording in recordings)
+    """Add to the first recording's notes what their values say of sensors that nobody described."""
+    unsaid = [recording for recording in recordings if recording.info.measurement is Measurement.SPEED]
+    note = describe_speed_sensors(
+        [(find_speed_sensor(recording), bool(recording.info.edges_per_revolution)) for recording in unsaid]
+    )
+    if not note or note in recordings[0].notes:
+        return tuple(recordings)
+    first, *others = recordings
+    return (replace(first, notes=(*first.notes, note)), *others)
 
 
-def _note_sensor(recording: Recording) -> Recording:
-    if recording.info.measurement is not Measurement.SPEED:
-        return recording
-    note = describe_speed_sensor(find_speed_sensor(recording), bool(recording.info.edges_per_revolution))
-    return replace(recording, notes=(*recording.notes, note)) if note and note not in recording.notes else recording
-
-
-def describe_speed_sensor(sensor: SpeedSensor, known: bool) -> str:
-    """Say what was found of a speed sensor; empty where all was `known` before."""
+def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
+    """Say what was found of speed sensors, each with whether its counts were known; empty where nothing is new."""
+    held = [sensor for sensor, _ in sensors if sensor.frame > 0.0]
+    counted = [sensor for sensor, known in sensors if sensor.step > 0.0 and not known]
+    white = [sensor for sensor, known in sensors if sensor.sigma > 0.0 and not known]
     parts = []
-    if sensor.frame > 0.0:
-        parts.append(
-            f"The sensor gives a new speed every {sensor.frame * 1e3:.3g} ms; what repeats it in between is left out."
+    if held:
+        parts.append(HELD.format(_span((one.frame * 1e3 for one in held), "{:.3g}")))
+    if counted:
+        numbers = (
+            _span((one.step for one in counted), "{:.4g}"),
+            _span((degrees(one.step) for one in counted), "{:.4g}"),
+            _span((one.edges_per_revolution for one in counted), "{:,}"),
+            _span((one.window * 1e3 for one in counted), "{:.4g}"),
         )
-    if not known and sensor.step > 0.0:
-        parts.append(
-            f"Every speed is a multiple of {sensor.step:.4g} rad/s ({degrees(sensor.step):.4g} deg/s): "
-            f"{sensor.edges_per_revolution:,} counts a turn over {sensor.window * 1e3:.4g} ms are assumed."
-        )
-    elif not known and sensor.sigma > 0.0:
-        parts.append(
-            f"The speeds lie on no lattice of counts: white noise of {sensor.sigma:.2g} rad/s, as between neighbours, "
-            "is assumed."
-        )
+        parts.append(LATTICE.format(*numbers))
+    if white:
+        parts.append(WHITE.format(_span((one.sigma for one in white), "{:.2g}")))
     return " ".join(parts)
+
+
+def _span(values: Iterable[float], form: str) -> str:
+    """One number, or the least and the largest of several."""
+    show: Callable[[float], str] = form.format
+    some = sorted(values)
+    ends = dict.fromkeys((show(some[0]), show(some[-1])))
+    return " to ".join(ends)

@@ -24,7 +24,7 @@ class Frames:
     """The frames of a sensor that is slower than its log; arrays of shape (F,)."""
 
     row: Integers  # the row at which each frame is first seen
-    time: Floats  # [s] when the sensor made it, even but for a row's delay
+    time: Floats  # [s] even, in the middle of when rows show it first
     period: float  # [s]
 
 
@@ -37,30 +37,33 @@ def find_frames(time: Floats, values: Floats) -> Frames | None:
     gaps = np.diff(seen)
     for guess in np.unique(np.quantile(gaps, QUANTILES, method="lower")):
         if guess > LEAST_ROWS * row and np.mean(gaps < LEAST_GAP * guess) <= EARLY:
-            period, begin = _fit_grid(seen, float(np.mean(gaps[np.abs(gaps - guess) < 1.5 * row])))
-            if period > LEAST_ROWS * row and _is_even(seen, period, begin, row):
-                return _make_frames(time, period, begin, row)
+            grid = _fit_grid(seen, float(np.mean(gaps[np.abs(gaps - guess) < 1.5 * row])), row)
+            if grid is not None:
+                return _make_frames(time, *grid, row)
     return None
 
 
-def _fit_grid(seen: Floats, guess: float) -> tuple[float, float]:
-    """Period [s] and begin [s] of an even grid, by least squares; counted by a guess first, then by the period."""
+def _fit_grid(seen: Floats, guess: float, row: float) -> tuple[float, float] | None:
+    """Period [s] and begin [s] of an even grid; None where changes are not on it, or may be by chance.
+
+    By least squares, counted by a guess first, then by the period; the middle of the rows at which changes show.
+    """
     number = np.concatenate([[0.0], np.rint(np.diff(seen) / guess).cumsum()])
     period, begin = np.polyfit(number, seen, 1)
     period, begin = np.polyfit(np.rint((seen - begin) / period), seen, 1)
-    return float(period), float(begin)
-
-
-def _is_even(seen: Floats, period: float, begin: float, row: float) -> bool:
-    """Whether changes are on the grid, and so many that it is no chance."""
+    if not period > LEAST_ROWS * row:
+        return None
     beside = (seen - begin + 0.5 * period) % period - 0.5 * period
-    chance = min(2.0 * OFF_GRID * row / period, 1.0) ** len(seen)
-    return bool(np.mean(np.abs(beside) <= OFF_GRID * row) >= 1.0 - LATE and chance < CHANCE)
+    first, last = np.quantile(beside, (0.5 * LATE, 1.0 - 0.5 * LATE))
+    chance = len(seen) * min(2.0 * OFF_GRID * row / period, 1.0) ** (len(seen) - 1)
+    even = last - first <= 2.0 * OFF_GRID * row and chance < CHANCE
+    return (float(period), float(begin + 0.5 * (first + last))) if even else None
 
 
 def _make_frames(time: Floats, period: float, begin: float, row: float) -> Frames:
     ticks = np.arange(np.ceil((time[0] - 0.5 * row - begin) / period), np.floor((time[-1] - begin) / period) + 1.0)
     made = begin + period * ticks
-    # A row shows a frame up to one row after it was made, half a row on average.
+    # Where the sensor has a clock of its own rows show it up to one row late. A delay of the model can make up for half
+    # a row on average, but not for a time before that of a log which reads its sensor itself.
     shown = np.minimum(np.searchsorted(time, made + 0.5 * row), len(time) - 1)
-    return Frames(shown.astype(np.int64), made - 0.5 * row, period)
+    return Frames(shown.astype(np.int64), made, period)

@@ -5,7 +5,7 @@ from handmade import turning
 from recorded import as_speed, without_count
 from swinging import noisy, recorded
 
-from motor_identification.sensor.description import describe_speed_sensor, note_sensors
+from motor_identification.sensor.description import describe_speed_sensors, note_sensors
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 
 
@@ -13,25 +13,35 @@ def sensor(frame: float = 0.0, step: float = 0.0, sigma: float = 0.0) -> SpeedSe
     return SpeedSensor(np.arange(3), np.arange(3.0), 0.02, 0.01, frame, step, sigma, 2800 if step else 0)
 
 
+def said(*sensors: SpeedSensor, known: bool = False) -> str:
+    return describe_speed_sensors([(one, known) for one in sensors])
+
+
 def test_every_kind_of_sensor_has_its_sentence() -> None:
-    assert describe_speed_sensor(sensor(step=0.1121997), known=False) == (
+    assert said(sensor(step=0.1121997)) == (
         "Every speed is a multiple of 0.1122 rad/s (6.429 deg/s): 2,800 counts a turn over 20 ms are assumed."
     )
-    assert describe_speed_sensor(sensor(sigma=0.123), known=False) == (
+    assert said(sensor(sigma=0.123)) == (
         "The speeds lie on no lattice of counts: white noise of 0.12 rad/s, as between neighbours, is assumed."
     )
-    assert describe_speed_sensor(sensor(frame=0.02), known=True) == (
+    assert said(sensor(frame=0.02), known=True) == (
         "The sensor gives a new speed every 20 ms; what repeats it in between is left out."
     )
-    assert describe_speed_sensor(sensor(step=0.1), known=True) == ""
+    assert said(sensor(step=0.1), known=True) == said() == ""
+
+
+def test_several_recordings_share_a_sentence() -> None:
+    assert "white noise of 0.05 to 0.19 rad/s" in said(sensor(sigma=0.1), sensor(sigma=0.05), sensor(sigma=0.19))
+    mixed = said(sensor(step=0.1121997, frame=0.02), sensor(sigma=0.1))
+    assert "every 20 ms" in mixed and "2,800 counts" in mixed and "white noise of 0.1 rad/s" in mixed
 
 
 def test_notes_are_added_once_and_only_where_something_was_found() -> None:
     found = without_count(as_speed(recorded()))
-    (once,) = note_sensors([found])
-    assert once.notes == (describe_speed_sensor(find_speed_sensor(found), known=False),)
+    once, other = note_sensors([found, found])
+    assert once.notes == (said(find_speed_sensor(found)),) and other.notes == ()
     assert "960 counts a turn over 20 ms" in once.notes[0]
     assert note_sensors([once]) == (once,)
     assert "white noise of" in note_sensors([noisy(0.5)])[0].notes[0]
-    said, stamped = as_speed(recorded()), turning(lambda time: 100.0 * time, 1.0)
-    assert note_sensors([said, stamped]) == (said, stamped)
+    known, stamped = as_speed(recorded()), turning(lambda time: 100.0 * time, 1.0)
+    assert note_sensors([known, stamped]) == (known, stamped) and note_sensors([]) == ()
