@@ -20,6 +20,7 @@ from motor_model import yaml_file
 from motor_model.effects import SPEC_BY_NAME
 from motor_model.errors import ModelError
 from motor_model.parameters import Parameters
+from motor_model.printable import escape
 from motor_model.regular_file import Unfit, write_text
 
 
@@ -50,12 +51,36 @@ def _parameters(content: Any, default_name: str) -> Parameters:
     if not isinstance(effects, list) or not all(isinstance(effect, str) for effect in effects):
         raise ModelError("'effects' must be a list of names, such as [coulomb_friction].")
     values = {str(name): _number(str(name), entry) for name, entry in content["parameters"].items()}
-    return Parameters(
+    parameters = Parameters(
         values,
         tuple(effects),
         _number("max_voltage", content.get("max_voltage", 12.0)),
-        str(content.get("name") or default_name),
+        escape(str(content.get("name") or default_name)),
     )
+    _check_limits(parameters)
+    return parameters
+
+
+# What a file may say, by unit: far beyond any motor, but within what a simulation computes in finite time and numbers.
+LIMITS = {
+    "V": (0.0, 1e5), "V·s/rad": (1e-7, 1e4), "V·s²/rad": (1e-12, 1e6), "V·s²/rad²": (0.0, 1e6), "rad/s": (0.0, 1e7),
+    "s": (0.0, 1e7), "rad": (0.0, 1e6), "1/rev": (0.0, 1e5), "–": (0.0, 1e3),
+}  # fmt: skip
+FASTEST = 1e6  # [rad/s] ten times a dental drill: a simulated encoder counts every edge
+
+
+def _check_limits(parameters: Parameters) -> None:
+    for name, value in parameters.values.items():
+        low, high = LIMITS[SPEC_BY_NAME[name].unit]
+        if value != 0.0 and not low <= abs(value) <= high:
+            unit = SPEC_BY_NAME[name].unit
+            raise ModelError(f"{name} = {value:g} {unit} is none that a motor has: it must be {low:g} to {high:g}.")
+    low, high = 1e-3, LIMITS["V"][1]
+    if not low <= parameters.max_voltage <= high:
+        raise ModelError(f"max_voltage = {parameters.max_voltage:g} V must be {low:g} to {high:g} V.")
+    fastest = parameters.max_voltage * parameters.gain
+    if fastest > FASTEST:
+        raise ModelError(f"the motor would reach {fastest:.3g} rad/s, and {FASTEST:g} is the most: kv is too small.")
 
 
 def _number(name: str, entry: Any) -> float:

@@ -53,6 +53,10 @@ BAD_FILES = {
     "effects as text": (FRICTION_FILE.replace("[coulomb_friction]", "coulomb_friction"), "'effects' must be a list"),
     "supply": (FRICTION_FILE + "max_voltage: twelve\n", "'max_voltage' must have a number"),
     "no supply": (FRICTION_FILE + "max_voltage: 0\n", "max_voltage = 0 V must be positive"),
+    "no back-EMF": (FRICTION_FILE.replace("0.07", "1e-300"), "kv = 1e-300 V·s/rad is none that a motor has"),
+    "too fast": (FRICTION_FILE.replace("0.07", "1e-6"), "the motor would reach 1.2e+07 rad/s, and 1e+06 is the most"),
+    "a supply beyond all": (FRICTION_FILE + "max_voltage: 1e300\n", "max_voltage = 1e+300 V must be 0.001 to 100000 V"),
+    "too much friction": (FRICTION_FILE.replace("0.5", "1e300"), "ks = 1e+300 V is none that a motor has"),
     "not YAML": ("effects: [\n", "; write one with 'identify --output model.yaml'"),
     "no date": (FRICTION_FILE + "created: 2026-99-99\n", "is not YAML"),
     "endless": (5000 * "[", "is nested deeper than 50"),
@@ -83,3 +87,13 @@ def test_files_that_cannot_be_read_or_written(tmp_path: Path) -> None:
         load(tmp_path / "bytes.yaml")
     with pytest.raises(ModelError, match="cannot write the model file .*: No such file or directory"):
         save(tmp_path / "no" / "where.yaml", paper_motor())
+
+
+def test_motors_at_the_limits_are_taken(tmp_path: Path) -> None:
+    for text in (
+        FRICTION_FILE.replace("0.07", "1.3e-5"),  # 9e5 rad/s
+        FRICTION_FILE.replace("0.07", "1e4"),
+        FRICTION_FILE.replace("0.5", "1e5") + "max_voltage: 1e5\n",
+    ):
+        (tmp_path / "m.yaml").write_text(text, encoding="utf-8")
+        assert load(tmp_path / "m.yaml").gain > 0.0

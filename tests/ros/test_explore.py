@@ -78,3 +78,12 @@ def test_leaves_the_motor_at_rest_when_it_is_interrupted(
     assert voltages[-1].voltage == 0.0
     recording = read_recording(tmp_path / "found" / "1_staircase_incomplete")  # what there was is not lost
     assert recording.voltage.max() > 1.0 and recording.duration < 5.8
+
+
+def test_a_wrong_effect_is_refused_before_the_motor_moves(
+    bench: Bench, samples: list[MotorSpeed], tmp_path: Path
+) -> None:
+    process = explore(tmp_path / "found", "--known-effects", "nope")
+    out, err = process.communicate(timeout=PATIENCE)
+    assert (process.returncode, out) == (1, "") and err.startswith("'nope' is not an effect; the effects are ")
+    assert not (tmp_path / "found").exists() and samples[-1].edge_count == 0

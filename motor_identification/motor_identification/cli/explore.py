@@ -52,7 +52,9 @@ def main(args: list[str] | None = None) -> int:
 
 def _explore(options: argparse.Namespace) -> int:
     from motor_identification.cli._diagnosed import Files
+    from motor_model.effects import normalised
 
+    normalised(named(options.known_effects))  # a wrong name is refused before anything moves
     directory, files = _made(Path(options.directory)), Files(report=options.directory)
     profiles: list[str] = []
     bags: list[str] = []

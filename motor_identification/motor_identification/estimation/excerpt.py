@@ -37,13 +37,15 @@ def take_excerpt(problem: Problem, longest: float = LONGEST_SEARCHED) -> Problem
     recordings, intervals, turning = [], [], []
     for recording, data, moving in zip(problem.recordings, problem.intervals, problem.unknowns.turning, strict=True):
         length = recording.duration * longest / total
-        starts = [0.0] if moving or effects & BEGINNING else _starts(recording, length / PIECES_PER_RECORDING)
+        starts = [0.0] if moving or effects & BEGINNING else _starts(recording, data, length / PIECES_PER_RECORDING)
         for start in starts:
             piece = _piece(data, start, start + length / len(starts))
             if len(piece.first) > 0:
                 recordings.append(recording)
                 intervals.append(piece)
                 turning.append(bool(moving))
+    if not recordings:
+        return problem
     return replace(
         problem,
         recordings=tuple(recordings),
@@ -52,11 +54,18 @@ def take_excerpt(problem: Problem, longest: float = LONGEST_SEARCHED) -> Problem
     )
 
 
-def _starts(recording: Recording, length: float) -> list[float]:
-    """Where pieces of so many seconds begin: in each of equal parts of the recording, the one that shows most."""
+def _starts(recording: Recording, data: Intervals, length: float) -> list[float]:
+    """Where pieces of so many seconds begin: in each of equal parts of the recording, the one that shows most.
+
+    Pieces without motion are left out: a motor may stand for most of a recording.
+    """
     time = recording.time
-    candidates = _standing(recording)
+    candidates = _standing(recording, length)
     candidates = candidates[time[candidates] <= max(time[-1] - length, 0.0)]
+    first, last = np.sort(data.time[data.first]), np.sort(data.time[data.last])
+    inside = np.searchsorted(last, time[candidates] + length, "right") - np.searchsorted(first, time[candidates])
+    if np.any(inside > 0):
+        candidates = candidates[inside > 0]
     ends = np.searchsorted(time, time[candidates] + length)
     part = np.minimum(time[candidates] / time[-1] * PIECES_PER_RECORDING, PIECES_PER_RECORDING - 1).astype(np.int64)
     starts = []
@@ -67,16 +76,22 @@ def _starts(recording: Recording, length: float) -> list[float]:
     return starts
 
 
-def _standing(recording: Recording) -> Integers:
+def _standing(recording: Recording, length: float) -> Integers:
     """Samples at which the motor stands: the first one, and the middle of every standstill.
 
-    Towards the end of a standstill the motor may be moving already: it has a slot to go before an edge shows it.
+    Towards the end of a standstill the motor may be moving already: it has a slot to go before an edge shows it. Of one
+    that is longer than a piece [s], where its voltage has not changed yet counts too: the middle would show nothing.
     """
     time, still = recording.time, recording.speed == 0.0
     began = np.flatnonzero(still & ~np.append(False, still[:-1]))
     ended = np.flatnonzero(still & ~np.append(still[1:], False))
     long = time[ended] - time[began] >= LEAST_REST
-    return np.asarray(np.unique(np.append(0, (began[long] + ended[long]) // 2)), dtype=np.int64)
+    middle = (began[long] + ended[long]) // 2
+    changes = np.append(np.flatnonzero(np.diff(recording.voltage)), len(time) - 1)  # the last samples before
+    late = np.minimum(changes[np.searchsorted(changes, middle)], ended[long])[
+        (time[ended] - time[began])[long] > length
+    ]
+    return np.asarray(np.unique(np.concatenate([[0], middle, late])), dtype=np.int64)
 
 
 def _changes(voltage: Floats, begin: Integers, end: Integers) -> Floats:

@@ -16,6 +16,7 @@ STEADY_VOLTAGE = 0.2  # of the largest voltage: where it changes by more, even o
 CHUNK_SAMPLES = 20  # samples over which speed and count are compared
 CHUNK_COUNTS = 5  # counts in a chunk from which on it tells the unit
 IMPOSSIBLE_STAMPS = 0.6  # share of stamps that cannot be right, from which on all of them are those of another clock
+BACKWARDS = -0.5  # of the motion, weighted by voltage: braking and coasting leave more than half, swapped wires -0.9
 SPEED_FACTOR = 3.0  # factor between speed and count beyond which they do not mean the same; 2π, 9.5 and 57.3 are beyond
 
 
@@ -79,7 +80,20 @@ def check_counts(recording: Recording) -> Recording:
             f"{recording.uri}: the reported speed is {said} the speed from edge_count. Report speed in rad/s, "
             "and set edges_per_revolution to the counts per revolution."
         )
+    agreement = compare_motion_with_voltage(recording)
+    if not recording.info.single_channel and agreement is not None and agreement < BACKWARDS:
+        raise RecordingError(
+            f"{recording.uri}: the motor counts down while its voltage is positive, and up while it is negative: swap "
+            "the two channels of the encoder, or the motor's leads, and record again."
+        )
     return recording
+
+
+def compare_motion_with_voltage(recording: Recording) -> float | None:
+    """Compare the counts' signs with the voltage's: 1 where every count has it, -1 where none has; None without motion."""
+    steps = np.diff(recording.edge_count) * recording.voltage[:-1]
+    total = float(np.sum(np.abs(steps)))
+    return float(np.sum(steps)) / total if total > 0.0 else None
 
 
 def _check_stamps(recording: Recording) -> None:

@@ -95,3 +95,18 @@ def test_a_long_recording_is_identified(long: Recording) -> None:
         relative = fit.standard_errors[name] / true
         assert 1e-9 < relative < 1e-6
         assert abs(fit.parameters.value(name) / true - 1.0) < 4.0 * relative
+
+
+@pytest.mark.parametrize("name", ["staircase", "prbs"])
+def test_a_motor_that_stands_for_most_of_the_recording_is_searched_where_it_moves(name: str) -> None:
+    """Two minutes at 0 V, then motion: pieces fell into the standstill, and nothing was left to fit."""
+    config = BoardConfig(seed=4)
+    board = SimulatedBoard(Parameters(TRUE, EFFECTS), config)
+    drive = profile(name)
+    commands = np.append(np.zeros(24_000), drive.voltage(np.arange(0.0, drive.duration, 0.005), 10.0))
+    samples = [board.sample(float(command)) for command in commands]
+    recording = check(recording_of(samples, config.info(Parameters(TRUE, EFFECTS)), "still"))
+    pieces = take_excerpt(coarse([recording]))
+    assert len(pieces.intervals) >= 1 and all(len(data.first) > 10 for data in pieces.intervals)
+    fit = identify([recording], Request(EFFECTS, SearchConfig()))
+    assert fit.parameters.value("kv") == pytest.approx(TRUE["kv"], rel=1e-3)

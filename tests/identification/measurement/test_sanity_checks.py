@@ -11,7 +11,11 @@ from recorded import as_counts
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.edges import extract_edges
-from motor_identification.measurement.sanity_checks import compare_speed_with_count, find_count_jump
+from motor_identification.measurement.sanity_checks import (
+    compare_motion_with_voltage,
+    compare_speed_with_count,
+    find_count_jump,
+)
 from motor_identification.recording import Recording, check
 from motor_model.errors import RecordingError
 from motor_model.parameters import PAPER_KA, PAPER_KV
@@ -109,3 +113,18 @@ def test_right_stamps_are_kept() -> None:
                 np.count_nonzero(np.diff(recording.edge_count))
                 + np.count_nonzero(np.abs(np.diff(recording.edge_count)) > 1)
             )
+
+
+def test_two_channels_wired_backwards_are_refused_and_braking_is_not() -> None:
+    """A model with positive kv had no sample that fitted: a ZeroDivisionError in the slot table."""
+    for drive in (profiles.random(12.0, 3.0, seed=1), profiles.reversals(12.0, 6, 0.2), profiles.step(12.0)):
+        right, _ = record(TRUTH, *drive, seed=1, single_channel=False)
+        swapped = replace(right, edge_count=-right.edge_count, speed=-right.speed)
+        agreement = compare_motion_with_voltage(right)
+        assert agreement is not None and agreement > 0.5
+        assert compare_motion_with_voltage(swapped) == pytest.approx(-agreement)
+        make_intervals(right)
+        with pytest.raises(RecordingError, match="counts down while its voltage is positive.*: swap the two channels"):
+            identify([swapped], Request(("coulomb_friction",), SearchConfig(20, 20)))
+    still = replace(right, edge_count=0 * right.edge_count)
+    assert compare_motion_with_voltage(still) is None
