@@ -93,7 +93,7 @@ def test_motors_at_the_limits_are_taken(tmp_path: Path) -> None:
     for text in (
         FRICTION_FILE.replace("0.07", "1.3e-5"),  # 9e5 rad/s
         FRICTION_FILE.replace("0.07", "1e4"),
-        FRICTION_FILE.replace("0.5", "1e5") + "max_voltage: 1e5\n",
+        FRICTION_FILE.replace("0.5", "1e5").replace("0.07", "0.11") + "max_voltage: 1e5\n",
     ):
         (tmp_path / "m.yaml").write_text(text, encoding="utf-8")
         assert load(tmp_path / "m.yaml").gain > 0.0

@@ -90,7 +90,7 @@ def check_counts(recording: Recording) -> Recording:
 
 
 def compare_motion_with_voltage(recording: Recording) -> float | None:
-    """Compare the counts' signs with the voltage's: 1 where every count has it, -1 where none has; None without motion."""
+    """Compare signs of counts and voltage: 1 where they always agree, -1 where they never do; None without motion."""
     steps = np.diff(recording.edge_count) * recording.voltage[:-1]
     total = float(np.sum(np.abs(steps)))
     return float(np.sum(steps)) / total if total > 0.0 else None
