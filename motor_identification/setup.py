@@ -38,6 +38,7 @@ setup(
             "record = motor_identification.cli.record:main",
             "play = motor_identification.cli.play:main",
             "import_csv = motor_identification.cli.import_csv:main",
+            "inspect = motor_identification.cli.inspect:main",
             "import_log = motor_identification.cli.import_log:main",
         ],
     },

@@ -41,7 +41,7 @@ SPECIAL = {
     "live/speed_probe.py": "the model of the short ramp: as little as predicts a speed",
     "motor_control/parameters.py": "a parameter of the node with the same name",
 }
-BAGS = re.compile(r"motor_identification/bag/(mcap/)?\w+\.py$")
+BAGS = re.compile(r"motor_identification/bag/((mcap|fields)/)?\w+\.py$")
 
 
 # Inside a package too: its rooms (folders, or files beside them) from the ground up; each may import those before it.
@@ -55,7 +55,7 @@ ROOMS = {
     ),
     "motor_identification": (
         "recording progress experiment bag sensor measurement noise estimation periodic uncertainty validation "
-        "discrepancy diagnosis identify diagnose reporting service live logs cli"
+        "discrepancy diagnosis identify diagnose reporting logs mapping service live cli"
     ),
 }
 MOST_MODULES = 15  # in one folder of a package

@@ -1,9 +1,10 @@
 """A source of recordings: which bags, which motor in them, and which part of each."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from motor_identification.bag.motor import read_recording
-from motor_identification.recording import Recording
+from motor_identification.recording import Recording, check
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Source:
     uris: tuple[str, ...]
     namespace: str = ""
     window: Window = Window()
+    reader: Callable[[str], Recording] | None = None  # of bags of other robots; None: `motor/speed`
 
     def read(self, uri: str) -> Recording:
         """Read and check one of the bags.
@@ -28,4 +30,6 @@ class Source:
         Raises:
             RecordingError: the bag cannot be read, has no such motor, or the window is empty.
         """
+        if self.reader is not None:
+            return check(self.reader(uri).between(self.window.start, self.window.stop))
         return read_recording(uri, self.namespace, self.window.start, self.window.stop)

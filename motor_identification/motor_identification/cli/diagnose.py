@@ -4,6 +4,7 @@ import argparse
 import os
 import sys
 
+from motor_identification.cli._mapping_options import add_mapping_options, make_source
 from motor_identification.cli.identify import add_effects_option
 from motor_model.effects import EFFECTS
 from motor_ros.command import CommandParser, shell
@@ -27,6 +28,7 @@ def parser() -> argparse.ArgumentParser:
     )
     add_effects_option(parser, "--known-effects", "in the model already, separated by commas")
     parser.add_argument("--topic-namespace", default="", metavar="NS", help="of the recorded motor")
+    add_mapping_options(parser)
     parser.add_argument("--start", type=float, default=0.0, metavar="S", help="from here [s], not of --validate")
     parser.add_argument("--stop", type=float, default=0.0, metavar="S", help="to here [s], not of --validate")
     parser.add_argument("--output", metavar="FILE", help="write the model here (YAML)")
@@ -43,7 +45,6 @@ def main(args: list[str] | None = None) -> int:
 
 
 def _diagnose(options: argparse.Namespace) -> int:
-    from motor_identification.bag import Source, Window
     from motor_identification.cli._diagnosed import Files, diagnosed
     from motor_identification.identify import Request
     from motor_identification.service.job import DiagnosisJob
@@ -51,7 +52,7 @@ def _diagnose(options: argparse.Namespace) -> int:
     files = Files(options.output, options.json, options.report)
     files.check(options.force)
     job = DiagnosisJob(
-        source=Source(tuple(options.bags), options.topic_namespace, Window(options.start, options.stop)),
+        source=make_source(options),
         validation=tuple(options.validate),
         request=Request(named(options.known_effects), workers=os.cpu_count() or 1),
     )

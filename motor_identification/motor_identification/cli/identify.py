@@ -8,6 +8,7 @@ from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from motor_identification.cli._mapping_options import add_mapping_options, make_source
 from motor_identification.estimation.request import Request, SearchConfig
 from motor_model.effects import EFFECT_BY_NAME, EFFECTS
 from motor_model.errors import MotorError
@@ -15,7 +16,6 @@ from motor_ros.command import CommandParser, ended_by_interrupt, listed_names, s
 from motor_ros.output_files import add_force_option, check_outputs
 
 if TYPE_CHECKING:
-    from motor_identification.bag import Source
     from motor_identification.uncertainty.result import Fit
 
 LONG = (
@@ -38,6 +38,7 @@ def parser() -> argparse.ArgumentParser:
     parser.add_argument("bags", nargs="+", metavar="BAG", help="recordings of one motor")
     add_effects_option(parser, "--effects", "beyond kv and ka, separated by commas")
     parser.add_argument("--topic-namespace", default="", metavar="NS", help="of the recorded motor")
+    add_mapping_options(parser)
     parser.add_argument("--start", type=float, default=0.0, metavar="S", help="from here [s] (default: the beginning)")
     parser.add_argument("--stop", type=float, default=0.0, metavar="S", help="to here [s] (default: the end)")
     add, most = parser.add_argument, "of a swarm at most (default %(default)s)"
@@ -81,7 +82,7 @@ def _identify(options: argparse.Namespace) -> int:
     check_outputs(filter(None, (options.output, options.json, *report)), options.force, options.report)
     search = SearchConfig(options.particles, options.epochs, options.seed)
     request = Request(effects, search, os.cpu_count() or 1)
-    job = Job(_source(options), request)
+    job = Job(make_source(options), request)
     print(announce_effort(effects), end="", file=sys.stderr)
     with tqdm(total=100, desc="search", delay=2.0, disable=None, bar_format="{desc} {bar} {percentage:3.0f} %") as bar:
 
@@ -99,12 +100,6 @@ def announce_effort(effects: Sequence[str]) -> str:
     slow = [name for name in effects if name in EFFECT_BY_NAME and EFFECT_BY_NAME[name].periodic]
     slow = [name for name in slow if not EFFECT_BY_NAME[name].on_disc]  # its number of cycles is not searched
     return LONG.format(" and ".join(slow)) if slow else ""
-
-
-def _source(options: argparse.Namespace) -> "Source":
-    from motor_identification.bag import Source, Window
-
-    return Source(tuple(options.bags), options.topic_namespace, Window(options.start, options.stop))
 
 
 def _present(options: argparse.Namespace, fit: "Fit") -> int:
@@ -148,7 +143,7 @@ def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: s
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise MotorError(f"cannot make the directory {directory}: {error.strerror}.") from error
-    source = _source(options)
+    source = make_source(options)
     recordings = [source.read(bag) for bag in source.uris]
     draw_fit(recordings[0], fit, directory / "fit.png")
     write_json(directory / "fit.json", fit_to_json(fit))

@@ -15,6 +15,9 @@ AGREE_COUNTS, AGREE_SPEED = 1e-4, 1e-3
 ON_GRID = 0.05  # counts: how far positions may lie beside whole counts before the user is told
 MOST_EDGES = 10_000_000  # a turn: a finer encoder than is sold, and within what motor/info can say
 LEAST_LEVELS = 10  # different values, fewer of which show no steps
+# Counts from row to row, at most, where counts stand for a position without steps: as many as an encoder of a thousand
+# lines has on such a motor. More would make a jump of every reversal, and are finer than any model.
+COUNTS_A_ROW = 30.0
 FINE = (360, 1_000_000)  # counts a turn that stand for a position without steps: at least, at most
 
 
@@ -44,7 +47,8 @@ def count_size(form: CsvForm, values: Floats, voltage: Floats) -> tuple[float, i
                 turn, step, f" (assumed: values are multiples of {step:.4g} {form.unit}, no whole share of a turn)"
             )
     noise = estimate_white_noise(values, voltage)
-    return _fine(turn, noise, f" (assumed: the values show no steps; about their noise, {noise:.2g} {form.unit})")
+    coarse = max(noise, float(np.quantile(np.abs(np.diff(values)), 0.9)) / COUNTS_A_ROW)
+    return _fine(turn, coarse, f" (assumed: the values show no steps, and noise of {noise:.2g} {form.unit})")
 
 
 def position_step(values: Floats) -> float:

@@ -78,6 +78,8 @@ class Table:
             RecordingError: a cell is not a number, or is beyond 292 years.
         """
         cells = self.column(column)
+        if isinstance(cells, np.ndarray) and cells.dtype == np.int64 and unit == 1:
+            return cells
         try:
             values = self._floats(cells) * float(unit)
             if np.all(np.abs(values) < _ROUNDED_BELOW):

@@ -1,0 +1,93 @@
+"""Says what is in a bag, and writes a first mapping for `identify` and `diagnose`: `inspect BAG`."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from motor_ros.command import CommandParser, shell
+from motor_ros.output_files import add_force_option, check_outputs
+
+if TYPE_CHECKING:
+    from motor_identification.mapping.candidates import Candidate
+    from motor_identification.mapping.inventory import TopicRow
+
+EXAMPLES = """\
+what moves in a bag that another robot recorded, and a mapping to correct by hand:
+  inspect bag --output mapping.yaml
+  identify bag --mapping mapping.yaml
+"""
+_SHOWN = 5  # pairs
+
+
+def main(args: list[str] | None = None) -> int:
+    """Entry point; returns the exit status."""
+    options = parser().parse_args(args)
+    return shell(lambda: _inspect(options))
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    made = CommandParser(
+        "motor_identification",
+        "inspect",
+        "List the topics of a bag with their rates and the numbers that change in them, find which drives which, and "
+        "write a first mapping.",
+        EXAMPLES,
+    )
+    made.add_argument("bag", metavar="BAG", help="any bag: MCAP or sqlite3")
+    made.add_argument("--output", type=Path, metavar="FILE", help="write the mapping here (YAML)")
+    add_force_option(made)
+    return made
+
+
+def _inspect(options: argparse.Namespace) -> int:
+    from motor_identification.mapping import mapping_text
+    from motor_identification.mapping.candidates import find_candidates
+    from motor_identification.mapping.inventory import take_inventory
+    from motor_model.errors import RecordingError
+
+    if options.output:
+        check_outputs([options.output], options.force)
+    topics = take_inventory(options.bag)
+    print(*_lines(topics), sep="\n")
+    pairs = find_candidates([field for topic in topics for field in topic.fields])
+    if not pairs:
+        raise RecordingError(
+            f"{options.bag}: no number in it follows another as a motor's speed follows its voltage: write the mapping "
+            "by hand."
+        )
+    print("", *_pairs(pairs), sep="\n")
+    text = mapping_text(pairs[0].mapping())
+    if options.output:
+        options.output.write_text(text, encoding="utf-8")
+        print(f"\nmapping: {options.output} (check it, and let scale make volts of the command)")
+    else:
+        print(f"\nA first mapping (--output FILE writes it):\n{text}", end="")
+    return 0
+
+
+def _lines(topics: "list[TopicRow]") -> list[str]:
+    from motor_model.printable import escape
+
+    lines = []
+    for topic in topics:
+        stamps = "stamped" if topic.stamped else f"no stamps, jitter {topic.jitter * 1e3:.3f} ms"
+        about = f"{topic.messages} messages, {topic.rate:.4g} Hz, {stamps}"
+        lines.append(escape(f"{topic.name}  {topic.type_name}  ({topic.trouble or about})"))
+        lines += [
+            escape(f"  {field.path.field}  {field.values.min():.4g} to {field.values.max():.4g}")
+            for field in topic.fields
+        ]
+    return lines
+
+
+def _pairs(pairs: "list[Candidate]") -> list[str]:
+    from motor_model.printable import escape
+
+    return [
+        escape(
+            f"{pair.drive.path} drives {pair.motion.path}, a {pair.kind.value} "
+            f"({100 * pair.share:.0f} % of its unpredictable changes)"
+        )
+        for pair in pairs[:_SHOWN]
+    ]
