@@ -54,7 +54,7 @@ class BoardLoop:
     def start(self) -> None:
         """The driver starts, or starts again."""
         config = Config(sample_rate=self.rate, single_channel=self.channels == 1, max_voltage=self.motor.voltage)
-        self.driver, self.gate, self._begun = Driver(config), Gate(True, TIMEOUT), 0
+        self.driver, self.gate, self._begun = Driver(config), Gate(True, TIMEOUT, 1.0 / self.rate), 0
         self.driver.opened("the port", self._now)
 
     @property

@@ -67,7 +67,7 @@ class Loop:
     def come_up(self) -> None:
         """The plant starts, or starts again."""
         self.board = SimulatedBoard(self.motor.parameters(self.supply, **self.load), self._board_config)
-        self.gate = Gate(True, TIMEOUT).come_up(self._now)
+        self.gate = Gate(True, TIMEOUT, 1.0 / self.rate).come_up(self._now)
         self.check = MotionCheck(self.limit, self.single_channel)
 
     @property

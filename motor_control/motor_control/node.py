@@ -38,7 +38,7 @@ class MotorControl(Node):
         super().__init__("motor_control")
         self._settings = Settings(declare(self, ROWS))
         self._state = controller.State(since=time.monotonic())
-        self._header, self._drives = Header(), False  # of the latest sample; a voltage was sent after it
+        self._header = Header()  # of the latest sample
         self._output, self._told = controller.WAITING, Told()
         self._answered, self._worst, self._speakers = 0, 0.0, 0  # since the last diagnostics; who publishes motor/speed
         self._voltage = self.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
@@ -87,11 +87,10 @@ class MotorControl(Node):
         self._voltage.publish(voltage_message(voltage, stamp, self._header.frame_id))
 
     def _publish(self, output: Output, stamp: Time) -> None:
-        if output.drives and not self._drives:  # a plant drives with what begins at 0 V
+        if output.begins:
             self._send(0.0, stamp)
         if output.drives:
             self._send(output.terms.voltage, stamp)
-        self._drives = output.drives
         self._output = output
         self._control_state.publish(control_state_message(output, self._header))
         say, config = self.get_logger(), self._settings.config

@@ -7,6 +7,9 @@ from motor_model.sample import Info, Measurement
 
 SILENCE = 0.12  # [s] without telemetry, or for the board without commands: then it is 0 V within 150 ms
 LEAST_TIMEOUT = 0.05  # [s] of the board: no computer is quicker for certain
+# Of the firmware: 1.0 has no pull-ups on the encoder's lines, so that a lost cable makes stray edges, and it counts a
+# shaft that dithers over one flank as turning.
+OLDEST = (1, 1)
 USUAL_TICK = 500  # [ns] of the boards there are, before one has said so
 
 
@@ -45,6 +48,11 @@ class Config:
     def refusal(self, board: Hello) -> str:
         """Why this board cannot be used as configured; empty if it can."""
         edges, channels = self.edges_per_revolution, 1 if self.single_channel else 2
+        if (board.firmware_major, board.firmware_minor) < OLDEST:
+            return (
+                f"The board runs firmware {board.firmware_major}.{board.firmware_minor}, and this driver needs "
+                f"{OLDEST[0]}.{OLDEST[1]} or a newer one: flash the board again (ros2 run motor_board flash)."
+            )
         if self.board_id not in (None, board.board_id):
             number = f"number {board.board_id}" if board.board_id else "without a number"
             return (

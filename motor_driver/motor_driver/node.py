@@ -30,7 +30,8 @@ class MotorDriver(Node):
         self._said = ""
         self._runs_begun = 0
         self._stamp = 0  # [ns] ROS time of the latest sample
-        gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]))
+        period = 1.0 / float(values["sample_rate"])
+        gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]), period)
         self._plant = Plant(self, self._driver.info, gate, self._driver.refusal, self._work)
         wake = self.create_guard_condition(self._work)
         config = self._driver.config

@@ -16,9 +16,10 @@ QUIET = 2_000_000_000  # [ns] without any voltage; where nobody counts, who sent
 PACE = 50_000_000, 500_000_000  # [ns] after its first command within which a sender's pace is judged
 SLOWED = 2.0  # a busy computer may let commands come so many times slower than they were sent before
 SLACK = 100_000_000  # [ns] by which a sender may have begun too early: nobody starts a plant again so quickly
-# [ns] of commands that a sender may have sent unheard, before plant and sender found each other. One that answers
-# samples sends nothing while there is no plant: its numbers stand still while time goes on.
-YOUNG = 1_000_000_000
+# [ns] of commands that a sender may have sent unheard, before plant and sender found each other. One at the pace of the
+# samples may be answering them: it sends nothing while there is no plant, so that its numbers say little of its age.
+YOUNG, YOUNG_ANSWER = 1_000_000_000, 100_000_000
+ANSWERS = 2.0  # sample periods from command to command, up to which a sender may be answering samples
 HOLD = 500_000_000  # [ns] of silence after which another sender is obeyed: longer than a busy computer holds one up
 CONFLICT = 1_500_000_000  # [ns] for which a second sender is reported: longer than from one diagnostic to the next
 
@@ -39,6 +40,7 @@ class Gate:
 
     enabled: bool
     timeout: float  # [s] after which a command is stale
+    sample_period: float = 0.0  # [s] of the plant; 0: not known
     since: int = 0  # [ns] the plant came up, or its board did
     stopped: str = ""  # why the output was switched off; empty: by the user, or never
     begun: bool = False  # the voltages have started from 0 V, or were allowed by motor/enable
@@ -63,7 +65,7 @@ class Gate:
             return replace(self, rival=name, rival_at=now)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
         first = self.first if ours and self.first is not None else sender
-        begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since)
+        begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
         return replace(self, command=voltage, received=now, sender=sender, first=first, begun=begun)
 
     def enable(self, on: bool) -> "Gate":
@@ -109,7 +111,7 @@ class Gate:
         return "driven" if self.fresh(now) else "waiting for motor/voltage, 0 V"
 
 
-def _began(first: Sender, number: int | None, now: int, since: int) -> bool:
+def _began(first: Sender, number: int | None, now: int, since: int, sample_period: float) -> bool:
     """Whether a sender sent its very first command after `since` [ns]: `number` at `now`, and `first` was heard first.
 
     At its pace it has sent the commands that were not heard, too.
@@ -123,4 +125,5 @@ def _began(first: Sender, number: int | None, now: int, since: int) -> bool:
         return False
     pace = listened / max(number - first.number, 1)
     age = (first.number - 1) * pace
-    return age <= YOUNG and first.at - age / SLOWED >= since - SLACK
+    young = YOUNG_ANSWER if pace <= ANSWERS * sample_period else YOUNG
+    return age <= young and first.at - age / SLOWED >= since - SLACK

@@ -6,7 +6,7 @@ sender's numbers go up by one with each message it sends; a message whose number
 
 from dataclasses import dataclass
 
-CLOSEST = 0.5  # of the time that as many messages took before: those of one sender come no closer together
+CLOSEST = 0.5  # of the time that as many messages took when they came quickest: they come no closer together
 QUICKEST = 1_000_000  # [ns] between two commands, while that time is not known: no plant samples faster
 
 
@@ -17,7 +17,7 @@ class Sender:
     name: str
     number: int | None
     at: int  # [ns] when it came
-    period: int = QUICKEST  # [ns] between the latest two with successive numbers
+    period: int = 0  # [ns] the shortest between two with successive numbers; 0: not known
 
     def sent(self, name: str, number: int | None, now: int) -> bool:
         """Whether a message that comes at `now` [ns] is this sender's next one, or a later one."""
@@ -26,9 +26,15 @@ class Sender:
         if number is None or self.number is None:
             return True
         steps = number - self.number
-        return steps > 0 and now - self.at >= CLOSEST * self.period * (steps if steps > 1 else 0)
+        return steps > 0 and now - self.at >= CLOSEST * (self.period or QUICKEST) * (steps if steps > 1 else 0)
 
     def after(self, number: int | None, now: int) -> "Sender":
-        """This sender after one more message."""
-        successive = number is not None and self.number is not None and number == self.number + 1
-        return Sender(self.name, number, now, max(now - self.at, QUICKEST) if successive else self.period)
+        """This sender after one more message.
+
+        Of the times between two messages the shortest counts: a busy computer that has held a sender up lets its next
+        messages come as quickly as ever, and some of them are lost.
+        """
+        if number is None or self.number is None or number != self.number + 1:
+            return Sender(self.name, number, now, self.period)
+        took = max(now - self.at, QUICKEST)
+        return Sender(self.name, number, now, min(took, self.period or took))

@@ -62,7 +62,7 @@ class MotorSim(Node):
         config = BoardConfig(**{field: values[field] for field in fields})  # type: ignore[arg-type]
         self._board = SimulatedBoard(model, config)
         self._board.sample(0.0)  # compiled now, not in the first sample
-        gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]))
+        gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]), 1.0 / config.sample_rate)
         self._check = MotionCheck(limit, config.single_channel, float(values["stall_time"]))
         self._plant = Plant(self, replace(config.info(model), max_voltage=min(limit, supply)), gate)
         self._period = round(1e9 / config.sample_rate)  # [ns]

@@ -37,6 +37,14 @@ def test_a_board_for_another_encoder_is_refused() -> None:
     assert Config(single_channel=False).refusal(replace(HELLO, channels=2)) == ""
 
 
+@pytest.mark.parametrize(("major", "minor", "refused"), [(1, 0, True), (0, 9, True), (1, 1, False), (2, 0, False)])
+def test_firmware_that_is_too_old_is_refused(major: int, minor: int, refused: bool) -> None:
+    """Without pull-ups and with a wrong count it was driven without a word."""
+    said = Config().refusal(replace(HELLO, firmware_major=major, firmware_minor=minor))
+    assert (said == "") != refused
+    assert not refused or (f"firmware {major}.{minor}, and this driver needs 1.1" in said and "flash" in said)
+
+
 def test_another_board_than_the_one_named_is_refused() -> None:
     assert Config(board_id=3).refusal(replace(HELLO, board_id=3)) == ""
     assert "board number 4, and the parameter board_id is 3" in Config(board_id=3).refusal(replace(HELLO, board_id=4))

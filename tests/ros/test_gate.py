@@ -1,5 +1,6 @@
 """What a plant lets through: the newest command of one sender, on if it began at 0 V, 0 V in every other case."""
 
+from dataclasses import replace
 from itertools import count
 from math import inf, nan
 
@@ -153,6 +154,28 @@ def test_whatever_happens_the_motor_gets_a_fresh_number_that_began_or_0_volt(on:
         voltage = plant.voltage(now)
         assert voltage == 0.0 or (on and begun)
         assert voltage == 0.0 or voltage in [volts for at, volts in newest.values() if now - at <= 100 * MS]
+
+
+@pytest.mark.parametrize(("sent", "period", "begun"), [(18, 5, True), (25, 5, False), (190, 5, False), (15, 50, True)])
+def test_who_may_be_answering_samples_is_new_only_with_its_first_commands(sent: int, period: int, begun: bool) -> None:
+    """A loop of 0.95 s before the plant was started again drove on; a pace of its own, as of `pub --rate 20`, may."""
+    plant = replace(gate(), sample_period=0.005)
+    plant = stream(plant, 6.0, range(3000, 3000 + 20 * period, period), sent)
+    assert (plant.voltage(T0 + (3000 + 19 * period) * MS) == 6.0) is begun
+
+
+@pytest.mark.parametrize("rate", [200, 1000])
+@pytest.mark.parametrize("ahead", [-30, -1, 0, 1, 2, 7, 40])
+def test_of_two_controllers_with_one_frame_id_one_is_obeyed_and_both_are_told(ahead: int, rate: int) -> None:
+    """Both answer every sample, a moment apart; their messages say the motor's name, only their numbers differ."""
+    plant, acted = stream(gate(), 2.0, range(0, 500, 5), 101), []
+    for k in range(rate):
+        now = T0 + 500 * MS + k * 1_000_000_000 // rate
+        plant = plant.take(2.0, now, "", 201 + k)
+        plant = plant.take(-9.0, now + 200_000, "", 201 + k + ahead)
+        acted.append(plant.voltage(now + 300_000))
+    assert plant.conflict(now + MS) and plant.problem(now + MS).startswith("More than one node")
+    assert len(set(acted[1:])) == 1
 
 
 @pytest.mark.parametrize(("sent", "begun"), [(190, True), (210, False)])

@@ -209,6 +209,7 @@ def test_after_a_restart_an_old_reference_waits_and_a_fresh_one_drives(bench: Be
     first = start("motor_sim", "motor_sim")
     start("motor_control", "motor_control")
     bench.heard(reference)
+    user.more(50)  # a reference from more than 1 s before the first sample is an old one
     reference.publish(Float64(data=60.0))
     user.until(lambda sample: sample.speed > 50.0, "motion")
     user.until(lambda sample: sample.sample_time > LATER, "a clock that the next plant's is surely behind")

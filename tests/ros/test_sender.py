@@ -39,3 +39,13 @@ def test_the_pace_is_that_of_successive_messages() -> None:
     assert steady(100, 1000).period == 5 * MS
     assert steady(100, 1000).after(104, 1020 * MS).period == 5 * MS
     assert Sender("a", 1, 0).after(2, 100_000).period == MS  # none is quicker
+
+
+def test_a_sender_that_was_held_up_is_no_second_one() -> None:
+    """A loop of 200 Hz that a busy computer holds up for half a second, then as quick as ever, with messages lost."""
+    sender, now = steady(100, 1000), 1000 * MS
+    for number, wait in [*((100 + k, 60) for k in range(1, 9)), (110, 6), (111, 1), (115, 11), (116, 0), (118, 5)]:
+        now += wait * MS
+        assert sender.sent("a", number, now), number
+        sender = sender.after(number, now)
+    assert not sender.sent("a", 140, now + 5 * MS)

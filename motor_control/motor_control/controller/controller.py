@@ -72,8 +72,9 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     output, after = _answer(config, state, sample, age)
     ours = after.reference is not None or bool(after.latched) and state.drives
     drives = state.drives or after.reference is not None
+    begins = ours and (not state.drives or state.silent is not None) or _is_unheard(state.run, after, now)
     after = replace(after, arrival=now, silent=None, drives=ours, plant=plant, latency=latency)
-    return replace(output, latency=age, drives=drives), after
+    return replace(output, latency=age, drives=drives, begins=begins), after
 
 
 def watch(config: Config, state: State, now: float) -> tuple[Output | None, State]:
@@ -127,6 +128,16 @@ def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: fl
     if state.run is not None and state.run.ignored > OFF and now - state.referred > OFF:
         return _drop(state, WAS_OFF)
     return state
+
+
+def _is_unheard(before: Run | None, after: State, now: float) -> bool:
+    """Whether the plant still applies 0 V to a fresh reference: it may not have heard the 0 V that voltages begin with.
+
+    True now and then for as long as the reference is fresh: who has just asked for a motion means it.
+    """
+    if before is None or after.run is None or now - after.referred > OFF:
+        return False
+    return before.ignored // law.IGNORED_TIME < after.run.ignored // law.IGNORED_TIME
 
 
 def _answer(config: Config, state: State, sample: Sample, age: float) -> tuple[Output, State]:

@@ -23,6 +23,7 @@ class Output:
     fault: str = ""  # why the motor has to stop for good
     latency: float = nan  # [s] age of the sample; NaN: there was none
     drives: bool = False  # the voltage is to be sent: without a reference the motor is left to others
+    begins: bool = False  # 0 V is to be sent before it: a plant drives with what begins at 0 V
 
 
 def halt(state: str, reason: str, reference: float, speed: float) -> Output:

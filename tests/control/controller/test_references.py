@@ -117,3 +117,31 @@ def test_a_sample_that_is_too_old_is_answered_with_zero_and_its_age() -> None:
     assert late.latency == pytest.approx(0.1, abs=3e-3) and "ms old and latency_limit is 20 ms" in late.reason
     in_time, _ = feed(state, [205], later=0.01)
     assert in_time.state == RUNNING and in_time.terms.voltage > 0.0 and in_time.latency < 0.02
+
+
+def begins(state: State, times: range, fresh: float | None = None, on: bool = True) -> tuple[list[int], State]:
+    """When [ms] 0 V is sent before the voltage."""
+    found = []
+    for time in times:
+        output, state = feed(state, [time], fresh if time == times[0] else None, on=on)
+        found += [time] * output.begins
+    return found, state
+
+
+def test_voltages_begin_at_zero_and_again_where_the_plant_has_not_heard_it() -> None:
+    """A plant that was started again may find the controller a moment later than the controller finds it."""
+    found, state = begins(State(), range(0, 200, 5), 60.0)
+    assert found == [0]
+    found, state = begins(controller.release(state)[1], range(200, 400, 5))
+    assert found == []
+    found, state = begins(state, range(400, 1400, 5), 60.0, on=False)
+    assert found[0] == 400 and 6 <= len(found[1:]) <= 12 and found[-1] <= 900  # as long as the reference is fresh
+    _, state = feed(running(), [200])
+    assert begins(state, range(800, 1000, 5), on=False)[0] == []  # a plant that was on and is not: somebody wants that
+
+
+def test_voltages_begin_anew_after_silence() -> None:
+    state = running()
+    _, state = controller.watch(CONFIG, state, 0.4)
+    output, state = feed(state, [400])
+    assert output.drives and output.begins
