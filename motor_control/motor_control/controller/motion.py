@@ -30,10 +30,16 @@ class Motion:
     steady: float = 0.0  # [s] for which the motion has been steady
     steady_speed: float = 0.0  # of the last steady motion; 0: there was none
     steady_voltage: float = 0.0
+    most: float = 0.0  # largest average of the last 0.15 s so far
 
     def fastest(self, voltage_limit: float) -> float:
-        """Give the least top speed [rad/s] that the last steady motion proves; infinite: there was none."""
-        return self.steady_speed / self.steady_voltage * voltage_limit if self.steady_voltage > 0.0 else inf
+        """Give the least top speed [rad/s] that the motion so far proves; infinite: there was no steady one.
+
+        A steady motion of little speed under a load proves little: the motor has been faster than that.
+        """
+        if self.steady_voltage <= 0.0:
+            return inf
+        return max(self.steady_speed / self.steady_voltage * voltage_limit, self.most)
 
 
 def follow_motion(
@@ -59,4 +65,5 @@ def follow_motion(
     calm &= sample.speed * sample.voltage > 0.0 and regular and silent < STANDSTILL
     steady = motion.steady + dt if calm else 0.0
     known = (slow_speed, slow_voltage) if steady >= STEADY_TIME else (motion.steady_speed, motion.steady_voltage)
-    return Motion(sample.edge_count, speed, slow_speed, slow_voltage, silent, edges, steady, *known)
+    most = max(motion.most, slow_speed) if regular else motion.most
+    return Motion(sample.edge_count, speed, slow_speed, slow_voltage, silent, edges, steady, *known, most)

@@ -207,7 +207,7 @@ def _allow(config: Config, run: Run, target: Target, speed: float, motion: Motio
         allowed = span.toward(target.reference, speed, limit, slow, run.reversing)
     if config.plug_limit >= 2.0:
         return allowed
-    learnt = motion.steady_voltage / motion.steady_speed if motion.steady_speed > 0.0 else 0.0
+    learnt = limit / motion.fastest(limit)  # 0: nothing is learnt yet
     back_emf = span.back_emf_of(speed, config.faults.kv or learnt, span.GIVE_UP * slow)
     return span.limit_plugging(allowed, back_emf, config.plug_limit * limit)
 

@@ -58,12 +58,12 @@ def check(config: Config, state: State, seen: Seen, regular: bool) -> tuple[str,
 
 
 def extrapolate_speed(config: Config, expected: float, seen: Seen) -> float:
-    """Extrapolate the last steady speed [rad/s] to a voltage, of which a load takes the spare one."""
+    """Extrapolate the last steady speed [rad/s] to a voltage, of which a load takes `spare`, or helped by it."""
     motion, voltage = seen.motion, abs(seen.sample.voltage)
     if voltage <= KEPT * motion.steady_voltage or motion.steady_voltage == 0.0:
         return 0.0
     spare = config.spare * seen.voltage_limit
-    final = motion.steady_speed * max((voltage - spare) / motion.steady_voltage, 1.0)
+    final = motion.steady_speed * max((voltage - spare) / (motion.steady_voltage + spare), 1.0)
     return min(final, expected + (final - expected) * (1.0 - exp(-seen.dt / SPIN_UP)))
 
 
