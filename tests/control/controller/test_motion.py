@@ -64,7 +64,7 @@ def test_edges_slower_than_a_standstill_teach_nothing() -> None:
 
 
 def test_a_slow_motion_under_a_load_does_not_make_the_motor_slow() -> None:
-    """4 % of the top speed at 17 % of the voltage: a top speed of 2.4 %, and so much back-EMF that nothing could brake."""
+    """4 % of the top speed at 17 % of the voltage: so much back-EMF was expected that nothing could brake."""
     fast, slow = [(100.0, 7.3)] * 200, [(4.0, 2.0)] * 200
     assert follow(slow)[-1].fastest(12.0) == pytest.approx(24.0, rel=0.15)
     assert follow(fast + slow)[-1].fastest(12.0) == pytest.approx(100.0, rel=0.05)
