@@ -6,10 +6,12 @@ from math import degrees
 
 from motor_identification.recording import Recording
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
+from motor_identification.sensor.white_noise import LEAST_SAMPLES
 from motor_model.sample import Measurement
 
 HELD = "The sensor gives a new speed every {} ms; what repeats it in between is left out."
 LATTICE = "Every speed is a multiple of {} rad/s ({} deg/s): {} counts a turn over {} ms are assumed."
+FEW = "There are too few speeds to tell their noise: {} rad/s is assumed."
 WHITE = "The speeds lie on no lattice of counts: white noise of {} rad/s, as between neighbours, is assumed."
 
 
@@ -30,6 +32,8 @@ def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
     held = [sensor for sensor, _ in sensors if sensor.frame > 0.0]
     counted = [sensor for sensor, known in sensors if sensor.step > 0.0 and not known]
     white = [sensor for sensor, known in sensors if sensor.sigma > 0.0 and not known]
+    told = [sensor for sensor in white if len(sensor.row) >= LEAST_SAMPLES]
+    few = [sensor for sensor in white if len(sensor.row) < LEAST_SAMPLES]
     parts = []
     if held:
         parts.append(HELD.format(_span((one.frame * 1e3 for one in held), "{:.3g}")))
@@ -41,8 +45,9 @@ def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
             _span((one.window * 1e3 for one in counted), "{:.4g}"),
         )
         parts.append(LATTICE.format(*numbers))
-    if white:
-        parts.append(WHITE.format(_span((one.sigma for one in white), "{:.2g}")))
+    for some, text in ((told, WHITE), (few, FEW)):
+        if some:
+            parts.append(text.format(_span((one.sigma for one in some), "{:.2g}")))
     return " ".join(parts)
 
 

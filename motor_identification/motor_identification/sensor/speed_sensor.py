@@ -16,6 +16,7 @@ from motor_identification.sensor.white_noise import estimate_white_noise
 NOISE_BEYOND, NOISE_BEYOND_DIGITS = 6.0, 1.5
 # Steps: what counts at both ends of chained windows leave between neighbours, as if it were white (20/6/12, root of).
 COUNT_NOISE = sqrt(20.0 / 6.0 / 12.0)
+UNTOLD = 0.01  # of the typical speed: the noise of values too few to tell it, such as those of a static curve
 PRINTED_UNITS = (1.0, radians(1.0), tau / 60.0, tau)  # rad/s, deg/s, rpm, turns/s
 SAME_DIGIT = 1e-3  # of a decade
 SAME_PERIOD = 1e-6  # relative: a window that was not said is set to the sample period
@@ -64,7 +65,8 @@ def _find_noise(values: Floats, voltage: Floats, edges: int, window: float) -> t
     beyond = NOISE_BEYOND_DIGITS if _is_last_digit(step) else NOISE_BEYOND
     if step > 0.0 and noise < beyond * COUNT_NOISE * step:
         return step, 0.0, round(tau / (step * window))
-    return 0.0, max(noise, step / sqrt(12.0)), 0
+    typical = sqrt(float(np.mean(values**2)))
+    return 0.0, max(noise, step / sqrt(12.0)) or UNTOLD * typical, 0
 
 
 def _is_last_digit(step: float) -> bool:

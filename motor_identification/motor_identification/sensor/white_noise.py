@@ -17,7 +17,7 @@ ORDERS = (2, 3, 4)
 PAST = 6  # samples and voltages before that predict the next one
 KEPT = 0.6  # of the differences, the smallest: reversals, starts and wrong samples are among the rest
 KEPT_SHARE = 0.2146  # of a normal distribution's variance, within its KEPT quantile (±0.842 σ)
-LEAST_SAMPLES = 20
+LEAST_SAMPLES = 24
 LEAST_PREDICTED = 100  # samples from which on a prediction with 2·PAST + 2 numbers is learned
 
 
@@ -27,7 +27,7 @@ def estimate_white_noise(values: Floats, voltage: Floats) -> float:
     voltage: [V] that held from each sample until the next, shape (K,). A torque that jumps from sample to sample counts
     as noise.
     """
-    if len(values) < LEAST_SAMPLES + ORDERS[-1]:
+    if len(values) < LEAST_SAMPLES:
         return 0.0
     found = [_trimmed_rms(np.diff(values, n=order)) / sqrt(comb(2 * order, order)) for order in ORDERS]
     if len(values) >= LEAST_PREDICTED:

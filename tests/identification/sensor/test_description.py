@@ -9,8 +9,8 @@ from motor_identification.sensor.description import describe_speed_sensors, note
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 
 
-def sensor(frame: float = 0.0, step: float = 0.0, sigma: float = 0.0) -> SpeedSensor:
-    return SpeedSensor(np.arange(3), np.arange(3.0), 0.02, 0.01, frame, step, sigma, 2800 if step else 0)
+def sensor(frame: float = 0.0, step: float = 0.0, sigma: float = 0.0, rows: int = 100) -> SpeedSensor:
+    return SpeedSensor(np.arange(rows), np.arange(float(rows)), 0.02, 0.01, frame, step, sigma, 2800 if step else 0)
 
 
 def said(*sensors: SpeedSensor, known: bool = False) -> str:
@@ -23,6 +23,9 @@ def test_every_kind_of_sensor_has_its_sentence() -> None:
     )
     assert said(sensor(sigma=0.123)) == (
         "The speeds lie on no lattice of counts: white noise of 0.12 rad/s, as between neighbours, is assumed."
+    )
+    assert said(sensor(sigma=0.123, rows=14)) == (
+        "There are too few speeds to tell their noise: 0.12 rad/s is assumed."
     )
     assert said(sensor(frame=0.02), known=True) == (
         "The sensor gives a new speed every 20 ms; what repeats it in between is left out."

@@ -9,7 +9,7 @@ from recorded import as_speed, without_count
 from swinging import noisy, recorded
 
 from motor_identification.measurement.build_intervals import make_intervals
-from motor_identification.sensor.speed_sensor import COUNT_NOISE, NOISE_BEYOND_DIGITS, find_speed_sensor
+from motor_identification.sensor.speed_sensor import COUNT_NOISE, NOISE_BEYOND_DIGITS, UNTOLD, find_speed_sensor
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -65,3 +65,9 @@ def test_what_was_said_is_not_looked_for() -> None:
     assert find_speed_sensor(said).step == pytest.approx(tau / 100 / 0.02) and find_speed_sensor(said).sigma == 0.0
     point = replace(noisy(0.5), info=replace(noisy(0.5).info, speed_window=0.0, speed_lag=0.0))
     assert find_speed_sensor(point).window == 0.02 and find_speed_sensor(point).lag == 0.0
+
+
+def test_a_dozen_speeds_are_good_to_a_hundredth() -> None:
+    few = noisy(0.5).at_rows(np.arange(100, 112))
+    assert find_speed_sensor(few).sigma == pytest.approx(UNTOLD * np.sqrt(np.mean(few.speed**2)))
+    assert make_intervals(few).sigma == pytest.approx(find_speed_sensor(few).sigma, rel=1e-6)
