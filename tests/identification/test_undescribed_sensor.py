@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from swinging import RUBBING, noisy
+from swinging import RUBBING, held_late, noisy
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Verdict
@@ -26,3 +26,14 @@ def test_friction_is_named_beside_white_noise_and_nothing_where_there_is_none() 
     found = diagnose([check(noisy(1.0))])
     assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED
     assert 0.87 < found.gap_after / found.noise_floor < 1.1 and 0.9 < found.noise_floor < 1.15
+
+
+def test_a_sensor_that_is_held_and_late_is_a_delay() -> None:
+    """Frames of 20 ms, 80 ms late, in a log of 5 ms; a motor with a time constant of 0.3 s."""
+    log = check(held_late(noisy(0.3, ka=0.02), rows=4, late=16))
+    found = diagnose([log])
+    named = {one.effect: one.parameters for one in found.findings}
+    assert set(named) == {"coulomb_friction", "transport_delay"} and found.verdict is Verdict.EXPLAINED
+    assert 0.079 < named["transport_delay"]["delay"][0] < 0.081
+    assert 0.47 < named["coulomb_friction"]["ks"][0] < 0.53
+    assert "gives a new speed every 20 ms" in found.model.notes[0]

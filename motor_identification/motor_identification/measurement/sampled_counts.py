@@ -13,18 +13,21 @@ Stamps of samples that jitter by σ_t blur every fix by ω·σ_t more.
 """
 
 from dataclasses import dataclass, replace
-from math import sqrt
+from math import inf, sqrt
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from motor_identification.measurement.edges import Edges, move_reversals_to_slowest, read_directions
 from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_identification.sensor.white_noise import estimate_white_noise
 
 UNIFORM_SIGMA = 1.0 / sqrt(12.0)  # standard deviation of what is uniform over 1
 RATE_NEIGHBOURS = 3  # changes on either side that tell how fast the disc turns
 JITTER_WINDOW = 7  # fixes that a parabola is laid through, to see how far stamps jitter
 CHI2_MEDIAN_SHARE = 0.839  # median over mean of χ² with JITTER_WINDOW − 3 degrees of freedom
+# Times the variance that counting leaves in a prediction from 6 counts before: that of a line, carried on by one.
+PREDICTED_RATIO = 1.9
 JITTER_RATIO = 1.8  # times the variance that counting leaves, from which on stamps are said to jitter
 
 
@@ -113,7 +116,20 @@ def locate_fixes(recording: Recording, changes: Changes) -> Fixes:
     order, which = np.argsort(at, kind="stable"), np.concatenate([k, c])
     run, way = changes.run[follows[which]], changes.way[follows[which]]
     fixes = Fixes(at[order], place[order], blur[order], run[order], way[order], rate[which][order])
-    return replace(fixes, blur=np.hypot(fixes.blur, estimate_stamp_jitter(fixes) * fixes.rate))
+    jitter = min(estimate_stamp_jitter(fixes), _bound_jitter(recording, fixes))
+    return replace(fixes, blur=np.hypot(fixes.blur, jitter * fixes.rate))
+
+
+def _bound_jitter(recording: Recording, fixes: Fixes) -> float:
+    """[s] that stamps jitter by at most: samples and voltages before predict a count better than jitter would let them.
+
+    No parabola follows a motor whose voltage jumps more often than it is sampled.
+    """
+    noise = estimate_white_noise(recording.edge_count.astype(np.float64), recording.voltage)
+    fast = float(np.quantile(fixes.rate, 0.75))
+    if noise <= 0.0 or fast <= 0.0:
+        return inf
+    return sqrt(max(noise**2 - PREDICTED_RATIO * UNIFORM_SIGMA**2, 0.0)) / fast
 
 
 def _within(changes: Changes, follows: Integers, samples: int) -> Bools:

@@ -6,6 +6,8 @@ from math import sqrt
 import numpy as np
 import pytest
 from handmade import PERIOD, turning
+from plant import profiles, record
+from recorded import as_counts
 
 from motor_identification.measurement.sampled_counts import (
     JITTER_WINDOW,
@@ -17,6 +19,7 @@ from motor_identification.measurement.sampled_counts import (
     part_returns,
 )
 from motor_identification.recording import Floats
+from motor_model.parameters import PAPER_KA, PAPER_KV
 from motor_model.sample import Measurement
 
 
@@ -82,3 +85,13 @@ def test_the_first_change_after_a_turn_stands_alone() -> None:
     assert part_returns(straight).run.tolist() == [0, 0, 0]
     rocking = part_returns(number_runs(np.arange(4), np.array([1, -1, 1, -1])))
     assert rocking.run.tolist() == [0, 1, 2, 3]
+
+
+def test_a_motor_that_follows_a_jumping_voltage_shows_no_jitter() -> None:
+    """Its motion within seven samples is no parabola; samples and voltages before foresee it all the same."""
+    drive = profiles.pieces(np.random.default_rng(0).uniform(-6.0, 6.0, 500), np.full(500, 0.02))
+    recording, _ = record({"kv": PAPER_KV, "ka": PAPER_KA}, *drive, sample_rate=50.0, edges=960, single_channel=False)
+    sampled = as_counts(recording)
+    fixes = locate_fixes(sampled, extract_count_changes(sampled))
+    assert estimate_stamp_jitter(replace(fixes, blur=np.full(len(fixes), UNIFORM_SIGMA))) > 1e-3
+    assert np.median(fixes.blur) == pytest.approx(UNIFORM_SIGMA, rel=0.2)
