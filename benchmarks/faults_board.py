@@ -219,9 +219,9 @@ BOARD_FAULTS = (
 )
 
 
-def run_on_board(fault: BoardFault, rate: float) -> Outcome:
-    """What a fault does to the motor on the emulated board's pins."""
-    loop = BoardLoop(rate, channels=fault.channels)
+def run_on_board(fault: BoardFault, motor: Motor, rate: float) -> Outcome:
+    """What a fault does to a motor on the emulated board's pins."""
+    loop = BoardLoop(rate, motor, channels=fault.channels)
     loop.run(0.6)
     if fault.raw:
         loop.raw = 0.0

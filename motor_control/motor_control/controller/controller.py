@@ -147,16 +147,16 @@ def _answer(config: Config, state: State, sample: Sample, age: float) -> tuple[O
     shown = nan if reference is None else reference
     if reference is None or name != RUNNING:
         return replace(halt(name, reason, shown, sample.speed), warning=bool(state.dropped)), replace(state, run=None)
-    run = _continue_run(config, state, sample)
-    if age > config.latency_limit:  # what it says is over; the run goes on with the next one that is in time
-        late = halt(STOPPED, STALE.format(1e3 * age, 1e3 * config.latency_limit), shown, sample.speed)
-        return late, replace(state, run=replace(run, asked=0.0))
-    output, run = law.step(config, run, sample, reference)
+    late = age > config.latency_limit
+    output, run = law.step(config, _continue_run(config, state, sample), sample, reference, late)
     if output.fault:
         stopped = halt(STOPPED, CALL_RESET.format(output.fault), output.reference, output.speed)
         return replace(stopped, fault=output.fault), stop(replace(state, motion=run.motion), output.fault)
     if output.state != RUNNING:
         return output, replace(state, run=None)
+    if late:  # what it says is over; the run goes on with the next one that is in time
+        output = halt(STOPPED, STALE.format(1e3 * age, 1e3 * config.latency_limit), shown, sample.speed)
+        run = replace(run, asked=0.0, paused=True)
     return output, replace(state, run=run, motion=run.motion)
 
 

@@ -88,6 +88,7 @@ class Run:
     ignored: float = 0.0  # [s] for which the plant has applied nothing of what was asked
     faults: detection.State = detection.State()
     begins: bool = False  # with this sample: the reference has a sample period to start in
+    paused: bool = False  # 0 V was sent since this sample, whatever the law said: the integral has no part in the error
 
 
 class Target(NamedTuple):
@@ -107,14 +108,14 @@ def begin(config: Config, sample: Sample, motion: Motion | None = None) -> Run:
     return Run(config, sample.sample_time, sample.speed, pi.State(), motion, watched=watched, faults=state, begins=True)
 
 
-def step(config: Config, run: Run, sample: Sample, wanted: float) -> tuple[Output, Run]:
-    """Answer a sample, towards a wanted speed [rad/s]; all finite.
+def step(config: Config, run: Run, sample: Sample, wanted: float, pauses: bool = False) -> tuple[Output, Run]:
+    """Answer a sample, towards a wanted speed [rad/s]; all finite. pauses: 0 V will be sent all the same.
 
     Where the settings have changed since the last sample, the integral takes up what would make the voltage jump, as
     far as its own bound lets it.
     """
     if run.config is config:
-        return _apply_law(config, run, sample, wanted)
+        return _apply_law(config, run, sample, wanted, hold=pauses or run.paused)
     before, _ = _apply_law(run.config, run, sample, wanted)
     run = replace(run, config=config, watched=_hand_over(run, config, sample))
     terms = _apply_law(config, run, sample, wanted, hold=True)[0].terms

@@ -2,8 +2,13 @@
 
 import numpy as np
 import pytest
+from bench_board import DEFAULTS, motor
 
+from motor_control.controller import controller
 from motor_control.controller.latency import DRIFT, LatencyState, track_latency
+from motor_control.parameters import config_of
+from motor_model.sample import Sample
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
 
 def ages(arrivals: list[float], rate: float = 200.0, offset: float = 7.0, pace: float = 1.0) -> list[float]:
@@ -46,3 +51,23 @@ def test_a_plant_whose_clock_stood_still_is_not_late_for_ever(pause: float, late
     age, state = track_latency(state, 5_000_000, 5.005 + pause)
     assert (age > 0.5 * pause) == late
     assert (track_latency(state, 10_000_000, 5.01 + pause)[0] > 0.05) == late
+
+
+@pytest.mark.parametrize("rate", [200.0, 1000.0])
+def test_a_loop_that_was_held_up_does_not_swing(rate: float) -> None:
+    """Held up for 30 ms, a late sample answered, held up for 60 ms under its 0 V: at 200 Hz 23 % too fast after that."""
+    board = BoardConfig(sample_rate=rate)
+    simulated, config = SimulatedBoard(motor(), board), config_of(DEFAULTS, board.info(motor()))
+    state, voltage, waiting, stay = controller.State(), 0.0, round(0.03 * rate), round(0.09 * rate)
+    speeds, reasons, late = [], [], Sample(0, 0.0, 0.0)
+    for k in range(round(2.0 * rate)):
+        time, since, sample = k / rate, k - round(rate), simulated.sample(voltage)
+        late = sample if since == 0 else late
+        if since == waiting or not 0 <= since < stay:
+            answered = late if since == waiting else sample
+            output, state = controller.update(config, state, answered, 50.0 if k == 0 else None, time)
+            voltage = output.terms.voltage
+            reasons.append(output.reason)
+        speeds.append(simulated.speed if since >= 0 else 50.0)
+    assert sum("ms old" in reason for reason in reasons) == 1
+    assert min(speeds) < 30.0 and 50.0 < max(speeds) < 55.0
