@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from servo import AXIS, record_servo
 from swinging import RUBBING, held_late, noisy
 
 from motor_identification.diagnose import diagnose
@@ -37,3 +38,11 @@ def test_a_sensor_that_is_held_and_late_is_a_delay() -> None:
     assert 0.079 < named["transport_delay"]["delay"][0] < 0.081
     assert 0.47 < named["coulomb_friction"]["ks"][0] < 0.53
     assert "gives a new speed every 20 ms" in found.model.notes[0]
+
+
+def test_a_scale_of_50_nm_fits_the_axis() -> None:
+    """A sensor finer than anything else leaves the random force alone: within 5 % of the truth."""
+    fit = identify([record_servo(duration=10.0)[0]], Request(("coulomb_friction", "load_bias")))
+    for name, value in AXIS.items():
+        assert fit.parameters.values[name] == pytest.approx(value, rel=0.05)
+        assert fit.parameters.values[name] != pytest.approx(value, rel=1e-6)

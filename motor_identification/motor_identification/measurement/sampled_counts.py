@@ -28,6 +28,7 @@ JITTER_WINDOW = 7  # fixes that a parabola is laid through, to see how far stamp
 CHI2_MEDIAN_SHARE = 0.839  # median over mean of χ² with JITTER_WINDOW − 3 degrees of freedom
 # Times the variance that counting leaves in a prediction from 6 counts before: that of a line, carried on by one.
 PREDICTED_RATIO = 1.9
+EVEN_ROWS = 0.05  # of a row: how far they may be from even for that
 JITTER_RATIO = 1.8  # times the variance that counting leaves, from which on stamps are said to jitter
 
 
@@ -121,13 +122,12 @@ def locate_fixes(recording: Recording, changes: Changes) -> Fixes:
 
 
 def _bound_jitter(recording: Recording, fixes: Fixes) -> float:
-    """[s] that stamps jitter by at most: samples and voltages before predict a count better than jitter would let them.
-
-    No parabola follows a motor whose voltage jumps more often than it is sampled.
-    """
+    """[s] that stamps of even rows jitter at most: a count is predicted from those and voltages before, where a motor
+    whose voltage jumps follows no parabola."""
+    early, late = np.quantile(np.diff(recording.time), (0.05, 0.95))
     noise = estimate_white_noise(recording.edge_count.astype(np.float64), recording.voltage)
     fast = float(np.quantile(fixes.rate, 0.75))
-    if noise <= 0.0 or fast <= 0.0:
+    if late - early > EVEN_ROWS * early or noise <= 0.0 or fast <= 0.0:
         return inf
     return sqrt(max(noise**2 - PREDICTED_RATIO * UNIFORM_SIGMA**2, 0.0)) / fast
 
