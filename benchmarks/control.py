@@ -14,6 +14,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matric
 
 import numpy as np
 from control_figure import draw
+from control_identified import table as identified_table
 from control_loop import BREAKAWAY, FAST, MOTOR, PAPERS, PERIOD, SLOW, TAU, Loop
 from machine import machine
 
@@ -162,6 +163,7 @@ def main() -> int:
     lines += ["", "## Reference through zero", "", "| controller | ramp | largest voltage jump | RMS error |"]
     lines += ["|---|---:|---:|---:|"]
     lines += [f"| {n} | {a:g} rad/s² | {zeros[n, a][0]:.2f} V | {zeros[n, a][1]:.2f} rad/s |" for n, a in zeros]
+    lines += identified_table()
     lines += ["", "## Requirements", "", "| claim | measured | |", "|---|---:|---|"]
     for loop in (SLOW, FAST):
         slow = max(found[loop.name, speed][0] for speed in (3.0, -3.0))

@@ -1,131 +1,17 @@
-"""The same loop around the emulated board: the real firmware, the driver's logic and the controller, in lockstep.
-
-The pins of the emulated chip are looked at on its own clock. The port is looked at every quarter of a millisecond.
-"""
+"""The faults of `faults.py` on the emulated board, as a table: what happens, how long it may last."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
-from faults_loop import DEFAULTS, TIMEOUT, Moment, Outcome, outcome
-from faults_motor import MOTORS, Motor
+from faults_board_loop import BoardLoop
+from faults_loop import Outcome, outcome
+from faults_motor import Motor
 from faults_rows import KNOWN, MOTION
 
-from motor_board.build import FirmwareConfig, firmware
-from motor_board.chip import FREQUENCY, Hang, Line
-from motor_board.emulator import Emulator
-from motor_board.shaft import Edges, EncoderConfig
-from motor_control.controller import controller
-from motor_control.parameters import config_of
-from motor_driver.config import Config
-from motor_driver.driver import Driver
+from motor_board.chip import Hang, Line
+from motor_board.shaft import Edges
 from motor_model.effects import INDEX
-from motor_ros.gate import Gate
-
-LOOK = FREQUENCY // 4000  # [cycle]
-REPEAT = 0.01  # [s] the driver's own timer
-
-
-@dataclass
-class BoardLoop:
-    """Everything between a reference and the pins; faults are switched by whoever runs it."""
-
-    rate: float  # [Hz]
-    motor: Motor = MOTORS[2]
-    channels: int = 1
-    supply: float = 0.0  # [V] 0: the motor's voltage, and not measured
-    alive: bool = True  # the controller
-    driving: bool = True  # the driver
-    plugged: bool = True
-    stuck: bool = False  # telemetry
-    raw: float | None = None  # [V] sent in the controller's place
-    reference: float | None = None  # [rad/s] to be sent once
-    moments: list[Moment] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        scale = 60_000 if self.supply else 0
-        build = FirmwareConfig(edges_per_revolution=96, channels=self.channels, supply_full_scale=scale)
-        encoder = EncoderConfig(seed=3, channels=self.channels, slot_irregularity=0.01)
-        self.emulator = Emulator(firmware(build), self.motor.parameters(self.supply), encoder)
-        self.emulator.chip.supply(5.0 * self.supply / 60.0)
-        self.start()
-        self.state, self._reason, self._sent, self._worked = controller.State(), "", 0, 0.0
-
-    def start(self) -> None:
-        """The driver starts, or starts again."""
-        config = Config(sample_rate=self.rate, single_channel=self.channels == 1, max_voltage=self.motor.voltage)
-        self.driver, self.gate, self._begun = Driver(config), Gate(True, TIMEOUT, 1.0 / self.rate), 0
-        self.driver.opened("the port", self._now)
-
-    @property
-    def time(self) -> float:
-        """[s]."""
-        return self.emulator.chip.cycle / FREQUENCY
-
-    @property
-    def _now(self) -> int:
-        return 1 + self.emulator.chip.cycle * 125 // 2
-
-    def run(self, seconds: float) -> None:
-        """Let time pass."""
-        end = self.emulator.chip.cycle + round(seconds * FREQUENCY)
-        while self.emulator.chip.cycle < end:
-            self._step()
-
-    def _step(self) -> None:
-        self.emulator.run(self.emulator.chip.cycle + LOOK)
-        data = self.emulator.chip.drain()
-        if self.driving:
-            self._drive(b"" if self.stuck or not self.plugged else data)
-        shaft, said = self.emulator.shaft, self.gate.problem(self._now) or self._reason
-        self.moments.append(Moment(self.time, shaft.voltage, shaft.speed, said))
-
-    def _drive(self, data: bytes) -> None:
-        readings = self.driver.received(data, self._now) if data and self.driver.session else []
-        if self.driver.runs_begun > self._begun:
-            self._begun, self.gate = self.driver.runs_begun, self.gate.come_up(self._now)
-        for reading in readings:
-            self._answer(reading.sample)
-        if not readings and self.time - self._worked < REPEAT:
-            return
-        self._worked = self.time
-        self._watch()
-        order = self.driver.step(self._now, self.gate.enabled, self.gate.voltage(self._now))
-        if order.stop:
-            self.gate = self.gate.stop(order.stop)
-        if self.plugged:
-            self.emulator.chip.feed(order.data)
-
-    def _answer(self, sample) -> None:  # type: ignore[no-untyped-def]
-        if self.raw is not None:
-            self._reason = ""
-            self._command(self.raw)
-        elif self.alive:
-            values = {**DEFAULTS, **self.motor.settings(self.driver.info, model=False)}
-            fresh, self.reference = self.reference, None
-            config = config_of(values, self.driver.info)  # type: ignore[arg-type]
-            output, self.state = controller.update(config, self.state, sample, fresh, self.time)
-            self._take(output)
-
-    def _watch(self) -> None:
-        if self.alive and self.raw is None:
-            values = {**DEFAULTS, **self.motor.settings(self.driver.info, model=False)}
-            output, self.state = controller.watch(
-                config_of(values, self.driver.info),  # type: ignore[arg-type]
-                self.state,
-                self.time,
-            )
-            if output is not None:
-                self._take(output)
-
-    def _take(self, output) -> None:  # type: ignore[no-untyped-def]
-        self._reason = output.reason if output.state != "running" else ""
-        if output.drives:
-            self._command(output.terms.voltage)
-
-    def _command(self, voltage: float) -> None:
-        self._sent += 1
-        self.gate = self.gate.take(voltage, self._now, "", self._sent)
 
 
 @dataclass(frozen=True)

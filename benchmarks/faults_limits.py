@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
-from faults_board import BoardLoop
+from faults_board_loop import BoardLoop
 from faults_loop import Loop
 from faults_motor import MOTORS
 

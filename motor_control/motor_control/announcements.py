@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from math import inf, isfinite, isnan
 
 from motor_control.controller.output import DISABLED, RUNNING, Output
-from motor_control.controller.speed_law import Config
+from motor_control.controller.run import Config
 
 SATURATED_TIME = 1.0  # [s] of all the voltage, and still slower than the reference: that is no transient
 QUIET = 2.0  # [s] in which the same line is not said again, whatever its numbers

@@ -4,7 +4,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from std_msgs.msg import Header
 
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output
-from motor_control.controller.speed_law import Config
+from motor_control.controller.run import Config
 from motor_msgs.msg import ControlState
 
 LEVELS = {

@@ -7,7 +7,7 @@ from math import isfinite, tau
 from motor_control.controller import pi
 from motor_control.controller.faults.evidence import SPARE, SPARE_SINGLE
 from motor_control.controller.faults.evidence import Config as FaultConfig
-from motor_control.controller.speed_law import Config
+from motor_control.controller.run import Config
 from motor_model.errors import MotorError
 from motor_model.model_file import load
 from motor_model.parameters import Parameters

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from motor_control.controller.speed_law import Config
+from motor_control.controller.run import Config
 from motor_control.parameters import config_of, model_of
 from motor_control.preparation import Preparation
 from motor_model.sample import Info

@@ -9,12 +9,11 @@ import time
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
-from typing import TypeAlias
 
 import serial
 from serial.tools import list_ports
 
+from motor_driver.link_events import Closed, Event, Opened, Received
 from motor_model.errors import MotorError
 
 LOOK_AGAIN = 0.1  # [s] for a port that is not there
@@ -23,32 +22,7 @@ END = 0.5  # [s] that the thread may take to end
 MOST_READ = 4096  # [byte] at once
 
 
-@dataclass(frozen=True, slots=True)
-class Opened:
-    """The port was opened."""
-
-    port: str
-    at: int  # [ns] time.monotonic_ns
-
-
-@dataclass(frozen=True, slots=True)
-class Received:
-    """Bytes were read."""
-
-    data: bytes
-    at: int  # [ns]
-
-
-@dataclass(frozen=True, slots=True)
-class Closed:
-    """The port is gone or cannot be opened; `why` is a sentence that names the cure."""
-
-    why: str
-
-
 FAILED = "The serial port has failed ({}): see the cable, or end what else uses the port; retrying."
-
-Event: TypeAlias = Opened | Received | Closed
 
 
 class PortError(MotorError):

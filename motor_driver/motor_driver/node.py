@@ -6,7 +6,8 @@ from rclpy.node import Node
 
 from motor_driver import status
 from motor_driver.driver import Driver, Reading
-from motor_driver.link import Closed, Event, Link, Opened, Received
+from motor_driver.link import Link
+from motor_driver.link_events import Closed, Event, Opened, Received
 from motor_driver.parameters import PROGRAM, ROWS, config_of
 from motor_ros.gate import Gate
 from motor_ros.messages import time_message

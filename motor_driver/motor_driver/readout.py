@@ -69,4 +69,5 @@ class Readout:
     def duty(self, voltage: float) -> int:
         """What to command for a voltage [V]: no more than the motor's, and than the supply gives."""
         limit = min(self._config.max_voltage, self.supply)
-        return round(min(max(voltage, -limit), limit) / self.supply * self._top)
+        most = int(limit / self.supply * self._top)  # rounded down: half a step more is more than the motor's
+        return min(max(round(min(max(voltage, -limit), limit) / self.supply * self._top), -most), most)

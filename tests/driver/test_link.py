@@ -16,7 +16,8 @@ from patience import PATIENCE
 
 from motor_board.port import Port
 from motor_driver import link
-from motor_driver.link import Closed, Event, Link, Opened, PortError, Received, candidates, open_port
+from motor_driver.link import Link, PortError, candidates, open_port
+from motor_driver.link_events import Closed, Event, Opened, Received
 
 
 class Listener:

@@ -5,6 +5,8 @@ from math import isnan, tau
 
 import pytest
 from board_frames import HELLO, TELEMETRY
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from motor_driver.config import Config
 from motor_driver.frames import Flag, Telemetry
@@ -64,3 +66,22 @@ def test_a_board_that_starts_anew_counts_from_0() -> None:
     after = board.sample(replace(TELEMETRY, time=2_000, edge_count=5))
     assert (before.edge_count, after.edge_count) == (100, 5)
     assert after.sample_time - before.sample_time == 10_000 * 500  # the host's clock bridges the reset
+
+
+@settings(deadline=None, max_examples=300)
+@given(
+    wanted=st.floats(allow_nan=False),
+    motor=st.floats(0.1, 100.0),
+    said=st.just(0.0) | st.floats(0.1, 100.0),
+    measured=st.none() | st.integers(0, 60_000),
+)
+def test_no_duty_gives_the_motor_more_than_its_voltage(
+    wanted: float, motor: float, said: float, measured: int | None
+) -> None:
+    """Whatever is asked for and whatever the supply is; a supply of 25 V gave a 12 V motor 12.01 V by rounding."""
+    board = readout(Config(max_voltage=motor, supply_voltage=said))
+    if measured is not None:
+        heard(board, replace(TELEMETRY, supply=measured))
+    duty = board.duty(wanted)
+    assert -256 <= duty <= 256 and duty * wanted >= 0.0
+    assert abs(duty) / 256 * board.supply <= motor * (1.0 + 1e-12)

@@ -16,7 +16,7 @@ from motor_control.controller.latency import LatencyState, track_latency
 from motor_control.controller.motion import Motion
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
 from motor_control.controller.plant_watch import PlantWatch, watch_plant
-from motor_control.controller.speed_law import Config, Run
+from motor_control.controller.run import Config, Run, begin
 from motor_model.sample import Sample
 
 REPEAT_SILENCE = 0.2  # [s] how often it is said again that no samples come
@@ -185,7 +185,7 @@ def _continue_run(config: Config, state: State, sample: Sample) -> Run:
     run = state.run
     if run is not None and 0 <= sample.sample_time - run.sample_time <= config.sample_timeout * 1e9:
         return run
-    return law.begin(config, sample, state.motion)
+    return begin(config, sample, state.motion)
 
 
 Change = Callable[[State], tuple[str, State]]

@@ -8,23 +8,22 @@ while the motor stands, where no load can be told, the integral does its work un
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from math import exp, inf, isfinite, nan
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from motor_control.checks import at_least
 from motor_control.controller import pi
 from motor_control.controller import voltage_range as span
 from motor_control.controller.faults import detection
-from motor_control.controller.faults.evidence import Config as FaultConfig
 from motor_control.controller.faults.evidence import Seen
 from motor_control.controller.motion import Motion, follow_motion
 from motor_control.controller.output import RUNNING, STOPPED, Output, halt
+from motor_control.controller.reference_ramp import Target, approach
+from motor_control.controller.run import Config, Run, begin
 from motor_model.sample import Sample
 
 if TYPE_CHECKING:  # they compile; who has no model does not wait for that
-    from motor_control.controller.feedforward import FeedForward
-    from motor_control.controller.observer import Estimate, Observer
+    from motor_control.controller.observer import Estimate
     from motor_control.controller.observer import State as Watched
 
 BRAKING = "0 V until the motor turns slower than {:.3g} rad/s: with a single channel a brake would lose the direction."
@@ -36,76 +35,6 @@ REVERSAL_SHARE = (
     0.06  # of the top speed: the paper's motor stops within a slot from there, an edge or two show its turn
 )
 REVERSAL_EDGES = 150.0  # [edges/s], where the top speed is not known
-
-
-@dataclass(frozen=True, slots=True)
-class Config:
-    """How to control.
-
-    Raises:
-        MotorError: a value is negative or not finite.
-    """
-
-    gains: pi.Config
-    voltage_limit: float  # [V]
-    sample_timeout: float  # [s] silence after which there is no plant
-    reference_rate_limit: float  # [rad/s²] 0: none
-    reversal_speed: (
-        float  # [rad/s] a single-channel motor faster than this is not pushed against its motion; 0: by itself
-    )
-    single_channel: bool = True  # the encoder does not measure direction
-    faults: FaultConfig = FaultConfig()
-    observer: Observer | None = None  # None: the law goes by the reported speed
-    feedforward: FeedForward | None = None
-    note: str = ""  # what was asked for and cannot be had
-    plug_limit: float = 2.0  # of voltage_limit: largest difference of voltage and back-EMF against a motion; 2: any
-    latency_limit: float = inf  # [s] age of a sample that is too old to act on
-    reference_timeout: float = 0.0  # [s] after which a reference is dropped; 0: never
-    sample_period: float = 0.0  # [s] 0: not known
-    gentle: float = 0.0  # [s] steps that the rate limit does in this time are left to the loop: no slope is fed forward
-    unusable: str = ""  # what the plant says of itself and cannot be
-    resting: pi.Config = field(init=False, repr=False)  # the gains without the integral's
-
-    def __post_init__(self) -> None:
-        at_least(0.0, voltage_limit=self.voltage_limit, sample_timeout=self.sample_timeout)
-        at_least(0.0, reference_rate_limit=self.reference_rate_limit, reversal_speed=self.reversal_speed)
-        at_least(0.0, plug_limit=self.plug_limit, reference_timeout=self.reference_timeout)
-        object.__setattr__(self, "resting", replace(self.gains, ki=0.0))
-
-
-@dataclass(frozen=True, slots=True)
-class Run:
-    """What is remembered from one sample to the next while running; a run ends with every stop, gap and restart."""
-
-    config: Config
-    sample_time: int  # [ns]
-    reference: float  # [rad/s] behind the rate limit
-    law: pi.State
-    motion: Motion
-    reversing: bool = False
-    watched: Watched | None = None  # the observer's
-    asked: float = 0.0  # [V] the latest answer
-    ignored: float = 0.0  # [s] for which the plant has applied nothing of what was asked
-    faults: detection.State = detection.State()
-    begins: bool = False  # with this sample: the reference has a sample period to start in
-    paused: bool = False  # 0 V was sent since this sample, whatever the law said: the integral has no part in the error
-
-
-class Target(NamedTuple):
-    """Where the speed shall be at this sample."""
-
-    reference: float  # [rad/s] behind the rate limit
-    slope: float  # [rad/s²]
-
-
-def begin(config: Config, sample: Sample, motion: Motion | None = None) -> Run:
-    """Begin a run at the motor's own speed; motion: what is known of the motor from before."""
-    known = motion or Motion()
-    motion = replace(known, edge_count=sample.edge_count, speed=abs(sample.speed), slow_speed=abs(sample.speed))
-    motion = replace(motion, steady=0.0, silent=0.0, edges=0, slow_voltage=abs(sample.voltage))
-    watched = config.observer.begin(sample, sample.speed) if config.observer else None
-    state = detection.begin(sample.speed)
-    return Run(config, sample.sample_time, sample.speed, pi.State(), motion, watched=watched, faults=state, begins=True)
 
 
 def step(config: Config, run: Run, sample: Sample, wanted: float, pauses: bool = False) -> tuple[Output, Run]:
@@ -229,15 +158,3 @@ def _compute_terms(
             leak = gains.ki / gains.kp if gains.kp > 0.0 else gains.ki
             law, gains = pi.State(law.integral * exp(-dt * min(leak, 1e6))), config.resting
     return pi.update(gains, law, reference - speed, forward, dt, allowed.low, allowed.high)
-
-
-def approach(wanted: float, start: float, rate: float, dt: float, gentle: float = 0.0) -> Target:
-    """Let a reference [rad/s] through as far as the rate limit [rad/s²] lets it; 0 is no limit.
-
-    The slope of a step that takes less than `gentle` [s] is given as 0: feeding it forward would be a kick.
-    """
-    if rate == 0.0:
-        return Target(wanted, 0.0)
-    reference = start + min(max(wanted - start, -rate * dt), rate * dt)
-    feed = dt > 0.0 and abs(wanted - start) >= rate * gentle
-    return Target(reference, (reference - start) / dt if feed else 0.0)

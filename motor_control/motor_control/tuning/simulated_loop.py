@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_control.controller import controller
-from motor_control.controller.speed_law import Config
+from motor_control.controller.run import Config
 from motor_model.parameters import Parameters
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 

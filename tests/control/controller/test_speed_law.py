@@ -4,21 +4,14 @@ from dataclasses import replace
 from math import tau
 
 import pytest
-from bench_board import DEFAULTS, motor, settings
+from bench_board import DEFAULTS
 
 from motor_control.controller.motion import Motion
-from motor_control.controller.speed_law import approach, begin, reversal_speed_of, step
+from motor_control.controller.run import begin
+from motor_control.controller.speed_law import reversal_speed_of, step
 from motor_control.parameters import config_of
 from motor_model.parameters import PAPER_KV, paper_motor
 from motor_model.sample import Info, Sample
-
-
-def test_the_rate_limit_lets_through_what_it_lets() -> None:
-    assert approach(10.0, 0.0, 0.0, 0.005) == (10.0, 0.0)
-    assert approach(10.0, 0.0, 200.0, 0.005) == (1.0, pytest.approx(200.0))
-    assert approach(-0.5, 0.0, 200.0, 0.005) == (-0.5, pytest.approx(-100.0))
-    assert approach(10.0, 0.0, 200.0, 0.005, gentle=0.06) == (1.0, 0.0)  # a small step is left to the loop
-    assert approach(10.0, 0.0, 200.0, 0.0) == (0.0, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -57,10 +50,3 @@ def test_before_anything_is_known_of_the_motor_it_is_not_braked_at_speed() -> No
         run = begin(config, Sample(0, speed, 0.0))
         output, _ = step(config, run, Sample(5_000_000, speed, 0.0, 7, 4_900_000, 6e-4), -100.0)
         assert (output.terms.voltage < -1.0) == braked
-
-
-def test_a_run_begins_with_what_is_known_of_the_motor() -> None:
-    known = Motion(steady_speed=100.0, steady_voltage=7.0)
-    run = begin(settings(motor(), Info()), Sample(0, 40.0, 3.0, 17), known)
-    assert (run.motion.steady_speed, run.motion.edge_count, run.motion.speed) == (100.0, 17, 40.0)
-    assert run.reference == 40.0 and run.watched is not None

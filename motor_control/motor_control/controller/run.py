@@ -1,0 +1,82 @@
+"""How to control, and what a run remembers from one sample to the next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from math import inf
+from typing import TYPE_CHECKING
+
+from motor_control.checks import at_least
+from motor_control.controller import pi
+from motor_control.controller.faults import detection
+from motor_control.controller.faults.evidence import Config as FaultConfig
+from motor_control.controller.motion import Motion
+from motor_model.sample import Sample
+
+if TYPE_CHECKING:  # they compile; who has no model does not wait for that
+    from motor_control.controller.feedforward import FeedForward
+    from motor_control.controller.observer import Observer
+    from motor_control.controller.observer import State as Watched
+
+
+@dataclass(frozen=True, slots=True)
+class Config:
+    """How to control.
+
+    Raises:
+        MotorError: a value is negative or not finite.
+    """
+
+    gains: pi.Config
+    voltage_limit: float  # [V]
+    sample_timeout: float  # [s] silence after which there is no plant
+    reference_rate_limit: float  # [rad/s²] 0: none
+    reversal_speed: (
+        float  # [rad/s] a single-channel motor faster than this is not pushed against its motion; 0: by itself
+    )
+    single_channel: bool = True  # the encoder does not measure direction
+    faults: FaultConfig = FaultConfig()
+    observer: Observer | None = None  # None: the law goes by the reported speed
+    feedforward: FeedForward | None = None
+    note: str = ""  # what was asked for and cannot be had
+    plug_limit: float = 2.0  # of voltage_limit: largest difference of voltage and back-EMF against a motion; 2: any
+    latency_limit: float = inf  # [s] age of a sample that is too old to act on
+    reference_timeout: float = 0.0  # [s] after which a reference is dropped; 0: never
+    sample_period: float = 0.0  # [s] 0: not known
+    gentle: float = 0.0  # [s] steps that the rate limit does in this time are left to the loop: no slope is fed forward
+    unusable: str = ""  # what the plant says of itself and cannot be
+    resting: pi.Config = field(init=False, repr=False)  # the gains without the integral's
+
+    def __post_init__(self) -> None:
+        at_least(0.0, voltage_limit=self.voltage_limit, sample_timeout=self.sample_timeout)
+        at_least(0.0, reference_rate_limit=self.reference_rate_limit, reversal_speed=self.reversal_speed)
+        at_least(0.0, plug_limit=self.plug_limit, reference_timeout=self.reference_timeout)
+        object.__setattr__(self, "resting", replace(self.gains, ki=0.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """What is remembered from one sample to the next while running; a run ends with every stop, gap and restart."""
+
+    config: Config
+    sample_time: int  # [ns]
+    reference: float  # [rad/s] behind the rate limit
+    law: pi.State
+    motion: Motion
+    reversing: bool = False
+    watched: Watched | None = None  # the observer's
+    asked: float = 0.0  # [V] the latest answer
+    ignored: float = 0.0  # [s] for which the plant has applied nothing of what was asked
+    faults: detection.State = detection.State()
+    begins: bool = False  # with this sample: the reference has a sample period to start in
+    paused: bool = False  # 0 V was sent since this sample, whatever the law said: the integral has no part in the error
+
+
+def begin(config: Config, sample: Sample, motion: Motion | None = None) -> Run:
+    """Begin a run at the motor's own speed; motion: what is known of the motor from before."""
+    known = motion or Motion()
+    motion = replace(known, edge_count=sample.edge_count, speed=abs(sample.speed), slow_speed=abs(sample.speed))
+    motion = replace(motion, steady=0.0, silent=0.0, edges=0, slow_voltage=abs(sample.voltage))
+    watched = config.observer.begin(sample, sample.speed) if config.observer else None
+    state = detection.begin(sample.speed)
+    return Run(config, sample.sample_time, sample.speed, pi.State(), motion, watched=watched, faults=state, begins=True)
