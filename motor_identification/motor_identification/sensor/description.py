@@ -10,6 +10,7 @@ from motor_identification.sensor.white_noise import LEAST_SAMPLES
 from motor_model.sample import Measurement
 
 HELD = "The sensor gives a new speed every {} ms; what repeats it in between is left out."
+WRONG = "{} of {} speeds were left out: far beside their neighbours, with no voltage to make them so."
 LATTICE = "Every speed is a multiple of {} rad/s ({} deg/s): {} counts a turn over {} ms are assumed."
 FEW = "There are too few speeds to tell their noise: {} rad/s is assumed."
 WHITE = "The speeds lie on no lattice of counts: white noise of {} rad/s, as between neighbours, is assumed."
@@ -37,6 +38,9 @@ def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
     parts = []
     if held:
         parts.append(HELD.format(_span((one.frame * 1e3 for one in held), "{:.3g}")))
+    wrong = sum(sensor.wrong for sensor, _ in sensors)
+    if wrong:
+        parts.append(WRONG.format(wrong, wrong + sum(len(sensor.row) for sensor, _ in sensors)))
     if counted:
         numbers = (
             _span((one.step for one in counted), "{:.4g}"),

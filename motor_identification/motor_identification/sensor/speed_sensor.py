@@ -9,6 +9,7 @@ from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.held_samples import find_frames
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import estimate_white_noise
+from motor_identification.sensor.wrong_speeds import mark_wrong_speeds
 
 # Times what counting leaves between neighbours, beyond which noise is more than the lattice, so that counting does not
 # matter: UNDC's random telegraph has 1.7, a micromouse's loop in windows of 0.1 s 4.5. Where the step is one of printed
@@ -34,6 +35,7 @@ class SpeedSensor:
     step: float  # [rad/s] of the lattice of values; 0 where there is none
     sigma: float  # [rad/s] of white noise, independent in each value; 0 where counting is what is known
     edges_per_revolution: int  # what was said or follows from the step; 0 without
+    wrong: int = 0  # values that were left out, since no motor has them
 
     @property
     def count(self) -> float:
@@ -52,8 +54,10 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
         row, made, frame = frames.row, frames.time, frames.period
         if abs(window - info.sample_period) <= SAME_PERIOD * info.sample_period:  # nobody said so
             window, lag = frame, lag * frame / window
+    right = ~mark_wrong_speeds(speed[row], recording.voltage[row])
+    wrong, row, made = int(np.count_nonzero(~right)), row[right], made[right]
     step, sigma, edges = _find_noise(speed[row], recording.voltage[row], info.edges_per_revolution, window)
-    return SpeedSensor(row, made, window, lag, frame, step, sigma, edges)
+    return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong)
 
 
 def _find_noise(values: Floats, voltage: Floats, edges: int, window: float) -> tuple[float, float, int]:

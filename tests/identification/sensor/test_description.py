@@ -1,5 +1,7 @@
 """What was found of a sensor is said beside every result, once."""
 
+from dataclasses import replace
+
 import numpy as np
 from handmade import turning
 from recorded import as_speed, without_count
@@ -31,6 +33,13 @@ def test_every_kind_of_sensor_has_its_sentence() -> None:
         "The sensor gives a new speed every 20 ms; what repeats it in between is left out."
     )
     assert said(sensor(step=0.1), known=True) == said() == ""
+
+
+def test_wrong_speeds_are_counted_over_all_recordings() -> None:
+    few = replace(sensor(step=0.1), wrong=2)
+    assert said(few, replace(few, wrong=1), known=True) == (
+        "3 of 203 speeds were left out: far beside their neighbours, with no voltage to make them so."
+    )
 
 
 def test_several_recordings_share_a_sentence() -> None:

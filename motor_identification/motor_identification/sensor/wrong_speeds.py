@@ -1,0 +1,38 @@
+"""Mark wrong speeds: one or two that stand far above, or below, those on either side, with no voltage to make them so.
+
+Such as the counts of the time before the first row, or a pulse that the start of a motor makes on an encoder's line. A
+motor follows a step of the voltage one way; there and back takes two.
+"""
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+
+from motor_identification.recording import Bools, Floats
+
+LONGEST = 2  # wrong speeds next to each other: more of them are a motion
+FAR = 6.0  # times the change that nine of ten samples do not exceed
+FAR_SHARE = 0.2  # of the speed that they do not exceed, at least: without noise the smallest change is unusual
+USUAL = 0.9
+BEFORE = 3  # samples before in which the voltage may have stepped once
+MOST = 0.01  # share of the samples: more of them are no accident
+
+
+def mark_wrong_speeds(speed: Floats, voltage: Floats) -> Bools:
+    """Mark wrong speeds (K,), under the voltages [V] (K,) that held from each sample on; none where they are many."""
+    wrong = np.zeros(len(speed), dtype=bool)
+    if len(speed) < 2 or not np.any(speed):
+        return wrong
+    usual = float(np.quantile(np.abs(np.diff(speed)), USUAL))
+    far = max(FAR * usual, FAR_SHARE * float(np.quantile(np.abs(speed), USUAL)))
+    for length in range(1, LONGEST + 1):
+        size = length + BEFORE + 1  # the samples before, the wrong ones, and the one after
+        if len(speed) < size:
+            break
+        seen, driven = sliding_window_view(speed, size), sliding_window_view(voltage, size)
+        inside, beside = seen[:, BEFORE:-1], seen[:, [BEFORE - 1, -1]]
+        above = inside.min(axis=1) - beside.max(axis=1) > far
+        below = beside.min(axis=1) - inside.max(axis=1) > far
+        steps = np.count_nonzero(np.diff(driven[:, :-1], axis=1), axis=1)
+        for k in np.flatnonzero((above | below) & (steps <= 1)):
+            wrong[k + BEFORE : k + BEFORE + length] = True
+    return wrong if np.count_nonzero(wrong) <= max(MOST * len(speed), 1.0) else np.zeros_like(wrong)
