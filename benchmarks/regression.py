@@ -42,6 +42,22 @@ RESULTS = Path(__file__).with_name("results")
 
 def regress(recording: "Recording", friction: bool) -> dict[str, float]:
     """The gains that regression gives for a recording; without friction, a single step is enough for it."""
+    return regress_all([recording], friction)
+
+
+def regress_all(recordings: "list[Recording]", friction: bool) -> dict[str, float]:
+    """The gains that regression gives for the tests of one motor."""
+    import numpy as np
+
+    equations = [equations_of(recording, friction) for recording in recordings]
+    columns, accelerations = (np.concatenate([rows[k] for rows in equations]) for k in (0, 1))
+    alpha, beta, *gamma = np.linalg.lstsq(columns, accelerations, rcond=None)[0]
+    gains = {"kv": -alpha / beta, "ka": 1.0 / beta, **({"ks": -gamma[0] / beta} if gamma else {})}
+    return {name: float(value) for name, value in gains.items()}
+
+
+def equations_of(recording: "Recording", friction: bool) -> "tuple[Floats, Floats]":
+    """Speed, voltage and sign, and the acceleration that they are to explain, in the samples that are kept."""
     import numpy as np
 
     time, speed, voltage = recording.time, recording.speed, recording.voltage
@@ -51,12 +67,10 @@ def regress(recording: "Recording", friction: bool) -> dict[str, float]:
     noise = 1.4826 * float(np.median(np.abs(ripple)))
     kept = (voltage * speed > 0.0) & (acceleration != 0.0) & (np.abs(speed) > noise)
     jumps = np.flatnonzero(np.abs(np.diff(voltage, prepend=0.0)) > JUMP * np.abs(voltage).max())
-    for begin, end in zip(jumps, np.append(jumps[1:], len(voltage)), strict=True):
+    for begin, end in zip(jumps, np.append(jumps[1:], len(voltage)), strict=False):
         kept[begin : begin + int(np.argmax(np.abs(acceleration[begin : min(end, begin + RISE)])))] = False
     columns = [speed, voltage, *([np.sign(speed)] if friction else [])]
-    alpha, beta, *gamma = np.linalg.lstsq(np.column_stack(columns)[kept], acceleration[kept], rcond=None)[0]
-    gains = {"kv": -alpha / beta, "ka": 1.0 / beta, **({"ks": -gamma[0] / beta} if gamma else {})}
-    return {name: float(value) for name, value in gains.items()}
+    return np.column_stack(columns)[kept], acceleration[kept]
 
 
 def rich() -> "Floats":

@@ -12,6 +12,7 @@ from motor_model.sample import Measurement
 
 JUMP_RATE = 2.0  # times the rate around it by which a count's rate must not differ from that
 JUMP_COUNTS = 10.0  # counts by which it may differ besides
+JUMP_STEPS = 2.5  # times nearly the largest step: a sensor in beat with its log shows none and two in turn
 STEADY_VOLTAGE = 0.2  # of the largest voltage: where it changes by more, even one sample's motion can be real
 CHUNK_SAMPLES = 20  # samples over which speed and count are compared
 CHUNK_COUNTS = 5  # counts in a chunk from which on it tells the unit
@@ -35,7 +36,8 @@ def find_count_jump(time: Floats, count: Integers, voltage: Floats) -> int | Non
     off = np.abs(rate - usual) * step > JUMP_RATE * np.abs(usual) * step + JUMP_COUNTS
     volts = sliding_window_view(np.pad(voltage, 3, mode="edge"), 7)
     steady = np.ptp(volts, axis=1)[1:] <= STEADY_VOLTAGE * np.abs(voltage).max()
-    jumps = np.flatnonzero(off & steady)
+    far = np.abs(np.diff(count)) > JUMP_STEPS * np.quantile(np.abs(np.diff(count)), 0.9)
+    jumps = np.flatnonzero(off & steady & far)
     return int(jumps[0]) + 1 if len(jumps) else None
 
 

@@ -7,6 +7,7 @@ from math import tau
 import numpy as np
 
 from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.rows.held import find_fresh_rows
 from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.measurement.sanity_checks import find_count_jump
 from motor_model.errors import RecordingError
@@ -76,8 +77,7 @@ def split_at_resets(
     while (row := _first_jump(signals, count_of)) is not None:
         label, run = next((name, run) for name, run in signals.runs.items() if run.start < row < run.stop)
         motion = signals.motion
-        usual = float(np.median(np.abs(np.diff(motion[run]))))
-        near = RESET_STEPS * max(usual, float(np.quantile(np.abs(np.diff(motion[run])), 0.9)))
+        near = RESET_STEPS * float(np.quantile(np.abs(np.diff(motion[run])), 0.9))
         if min(abs(motion[row]), abs(motion[row] - motion[run.start])) > near:
             raise _jumped(signals, form, row)
         if any(abs(top - motion[row - 1]) <= near for top in tops):
@@ -93,10 +93,12 @@ def split_at_resets(
 def _first_jump(signals: Signals, count_of: Callable[[Floats], Integers]) -> int | None:
     counts = count_of(signals.motion)
     for run in signals.runs.values():
-        time = (signals.time[run] - signals.time[run.start]) * 1e-9
-        jump = find_count_jump(time, counts[run], signals.voltage[run])
+        rows, _ = find_fresh_rows(signals.time[run], counts[run])
+        rows = rows + run.start
+        time = (signals.time[rows] - signals.time[run.start]) * 1e-9
+        jump = find_count_jump(time, counts[rows], signals.voltage[rows])
         if jump is not None:
-            return int(run.start) + jump
+            return int(rows[jump])
     return None
 
 
