@@ -58,8 +58,7 @@ def sysid(file: Path, side: str) -> dict[str, float]:
     """SysId's regression, by the velocities that it takes too; per metre."""
     runs = recordings(file, side, "velocity", "m/s")
     turn = tau / 0.4878
-    found = regress_all([replace(run, speed=run.speed / turn) for run in runs], friction=True)
-    return found
+    return regress_all([replace(run, speed=run.speed / turn) for run in runs], friction=True)
 
 
 def ours(file: Path, side: str) -> dict[str, float]:
