@@ -93,7 +93,8 @@ def main() -> None:
     rows = study(parser.parse_args().data)
     page = f"""# An FRC drivetrain beside SysId's regression
 
-`python benchmarks/frc.py` ({machine()}). SysId's JSON of a 2025 robot ([tests/data](../../tests/data/README.md)), read by
+`python benchmarks/frc.py` ({machine()}). SysId's JSON of a 2025 robot
+([tests/data](../../tests/data/README.md)), read by
 `import_log drivetrain_sysid.json --output drivetrain`; its regression as in [regression](regression.md), on the log's
 velocities; ours: kv, ka, Coulomb friction and a delay, on its positions.
 
@@ -101,14 +102,16 @@ velocities; ours: kv, ka, Coulomb friction and a delay, on its positions.
 |---|---|---|---|---|---|---|
 {chr(10).join(rows)}
 
-Why they differ: kv and ks agree within 3 and 6 %, in either log. ka does not: the regression takes the acceleration from
-differences of a noisy, quantised velocity and drops what it cannot use, so that its ka depends on which samples are left
-(0.20 to 0.46 V·s²/m in one log), and a late sensor sets every acceleration beside a later voltage (0.10 to 0.13). Ours
-compares simulated with measured positions: its ka moves by 5 % when the sensor becomes late.
+Why they differ: kv and ks agree within 4 and 6 %, in either log. ka does not. The regression takes the acceleration
+from differences of a noisy, quantised velocity and drops what it cannot use: its ka hangs on the samples that are left
+(0.20 and 0.44 V·s²/m of two sides that move together), and where the sensor is late, every acceleration stands beside
+a later voltage (0.12 and 0.10). Ours compares simulated with measured positions: its ka moves by 6 % when the sensor
+becomes late.
 
-What ours does not find: the delay of the copy. Slow tests alone give it (at the full rate of the log: 64 and 90 ms for the 65 that were made). The steps
-do not, and hold it at a few milliseconds: no first-order motor moves as this robot does at 6 to 8 V (alone they want 2.6 to
-5 V of friction), be it a limit of current or a slip of its wheels. `identify` says that the recordings disagree.
+What ours does not find: the delay of the copy. Slow tests alone give it (at the full rate of the log 64 and 90 ms for
+the 65 that were made). The steps do not, and hold it at a few milliseconds: no first-order motor moves as this robot
+does at 6 to 8 V (alone they want 2.6 to 5 V of friction), be it a limit of current or a slip of its wheels.
+`identify` says that the recordings disagree.
 """
     (RESULTS / "frc.md").write_text(page, encoding="utf-8")
     print(*rows, sep="\n")

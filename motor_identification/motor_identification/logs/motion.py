@@ -7,7 +7,7 @@ import numpy as np
 
 from motor_identification.logs.count_size import AGREE_SPEED, LEAST_LEVELS, ON_GRID, agree_on_edges, count_size
 from motor_identification.logs.form import CsvForm, Kind
-from motor_identification.logs.rows.held import find_fresh_rows
+from motor_identification.logs.rows.count_rate import count_rates
 from motor_identification.logs.rows.wraps import split_at_resets, unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.sensor.value_lattice import find_lattice
@@ -104,37 +104,16 @@ def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     exact = signals.motion / quantum
     counts = np.rint(exact).astype(np.int64)
     beside = float(np.max(np.abs(exact - counts)))
-    speed, held = _speeds(signals, counts, 2.0 * pi / edges)
+    rate, held = count_rates(signals, counts)
+    speed = rate * (2.0 * pi / edges)
     info = replace(info, measurement=Measurement.COUNTS, edges_per_revolution=edges)
     findings = [
         *wrapped,
         *reset,
         f"Sampled counts without time stamps: one count is {quantum:.6g} {form.unit}, {edges} per revolution{how}.",
-        "The angle is known to one count at each row's time; the speed is its difference quotient.",
+        "The angle is known to one count at each row's time; the speed is that between its latest changes.",
         *held,
     ]
     if beside > ON_GRID and "no steps" not in how:
         findings.append(f"Caution: values are up to {beside:.2f} counts off whole counts: check --count-quantum.")
     return Motion(signals, speed, counts, info, tuple(findings))
-
-
-def _speeds(signals: Signals, counts: Integers, slot: float) -> tuple[Floats, list[str]]:
-    """[rad/s] of all rows; where values are held, that of the latest fresh one."""
-    speed = np.empty(len(counts))
-    periods = []
-    for run in signals.runs.values():
-        time, here = signals.time[run], counts[run]
-        rows, period = find_fresh_rows(time, here.astype(np.float64))
-        latest = np.searchsorted(rows, np.arange(len(time)), side="right") - 1
-        speed[run] = (_differences(here[rows], time[rows]) * slot)[latest]
-        periods += [period] if period else []
-    if not periods:
-        return speed, []
-    said = f"Values are held: the sensor has a new one every {np.median(periods) * 1e3:.3g} ms; a fit uses those alone."
-    return speed, [said]
-
-
-def _differences(counts: Integers, time: Integers) -> Floats:
-    """[counts/s] since the row before; the first row has none, and takes that of the second."""
-    rate = np.diff(counts) / (np.diff(time) * 1e-9)
-    return np.concatenate((rate[:1], rate))

@@ -17,7 +17,7 @@ def drop_held_counts(recording: Recording) -> Recording:
     frames = find_frames(recording.time, recording.edge_count.astype(np.float64))
     if frames is None:
         return recording
-    later = frames.time > 0.0
+    later = frames.time > 0.5e-9  # of the first row
     rows = np.concatenate([[0], frames.row[later]])
     begin = recording.sample_time[0]
     stamps = begin + np.round(frames.time[later] * 1e9).astype(np.int64)

@@ -242,7 +242,9 @@ def test_the_steps_of_an_ev3_motor() -> None:
         assert 170 < len(run.samples) < 200 and 0.95 < run.duration < 1.0
         assert column(run.samples, "voltage") == pytest.approx(0.074 * float(run.label))
         travel = np.sum(np.diff(column(run.samples, "sample_time")) * 1e-9 * column(run.samples, "speed")[1:])
-        assert travel == pytest.approx(radians(np.ptp(column(run.samples, "edge_count"))) * np.sign(float(run.label)))
+        assert travel == pytest.approx(
+            radians(np.ptp(column(run.samples, "edge_count"))) * np.sign(float(run.label)), rel=0.2
+        )
     final = [
         np.polyfit(*(column(run.samples[-90:], name) for name in ("sample_time", "edge_count")), 1) for run in log.runs
     ]

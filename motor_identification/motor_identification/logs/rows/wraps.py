@@ -22,6 +22,7 @@ RANGES: dict[str, tuple[float, ...]] = {
 SLACK = 1.02  # of its range: how far values may reach that wrap there (a turn of 6.3 rad)
 REACHED = 0.75  # of its range that values have to cover, before they are said to wrap at it
 USUAL = 3.0  # times the largest other step by which an unwrapped one may differ from 0
+AMBIGUOUS = 0.45  # of its range: a step that is nearly half of it could be one the other way
 RESET_STEPS = 3.0  # usual steps from 0, or from a run's first value, within which a counter is said to be reset
 
 
@@ -39,9 +40,25 @@ def unwrap(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]]:
             unwrapped[run], number = _without_jumps(signals.motion[run], size)
             jumps += number
         if jumps:
+            _check_wraps(signals, unwrapped, form, size)
             said = f"{form.motion} wraps at {size:.6g} {form.unit} ({jumps} times): unwrapped."
             return replace(signals, motion=unwrapped), [said]
     return signals, []
+
+
+def _check_wraps(signals: Signals, unwrapped: Floats, form: CsvForm, size: float) -> None:
+    """Refuse positions that go nearly half their range from one value to the next: which way, nobody can tell.
+
+    Raises:
+        RecordingError: they do.
+    """
+    farthest = max(float(np.max(np.abs(np.diff(unwrapped[run])))) for run in signals.runs.values())
+    share = farthest / size
+    if share > AMBIGUOUS:
+        raise RecordingError(
+            f"{signals.path}: {form.motion} wraps at {size:.6g} {form.unit}, and goes by up to {share:.2f} of "
+            "that from one value to the next, so that its direction is open: log it faster, or unwrapped."
+        )
 
 
 def _without_jumps(values: Floats, size: float) -> tuple[Floats, int]:
@@ -93,7 +110,7 @@ def split_at_resets(
 def _first_jump(signals: Signals, count_of: Callable[[Floats], Integers]) -> int | None:
     counts = count_of(signals.motion)
     for run in signals.runs.values():
-        rows, _ = find_fresh_rows(signals.time[run], counts[run])
+        rows, _ = find_fresh_rows(signals.time[run], counts[run].astype(np.float64))
         rows = rows + run.start
         time = (signals.time[rows] - signals.time[run.start]) * 1e-9
         jump = find_count_jump(time, counts[rows], signals.voltage[rows])

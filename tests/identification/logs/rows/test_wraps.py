@@ -41,6 +41,16 @@ def test_a_turn_and_the_sizes_of_registers_are_known(unit: str, size: float, ste
         assert said and said[0].startswith(f"y wraps at {size:.6g} {unit} (")
 
 
+@pytest.mark.parametrize(("step", "refused"), [(0.44, False), (0.46, True)])
+def test_nearly_half_a_turn_from_value_to_value_is_no_direction(step: float, refused: bool) -> None:
+    there = np.concatenate([0.1 * np.arange(30), 3.0 + step * np.arange(60)])
+    if refused:
+        with pytest.raises(RecordingError, match="goes by up to 0.46 of that from one value to the next"):
+            unwrap(rows(there % 1.0), form("rev"))
+    else:
+        assert np.allclose(np.diff(unwrap(rows(there % 1.0), form("rev"))[0].motion), np.diff(there))
+
+
 def test_positions_that_do_not_wrap_stay() -> None:
     there = 40.0 * np.sin(np.arange(300) / 30.0)
     for unit in ("deg", "rad", "count"):
