@@ -7,7 +7,9 @@ import sys
 from collections.abc import Sequence
 
 from motor_model.errors import MotorError
+from motor_model.internal_error import report
 from motor_ros.loopback import stay_on_this_machine
+from motor_ros.terminal import escaped_output
 from ros2_stand_in.verb_table import VERBS, Verb
 
 ABOUT = """\
@@ -23,8 +25,13 @@ def main(words: Sequence[str]) -> int:
     """Run one command line (without the leading `ros2`) and return its exit status."""
     stay_on_this_machine()  # no stranger's node moves a motor
     sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+    with escaped_output():
+        return _answered(list(words))
+
+
+def _answered(words: list[str]) -> int:
     try:
-        status = _run(list(words))
+        status = _run(words)
         sys.stdout.flush()
         return status
     except MotorError as error:
@@ -35,6 +42,9 @@ def main(words: Sequence[str]) -> int:
     except BrokenPipeError:  # such as `ros2 topic echo /motor/speed | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return READER_GONE
+    except Exception as error:
+        print(report(error), file=sys.stderr)
+        return 1
 
 
 def _run(words: list[str]) -> int:

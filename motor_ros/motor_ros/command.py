@@ -9,10 +9,11 @@ from contextlib import contextmanager
 from math import inf, nan
 from shutil import get_terminal_size
 from types import FrameType
-from typing import Any
+from typing import Any, NoReturn
 
 from motor_model.errors import MotorError
 from motor_model.internal_error import report
+from motor_model.printable import escape
 from motor_ros.terminal import OutputLost, escaped_output
 
 INTERRUPTED = 130  # exit status after Ctrl-C
@@ -28,6 +29,10 @@ class CommandParser(argparse.ArgumentParser):
     def __init__(self, package: str, prog: str, description: str, epilog: str = "") -> None:
         super().__init__(prog=prog, description=description, epilog=epilog, formatter_class=_Formatter)
         self.add_argument("--version", action=_Version, package=package, help="print the version and exit")
+
+    def error(self, message: str) -> NoReturn:
+        """Say what is wrong with the command line; what was typed, or pasted, steers no terminal."""
+        super().error(escape(message, longest=0))
 
     def parse_args(self, *args: Any, **named: Any) -> Any:  # type: ignore[override]
         """As argparse does; where the shell asks what could come next, answer that and exit."""

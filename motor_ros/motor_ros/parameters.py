@@ -61,6 +61,8 @@ def declare(node: Node, rows: Iterable[Row]) -> dict[str, Value]:
     for row in rows:
         try:
             values[row.name] = node.declare_parameter(row.name, row.default, row.descriptor()).value
+            if values[row.name] is None:
+                raise InvalidParameterValueException(row.name, None, "it has no value")
         except (InvalidParameterTypeException, InvalidParameterValueException) as error:
             span = f" from {row.low:.10g} to {row.high:.10g}" if row.low is not None and row.high is not None else ""
             kind = KINDS[type(row.default)]

@@ -12,6 +12,7 @@ from typing import NoReturn
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.utilities import remove_ros_args
 
+from motor_model.printable import escape
 from motor_ros.parameters import Row
 from motor_ros.topics import SERVICES, TOPICS
 
@@ -49,6 +50,8 @@ def answer(program: Program, words: Sequence[str]) -> None:
         _complete(program)
     try:
         rest = remove_ros_args([program.name, *words])[1:]
+    except UnicodeEncodeError:
+        parser.error("what is given has bytes that are no UTF-8")
     except INVALID_ARGUMENTS as error:
         parser.error(plain_sentence(error))
     parser.parse_args(rest)
@@ -91,8 +94,8 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         print(
-            f"{self._program.name}: {message}. Parameters stand behind --ros-args, such as --ros-args"
-            f"{self._program.example.split('--ros-args')[1]}; see --help.",
+            f"{self._program.name}: {escape(message, longest=0)}. Parameters stand behind --ros-args, such as "
+            f"--ros-args{self._program.example.split('--ros-args')[1]}; see --help.",
             file=sys.stderr,
         )
         sys.exit(2)

@@ -87,7 +87,7 @@ def info(args: argparse.Namespace) -> int:
             text = "\n".join(topic["topic_metadata"]["name"] for topic in topics)
         else:
             text = _summary(args.bag_path, metadata, [_topic_line(topic) for topic in topics])
-    except (KeyError, TypeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, OverflowError, OSError) as error:
         raise MotorError(f"{args.bag_path}/metadata.yaml is not as rosbag2 writes it ({error!r}).") from error
     print(text)
     return 0

@@ -4,7 +4,7 @@ import sys
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
+from os.path import realpath
 from typing import TYPE_CHECKING
 
 from motor_identification.bag import Source, Window
@@ -43,11 +43,11 @@ def refuse_repeats(uris: Sequence[str]) -> None:
     Raises:
         RecordingError: one is.
     """
-    seen: set[Path] = set()
+    seen: set[str] = set()
     for uri in uris:
-        if Path(uri).resolve() in seen:
+        if realpath(uri) in seen:
             raise RecordingError(f"{uri} is given twice: name every bag once.")
-        seen.add(Path(uri).resolve())
+        seen.add(realpath(uri))
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ def run_diagnosis(
     refuse_repeats(job.source.uris)
     refuse_repeats(job.validation)
     kept_out = replace(job.source, uris=job.validation, window=Window())
-    twice = {Path(uri).resolve() for uri in job.source.uris} & {Path(uri).resolve() for uri in job.validation}
+    twice = {realpath(uri) for uri in job.source.uris} & {realpath(uri) for uri in job.validation}
     if twice:
         raise RecordingError(f"{twice.pop()} is given for the fit and for validation: leave it out of one of the two.")
 
