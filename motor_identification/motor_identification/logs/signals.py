@@ -16,6 +16,7 @@ Bools = NDArray[np.bool_]
 
 # What no small motor has, and what a slip of the units makes: refused where it is read.
 LARGEST_VOLTAGE = 1e6  # [V]
+LARGEST_MOTION = 1e15  # in any unit: beyond, float64 has no whole counts left
 
 
 @dataclass(frozen=True)
@@ -88,13 +89,21 @@ def read_signals(table: Table, form: CsvForm, runs: dict[str, slice]) -> Signals
             f"{table.path}, line {table.lines[row]}: {form.voltage} comes to {voltage[row]:.3g} V, which no such motor "
             "has: check the column and --voltage-scale."
         )
+    motion = table.numbers(form.motion)
+    far = np.abs(motion) > LARGEST_MOTION
+    if far.any():
+        row = int(np.argmax(far))
+        raise RecordingError(
+            f"{table.path}, line {table.lines[row]}: {form.motion} is {motion[row]:.3g}, which is no motion of a "
+            "motor: check the column, or remove that line."
+        )
     time = table.nanoseconds(form.time, TIME_UNITS[form.time_unit]) if form.time else np.zeros(count, np.int64)
     return Signals(
         path=table.path,
         lines=np.asarray(table.lines, np.int64),
         time=time,
         voltage=voltage,
-        motion=table.numbers(form.motion),
+        motion=motion,
         supply=supply,
         current=table.numbers(form.current) * form.current_scale if form.current else unknown,
         runs=runs,

@@ -81,7 +81,8 @@ class Table:
         if isinstance(cells, np.ndarray) and cells.dtype == np.int64 and unit == 1:
             return cells
         try:
-            values = self._floats(cells) * float(unit)
+            with np.errstate(over="ignore"):  # times beyond are told below
+                values = self._floats(cells) * float(unit)
             if np.all(np.abs(values) < _ROUNDED_BELOW):
                 return np.rint(values).astype(np.int64)
         except ValueError:

@@ -1,0 +1,111 @@
+"""Damaged, forged and odd logs: each is read or refused in one sentence, and what is read can be a motor's."""
+
+import json
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.count_size import MOST_EDGES
+from motor_identification.logs.imported import import_log
+from motor_model.errors import MotorError
+
+DATA = Path(__file__).resolve().parents[2] / "data"
+NAMES = (
+    "undc/prbs_2026-08-14",
+    "esp32/step_response",
+    "ev3/steps_1s",
+    "micromouse/testPid3",
+    "undc/static_2026-08-17",
+)
+CELLS = [
+    *("", "nan", "inf", "-inf", "1e308", "-1e308", "1e-320", "99999999999999999999", "0x10", "1,5", "1.5.2", "--", "'"),
+    *('"', "a;b", "\t", "12:00:00", "2026-01-01T00:00:00", "é", "\x1b[31m", "=1+1", "-0", "1e", "NaN", "1_0", "٣", "²"),
+    *("1 2", "1\r2", "9" * 400),
+]
+VALUES = [None, -1, "x", [], {}, [[]], [[1e308] * 9] * 9, True, "Meters", [[1, 2, 3, 4]] * 3, 0, [[0] * 9] * 50]
+SAID = (
+    Said(),
+    Said(supply_voltage=7.4, unit="rpm"),
+    Said(unit="deg", edges_per_revolution=48, supply_voltage=5.0),
+    Said(unit="count", edges_per_revolution=MOST_EDGES, supply_voltage=1e-6),
+    Said(steady=True, unit="deg/s", supply_voltage=5.0),
+    Said(unit="rad", wrap=1e-9, supply_voltage=9.0),
+    Said(unit="deg/s", count_quantum=1e-300, supply_voltage=3.0),
+    Said(unit="deg", count_quantum=1e-200, supply_voltage=3.0),
+    Said(unit="rpm", speed_window=1e-12, speed_lag=900.0, voltage_scale=1e9),
+)
+
+
+def bases() -> list[bytes]:
+    """The names and the ends of public logs, and the beginning of a SysId log."""
+    lines = [(DATA / f"{name}.csv").read_bytes().split(b"\n") for name in NAMES]
+    heads = [b"\n".join([rows[0], *rows[-100:]]) for rows in lines]
+    log = json.loads((DATA / "frc/drivetrain_sysid.json").read_text())
+    short = {name: value[:50] if isinstance(value, list) else value for name, value in log.items()}
+    return [*heads, json.dumps(short).encode()]
+
+
+def mutate(data: bytes, random: np.random.Generator) -> bytes:
+    """One of seven kinds of damage."""
+    kind, is_json = int(random.integers(7)), data.startswith(b"{")
+    changed = bytearray(data)
+    if kind == 0:
+        for _ in range(int(random.integers(1, 6))):
+            changed[int(random.integers(len(changed)))] = int(random.integers(256))
+        return bytes(changed)
+    if kind == 1:
+        return data[: int(random.integers(len(data)))]
+    if kind == 2:
+        place = int(random.integers(len(data)))
+        return (
+            data[:place] + data[place : place + int(random.integers(2000))] * int(random.integers(2, 20)) + data[place:]
+        )
+    if is_json:
+        log = json.loads(data)
+        log[list(log)[int(random.integers(len(log)))]] = VALUES[int(random.integers(len(VALUES)))]
+        return json.dumps(log).encode()
+    return mutate_cells(data, random, kind)
+
+
+def mutate_cells(data: bytes, random: np.random.Generator, kind: int) -> bytes:
+    rows = [line.split(",") for line in data.decode().split("\n")]
+    column = int(random.integers(len(rows[0])))
+    if kind == 3:
+        scale = repr(10.0 ** random.uniform(-300, 300))
+        rows[1:] = [[scale if k == column else cell for k, cell in enumerate(row)] for row in rows[1:]]
+    for _ in range(int(random.integers(1, 4))):
+        row = rows[int(random.integers(kind > 4, len(rows)))]
+        row[int(random.integers(len(row)))] = CELLS[int(random.integers(len(CELLS)))]
+    if kind == 6:
+        first, second = (int(random.integers(len(rows))) for _ in range(2))
+        rows[first], rows[second] = rows[second], rows[first]
+    return "\n".join(",".join(row) for row in rows).encode("utf-8", "surrogatepass")
+
+
+@pytest.mark.parametrize("part", range(6))
+def test_no_damage_breaks_it(tmp_path: Path, part: int) -> None:
+    base, read = bases()[part], 0
+    for seed in range(60):
+        random = np.random.default_rng([part, seed])
+        path = tmp_path / "log"
+        path.write_bytes(mutate(base, random))
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                imported = import_log(path, SAID[int(random.integers(len(SAID)))])
+        except MotorError as error:
+            assert "\n" not in str(error) and len(str(error)) < 700, (seed, error)
+            continue
+        read += 1
+        for motor in imported.motors:
+            info = motor.log.info
+            assert 0 <= info.edges_per_revolution <= MOST_EDGES, seed
+            assert np.isfinite([info.max_voltage, info.speed_window, info.speed_lag, info.sample_period]).all(), seed
+            for run in motor.log.runs:
+                numbers = np.array([(one.speed, one.voltage, one.edge_count) for one in run.samples], dtype=np.float64)
+                assert np.isfinite(numbers).all() and np.abs(numbers[:, 2]).max() < 2**60, seed
+                assert np.all(np.diff([one.sample_time for one in run.samples]) > 0), seed
+    assert read >= 3
