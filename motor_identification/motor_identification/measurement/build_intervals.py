@@ -16,6 +16,7 @@ from motor_identification.measurement.sanity_checks import check_counts
 from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals
 from motor_identification.recording import Recording
 from motor_identification.sensor.held_counts import drop_held_counts
+from motor_identification.sensor.noisy_angle import find_angle_noise
 from motor_identification.sensor.speed_sensor import find_speed_sensor
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
@@ -30,6 +31,9 @@ def make_intervals(recording: Recording) -> Intervals:
     info = recording.info
     if info.measurement is Measurement.COUNTS and not info.single_channel:  # its directions are read again, row by row
         recording = drop_held_counts(recording)
+        noise = find_angle_noise(recording)
+        if noise > 0.0:
+            return _from_noisy_angles(recording, noise)
     if info.measurement is not Measurement.SPEED:
         check_counts(recording)
     intervals = _READERS[info.measurement](recording)
@@ -82,6 +86,13 @@ def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
     blur = slot * np.where(fresh, np.maximum(fixes.blur[begin], fixes.blur[end]), fixes.blur[end])
     moving = index_intervals(start, stop, speed, blur, left_out=int(np.count_nonzero(~good)))
     return append_standstills(moving, find_standstills_at_reversals(recording, changes), slot)
+
+
+def _from_noisy_angles(recording: Recording, noise: float) -> Intervals:
+    """Make intervals from sample to sample, where the angle is known to within `noise` [counts] at each."""
+    slot, time = tau / recording.info.edges_per_revolution, recording.time
+    speed = np.diff(recording.edge_count) * slot / np.diff(time)
+    return index_intervals(time[:-1], time[1:], speed, np.full(len(speed), noise * slot))
 
 
 def _from_speed(recording: Recording) -> Intervals:

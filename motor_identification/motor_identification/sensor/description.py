@@ -2,9 +2,10 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from math import degrees
+from math import degrees, tau
 
 from motor_identification.recording import Recording
+from motor_identification.sensor.noisy_angle import find_angle_noise
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 from motor_identification.sensor.white_noise import LEAST_SAMPLES
 from motor_model.sample import Measurement
@@ -13,6 +14,7 @@ HELD = "The sensor gives a new speed every {} ms; what repeats it in between is 
 WRONG = "{} of {} speeds were left out: far beside their neighbours, with no voltage to make them so."
 LATTICE = "Every speed is a multiple of {} rad/s ({} deg/s): {} counts a turn over {} ms are assumed."
 FEW = "There are too few speeds to tell their noise: {} rad/s is assumed."
+ANGLE = "The angle has white noise of {} rad, more than a count: it is taken from sample to sample."
 WHITE = "The speeds lie on no lattice of counts: white noise of {} rad/s, as between neighbours, is assumed."
 
 
@@ -21,7 +23,7 @@ def note_sensors(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
     unsaid = [recording for recording in recordings if recording.info.measurement is Measurement.SPEED]
     note = describe_speed_sensors(
         [(find_speed_sensor(recording), bool(recording.info.edges_per_revolution)) for recording in unsaid]
-    )
+    ) or _describe_angles(recordings)
     if not note or note in recordings[0].notes:
         return tuple(recordings)
     first, *others = recordings
@@ -53,6 +55,17 @@ def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
         if some:
             parts.append(text.format(_span((one.sigma for one in some), "{:.2g}")))
     return " ".join(parts)
+
+
+def _describe_angles(recordings: Sequence[Recording]) -> str:
+    """Say how noisy sampled angles are; empty where they are counts of edges."""
+    noises = [
+        find_angle_noise(one) * tau / one.info.edges_per_revolution
+        for one in recordings
+        if one.info.measurement is Measurement.COUNTS and not one.info.single_channel
+    ]
+    noisy = [noise for noise in noises if noise > 0.0]
+    return ANGLE.format(_span(noisy, "{:.2g}")) if noisy else ""
 
 
 def _span(values: Iterable[float], form: str) -> str:

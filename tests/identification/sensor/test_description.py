@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 from handmade import turning
 from recorded import as_speed, without_count
+from servo import record_servo
 from swinging import noisy, recorded
 
 from motor_identification.sensor.description import describe_speed_sensors, note_sensors
@@ -57,3 +58,11 @@ def test_notes_are_added_once_and_only_where_something_was_found() -> None:
     assert "white noise of" in note_sensors([noisy(0.5)])[0].notes[0]
     known, stamped = as_speed(recorded()), turning(lambda time: 100.0 * time, 1.0)
     assert note_sensors([known, stamped]) == (known, stamped) and note_sensors([]) == ()
+
+
+def test_a_noisy_angle_is_said() -> None:
+    noisy_angle, exact = (record_servo(duration=5.0, noise=noise)[0] for noise in (1e-6, 0.0))
+    assert note_sensors([noisy_angle])[0].notes == (
+        "The angle has white noise of 1e-06 rad, more than a count: it is taken from sample to sample.",
+    )
+    assert note_sensors([exact]) == (exact,)
