@@ -24,10 +24,11 @@ BOARD_MOTORS = (MOTORS[0], MOTORS[2], MOTORS[3])
 
 
 NOTE = """\
-Not within their time, and why: at 3 % of the top speed the 6 and 30 rad/s motors make 2.8 and 14 edges a second, so
-that the next edge is not due for up to 0.36 s, and a loop that is as slow needs as long to raise its voltage (up to 724
-ms). 50 and 100 stray edges a second are what slow motors make themselves (92 and 458 a second at the top): the loop
-takes them for a speed, and a 6 rad/s motor runs on at up to 97 % of its top speed; from 174 rad/s on they stop it."""
+Not within their time, and why: at 3 % of the top speed the 6 and 30 rad/s motors make 2.8 and 14 edges a second, and a
+loop as slow as that needs up to 0.72 s to raise its voltage to one that any motor would turn at; only a model knows
+earlier. 5 and 20 stray edges a second are about what is wanted there (at 174 rad/s 80), and too few for their periods
+to be judged (from 35 a second on): such a motor turns as it likes, at up to 97 % of its top speed, and stops late or
+never. From 50 a second on, and at half of the top speed at any rate, stray edges stop it in time."""
 
 
 @dataclass(frozen=True)

@@ -83,5 +83,6 @@ class Config:
             edge_resolution=tick / 1e9,
             sample_period=board.sample_period * tick / 1e9 if board else 1.0 / self.sample_rate,
             max_voltage=min(self.max_voltage, self.full_voltage),
+            supply_voltage=self.full_voltage,
             decay=Decay(board.decay).name.lower() if board else self.decay.name.lower(),
         )

@@ -42,8 +42,14 @@ class Info:
     sample_period: float = 0.005  # [s]
     speed_window: float = 0.0  # [s] what a speed-only source averages over
     speed_lag: float = 0.0  # [s] how old the middle of that window is at the stamp
-    max_voltage: float = 12.0  # [V] at full duty
+    max_voltage: float = 12.0  # [V] at most that the motor gets
     decay: str = "unknown"  # brake | coast | unknown
+    supply_voltage: float = 0.0  # [V] at full duty; 0: max_voltage
+
+    @property
+    def full_voltage(self) -> float:
+        """[V] at full duty: what a bridge that coasts and a supply that sags are judged by."""
+        return self.supply_voltage or self.max_voltage
 
 
 # What a plant can be: low and high of each number of Info, in its unit.
@@ -54,6 +60,7 @@ RANGES = {
     "speed_window": (0.0, 1000.0),
     "speed_lag": (-1000.0, 1000.0),
     "max_voltage": (0.0, 1e5),
+    "supply_voltage": (0.0, 1e5),
 }
 
 

@@ -1,11 +1,15 @@
 """Our messages and the plain values they carry, both ways."""
 
+from dataclasses import fields
+
 from builtin_interfaces.msg import Time
 
 from motor_model.errors import MotorError
 from motor_model.printable import escape
 from motor_model.sample import Info, Measurement, Sample, check_info
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
+
+INFO_FIELDS = [field.name for field in fields(Info) if field.name in MotorInfo.get_fields_and_field_types()]
 
 
 def speed_message(sample: Sample, stamp: Time, name: str) -> MotorSpeed:
@@ -41,19 +45,8 @@ def sample_of(message: MotorSpeed) -> Sample:
 
 def info_message(info: Info, stamp: Time) -> MotorInfo:
     """What `motor/info` says."""
-    message = MotorInfo(
-        name=info.name,
-        source=info.source,
-        measurement=info.measurement.value,
-        edges_per_revolution=info.edges_per_revolution,
-        single_channel=info.single_channel,
-        edge_resolution=info.edge_resolution,
-        sample_period=info.sample_period,
-        speed_window=info.speed_window,
-        speed_lag=info.speed_lag,
-        max_voltage=info.max_voltage,
-        decay=info.decay,
-    )
+    values = {name: getattr(info, name) for name in INFO_FIELDS}
+    message = MotorInfo(**values | {"measurement": info.measurement.value})
     message.header.stamp = stamp
     message.header.frame_id = info.name
     return message
@@ -67,19 +60,8 @@ def info_of(message: MotorInfo) -> Info:
     """
     if message.measurement not in {kind.value for kind in Measurement}:
         raise MotorError(f"motor/info says measurement '{message.measurement}': it must be edges, counts or speed.")
-    info = Info(
-        name=escape(message.name),
-        source=message.source,
-        measurement=Measurement(message.measurement),
-        edges_per_revolution=message.edges_per_revolution,
-        single_channel=message.single_channel,
-        edge_resolution=message.edge_resolution,
-        sample_period=message.sample_period,
-        speed_window=message.speed_window,
-        speed_lag=message.speed_lag,
-        max_voltage=message.max_voltage,
-        decay=message.decay,
-    )
+    values = {name: getattr(message, name) for name in INFO_FIELDS}
+    info = Info(**values | {"name": escape(message.name), "measurement": Measurement(message.measurement)})
     check_info(info)
     return info
 

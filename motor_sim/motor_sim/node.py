@@ -64,7 +64,8 @@ class MotorSim(Node):
         self._board.sample(0.0)  # compiled now, not in the first sample
         gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]), 1.0 / config.sample_rate)
         self._check = MotionCheck(limit, config.single_channel, float(values["stall_time"]))
-        self._plant = Plant(self, replace(config.info(model), max_voltage=min(limit, supply)), gate)
+        info = replace(config.info(model), max_voltage=min(limit, supply), supply_voltage=supply)
+        self._plant = Plant(self, info, gate)
         self._period = round(1e9 / config.sample_rate)  # [ns]
         self._next, self._late = time.monotonic_ns() + self._period, 0
         steady_timer(self, 1.0 / config.sample_rate, self._on_timer)

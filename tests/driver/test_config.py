@@ -62,4 +62,5 @@ def test_info_is_what_the_board_does_and_before_it_speaks_what_was_asked() -> No
 
 @pytest.mark.parametrize(("motor", "supply", "most"), [(12.0, 0.0, 12.0), (12.0, 24.0, 12.0), (12.0, 9.0, 9.0)])
 def test_no_more_than_the_motors_voltage_nor_than_the_supply(motor: float, supply: float, most: float) -> None:
-    assert Config(max_voltage=motor, supply_voltage=supply).info(HELLO).max_voltage == most
+    info = Config(max_voltage=motor, supply_voltage=supply).info(HELLO)
+    assert (info.max_voltage, info.full_voltage) == (most, supply or motor)

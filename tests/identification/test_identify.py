@@ -165,3 +165,20 @@ def test_a_false_edge_does_not_move_the_search_box() -> None:
     recording = made({}, profiles.step(10.0, 1.0), seed=0)
     glitch = replace(recording, speed=np.where(np.arange(len(recording)) == 50, 1e5, recording.speed))
     assert abs(off(identify([check(glitch)], quick()), {})["kv"]) < 1e-5
+
+
+def test_a_bridge_that_coasts_is_judged_by_the_supply_not_by_what_the_motor_may_get() -> None:
+    """A 12 V motor on 24 V: full voltage is half of the duty, so that the bridge coasts for half of the time."""
+    hidden = {"kv": 0.06, "ka": 0.005, "ks": 0.4, "coast_share": 0.5, "max_voltage": 24.0}
+    recording = check(record(hidden, *profiles.rich(12.0), seed=3, irregularity=0.01)[0])
+    request = Request(("coulomb_friction", "coast_drive"))
+    told, untold = (
+        identify([replace(recording, info=replace(recording.info, max_voltage=12.0, supply_voltage=supply))], request)
+        for supply in (24.0, 0.0)
+    )
+    assert told.parameters.value("coast_share") == pytest.approx(0.5, rel=0.02)
+    assert told.parameters.value("kv") == pytest.approx(0.06, rel=0.01)
+    assert (
+        abs(untold.parameters.value("coast_share") / 0.5 - 1.0) > 0.1
+        or abs(untold.parameters.value("kv") / 0.06 - 1.0) > 0.05
+    )

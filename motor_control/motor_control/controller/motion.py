@@ -65,5 +65,5 @@ def follow_motion(
     calm &= sample.speed * sample.voltage > 0.0 and regular and silent < STANDSTILL
     steady = motion.steady + dt if calm else 0.0
     known = (slow_speed, slow_voltage) if steady >= STEADY_TIME else (motion.steady_speed, motion.steady_voltage)
-    most = max(motion.most, slow_speed) if regular else motion.most
+    most = max(motion.most, min(slow_speed, abs(sample.speed))) if regular else motion.most  # a count may jump
     return Motion(sample.edge_count, speed, slow_speed, slow_voltage, silent, edges, steady, *known, most)

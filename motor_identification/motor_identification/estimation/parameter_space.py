@@ -142,5 +142,5 @@ def make_unknowns(recordings: Sequence[Recording], effects: tuple[str, ...]) -> 
         margin = 0.5 * abs(start) + 0.02 * extent.speed
         low.append(float(start - margin))
         high.append(float(start + margin))
-    most = max(extent.voltage, *(recording.info.max_voltage for recording in recordings))
+    most = max(extent.voltage, *(recording.info.full_voltage for recording in recordings))
     return Unknowns(normalised(effects), specs, np.array(low), np.array(high), extent, most, starts != 0.0)

@@ -69,3 +69,5 @@ def test_a_slow_motion_under_a_load_does_not_make_the_motor_slow() -> None:
     assert follow(slow)[-1].fastest(12.0) == pytest.approx(24.0, rel=0.15)
     assert follow(fast + slow)[-1].fastest(12.0) == pytest.approx(100.0, rel=0.05)
     assert follow(fast)[-1].fastest(12.0) == pytest.approx(164.0, rel=0.05)
+    jumped = follow_motion(follow(fast)[-1], Sample(10**9, 100.0, 7.3, 10**6), SLOT, 0.005, 12.0)  # of the count
+    assert jumped.fastest(12.0) == pytest.approx(164.0, rel=0.05)
