@@ -10,7 +10,7 @@ from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.log import Log, read_motor
 from motor_identification.mapping.alignment import align
-from motor_identification.mapping.mapping import Mapping
+from motor_identification.mapping.mapping import Mapping, load_mapping
 from motor_identification.recording import Recording, recording_of
 
 _DEFAULT_UNITS = {Kind.SPEED: "rad/s", Kind.POSITION: "rad", Kind.COUNT: "count"}  # REP 103
@@ -29,6 +29,15 @@ class MappedReader:
             RecordingError: as `read_mapped`.
         """
         return read_mapped(uri, self.mapping)
+
+
+def make_reader(path: str) -> MappedReader | None:
+    """The reader by a mapping file; None without a path.
+
+    Raises:
+        RecordingError: it is no mapping.
+    """
+    return MappedReader(load_mapping(path)) if path else None
 
 
 def read_mapped(uri: str | Path, mapping: Mapping) -> Recording:

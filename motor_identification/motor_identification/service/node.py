@@ -13,6 +13,7 @@ from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 from motor_identification.bag import Source
+from motor_identification.mapping import make_reader
 from motor_identification.reporting.fit_model_file import save_model
 from motor_identification.service import warm_up
 from motor_identification.service.diagnose_action import DiagnoseAction
@@ -42,6 +43,7 @@ class MotorIdentification(Node):
         self._worker = Worker(warm_up.main)
         self._model = self.create_publisher(MotorModel, "motor/model", qos.MODEL)
         self._places = Places(*map(self._value, ("bag_directory", "report_directory", "absolute_uris")))
+        self._reader = make_reader(self._value("mapping"))
         self._fits = FitQueue(self._worker, self._awaited)
         # Each request is taken at once: one that stayed in DDS while a fit is awaited would get no answer but silence.
         at_once = ReentrantCallbackGroup()
@@ -96,7 +98,7 @@ class MotorIdentification(Node):
     def _resolved(self, source: Source) -> Source:
         if not source.uris:
             raise MotorError("bag_uris is empty: name at least one bag.")
-        return replace(source, uris=tuple(map(self._places.bag, source.uris)))
+        return replace(source, uris=tuple(map(self._places.bag, source.uris)), reader=self._reader)
 
     def _value(self, name: str) -> Any:
         value = self.get_parameter(name).value

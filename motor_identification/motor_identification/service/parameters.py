@@ -25,6 +25,12 @@ PARAMETERS = (
         "where motor/diagnose writes (and replaces) BAG_diagnosis.html; empty: beside its first bag",
         read_only=True,
     ),
+    Row(
+        "mapping",
+        "",
+        "file that says where voltage and motion stand in bags of another robot (YAML); empty: motor/speed",
+        read_only=True,
+    ),
     Row("particles", LIMITS.particles, "of the swarm", "", 2, 100_000),
     Row("epochs", LIMITS.epochs, "of the swarm at most", "", 1, 1_000_000),
     Row("seed", LIMITS.seed, "of the swarm", "", 0, 2**31 - 1),
