@@ -3,6 +3,7 @@
 import os
 import signal
 import sys
+import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import FrameType
@@ -98,6 +99,20 @@ def spin(node: Node, until: Callable[[], bool], make_executor: Callable[[], Exec
         executor.shutdown(timeout_sec=0.5)
 
 
+def _created(create: Callable[[], Node]) -> Node:
+    """The node.
+
+    Raises:
+        MotorError: the middleware cannot make it, such as one without security where that is asked for.
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # of what rclpy could not take back either
+            return create()
+    except rclpy_implementation.RCLError as error:
+        raise MotorError(f"ROS 2 cannot start: {plain_sentence(error)}: correct that, and start again.") from error
+
+
 def run(
     create: Callable[[], Node],
     args: list[str] | None = None,
@@ -115,7 +130,7 @@ def run(
     node: Node | None = None
     try:
         start_ros(args)
-        node = create()
+        node = _created(create)
         for warning in unknown_parameters(node, program.rows if program else ()):
             node.get_logger().warning(warning)
         spin(node, lambda: bool(interrupt), make_executor)

@@ -44,7 +44,8 @@ def _inspect(options: argparse.Namespace) -> int:
     from motor_identification.mapping import mapping_text
     from motor_identification.mapping.candidates import find_candidates
     from motor_identification.mapping.inventory import take_inventory
-    from motor_model.errors import RecordingError
+    from motor_model.errors import MotorError, RecordingError
+    from motor_model.regular_file import write_text
 
     if options.output:
         check_outputs([options.output], options.force)
@@ -59,7 +60,10 @@ def _inspect(options: argparse.Namespace) -> int:
     print("", *_pairs(pairs), sep="\n")
     text = mapping_text(pairs[0].mapping())
     if options.output:
-        options.output.write_text(text, encoding="utf-8")
+        try:
+            write_text(options.output, text)
+        except OSError as error:
+            raise MotorError(f"cannot write {options.output}: {error.strerror}.") from error
         print(f"\nmapping: {options.output} (check it, and let scale make volts of the command)")
     else:
         print(f"\nA first mapping (--output FILE writes it):\n{text}", end="")
