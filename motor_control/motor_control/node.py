@@ -109,7 +109,7 @@ class MotorControl(Node):
         try:
             self._settings.meet(info_of(message))
         except MotorError as error:
-            self.get_logger().error(f"motor/info is not usable and left aside: {error}")
+            self._settings.refuse(f"{error} The motor gets 0 V until then.")
 
     def _on_parameters(self, changed: list[Parameter]) -> SetParametersResult:
         try:

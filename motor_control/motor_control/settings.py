@@ -1,6 +1,7 @@
 """What a running controller is set to: parameters, the plant's own account, the model in its file."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from motor_control.controller.run import Config
 from motor_control.parameters import config_of, model_of
@@ -21,6 +22,7 @@ class Settings:
         """
         self._values = dict(values)
         self._info: Info | None = None
+        self._refused = ""  # why what the plant said of itself cannot be
         self._motor = model_of(str(values["model"]))
         self._preparation = Preparation()
         if self._motor is not None:
@@ -38,7 +40,8 @@ class Settings:
         if motor is not None:
             self._preparation.begin()
         everything, ready = {**self._values, **values}, self._preparation.done
-        self.config = config_of(everything, self._info, motor, ready)
+        config = config_of(everything, self._info, motor, ready)
+        self.config = replace(config, unusable=self._refused) if self._refused else config
         self._values, self._motor, self._ready = everything, motor, ready
 
     def meet(self, info: Info) -> None:
@@ -47,9 +50,14 @@ class Settings:
         Raises:
             MotorError: it does not fit.
         """
-        if info != self._info:
+        if info != self._info or self._refused:
+            self._refused = ""
             self.config = config_of(self._values, info, self._motor, self._ready)
             self._info = info
+
+    def refuse(self, why: str) -> None:
+        """Take in that what the plant says of itself cannot be, for a reason, a sentence: 0 V until it says otherwise."""
+        self._refused, self.config = why, replace(self.config, unusable=why)
 
     def refresh(self) -> None:
         """Take what has been got ready meanwhile into use."""

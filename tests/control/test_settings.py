@@ -46,6 +46,17 @@ def test_what_a_plant_cannot_be_is_a_sentence(info: Info, words: str) -> None:
     assert settings.config.unusable == ""
 
 
+def test_what_was_refused_is_0_volt_until_the_plant_says_otherwise() -> None:
+    settings = Settings(DEFAULTS)
+    settings.meet(Info())
+    settings.refuse("It cannot be.")
+    assert settings.config.unusable == "It cannot be."
+    settings.change({"kp": 0.3})
+    assert settings.config.unusable == "It cannot be." and settings.config.gains.kp == 0.3
+    settings.meet(Info())
+    assert settings.config.unusable == "" and settings.config.gains.kp == 0.3
+
+
 def test_a_model_named_in_a_running_loop_is_taken_once_it_is_ready(tmp_path: Path) -> None:
     path = tmp_path / "model.yaml"
     save(path, motor())

@@ -265,7 +265,7 @@ def test_an_info_that_cannot_be_is_a_sentence_and_zero_volts(plant: FakePlant) -
     plant.wait(lambda: plant.answer(50.0).state == "stopped", "the stop")
     assert "motor/info says edges_per_revolution = 0, which cannot be" in plant.states[-1].reason
     plant.tell(Info(name="wheel", sample_period=0.0))
-    plant.wait(lambda: "sample_period = 0" in plant.answer(50.0).reason, "the next one")
+    plant.wait(lambda: "sample_period 0: it must be from" in plant.answer(50.0).reason, "the next one")
     assert plant.states[-1].voltage == 0.0
     plant.tell(Info(name="wheel"))
     plant.wait(lambda: plant.answer(50.0).state == "running", "a good one")
