@@ -56,7 +56,7 @@ class Settings:
             self._info = info
 
     def refuse(self, why: str) -> None:
-        """Take in that what the plant says of itself cannot be, for a reason, a sentence: 0 V until it says otherwise."""
+        """Take in that the plant says of itself what cannot be, and why: 0 V until it says otherwise."""
         self._refused, self.config = why, replace(self.config, unusable=why)
 
     def refresh(self) -> None:
