@@ -31,7 +31,7 @@ RESULTS = Path(__file__).with_name("results")
 DATA = Path(os.environ.get("MOTOR_LOGS", Path(__file__).resolve().parents[1] / "tests" / "data"))
 MOUSE = "--supply-voltage 7.9 --unit rpm"
 EV3 = "--supply-voltage 7.4 --rest-until 0"
-HEAD = ("log", "verdict", "named", "disturbance", "floors [rad/s]", "gap [rad/s]", "known of the rig")
+HEAD = ("log", "verdict", "named", "model", "disturbance", "floors [rad/s]", "held-out gap [rad/s]", "known of the rig")
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,16 @@ def row_of(case: Case, found: Diagnosis, known: str) -> str:
     floors = f"sensor {found.sensor_floor:.3g}, with disturbance {found.noise_floor:.3g}"
     gap = f"{found.gap_before:.3g} → {found.gap_after:.3g}"
     return " | ".join(
-        (f"| {case.title}", found.verdict.value, "; ".join([*named, *base]), torque, floors, gap, f"{known} |")
+        (
+            f"| {case.title}",
+            found.verdict.value,
+            "; ".join(named) or "–",
+            "; ".join(base),
+            torque,
+            floors,
+            gap,
+            f"{known} |",
+        )
     )
 
 

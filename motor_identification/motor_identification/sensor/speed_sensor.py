@@ -10,6 +10,7 @@ from motor_identification.sensor.held_samples import find_frames
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import estimate_white_noise
 from motor_identification.sensor.wrong_speeds import mark_wrong_speeds
+from motor_model.sample import Info
 
 # Times what counting leaves between neighbours, beyond which noise is more than the lattice, so that counting does not
 # matter: UNDC's random telegraph has 1.7, a micromouse's loop in windows of 0.1 s 4.5. Where the step is one of printed
@@ -20,6 +21,7 @@ COUNT_NOISE = sqrt(20.0 / 6.0 / 12.0)
 UNTOLD = 0.01  # of the typical speed: the noise of values too few to tell it, such as those of a static curve
 PRINTED_UNITS = (1.0, radians(1.0), tau / 60.0, tau)  # rad/s, deg/s, rpm, turns/s
 SAME_DIGIT = 1e-3  # of a decade
+OTHER_ROWS = 0.1  # relative: rows of one run that are not those of the log's typical one
 SAME_PERIOD = 1e-6  # relative: a window that was not said is set to the sample period
 
 
@@ -45,19 +47,37 @@ class SpeedSensor:
 
 def find_speed_sensor(recording: Recording) -> SpeedSensor:
     """Find the sensor of a recording of speeds: as far as `info` says, and from its values where it does not."""
-    info, time, speed = recording.info, recording.time, recording.speed
+    time, speed = recording.time, recording.speed
     row: Integers = np.arange(len(time), dtype=np.int64)
     made, frame = time, 0.0
-    window, lag = info.speed_window or info.sample_period, info.speed_lag
+    window, lag = _find_window(recording)
     frames = find_frames(time, speed)
     if frames is not None:
         row, made, frame = frames.row, frames.time, frames.period
-        if abs(window - info.sample_period) <= SAME_PERIOD * info.sample_period:  # nobody said so
+        if _is_assumed(recording.info):
             window, lag = frame, lag * frame / window
     right = ~mark_wrong_speeds(speed[row], recording.voltage[row])
     wrong, row, made = int(np.count_nonzero(~right)), row[right], made[right]
-    step, sigma, edges = _find_noise(speed[row], recording.voltage[row], info.edges_per_revolution, window)
+    step, sigma, edges = _find_noise(speed[row], recording.voltage[row], recording.info.edges_per_revolution, window)
     return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong)
+
+
+def _find_window(recording: Recording) -> tuple[float, float]:
+    """[s] that each speed is the mean over, and how old its middle is: of the recording's own rows where it is assumed.
+
+    The runs of one log may have rows at different distances.
+    """
+    info, own = recording.info, float(np.median(np.diff(recording.time)))
+    if not info.speed_window:
+        return info.sample_period, info.speed_lag
+    if _is_assumed(info) and abs(own - info.sample_period) > OTHER_ROWS * info.sample_period:
+        return own, info.speed_lag * own / info.sample_period
+    return info.speed_window, info.speed_lag
+
+
+def _is_assumed(info: Info) -> bool:
+    """Whether nobody said what a speed is the mean over: an importer takes the sample period."""
+    return abs((info.speed_window or info.sample_period) - info.sample_period) <= SAME_PERIOD * info.sample_period
 
 
 def _find_noise(values: Floats, voltage: Floats, edges: int, window: float) -> tuple[float, float, int]:

@@ -71,3 +71,14 @@ def test_a_dozen_speeds_are_good_to_a_hundredth() -> None:
     few = noisy(0.5).at_rows(np.arange(100, 112))
     assert find_speed_sensor(few).sigma == pytest.approx(UNTOLD * np.sqrt(np.mean(few.speed**2)))
     assert make_intervals(few).sigma == pytest.approx(find_speed_sensor(few).sigma, rel=1e-6)
+
+
+def test_a_run_with_other_rows_than_the_log_has_its_own_window() -> None:
+    """Ramps at 20 ms and steps at 5 ms in one log: the typical period is that of the ramps."""
+    steps = noisy(0.3)
+    for period, window in ((0.08, 0.02), (0.0205, 0.0205)):
+        info = replace(steps.info, sample_period=period, speed_window=period, speed_lag=0.5 * period)
+        found = find_speed_sensor(replace(steps, info=info))
+        assert found.window == pytest.approx(window) and found.lag == pytest.approx(0.5 * window)
+    said = find_speed_sensor(replace(steps, info=replace(steps.info, speed_window=0.1, speed_lag=0.05)))
+    assert said.window == 0.1 and said.lag == 0.05
