@@ -15,7 +15,7 @@ from pathlib import Path
 
 from machine import machine
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"))
+sys.path[0] = str(Path(__file__).resolve().parents[1] / "tests" / "support")  # not beside control.py: tune imports one
 os.environ.setdefault("ROS_DOMAIN_ID", "99")
 
 from hostile.inputs import KINDS, Kind
@@ -51,14 +51,19 @@ def row(kind: Kind, count: int, seed: int) -> tuple[str, int, list[Trial]]:
     return line, len(trials), bad
 
 
-def page(lines: list[str], total: int, bad: int, seed: int, live: str) -> str:
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout
+def commit() -> str:
+    """What is checked out: asked before the first input, for the run takes a quarter of an hour."""
+    command = ["git", "rev-parse", "--short", "HEAD"]
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
+
+
+def page(lines: list[str], total: int, bad: int, seed: int, live: str, begun: str) -> str:
     return "\n".join(
         [
             "# Hostile inputs",
             "",
             f"{total:,} inputs, each in a process of its own with {MEMORY >> 30} GiB and {PATIENCE:.0f} s; "
-            f"seed {seed}, after commit {commit.strip()}. {bad} did harm. {machine()}.",
+            f"seed {seed}, commit {begun}. {bad} did harm. {machine()}.",
             "",
             "Statuses: 0 done, 1 one sentence, 2 usage. `other`: a status that is none of these, or a flood of words.",
             "",
@@ -79,6 +84,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kind", default="")
     options = parser.parse_args()
+    begun = commit()
     warm_up()
     lines, total, harm = [], 0, 0
     for kind in KINDS:
@@ -89,7 +95,7 @@ def main() -> int:
         return int(harm > 0)
     live = garbled_messages(max(round(200 * options.share), 20), options.seed)
     print(live)
-    (RESULTS / "hostile.md").write_text(page(lines, total, harm, options.seed, live), encoding="utf-8")
+    (RESULTS / "hostile.md").write_text(page(lines, total, harm, options.seed, live, begun), encoding="utf-8")
     return int(harm > 0)
 
 

@@ -105,7 +105,9 @@ def shell(work: Callable[[], int]) -> int:
             print(f"{_CLEAR if sys.stderr.isatty() else ''}Interrupted.", file=sys.stderr)
             return INTERRUPTED
         except Exception as error:
-            print(_capitalized(report(error)), file=sys.stderr)
+            of_ros = type(error).__name__ in ("RCLError", "RMWError")  # without importing rclpy, which takes a while
+            said = f"ROS 2 refuses ({error})." if of_ros else _capitalized(report(error))
+            print(" ".join(said.split()), file=sys.stderr)
             return 1
 
 

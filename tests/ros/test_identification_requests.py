@@ -66,3 +66,11 @@ def test_a_fit_that_takes_too_long_is_ended_and_one_whose_file_cannot_be_written
     response = bench.call(Identify, "motor/identify", Identify.Request(bag_uris=["staircase"]))
     assert response.success and len(response.model.parameter_values) == 2
     assert "cannot write the model file" in response.message and "\n" not in response.message
+
+
+def test_a_request_for_more_than_any_memory_has_is_one_sentence(bench: Bench, start: Start, bags: Path) -> None:
+    serve(start, bags)
+    for name, most in (("particles", 100_000), ("epochs", 1_000_000)):
+        request = Identify.Request(bag_uris=["staircase"], **{name: 2**32 - 1})
+        response = bench.call(Identify, "motor/identify", request)
+        assert not response.success and response.message.startswith(f"{name} is 4294967295: it must be {most} at most")

@@ -7,6 +7,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from motor_identification.bag import Qos
 
 DEPTH = 1000  # of a subscription that must not lose a message while the disk is slow
+_LARGEST_DEPTH = 10_000  # whatever a bag says: the middleware takes memory for it
 _PLAYED_DEPTH = 100  # of a publisher whose recorded depth is unknown: DDS does not tell it
 
 
@@ -37,7 +38,7 @@ def to_play(recorded: tuple[Qos, ...]) -> QoSProfile:
     best_effort = bool(recorded) and all(profile.reliability == "best_effort" for profile in recorded)
     latched = any(profile.durability == "transient_local" for profile in recorded)
     known = [profile.depth for profile in recorded if profile.history == "keep_last" and profile.depth > 0]
-    return _profile(not best_effort, latched, max(known, default=_PLAYED_DEPTH))
+    return _profile(not best_effort, latched, min(max(known, default=_PLAYED_DEPTH), _LARGEST_DEPTH))
 
 
 def _profile(reliable: bool, latched: bool, depth: int) -> QoSProfile:

@@ -8,18 +8,31 @@ from motor_identification.identify import Request, SearchConfig
 from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 from motor_identification.reporting.fit_text import summarize_fit
 from motor_identification.service.job import DiagnosisJob, Job, Reported, notes_of
+from motor_identification.service.limits import MOST_EPOCHS, MOST_PARTICLES
 from motor_identification.uncertainty.result import Fit
+from motor_model.errors import MotorError
 from motor_msgs.action import Diagnose
 from motor_msgs.msg import MotorModel
 from motor_msgs.srv import Identify
 
 
 def job_of(request: Identify.Request, particles: int, epochs: int, seed: int, workers: int) -> Job:
-    """What a request asks for; its zeros stand for the node's own parameters, given here."""
+    """What a request asks for; its zeros stand for the node's own parameters, given here.
+
+    Raises:
+        MotorError: it asks for more than the parameters allow.
+    """
+    _check_range("particles", request.particles, MOST_PARTICLES)
+    _check_range("epochs", request.epochs, MOST_EPOCHS)
     search = SearchConfig(request.particles or particles, request.epochs or epochs, request.seed or seed)
     wanted = Request(tuple(request.effects), search, workers)
     window = Window(request.start, request.stop)
     return Job(Source(tuple(request.bag_uris), request.topic_namespace, window), wanted)
+
+
+def _check_range(name: str, value: int, most: int) -> None:
+    if value > most:
+        raise MotorError(f"{name} is {value}: it must be {most} at most, 0 for the node's parameter.")
 
 
 def model_message(fit: Fit, stamp: Time) -> MotorModel:

@@ -1,6 +1,7 @@
 """The identification node's parameters as a table, and what it says of itself."""
 
 from motor_identification.estimation.request import SearchConfig
+from motor_identification.service.limits import MOST_EPOCHS, MOST_PARTICLES
 from motor_ros.parameters import Row
 from motor_ros.program import Program
 
@@ -31,8 +32,8 @@ PARAMETERS = (
         "file that says where voltage and motion stand in bags of another robot (YAML); empty: motor/speed",
         read_only=True,
     ),
-    Row("particles", LIMITS.particles, "of the swarm", "", 2, 100_000),
-    Row("epochs", LIMITS.epochs, "of the swarm at most", "", 1, 1_000_000),
+    Row("particles", LIMITS.particles, "of the swarm", "", 2, MOST_PARTICLES),
+    Row("epochs", LIMITS.epochs, "of the swarm at most", "", 1, MOST_EPOCHS),
     Row("seed", LIMITS.seed, "of the swarm", "", 0, 2**31 - 1),
     Row("queue_length", 8, "motor/identify requests that wait while one is computed; more are told: busy", "", 0, 100),
     Row("time_limit", 3600.0, "that a fit or a diagnosis may take", "s", 1.0, 1e6),
