@@ -22,7 +22,7 @@ from motor_identification.logs.rows.stamps import separate_stamps
 from motor_identification.logs.signals import Floats, Integers, Signals, read_signals
 from motor_identification.logs.steady import read_steady
 from motor_model.errors import RecordingError
-from motor_model.sample import Info, Sample
+from motor_model.sample import RANGES, Info, Sample
 
 FROM_THEN = "Assumed: a row's voltage is applied from its time until the next row (otherwise: --voltage-before)."
 BEFORE = "A row's voltage is applied from the time of the row before until its own."
@@ -74,7 +74,18 @@ def read_motor(table: Table, form: CsvForm) -> Log:
         max_voltage=_max_voltage(form, signals),
     )
     log = _steady_log(form, info, signals) if form.time is None else _timed_log(table, form, info, signals)
+    _check_ranges(table.path, log.info)
     return replace(log, findings=(*table.notes, *log.findings))
+
+
+def _check_ranges(path: Path, info: Info) -> None:
+    """Refuse what no reader of the bag would take, such as rows a nanosecond apart."""
+    for name, (low, high) in RANGES.items():
+        value = getattr(info, name)
+        if not low <= value <= high:
+            raise RecordingError(
+                f"{path}: {name} comes to {value:.3g}, and must be from {low:g} to {high:g}: check columns and units."
+            )
 
 
 def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log:

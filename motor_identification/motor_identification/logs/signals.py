@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import TIME_UNITS, CsvForm
 from motor_model.errors import RecordingError
+from motor_model.sample import RANGES
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 # What no small motor has, and what a slip of the units makes: refused where it is read.
-LARGEST_VOLTAGE = 1e6  # [V]
+LARGEST_VOLTAGE = RANGES["max_voltage"][1]  # [V]
 LARGEST_MOTION = 1e15  # in any unit: beyond, float64 has no whole counts left
 
 

@@ -11,6 +11,7 @@ from motor_identification.logs.columns.said import Said
 from motor_identification.logs.count_size import MOST_EDGES
 from motor_identification.logs.imported import import_log
 from motor_model.errors import MotorError
+from motor_model.sample import check_info
 
 DATA = Path(__file__).resolve().parents[2] / "data"
 NAMES = (
@@ -102,7 +103,7 @@ def test_no_damage_breaks_it(tmp_path: Path, part: int) -> None:
         read += 1
         for motor in imported.motors:
             info = motor.log.info
-            assert 0 <= info.edges_per_revolution <= MOST_EDGES, seed
+            check_info(info)
             assert np.isfinite([info.max_voltage, info.speed_window, info.speed_lag, info.sample_period]).all(), seed
             for run in motor.log.runs:
                 numbers = np.array([(one.speed, one.voltage, one.edge_count) for one in run.samples], dtype=np.float64)

@@ -145,8 +145,8 @@ def test_the_same_log_in_other_clothes(read: Read, text: str | bytes) -> None:
 
 
 def test_times_since_1970_keep_their_nanoseconds(read: Read) -> None:
-    (run,) = read(table(("1760000000.123456789", 1, 1), ("1760000000.123456790", 1, 1))).runs
-    assert [sample.sample_time for sample in run.samples] == [1760000000123456789, 1760000000123456790]
+    (run,) = read(table(("1760000000.123456789", 1, 1), ("1760000000.133456790", 1, 1))).runs
+    assert [sample.sample_time for sample in run.samples] == [1760000000123456789, 1760000000133456790]
 
 
 def test_scaled_voltage(read: Read) -> None:
@@ -206,6 +206,16 @@ def test_time_that_starts_again_begins_a_run(read: Read) -> None:
     assert "2 runs, a bag each (1 rows that stand alone are left out)." in " ".join(alone.findings)
     with pytest.raises(RecordingError, match="line 6: the run with s = c has a single row"):
         read(table(*rows[:4], (0, 1, 2, "c"), header="t,u,y,s"), replace(SPEED, split="s"))
+
+
+@pytest.mark.parametrize(("step", "refused"), [(1.1e-6, False), (0.9e-6, True), (99.0, False), (101.0, True)])
+def test_rows_that_no_plant_has(read: Read, step: float, refused: bool) -> None:
+    rows = table(*((f"{k * step:.10f}", 1 + k % 2, 10 * k) for k in range(6)))
+    if refused:
+        with pytest.raises(RecordingError, match="sample_period comes to .*, and must be from 1e-06 to 100: check"):
+            read(rows)
+    else:
+        assert read(rows).info.sample_period == pytest.approx(step)
 
 
 def test_no_such_file_or_a_folder(tmp_path: Path) -> None:
