@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from motor_board.node import FAULTS, SET_UP
+from motor_board.parameters import FAULTS, SET_UP
 from motor_control.parameters import ROWS as CONTROL
 from motor_driver.parameters import ROWS as DRIVER
 from motor_identification.service.parameters import PARAMETERS as IDENTIFICATION

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
-from motor_board.node import PROGRAM as BOARD
+from motor_board.parameters import PROGRAM as BOARD
 from motor_control.parameters import PROGRAM as CONTROL
 from motor_driver.parameters import PROGRAM as DRIVER
 from motor_identification.service.parameters import PROGRAM as IDENTIFICATION

@@ -32,7 +32,7 @@ ROS |= {"builtin_interfaces"}
 # Where ROS may be imported: node files, command files, the modules that turn messages into plain values, and the one
 # that looks up what is installed.
 SHELLS = re.compile(
-    r"(/node\.py|/messages\.py|/diagnose_action\.py|/cli/\w+\.py|/live/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(control|driver)/parameters\.py|/service/parameters\.py|/bag/definition\.py)$"
+    r"(/node\.py|/messages\.py|/diagnose_action\.py|/cli/\w+\.py|/live/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(board|control|driver)/parameters\.py|/service/parameters\.py|/bag/definition\.py)$"
 )
 # Effects are rows of a table, and nothing else knows one of them by name; but for:
 SPECIAL = {

@@ -14,54 +14,16 @@ from motor_board.build import FirmwareConfig, firmware
 from motor_board.emulator import Emulator
 from motor_board.faults import Faults
 from motor_board.live import LiveBoard
+from motor_board.parameters import FAULTS, PROGRAM, SET_UP
 from motor_board.port import Port
 from motor_board.shaft import EncoderConfig
 from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 from motor_ros import qos
-from motor_ros.parameters import Row, declare
+from motor_ros.parameters import declare
 from motor_ros.plant import steady_timer
-from motor_ros.program import Program
 from motor_ros.run import run
 
-SET_UP = (
-    Row("link", "/tmp/motor_board", "path under which the board's serial port appears", read_only=True),
-    Row("model", "", "model file (YAML) of the motor on the pins; empty: the paper's motor", read_only=True),
-    Row("edges_per_revolution", 96, "encoder edges of one polarity per turn", "", 1, 65535, read_only=True),
-    Row("single_channel", True, "the encoder has one channel and does not measure direction", read_only=True),
-    Row("slot_irregularity", 0.0, "scatter of the disc's flanks, share of a slot", "", 0.0, 0.2, read_only=True),
-    Row("seed", 0, "of the disc, its starting angle, missed edges and faults", "", 0, 2**31 - 1, read_only=True),
-    Row("bridge", "l298n", "bridge that the firmware is built for: l298n or tb6612", read_only=True),
-    Row(
-        "supply_voltage",
-        0.0,
-        "voltage at full duty, which the board measures; 0: as max_voltage of the model, not measured",
-        "V",
-        0.0,
-        60.0,
-        read_only=True,
-    ),
-)
-FAULTS = (
-    Row("bit_error_rate", 0.0, "share of bits that flip on the line, both ways", "", 0.0, 0.5),
-    Row("drop_rate", 0.0, "share of bytes lost on the line, both ways", "", 0.0, 1.0),
-    Row("delay", 0.0, "bytes come late by 0 to this, both ways, in order", "s", 0.0, 1.0),
-    Row("plugged", True, "false: the serial port is gone"),
-    Row("stuck_telemetry", False, "the board is heard no more, but hears"),
-    Row("encoder_connected", True, "false: no edges reach the board"),
-    Row("stray_edges", 0.0, "edges that the encoder's line picks up, at random times", "1/s", 0.0, 10000.0),
-    Row("reset_on_open", False, "opening the port resets the board, as an Uno's does"),
-    Row("clock_error", 0.0, "by which the board's crystal is fast", "ppm", -10000.0, 10000.0),
-)
-PROGRAM = Program(
-    "motor_board",
-    "board_emulator",
-    "The board's real firmware on an emulated ATmega328P behind a serial port, with a simulated motor on its pins.\n"
-    "Faults are parameters that can be set while it runs; ~/reset presses its button, ~/hang hangs its firmware.",
-    (*SET_UP, *FAULTS),
-    "ros2 run motor_board board_emulator --ros-args -p link:=board -p model:=model.yaml",
-    publishes=("/diagnostics",),
-)
 HELD_UP = "The emulated board was held up {} times, which is not real time: close other programs."
 SUPPLY_FULL_SCALE = 60_000  # [mV] on A0's divider
 

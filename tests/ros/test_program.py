@@ -10,7 +10,7 @@ import pytest
 import workbench
 from workbench import Bench
 
-from motor_board.node import PROGRAM as EMULATOR
+from motor_board.parameters import PROGRAM as EMULATOR
 from motor_control.parameters import PROGRAM as CONTROL
 from motor_driver.parameters import PROGRAM as DRIVER
 from motor_identification.service.parameters import PROGRAM as IDENTIFICATION

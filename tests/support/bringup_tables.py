@@ -4,7 +4,7 @@ import importlib.util
 from pathlib import Path
 from types import ModuleType
 
-from motor_board.node import FAULTS, SET_UP
+from motor_board.parameters import FAULTS, SET_UP
 from motor_bringup import identify, motor, replay
 from motor_control.parameters import ROWS as CONTROL
 from motor_driver.parameters import ROWS as DRIVER

@@ -1,0 +1,43 @@
+"""The parameters of the emulated board, as tables: how it is set up, and its faults."""
+
+from motor_ros.parameters import Row
+from motor_ros.program import Program
+
+SET_UP = (
+    Row("link", "/tmp/motor_board", "path under which the board's serial port appears", read_only=True),
+    Row("model", "", "model file (YAML) of the motor on the pins; empty: the paper's motor", read_only=True),
+    Row("edges_per_revolution", 96, "encoder edges of one polarity per turn", "", 1, 65535, read_only=True),
+    Row("single_channel", True, "the encoder has one channel and does not measure direction", read_only=True),
+    Row("slot_irregularity", 0.0, "scatter of the disc's flanks, share of a slot", "", 0.0, 0.2, read_only=True),
+    Row("seed", 0, "of the disc, its starting angle, missed edges and faults", "", 0, 2**31 - 1, read_only=True),
+    Row("bridge", "l298n", "bridge that the firmware is built for: l298n or tb6612", read_only=True),
+    Row(
+        "supply_voltage",
+        0.0,
+        "voltage at full duty, which the board measures; 0: as max_voltage of the model, not measured",
+        "V",
+        0.0,
+        60.0,
+        read_only=True,
+    ),
+)
+FAULTS = (
+    Row("bit_error_rate", 0.0, "share of bits that flip on the line, both ways", "", 0.0, 0.5),
+    Row("drop_rate", 0.0, "share of bytes lost on the line, both ways", "", 0.0, 1.0),
+    Row("delay", 0.0, "bytes come late by 0 to this, both ways, in order", "s", 0.0, 1.0),
+    Row("plugged", True, "false: the serial port is gone"),
+    Row("stuck_telemetry", False, "the board is heard no more, but hears"),
+    Row("encoder_connected", True, "false: no edges reach the board"),
+    Row("stray_edges", 0.0, "edges that the encoder's line picks up, at random times", "1/s", 0.0, 10000.0),
+    Row("reset_on_open", False, "opening the port resets the board, as an Uno's does"),
+    Row("clock_error", 0.0, "by which the board's crystal is fast", "ppm", -10000.0, 10000.0),
+)
+PROGRAM = Program(
+    "motor_board",
+    "board_emulator",
+    "The board's real firmware on an emulated ATmega328P behind a serial port, with a simulated motor on its pins.\n"
+    "Faults are parameters that can be set while it runs; ~/reset presses its button, ~/hang hangs its firmware.",
+    (*SET_UP, *FAULTS),
+    "ros2 run motor_board board_emulator --ros-args -p link:=board -p model:=model.yaml",
+    publishes=("/diagnostics",),
+)
