@@ -104,7 +104,7 @@ def test_impossible_names_are_a_sentence(ros2, words):
 
 def test_an_impossible_domain_is_a_sentence(ros2):
     err = ros2("node", "list", status=1, ROS_DOMAIN_ID="lab").err
-    assert err.startswith("ROS does not start: failed to initialize rcl: ROS_DOMAIN_ID is not an integral number")
+    assert err.startswith("ROS 2 cannot start: ROS_DOMAIN_ID is not an integral number")
     assert err.count("\n") == 1
 
 

@@ -260,10 +260,11 @@ def csv(draw: Draw, random: Random, folder: Path) -> list[str]:
     rows = [
         [f"{0.005 * k:.3f}", f"{6.0 if k > 20 else 0.0}", f"{min(k, 60) * 1.5:.2f}", str(3 * k)] for k in range(200)
     ]
+    texts = draw(st.lists(st.text(max_size=6), min_size=1, max_size=9))
     for _ in range(random.choice((0, 1, 1, 5, 300))):
         row = random.choice(rows)
         if row:
-            row[random.randrange(len(row))] = random.choice((*NUMBERS, draw(st.text(max_size=6))))
+            row[random.randrange(len(row))] = random.choice((*NUMBERS, *texts))
     if random.random() < 0.2:
         del random.choice(rows)[:]
     separator = random.choice((",", ",", ",", ";", "\t", "|"))
