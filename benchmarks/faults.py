@@ -28,7 +28,8 @@ Not within their time, and why: at 3 % of the top speed the 6 and 30 rad/s motor
 loop as slow as that needs up to 0.72 s to raise its voltage to one that any motor would turn at; only a model knows
 earlier. 5 and 20 stray edges a second are about what is wanted there (at 174 rad/s 80), and too few for their periods
 to be judged (from 35 a second on): such a motor turns as it likes, at up to 97 % of its top speed, and stops late or
-never. From 50 a second on, and at half of the top speed at any rate, stray edges stop it in time."""
+never. From 50 a second on stray edges stop it in time (but for one run of the 6 rad/s motor), and at half of the top
+speed at any rate. On the board the exchanged channels of the 6 rad/s motor take 572 ms at 1 kHz."""
 
 
 @dataclass(frozen=True)
