@@ -87,7 +87,24 @@ class Outcome:
     seconds: float
 
 
-def recorded(hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None) -> Hidden:
+@dataclass(frozen=True)
+class Torque:
+    """A random torque beside the motor, another course of it in every recording."""
+
+    rms: float  # [V]
+    time: float  # [s] over which it is correlated
+
+    def values(self, seed: int) -> dict[str, float]:
+        """As the plant has them."""
+        return {"random_torque": self.rms, "random_torque_time": self.time, "random_torque_seed": float(seed)}
+
+
+QUIET = Torque(0.0, 1.0)
+
+
+def recorded(
+    hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None, torque: Torque = QUIET
+) -> Hidden:
     """Hide it in a random motor; `sizes` are given, all others drawn."""
     random = np.random.default_rng([seed, len(hidden), *map(ord, "".join(hidden))])
     values = {"kv": PAPER_KV * random.uniform(0.7, 1.4), "ka": PAPER_KA * random.uniform(0.6, 1.5)}
@@ -100,15 +117,17 @@ def recorded(hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None 
     drives = profiles.rich(12.0, seed), profiles.random(12.0, 14.0, seed + 500)
     how = {"irregularity": share, "disc_seed": disc}
     first, second = (
-        check(record(v, *drive, seed=s, **how)[0])  # type: ignore[arg-type]
+        check(record(v | torque.values(s), *drive, seed=s, **how)[0])  # type: ignore[arg-type]
         for v, drive, s in zip((values, later), drives, (seed, seed + 77), strict=True)
     )
     return Hidden(values, first, second)
 
 
-def one(hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None) -> Outcome:
+def one(
+    hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None, torque: Torque = QUIET
+) -> Outcome:
     """Hide it in a random motor and diagnose; `sizes` are given, all others drawn."""
-    made = recorded(hidden, seed, sizes)
+    made = recorded(hidden, seed, sizes, torque)
     values = made.values
     begun = perf_counter()
     found = diagnose([made.training], [made.validation])
