@@ -13,6 +13,7 @@ from time import perf_counter
 from motor_identification.diagnosis.backward_elimination import drop_stand_ins, eliminate_backward
 from motor_identification.diagnosis.forward_selection import (
     Selection,
+    begin_beside_torque,
     begin_selection,
     retry_with_another_first,
     select_forward,
@@ -64,8 +65,26 @@ def diagnose(
     start, search = _fit_known(recordings, request, hold_out)
     selection = retry_with_another_first(select_forward(start, reporter), reporter)
     reporter.report("checking", 0.9, "", selection.model.held.gap)
-    selection = eliminate_backward(drop_stand_ins(selection), reporter)
+    selection = _select_beside_torque(start, selection, reporter) or eliminate_backward(
+        drop_stand_ins(selection), reporter
+    )
     return conclude(start.model, selection, recordings, validation, search, lambda: perf_counter() - begun)
+
+
+def _select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
+    """Select on beside a random torque, where more is left than the sensor leaves; None if that leaves structure.
+
+    From what was found without it, and where that leads nowhere from the beginning.
+    """
+    if not plain.model.above_floor:
+        return None
+    for begin in (plain, start) if plain.steps else (start,):
+        reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
+        begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
+        selection = eliminate_backward(select_forward(begun, reporter), reporter)
+        if selection.model.complete:
+            return selection
+    return None
 
 
 def _fit_known(recordings: Sequence[Recording], request: Request, hold_out: HoldOut) -> tuple[Selection, SearchReport]:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
+from motor_identification.diagnosis.candidate_model import CandidateTest, Model, refit_without
 from motor_identification.diagnosis.effect_test import (
     count_parameters,
     likelihood_threshold,
@@ -16,9 +16,6 @@ from motor_identification.diagnosis.effect_test import (
     try_effects,
 )
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
-from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.least_squares import fit_speeds
-from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -53,7 +50,7 @@ def eliminate_backward(selection: Selection, reporter: ProgressReporter) -> Sele
 def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressReporter) -> Selection:
     """Test one finding against the model without it, and against others instead of it."""
     effect, current = step.found.effect, selection.model
-    without = _refit_without(selection, effect)
+    without = refit_without(selection.model, effect, selection.hold_out)
     if without.likelihood > current.likelihood - likelihood_threshold():
         return _replace_step(selection, step, None, without)
     if step is selection.steps[-1]:  # what could be in its place was tried beside it
@@ -89,15 +86,6 @@ def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
     simpler = count_parameters(test.effect) < count_parameters(effect)
     margin = -thresholds.RIVAL_MARGIN if simpler else thresholds.RIVAL_MARGIN
     return test.model.likelihood > current.likelihood + margin
-
-
-def _refit_without(selection: Selection, effect: str) -> Model:
-    """Fit the last model again without one effect, and without what there is only with it."""
-    current = selection.model.estimate
-    left = tuple(name for name in selection.model.effects if name != effect and EFFECT_BY_NAME[name].implies != effect)
-    smaller = current.problem.with_effects(left)
-    start = map_theta(current.problem.unknowns, current.theta, smaller.unknowns, {})
-    return validate_model(selection.hold_out, fit_speeds(Estimate(smaller, start, current.simulations)))
 
 
 def _replace_step(selection: Selection, step: SelectionStep, by: SelectionStep | None, model: Model) -> Selection:

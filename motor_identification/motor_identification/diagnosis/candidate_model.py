@@ -1,15 +1,19 @@
 """Compare candidate models on held-out data, with and without one more effect, and decide whether that matters."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import sqrt
 
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.torque_evidence import count_scored, score_held_out, score_training
 from motor_identification.discrepancy.motion_history import make_history
 from motor_identification.discrepancy.structure import Rest, Structure, find_structure
+from motor_identification.estimation.disturbed_fit import fit_beside_torque
 from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_model import (
     Disturbance,
@@ -23,6 +27,7 @@ from motor_identification.noise.likelihood import Noise, estimate_noise
 from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
+from motor_model.effects import EFFECT_BY_NAME
 
 
 @dataclass(frozen=True)
@@ -32,7 +37,15 @@ class Model:
     estimate: Estimate  # on its training data
     held: HeldOut
     noise: Noise  # what it leaves in the training data
-    likelihood: float  # logarithm, of the held-out data
+    likelihood: float  # logarithm, of the held-out data; beside a random torque of all data, less the unknowns' price
+    learned: ErrorModel | None = None  # of what it leaves, where it is judged beside a random torque
+    held_out: float = 0.0  # the held-out data's part of that likelihood
+    scored: int = 0  # intervals that it is of
+
+    @property
+    def beside_torque(self) -> bool:
+        """Whether its likelihood is that beside a random torque."""
+        return self.learned is not None
 
     @property
     def effects(self) -> tuple[str, ...]:
@@ -67,9 +80,9 @@ class Model:
     @cached_property
     def errors(self) -> ErrorModel:
         """What sensor and random torque leave in the training data; only the sensor where it explains what is left."""
-        if not self.above_floor:
-            return ErrorModel(self.noise.share, 0.0, 0.0, 1.0)
-        return learn_error_model(self._error_data(), *self._rate())
+        if self.learned is not None:
+            return self.learned
+        return learn_errors(self.estimate) if self.above_floor else ErrorModel(self.noise.share, 0.0, 0.0, 1.0)
 
     @cached_property
     def structure(self) -> tuple[Structure, ...]:
@@ -160,7 +173,7 @@ class CandidateTest:
 
     @property
     def evidence(self) -> float:
-        """Logarithm of the likelihood ratio to the model without it."""
+        """Logarithm of the likelihood ratio to the model without it, beside a random torque of the Bayes factor."""
         return self.model.likelihood - self.before.likelihood
 
     @property
@@ -170,7 +183,11 @@ class CandidateTest:
 
     @cached_property
     def relevant(self) -> bool:
-        """Whether it takes away a good part of what lasts longer than the encoder's noise."""
+        """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual."""
+        if self.model.beside_torque:
+            return self.model.held_out > self.before.held_out and (
+                2.0 * self.evidence > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
+            )
         before, after = self.before.lasting, self.model.lasting
         floor = after.floor(self.model.noise.share)
         if before.gap < thresholds.RELEVANT_GAP * floor:
@@ -186,8 +203,42 @@ def share_explained(before: float, after: float, floor: float) -> float:
     return (before**2 - after**2) / (before**2 - floor**2) if before > floor else 1.0
 
 
-def validate_model(hold_out: HoldOut, estimate: Estimate) -> Model:
-    """Validate an estimate on held-out data, under the noise that it leaves in its training data."""
+def learn_errors(
+    estimate: Estimate, guess: ErrorModel | None = None, evaluations: int = thresholds.FINAL_EVALUATIONS
+) -> ErrorModel:
+    """Learn what sensor and random torque leave of an estimate in its training data."""
+    rows = zip(estimate.problem.intervals, estimate.increments, strict=True)
+    values = estimate.parameters.values
+    data = [make_error_data(intervals, increments) for intervals, increments in rows]
+    return learn_error_model(data, values["kv"] / values["ka"], values["ka"], guess, evaluations)
+
+
+def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = None) -> Model:
+    """Validate an estimate on held-out data, under the noise that it leaves in its training data.
+
+    like: a similar model; where that is judged beside a random torque, so is this one.
+    """
     held = hold_out.validate(estimate)
     noise = estimate_noise(list(zip(estimate.problem.intervals, estimate.increments, strict=True)))
-    return Model(estimate, held, noise, held.log_likelihood(noise))
+    model = Model(estimate, held, noise, held.log_likelihood(noise))
+    if like is None or not like.beside_torque:
+        return model
+    return judge_beside_torque(model, hold_out, like.learned, thresholds.CANDIDATE_EVALUATIONS)
+
+
+def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | None, evaluations: int) -> Model:
+    """Judge a model beside a random torque: its errors are learned, from a guess if there is one."""
+    errors = learn_errors(model.estimate, guess, evaluations)
+    held, training = score_held_out(hold_out, model.estimate, errors), score_training(model.estimate, errors)
+    return replace(model, learned=errors, likelihood=held + training, held_out=held, scored=count_scored(hold_out))
+
+
+def refit_without(model: Model, effect: str, hold_out: HoldOut) -> Model:
+    """Fit a model again without one effect, and without what there is only with it, from where it is."""
+    current = model.estimate
+    left = tuple(name for name in model.effects if name != effect and EFFECT_BY_NAME[name].implies != effect)
+    smaller = current.problem.with_effects(left)
+    start = map_theta(current.problem.unknowns, current.theta, smaller.unknowns, {})
+    begin = Estimate(smaller, start, current.simulations)
+    fitted = fit_speeds(begin) if model.learned is None else fit_beside_torque(begin, model.learned)
+    return validate_model(hold_out, fitted, model)

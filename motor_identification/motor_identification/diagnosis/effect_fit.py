@@ -4,14 +4,21 @@ The rest of the model is near its minimum already; the local minima along an eff
 start values are needed.
 """
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
 
+from motor_identification.estimation.disturbed_fit import (
+    DisturbedResiduals,
+    fit_beside_torque,
+    make_disturbed_residuals,
+)
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.least_squares import LEAST_GAIN, fit_speeds, improves_fit
+from motor_identification.estimation.least_squares import LEAST_GAIN, SpeedResiduals, fit_residuals, improves_fit
 from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.estimation.problem import Problem
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Floats
 from motor_model.effects import EFFECT_BY_NAME, normalised
@@ -19,27 +26,50 @@ from motor_model.effects import EFFECT_BY_NAME, normalised
 QUICK_INTERVAL = 0.02  # [s] of the intervals of a quick look from every start,
 QUICK_ITERATIONS, QUICK_TOLERANCE = 10, 1e-4  # which shall only tell the starts apart
 ITERATIONS, TOLERANCE = 20, 1e-8  # of the fit from the best of them
+DISTURBED_ITERATIONS, DISTURBED_TOLERANCE = 8, 1e-5  # beside a random torque, which leaves more
 
 
-def fit_with_effect(estimate: Estimate, effect: str, least: float = 0.0) -> Estimate | None:
+def fit_with_effect(
+    estimate: Estimate, effect: str, least: float = 0.0, errors: ErrorModel | None = None
+) -> Estimate | None:
     """Fit a motor with one more effect, all parameters again, from a fit without it.
 
+    errors: of what the fit without it leaves, to fit beside a random torque; None to compare mean speeds as they are.
     None where a quick look from every start promises nothing, or, of a line in a spectrum, less than `least` of the sum
     of squared standard deviations.
     """
     if EFFECT_BY_NAME[effect].periodic:
-        return periodic_fit.add_periodic_effect(estimate, effect, max(least, LEAST_GAIN))
+        periodic = periodic_fit.add_periodic_effect(estimate, effect, max(least, LEAST_GAIN), freely=errors is None)
+        return periodic if errors is None or periodic is None else fit_beside_torque(periodic, errors)
     larger = estimate.problem.with_effects(normalised((*estimate.problem.unknowns.effects, effect)))
     quick, bare = larger.coarsen(QUICK_INTERVAL), estimate.problem.coarsen(QUICK_INTERVAL)
+    look = _make_target(estimate.on(bare), errors)
     best, start, spent = np.inf, estimate.theta, estimate.simulations
     for begin in _list_starts(estimate, larger):
-        end = fit_speeds(Estimate(quick, begin, spent), iterations=QUICK_ITERATIONS, tolerance=QUICK_TOLERANCE)
-        spent, cost = end.simulations, end.cost
+        target = replace(look, problem=quick)
+        end = fit_residuals(Estimate(quick, begin, spent), target, np.inf, QUICK_ITERATIONS, QUICK_TOLERANCE)
+        spent, cost = end.simulations, _sum_squares(target, end)
         if cost < best:
             best, start = cost, end.theta
-    if not improves_fit(estimate.on(bare).cost, best, len(bare.weight)):
+    if not promises_gain(_sum_squares(look, estimate.on(bare)), best, len(bare.weight), errors is not None):
         return None
-    return fit_speeds(Estimate(larger, start, spent), iterations=ITERATIONS, tolerance=TOLERANCE)
+    target = replace(_make_target(estimate, errors), problem=larger)
+    how = (ITERATIONS, TOLERANCE) if errors is None else (DISTURBED_ITERATIONS, DISTURBED_TOLERANCE)
+    return fit_residuals(Estimate(larger, start, spent), target, np.inf, *how)
+
+
+def _make_target(estimate: Estimate, errors: ErrorModel | None) -> SpeedResiduals | DisturbedResiduals:
+    """Make what is minimised: mean speeds as they are, or whitened beside a random torque."""
+    return SpeedResiduals(estimate.problem) if errors is None else make_disturbed_residuals(estimate, errors)
+
+
+def _sum_squares(target: SpeedResiduals | DisturbedResiduals, estimate: Estimate) -> float:
+    return float(np.sum(target.residuals(estimate.theta) ** 2))
+
+
+def promises_gain(before: float, after: float, count: int, white: bool) -> bool:
+    """Decide whether a sum of squares fell by more than chance; white residuals have a standard deviation of 1."""
+    return before - after >= LEAST_GAIN if white else improves_fit(before, after, count)
 
 
 def add_noticeable_effect(estimate: Estimate, effect: str) -> Estimate:

@@ -40,13 +40,13 @@ def try_effects(
 
 
 def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) -> CandidateTest:
-    larger = fit_with_effect(current.estimate, effect, least)
+    larger = fit_with_effect(current.estimate, effect, least, current.learned)
     if larger is None:
         return CandidateTest(effect, current, current)
     if EFFECT_BY_NAME[effect].periodic:  # it may turn the shaft back where the model without it does not
         own = hold_out.correct_directions(larger)
-        return CandidateTest(effect, validate_model(own, current.estimate), validate_model(own, larger))
-    return CandidateTest(effect, current, validate_model(hold_out, larger))
+        return CandidateTest(effect, validate_model(own, current.estimate, current), validate_model(own, larger, current))
+    return CandidateTest(effect, current, validate_model(hold_out, larger, current))
 
 
 def likelihood_threshold() -> float:
@@ -86,7 +86,8 @@ def _exceeds_chance_harmonic(test: CandidateTest) -> bool:
     estimate = test.model.estimate
     size = float(estimate.theta[estimate.problem.unknowns.names.index(effect.parameters[0].name)])
     slot = max(data.slot for data in estimate.problem.intervals)
-    return is_beyond_chance(size, slot, test.model.noise.share)
+    share = test.model.noise.share if test.model.learned is None else test.model.learned.share
+    return is_beyond_chance(size, slot, share)
 
 
 def is_beyond_chance(eccentricity: float, slot: float, share: float) -> bool:

@@ -9,7 +9,15 @@ from dataclasses import dataclass, replace
 from math import sqrt
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import CandidateTest, Model, share_explained, validate_model
+from motor_identification.diagnosis.candidate_model import (
+    CandidateTest,
+    Model,
+    judge_beside_torque,
+    learn_errors,
+    refit_without,
+    share_explained,
+    validate_model,
+)
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     count_parameters,
@@ -19,6 +27,7 @@ from motor_identification.diagnosis.effect_test import (
     try_effects,
 )
 from motor_identification.estimation.direction_correction import correct_directions
+from motor_identification.estimation.disturbed_fit import fit_beside_torque
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds, measure_scatter
 from motor_identification.estimation.miscounts import exclude_miscounts, find_miscounts, fit_robustly
@@ -49,8 +58,24 @@ class Selection:
 
     def add(self, steps: Sequence[SelectionStep]) -> "Selection":
         """Add steps, and fit the model that they lead to once more on corrected recordings."""
-        last = steps[-1].found.model
-        return begin_selection(last.estimate, self.hold_out, self.workers, (*self.steps, *steps))
+        last, every = steps[-1].found.model, (*self.steps, *steps)
+        if last.beside_torque:
+            return begin_beside_torque(last, self.hold_out, self.workers, every)
+        return begin_selection(last.estimate, self.hold_out, self.workers, every)
+
+
+def begin_beside_torque(
+    model: Model, hold_out: HoldOut, workers: int, steps: tuple[SelectionStep, ...] = ()
+) -> Selection:
+    """Correct directions by a model, and fit, learn and judge it again beside a random torque.
+
+    Nothing is left out: the density of what is left has wide tails.
+    """
+    errors = model.learned or learn_errors(model.estimate)
+    estimate = fit_beside_torque(correct_directions(model.estimate), errors)
+    hold_out = hold_out.correct_directions(estimate)
+    again = judge_beside_torque(validate_model(hold_out, estimate), hold_out, errors, thresholds.FINAL_EVALUATIONS)
+    return Selection(steps, again, hold_out, workers)
 
 
 def begin_selection(
@@ -83,7 +108,7 @@ def may_be_miscounted(robust: Estimate, floor: float) -> bool:
 def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool = True) -> Selection:
     """Add effects as long as one is found; where none is and a gap is left, two at once if `pairs` are allowed."""
     while True:
-        tests = _try_all_effects(selection, reporter)
+        selection, tests = verify_findings(selection, _try_all_effects(selection, reporter))
         best = choose_finding(tests)
         if len(selection.steps) >= thresholds.MOST_FINDINGS:
             return selection
@@ -98,6 +123,24 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
         if not further.model.complete and pair[-1].explains <= thresholds.STAND_IN_SHARE:
             return selection
         selection = further
+
+
+def verify_findings(selection: Selection, tests: list[CandidateTest]) -> tuple[Selection, list[CandidateTest]]:
+    """Fit the model again from where a finding leads, but without it: as good a chance as the candidate had.
+
+    Beside a random torque a likelihood has many summits (one restart more or less that is met), and whatever is tried
+    may lead to a higher one. Only there: else least squares of speeds are smooth enough.
+    """
+    for _ in range(thresholds.VERIFICATIONS):
+        best = choose_finding(tests)
+        if best is None or not best.model.beside_torque:
+            break
+        again = refit_without(best.model, best.effect, selection.hold_out)
+        if again.likelihood <= selection.model.likelihood:
+            break
+        tests = [replace(test, before=again) if test.before is selection.model else test for test in tests]
+        selection = replace(selection, model=again)
+    return selection, tests
 
 
 def may_hide_pair(selection: Selection) -> bool:

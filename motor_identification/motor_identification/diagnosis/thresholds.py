@@ -35,6 +35,12 @@ RELEVANT_GAP = 1.15
 RELEVANT_SHARE = 0.3
 # The same where the gap is at the floor already, and chance has a larger part in what little is left.
 RELEVANT_SHARE_NEAR_FLOOR = 0.5
+# Of the white residual's power beside a random torque, which no floor is known for: less is nothing to name.
+RELEVANT_WHITE_SHARE = 0.01
+# Likelihoods that the search for a candidate's errors may ask for, and that for a model's to begin with.
+CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120
+# How often a model is fitted again from where the best finding leads, beside a random torque.
+VERIFICATIONS = 3
 # Of the gap itself that goes in any case: a user sees three digits of it.
 LEAST_DROP = 1e-3
 # Times the standard deviation that random slots give to sine and cosine of their first harmonic, which an eccentricity

@@ -28,7 +28,7 @@ WIDTH = 10.0  # scale of their density, in standard deviations of the others
 _PANEL = 0.5  # of the faster time constant: first panel of a quadrature, the next ones are twice as long each
 _NODES = (0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970262)  # Gauss-Legendre on 0..1
 _WEIGHTS = (0.17392742256872692, 0.32607257743127305, 0.32607257743127305, 0.17392742256872692)
-GAINS = 12  # numbers of an interval that the transpose needs
+GAINS = 12  # numbers of an interval that the filter of other increments needs
 _LONG = 40.0  # time constants after which nothing is remembered
 
 
@@ -104,7 +104,7 @@ def run_filter(  # noqa: C901, PLR0915
     fresh: a run begins, `pause` [s] after the last one ended. still: the motor stood; its increment is by how far the
     simulated one left the slot. duration [s], start, end [rad²]: of each interval, and the angle's variance at either
     end.
-    gains: (I, GAINS), filled for `fill_adjoint`; (0, GAINS) where that is not wanted.
+    gains: (I, GAINS), filled for `fill_white`; (0, GAINS) where that is not wanted.
     alpha, beta [1/s]: kv/ka and 1/τ. strength [rad²/s⁴] (σ/ka)². growth [rad²/s]. counted: whose likelihood is wanted.
     """
     rows = len(increments)
@@ -193,9 +193,11 @@ def run_filter(  # noqa: C901, PLR0915
             d[c] += kd * each
             t[c] += kt * each
         if len(gains):
-            gains[k] = (root, kb, kd, kt, phi_d, phi_t, by_t, angle_d, angle_t, fd, ft, by)
-        if lost:
+            gains[k] = (root * sqrt(trust), kb, kd, kt, phi_d, phi_t, by_t, angle_d, angle_t, fd, ft, by)
+        if lost:  # and the speed too, as far as it may be off by what was seen: a stop that only one of the two made
             bb, bd, bt = end[k], 0.0, 0.0
+            if strength > 0.0:
+                dd += (off / h) ** 2
         else:
             taken = variance / trust - (1.0 - trust) * off * off / trust
             bb, bd, bt = bb - taken * kb * kb, bd - taken * kb * kd, bt - taken * kb * kt
@@ -221,25 +223,6 @@ def fill_white(fresh: Bools, still: Bools, gains: Floats, increments: Floats, wh
         off = level - b
         white[k] = off * root
         b, d, t = b + kb * off, d + kd * off, t + kt * off
-
-
-@compiled
-def fill_adjoint(fresh: Bools, still: Bools, gains: Floats, white: Floats, increments: Floats) -> None:
-    """Fill the transpose of the filter applied to white residuals (I,), with the gains that `run_filter` filled."""
-    level = b = d = t = 0.0  # costates of the state after each interval
-    for k in range(len(fresh) - 1, -1, -1):
-        root, kb, kd, kt, phi_d, phi_t, by_t, angle_d, angle_t, fd, ft, by = gains[k]
-        if still[k]:
-            increments[k] = white[k] * root
-            continue
-        off = white[k] * root + kb * b + kd * d + kt * t
-        level += off
-        b -= off
-        increments[k] = level
-        d, t = angle_d * b + phi_d * d, angle_t * b + by_t * d + phi_t * t
-        if fresh[k]:
-            level = b = 0.0
-            d, t = fd * d, by * d + ft * t
 
 
 @compiled

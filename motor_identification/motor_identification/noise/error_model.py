@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.noise.error_filter import GAINS, run_filter
+from motor_identification.noise.error_filter import GAINS, fill_white, run_filter
 from motor_identification.recording import Bools, Floats
 
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
@@ -80,6 +80,28 @@ class ErrorData:
             rows, self.counted, white, gains,
         )  # fmt: skip
         return float(value), white
+
+
+@dataclass(frozen=True)
+class TorqueWhitening:
+    """The filter's gains for one recording: linear, and the same for every increment; arrays over I intervals."""
+
+    fresh: Bools
+    still: Bools
+    gains: Floats  # (I, GAINS)
+
+    def white(self, increments: Floats) -> Floats:
+        """Whiten angle increments [rad], shape (I,)."""
+        white = np.empty(len(increments))
+        fill_white(self.fresh, self.still, self.gains, np.ascontiguousarray(increments), white)
+        return white
+
+
+def make_whitening(data: ErrorData, model: ErrorModel, rate: float, ka: float) -> TorqueWhitening:
+    """Make the whitening of increments like those of `data`; rate is kv/ka [1/s], ka [V·s²/rad]."""
+    gains = np.empty((len(data.fresh), GAINS))
+    data.whiten(model, rate, ka, gains=gains)
+    return TorqueWhitening(data.fresh, data.still, gains)
 
 
 def _mean(x: Floats) -> Floats:

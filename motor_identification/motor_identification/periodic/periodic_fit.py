@@ -47,11 +47,12 @@ def add_periodic_effects(estimate: Estimate, effects: tuple[str, ...]) -> Estima
     return estimate
 
 
-def add_periodic_effect(bare: Estimate, effect: str, least: float = 0.0) -> Estimate | None:
+def add_periodic_effect(bare: Estimate, effect: str, least: float = 0.0, freely: bool = True) -> Estimate | None:
     """Extend a fit by one periodic effect; with `least`, None where nothing speaks for it.
 
     That is where its spectrum promises less than `least` squared standard deviations, or a fit on measured angles gains
-    nothing. From there it is fitted on the simulated angle, and once more where the spectrum then points elsewhere.
+    nothing. From there it is fitted on the simulated angle too if `freely` (beside a random torque that runs away from the
+    measured one), and once more where the spectrum then points elsewhere.
     """
     effects = (*bare.problem.unknowns.effects, effect)
     fits: list[Estimate] = []
@@ -68,7 +69,7 @@ def add_periodic_effect(bare: Estimate, effect: str, least: float = 0.0) -> Esti
         spent = held.simulations
         if least > 0.0 and not improves_fit(cost_without, held.cost, len(held.problem.weight)):
             break
-        fits += _fit_freely(bare, begin, held, effect, start)
+        fits += _fit_freely(bare, begin, held, effect, start) if freely else [correct_directions(held)]
         spent = fits[-1].simulations
         best = _best(fits)
         bare = _without_effect(bare, best)

@@ -54,3 +54,11 @@ def test_a_noticeable_effect_is_not_fitted() -> None:
     assert larger.parameters.value("ks") == pytest.approx(0.03 * 12.0, rel=0.02)  # 3 % of the largest voltage
     assert larger.parameters.value("kv") == estimate.parameters.value("kv")
     assert larger.cost > 10.0 * estimate.cost and larger.simulations == estimate.simulations
+
+
+@pytest.mark.parametrize("times", [0.99, 1.01])
+def test_a_quick_look_promises_what_chance_does_not(times: float) -> None:
+    """White residuals have a standard deviation of 1, mean speeds that of what is left."""
+    gain = times * LEAST_GAIN
+    assert promises_gain(1000.0 + gain, 1000.0, 500, white=True) == (times > 1.0)
+    assert promises_gain(1.0 + gain / 500, 1.0, 500, white=False) == (times > 1.0)

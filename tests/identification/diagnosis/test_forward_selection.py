@@ -10,7 +10,7 @@ from stub_models import stub_model, stub_test
 
 from motor_identification.diagnosis import forward_selection, thresholds
 from motor_identification.diagnosis.candidate_model import CandidateTest, Model
-from motor_identification.diagnosis.effect_test import likelihood_threshold
+from motor_identification.diagnosis.effect_test import choose_finding, likelihood_threshold
 from motor_identification.diagnosis.forward_selection import (
     Selection,
     SelectionStep,
@@ -21,7 +21,9 @@ from motor_identification.diagnosis.forward_selection import (
     may_hide_pair,
     retry_with_another_first,
     select_forward,
+    verify_findings,
 )
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter, Stage
 
 BELOW, ABOVE = 0.999, 1.001
@@ -75,6 +77,22 @@ def test_miscounts_may_be_all_where_most_intervals_are_near_the_floor(times: flo
     residuals = problem.residuals(estimate.theta) * np.sqrt(problem.weight * len(problem.weight))
     typical = 1.4826 * float(np.median(np.abs(residuals)))
     assert may_be_miscounted(estimate, times * typical / thresholds.MISCOUNTED_GAP) == (times == ABOVE)
+
+
+@pytest.mark.parametrize("better", [True, False])
+def test_beside_a_torque_the_model_is_fitted_again_from_where_a_finding_leads(
+    better: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What the candidate found by luck counts for the model without the effect as well."""
+    errors = ErrorModel(0.0, 0.0, 0.1, 0.05)
+    before = replace(stub_model(5.0), learned=errors, scored=100)
+    lucky = replace(stub_model(4.9, likelihood=40.0), learned=errors, scored=100, held_out=1.0)
+    again = replace(before, likelihood=39.0 if better else -1.0)
+    monkeypatch.setattr(forward_selection, "refit_without", lambda model, effect, hold_out: again)
+    selection, tests = verify_findings(selection_of(before), [CandidateTest("load_bias", before, lucky)])
+    assert (selection.model is again) == better and (choose_finding(tests) is None) == better
+    plain = stub_test("load_bias", stub_model(5.0), 1.0, 100.0)
+    assert verify_findings(selection_of(plain.before), [plain])[1] == [plain]
 
 
 def added(selection: Selection, steps: list[SelectionStep]) -> Selection:
