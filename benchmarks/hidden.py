@@ -123,9 +123,7 @@ def recorded(
     return Hidden(values, first, second)
 
 
-def one(
-    hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None, torque: Torque = QUIET
-) -> Outcome:
+def one(hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None, torque: Torque = QUIET) -> Outcome:
     """Hide it in a random motor and diagnose; `sizes` are given, all others drawn."""
     made = recorded(hidden, seed, sizes, torque)
     values = made.values

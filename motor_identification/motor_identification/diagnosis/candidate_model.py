@@ -7,10 +7,10 @@ from math import sqrt
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.disturbed_fit import fit_beside_torque
 from motor_identification.diagnosis.torque_evidence import count_scored, score_held_out, score_training
 from motor_identification.discrepancy.motion_history import make_history
 from motor_identification.discrepancy.structure import Rest, Structure, find_structure
-from motor_identification.estimation.disturbed_fit import fit_beside_torque
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta

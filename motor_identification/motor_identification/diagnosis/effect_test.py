@@ -45,7 +45,9 @@ def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) ->
         return CandidateTest(effect, current, current)
     if EFFECT_BY_NAME[effect].periodic:  # it may turn the shaft back where the model without it does not
         own = hold_out.correct_directions(larger)
-        return CandidateTest(effect, validate_model(own, current.estimate, current), validate_model(own, larger, current))
+        return CandidateTest(
+            effect, validate_model(own, current.estimate, current), validate_model(own, larger, current)
+        )
     return CandidateTest(effect, current, validate_model(hold_out, larger, current))
 
 

@@ -18,6 +18,7 @@ from motor_identification.diagnosis.candidate_model import (
     share_explained,
     validate_model,
 )
+from motor_identification.diagnosis.disturbed_fit import fit_beside_torque
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     count_parameters,
@@ -27,7 +28,6 @@ from motor_identification.diagnosis.effect_test import (
     try_effects,
 )
 from motor_identification.estimation.direction_correction import correct_directions
-from motor_identification.estimation.disturbed_fit import fit_beside_torque
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds, measure_scatter
 from motor_identification.estimation.miscounts import exclude_miscounts, find_miscounts, fit_robustly

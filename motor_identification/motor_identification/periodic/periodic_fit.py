@@ -51,8 +51,8 @@ def add_periodic_effect(bare: Estimate, effect: str, least: float = 0.0, freely:
     """Extend a fit by one periodic effect; with `least`, None where nothing speaks for it.
 
     That is where its spectrum promises less than `least` squared standard deviations, or a fit on measured angles gains
-    nothing. From there it is fitted on the simulated angle too if `freely` (beside a random torque that runs away from the
-    measured one), and once more where the spectrum then points elsewhere.
+    nothing. From there it is fitted on the simulated angle too if `freely` (beside a random torque that runs away from
+    the measured one), and once more where the spectrum then points elsewhere.
     """
     effects = (*bare.problem.unknowns.effects, effect)
     fits: list[Estimate] = []

@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 from diagnosed import fitted
 
-from motor_identification.diagnosis.effect_fit import _list_starts, add_noticeable_effect, fit_with_effect
+from motor_identification.diagnosis.effect_fit import (
+    _list_starts,
+    add_noticeable_effect,
+    fit_with_effect,
+    promises_gain,
+)
+from motor_identification.estimation.least_squares import LEAST_GAIN
 from motor_model.effects import EFFECT_BY_NAME
 from motor_model.parameters import PAPER_KA, PAPER_KV
 

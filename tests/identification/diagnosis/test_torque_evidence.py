@@ -51,7 +51,9 @@ def test_a_friction_that_is_there_has_evidence_on_both_parts() -> None:
     assert test.relevant
 
 
-@pytest.mark.parametrize(("times", "held_out", "relevant"), [(1.01, 1.0, True), (0.99, 1.0, False), (1.01, -1.0, False)])
+@pytest.mark.parametrize(
+    ("times", "held_out", "relevant"), [(1.01, 1.0, True), (0.99, 1.0, False), (1.01, -1.0, False)]
+)
 def test_what_matters_is_a_share_of_the_white_residual_and_shows_on_held_out_motion(
     times: float, held_out: float, relevant: bool
 ) -> None:

@@ -4,8 +4,8 @@ import numpy as np
 from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_model import learn_errors
+from motor_identification.diagnosis.disturbed_fit import fit_beside_torque, make_disturbed_residuals
 from motor_identification.estimation.direction_correction import correct_directions
-from motor_identification.estimation.disturbed_fit import fit_beside_torque, make_disturbed_residuals
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
@@ -37,7 +37,9 @@ def test_residuals_are_white_and_of_unit_variance() -> None:
 
 def test_it_scatters_less_than_least_squares_of_mean_speeds() -> None:
     true = np.log([PAPER_KV, PAPER_KA])
-    ordinary, disturbed = (np.array([fit.theta - true for fit in row]) for row in zip(*map(fits, range(6)), strict=True))
+    ordinary, disturbed = (
+        np.array([fit.theta - true for fit in row]) for row in zip(*map(fits, range(6)), strict=True)
+    )
     assert np.sqrt(np.mean(disturbed[:, 1] ** 2)) < 0.7 * np.sqrt(np.mean(ordinary[:, 1] ** 2))
     assert np.abs(disturbed).max() < 0.02
 
