@@ -51,9 +51,10 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     """Test one finding against the model without it, and against others instead of it."""
     effect, current = step.found.effect, selection.model
     without = refit_without(selection.model, effect, selection.hold_out)
-    if without.likelihood > current.likelihood - likelihood_threshold():
+    if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
         return _replace_step(selection, step, None, without)
-    if step is selection.steps[-1]:  # what could be in its place was tried beside it
+    judged_alike = step.found.model.beside_torque == current.beside_torque
+    if step is selection.steps[-1] and judged_alike:  # what could be in its place was tried beside it
         return selection
     others = list_replacements(step, without.effects, current.effects)
     if not others:
@@ -82,10 +83,15 @@ def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequ
 
 
 def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
-    """Decide whether a test's model is better: more likely by the margin, or nearly as likely with fewer parameters."""
-    simpler = count_parameters(test.effect) < count_parameters(effect)
-    margin = -thresholds.RIVAL_MARGIN if simpler else thresholds.RIVAL_MARGIN
-    return test.model.likelihood > current.likelihood + margin
+    """Decide whether a test's model is better: more likely by the margin, or nearly as likely with fewer parameters.
+
+    Beside a random torque the simpler one may be less likely in a few moments.
+    """
+    loss = current.likelihood - test.model.likelihood
+    if count_parameters(test.effect) >= count_parameters(effect):
+        return loss < -thresholds.RIVAL_MARGIN
+    steady = CandidateTest(effect, test.model, current).steadiness if current.beside_torque else loss
+    return min(loss, steady) < thresholds.RIVAL_MARGIN
 
 
 def _replace_step(selection: Selection, step: SelectionStep, by: SelectionStep | None, model: Model) -> Selection:

@@ -1,14 +1,19 @@
 """Compare candidate models on held-out data, with and without one more effect, and decide whether that matters."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import sqrt
+from math import exp, sqrt
 
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.disturbed_fit import fit_beside_torque
-from motor_identification.diagnosis.torque_evidence import count_scored, score_held_out, score_training
+from motor_identification.diagnosis.torque_evidence import (
+    count_scored,
+    measure_steadiness,
+    score_held_out,
+    score_training,
+)
 from motor_identification.discrepancy.motion_history import make_history
 from motor_identification.discrepancy.structure import Rest, Structure, find_structure
 from motor_identification.estimation.estimate import Estimate
@@ -41,6 +46,7 @@ class Model:
     learned: ErrorModel | None = None  # of what it leaves, where it is judged beside a random torque
     held_out: float = 0.0  # the held-out data's part of that likelihood
     scored: int = 0  # intervals that it is of
+    moments: Floats = field(default_factory=lambda: np.zeros(0))  # what each adds to it
 
     @property
     def beside_torque(self) -> bool:
@@ -97,8 +103,13 @@ class Model:
     @property
     def is_random(self) -> bool:
         """Whether the random torque that was learned leaves about as much as is left: else it does not describe it."""
+        time = self.errors.correlation_time + 1.0 / self._rate()[0]
+        seen = sum(
+            float(data.duration[marks].sum()) for data, marks in zip(self.held.intervals, self.held.scored, strict=True)
+        )
+        chance = exp(thresholds.RANDOM_SIGMA * sqrt(0.5 * time / seen))  # of the RMS of so many independent samples
         low, high = thresholds.RANDOM_GAP
-        return low < self.held.gap / self.noise_floor < high
+        return low / chance < self.held.gap / self.noise_floor < high * chance
 
     @property
     def unpredictable_gap(self) -> float:
@@ -177,16 +188,25 @@ class CandidateTest:
         return self.model.likelihood - self.before.likelihood
 
     @property
+    def steadiness(self) -> float:
+        """Evidence without the few moments that speak most for it, beside a random torque."""
+        return measure_steadiness(self.before.moments, self.model.moments)
+
+    @property
     def explains(self) -> float:
         """Share of the excess over the noise floor that it takes away."""
         return share_explained(self.before.held.gap, self.model.held.gap, self.model.unpredictable_gap)
+
+    def is_likely(self, least: float) -> bool:
+        """Decide whether the evidence is beyond a least, beside a random torque without its few best moments too."""
+        return self.evidence > least and (not self.model.beside_torque or self.steadiness > least)
 
     @cached_property
     def relevant(self) -> bool:
         """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual."""
         if self.model.beside_torque:
             return self.model.held_out > self.before.held_out and (
-                2.0 * self.evidence > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
+                2.0 * self.steadiness > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
             )
         before, after = self.before.lasting, self.model.lasting
         floor = after.floor(self.model.noise.share)
@@ -230,7 +250,22 @@ def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | Non
     """Judge a model beside a random torque: its errors are learned, from a guess if there is one."""
     errors = learn_errors(model.estimate, guess, evaluations)
     held, training = score_held_out(hold_out, model.estimate, errors), score_training(model.estimate, errors)
-    return replace(model, learned=errors, likelihood=held + training, held_out=held, scored=count_scored(hold_out))
+    return replace(
+        model,
+        learned=errors,
+        likelihood=held.likelihood + training.likelihood,
+        held_out=held.likelihood,
+        scored=count_scored(hold_out),
+        moments=np.concatenate([held.moments, training.moments]),
+    )
+
+
+def refine_beside_torque(model: Model, hold_out: HoldOut) -> Model:
+    """Fit a model again beside the torque that it leaves itself, less than was left before, where that is better."""
+    assert model.learned is not None
+    plain = validate_model(hold_out, fit_beside_torque(model.estimate, model.learned))
+    again = judge_beside_torque(plain, hold_out, None, thresholds.FINAL_EVALUATIONS)
+    return again if again.likelihood > model.likelihood else model
 
 
 def refit_without(model: Model, effect: str, hold_out: HoldOut) -> Model:
@@ -241,4 +276,5 @@ def refit_without(model: Model, effect: str, hold_out: HoldOut) -> Model:
     start = map_theta(current.problem.unknowns, current.theta, smaller.unknowns, {})
     begin = Estimate(smaller, start, current.simulations)
     fitted = fit_speeds(begin) if model.learned is None else fit_beside_torque(begin, model.learned)
-    return validate_model(hold_out, fitted, model)
+    again = validate_model(hold_out, fitted, model)
+    return refine_beside_torque(again, hold_out) if again.beside_torque else again

@@ -2,10 +2,16 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from math import log, sqrt, tau
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
+from motor_identification.diagnosis.candidate_model import (
+    CandidateTest,
+    Model,
+    refine_beside_torque,
+    validate_model,
+)
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
@@ -48,7 +54,10 @@ def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) ->
         return CandidateTest(
             effect, validate_model(own, current.estimate, current), validate_model(own, larger, current)
         )
-    return CandidateTest(effect, current, validate_model(hold_out, larger, current))
+    test = CandidateTest(effect, current, validate_model(hold_out, larger, current))
+    if not current.beside_torque or test.evidence <= 0.0:
+        return test
+    return replace(test, model=refine_beside_torque(test.model, hold_out))
 
 
 def likelihood_threshold() -> float:
@@ -72,7 +81,7 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
 
 
 def _is_finding(test: CandidateTest) -> bool:
-    return test.evidence > likelihood_threshold() and test.relevant and _exceeds_chance_harmonic(test)
+    return test.is_likely(likelihood_threshold()) and test.relevant and _exceeds_chance_harmonic(test)
 
 
 def count_parameters(effect: str) -> int:

@@ -72,6 +72,14 @@ LEAST_MISSED_EDGES = 5
 # Standard deviations of what sensor and random torque leave, beyond which an interval that is short by whole slots has
 # lost edges: chance makes one of 11,000 that short, and five of 10,000 in two recordings of a thousand.
 MISSED_EDGE_SIGMA = 3.75
+# Of a slot, at least and at most: how near to a whole one an interval is that lost an edge, within two standard
+# deviations of its travel; a motion that went astray is anywhere.
+WHOLE_SLOT = (0.2, 0.4)
+# Of the edges that are missing: intervals that are far off otherwise. Missed edges leave next to none, a simulated
+# motion that goes astray now and then at least as many.
+MOST_ODD = 0.5
 # Times the noise floor of sensor and random torque together: a gap beyond is not what that torque leaves. Measured on
 # complete models beside 0.03 and 0.15 V: 0.92 to 1.12; a slewing bridge that an inductance stood in for: 0.29.
 RANDOM_GAP = (0.75, 1.33)
+# Standard deviations that it may be off by chance beyond: a few held-out seconds have few samples of a slow torque.
+RANDOM_SIGMA = 2.0

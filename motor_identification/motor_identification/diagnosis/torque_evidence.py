@@ -8,37 +8,48 @@ Every model is scored on one common set of intervals, whole blocks of held-out m
 what an uncounted edge does, so that nothing has to be left out, and no model chooses what it is judged by.
 """
 
-from dataclasses import replace
-from math import log
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import ceil, log
 
 import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
+from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_model import ErrorData, ErrorModel, log_likelihood, make_error_data
+from motor_identification.recording import Floats, Integers
 from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, mix_likelihoods
 from motor_identification.validation.hold_out import HoldOut
 
 UNFORESEEN_TORQUES = (1.5, 3.0)  # times the training data's: held-out motion may be rougher
+MOMENTS = 60  # of a recording: one is about as long as what a restart, met or missed, leaves behind
+FEW = 0.05  # of the moments, which no evidence may rest on alone
 
 
-def score_training(estimate: Estimate, errors: ErrorModel) -> float:
+@dataclass(frozen=True)
+class Score:
+    """How likely some motion is, and what each of its moments adds to that."""
+
+    likelihood: float  # logarithm
+    moments: Floats
+
+
+def score_training(estimate: Estimate, errors: ErrorModel) -> Score:
     """Compute the log likelihood of training motion under an estimate and the errors that it leaves, less its price."""
-    values = estimate.parameters.values
     rows = zip(estimate.problem.intervals, estimate.increments, strict=True)
     data = [make_error_data(*row) for row in rows]
+    moments = _add_moments(estimate, data, errors)
     count = sum(len(row.fresh) for row in data)
-    best = log_likelihood(data, errors, values["kv"] / values["ka"], values["ka"])
-    return best - 0.5 * log(count) * len(estimate.theta)
+    return Score(float(moments.sum()) - 0.5 * log(count) * len(estimate.theta), moments)
 
 
-def score_held_out(hold_out: HoldOut, estimate: Estimate, errors: ErrorModel) -> float:
+def score_held_out(hold_out: HoldOut, estimate: Estimate, errors: ErrorModel) -> Score:
     """Compute the log likelihood of held-out motion under an estimate and the errors that it leaves.
 
     Under the training data's torque, or one of a few larger ones, or an angle that drifts: one restart that nobody
     could predict must not refute a model.
     """
-    values = estimate.parameters.values
-    here = hold_out.apply(estimate)
+    here, (rate, ka) = hold_out.apply(estimate), _rate(estimate)
     rows: list[ErrorData] = []
     for data, increments in zip(here.problem.intervals, here.increments, strict=True):
         rows.append(make_error_data(data, increments, hold_out.scored_blocks.mark(data)))
@@ -46,11 +57,36 @@ def score_held_out(hold_out: HoldOut, estimate: Estimate, errors: ErrorModel) ->
     others = [replace(errors, white=share * unit**2) for share in UNFORESEEN_DRIFTS]
     if errors.rms_voltage > 0.0:
         others += [replace(errors, rms_voltage=factor * errors.rms_voltage) for factor in UNFORESEEN_TORQUES]
+    moments = _add_moments(here, rows, errors)
+    others_too = [log_likelihood(rows, model, rate, ka) for model in others]
+    return Score(mix_likelihoods(float(moments.sum()), others_too), moments)
 
-    def under(model: ErrorModel) -> float:
-        return log_likelihood(rows, model, values["kv"] / values["ka"], values["ka"])
 
-    return mix_likelihoods(under(errors), [under(model) for model in others])
+def _rate(estimate: Estimate) -> tuple[float, float]:
+    values = estimate.parameters.values
+    return values["kv"] / values["ka"], values["ka"]
+
+
+def _add_moments(estimate: Estimate, rows: Sequence[ErrorData], errors: ErrorModel) -> Floats:
+    """Add up what the intervals of each moment of every recording say, all recordings one after the other."""
+    parts = []
+    for data, row in zip(estimate.problem.intervals, rows, strict=True):
+        parts.append(np.bincount(_moment_of(data), row.densities(errors, *_rate(estimate)), MOMENTS))
+    return np.concatenate(parts)
+
+
+def _moment_of(data: Intervals) -> Integers:
+    share = data.time[data.first] / data.time[-1]
+    return np.asarray(np.clip((share * MOMENTS).astype(np.int64), 0, MOMENTS - 1))
+
+
+def measure_steadiness(before: Floats, after: Floats) -> float:
+    """Measure by how much the log likelihood rises without the few moments (M,) that speak most for the rise.
+
+    A restart that is met by luck is worth tens of nats, and there are few of them; what is there speaks all the time.
+    """
+    gains = np.sort(after - before)
+    return float(gains[: len(gains) - ceil(FEW * len(gains))].sum())
 
 
 def count_scored(hold_out: HoldOut) -> int:

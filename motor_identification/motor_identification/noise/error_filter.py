@@ -96,6 +96,7 @@ def run_filter(  # noqa: C901, PLR0915
     counted: Bools,
     white: Floats,
     gains: Floats,
+    density: Floats,
 ) -> float:
     """Fill white residuals of C rows of increments [rad], both (C, I), and return the first row's log likelihood.
 
@@ -104,6 +105,7 @@ def run_filter(  # noqa: C901, PLR0915
     fresh: a run begins, `pause` [s] after the last one ended. still: the motor stood; its increment is by how far the
     simulated one left the slot. duration [s], start, end [rad²]: of each interval, and the angle's variance at either
     end.
+    density: (I,) filled with what each interval adds to it.
     gains: (I, GAINS), filled for `fill_white`; (0, GAINS) where that is not wanted.
     alpha, beta [1/s]: kv/ka and 1/τ. strength [rad²/s⁴] (σ/ka)². growth [rad²/s]. counted: whose likelihood is wanted.
     """
@@ -126,8 +128,8 @@ def run_filter(  # noqa: C901, PLR0915
                 white[c, k] = increments[c, k] / sqrt(variance)
             if len(gains):
                 gains[k, 0] = 1.0 / sqrt(variance)
-            if counted[k]:
-                value += _density(increments[0, k], variance)
+            density[k] = _density(increments[0, k], variance) if counted[k] else 0.0
+            value += density[k]
             continue
         fd = ft = by = 0.0
         if fresh[k]:
@@ -177,8 +179,8 @@ def run_filter(  # noqa: C901, PLR0915
         root = 1.0 / sqrt(variance)
         kb, kd, kt = bb / variance, bd / variance, bt / variance
         off = level[0] + increments[0, k] - b[0]
-        if counted[k]:
-            value += _density(off, variance)
+        density[k] = _density(off, variance) if counted[k] else 0.0
+        value += density[k]
         trust = _trust(off, variance)
         lost = trust < 0.5  # the angle has jumped (an uncounted edge, an unseen reversal): known from here on only
         if lost:

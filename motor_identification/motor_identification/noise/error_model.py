@@ -70,16 +70,26 @@ class ErrorData:
 
         rate: kv/ka [1/s] of the motor, ka [V·s²/rad]. more: responses [rad] that pass the same filter, shape (C, I).
         """
+        value, white, _density = self._filter(model, rate, ka, more, gains)
+        return value, white
+
+    def densities(self, model: ErrorModel, rate: float, ka: float) -> Floats:
+        """Compute the log likelihood of every interval, shape (I,); 0 where it does not count."""
+        return self._filter(model, rate, ka, None, _NO_GAINS)[2]
+
+    def _filter(
+        self, model: ErrorModel, rate: float, ka: float, more: Floats | None, gains: Floats
+    ) -> tuple[float, Floats, Floats]:
         sensor = self.blur**2 + (model.share * self.unit) ** 2
         end = np.where(self.still, (SLACK_BLUR * self.slack) ** 2, sensor)
         rows = self.increments[None] if more is None else np.concatenate([self.increments[None], more])
-        white = np.empty_like(rows)
+        white, density = np.empty_like(rows), np.empty(len(self.fresh))
         value = run_filter(
             self.fresh, self.still, self.pause, self.duration, sensor, end,
             rate, 1.0 / model.correlation_time, (model.rms_voltage / ka) ** 2, model.white,
-            rows, self.counted, white, gains,
+            rows, self.counted, white, gains, density,
         )  # fmt: skip
-        return float(value), white
+        return float(value), white, density
 
 
 @dataclass(frozen=True)

@@ -85,9 +85,10 @@ def test_beside_a_torque_the_model_is_fitted_again_from_where_a_finding_leads(
 ) -> None:
     """What the candidate found by luck counts for the model without the effect as well."""
     errors = ErrorModel(0.0, 0.0, 0.1, 0.05)
-    before = replace(stub_model(5.0), learned=errors, scored=100)
-    lucky = replace(stub_model(4.9, likelihood=40.0), learned=errors, scored=100, held_out=1.0)
-    again = replace(before, likelihood=39.0 if better else -1.0)
+    gains = np.ones(40)
+    before = replace(stub_model(5.0), learned=errors, scored=100, moments=0.0 * gains)
+    lucky = replace(stub_model(4.9, likelihood=40.0), learned=errors, scored=100, held_out=1.0, moments=gains)
+    again = replace(before, likelihood=39.0 if better else -1.0, moments=gains if better else 0.0 * gains)
     monkeypatch.setattr(forward_selection, "refit_without", lambda model, effect, hold_out: again)
     selection, tests = verify_findings(selection_of(before), [CandidateTest("load_bias", before, lucky)])
     assert (selection.model is again) == better and (choose_finding(tests) is None) == better

@@ -8,8 +8,16 @@ from diagnosed import fitted, with_effect
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import CandidateTest, Model, judge_beside_torque, validate_model
-from motor_identification.diagnosis.torque_evidence import count_scored, score_held_out, score_training
+from motor_identification.diagnosis.torque_evidence import (
+    MOMENTS,
+    count_scored,
+    measure_steadiness,
+    score_held_out,
+    score_training,
+)
+from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.noise.error_model import ErrorModel
+from motor_identification.validation.hold_out import OtherRecordings
 
 ERRORS = ErrorModel(0.003, 0.0, 0.1, 0.05)
 
@@ -19,18 +27,29 @@ def test_an_unknown_costs_half_the_logarithm_of_the_intervals() -> None:
     larger = with_effect(estimate, "quadratic_drag", {"drag": 1e-9})
     same = replace(larger, theta=np.append(estimate.theta, larger.problem.unknowns.low[-1]))
     price = 0.5 * np.log(sum(len(data.first) for data in estimate.problem.intervals))
-    assert score_training(estimate, ERRORS) - score_training(same, ERRORS) == pytest.approx(price, abs=0.01)
+    smaller, other = (score_training(one, ERRORS).likelihood for one in (estimate, same))
+    assert smaller - other == pytest.approx(price, abs=0.01)
 
 
-def test_only_blocks_of_the_common_set_are_scored() -> None:
-    """Whatever is measured elsewhere in the held-out recording, the filter forgets it within a few intervals."""
+def test_only_blocks_of_the_common_set_are_scored(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Half as many blocks say half as much."""
     estimate, hold_out = fitted()
     (data,) = hold_out.problem.intervals
-    marks = hold_out.scored_blocks.mark(data)
-    assert count_scored(hold_out) == np.count_nonzero(marks)
-    assert 0.3 * len(marks) < count_scored(hold_out) < 0.7 * len(marks)
-    worse = score_held_out(hold_out, estimate, replace(ERRORS, rms_voltage=1.0))
-    assert score_held_out(hold_out, estimate, replace(ERRORS, rms_voltage=1e-3)) > worse + 100.0
+    assert count_scored(hold_out) == np.count_nonzero(hold_out.scored_blocks.mark(data))
+    score = score_held_out(hold_out, estimate, ERRORS)
+    assert len(score.moments) == MOMENTS
+    monkeypatch.setattr(OtherRecordings, "scored_blocks", TimeBlocks(4))
+    assert 0.4 < score_held_out(hold_out, estimate, ERRORS).moments.sum() / score.moments.sum() < 0.6
+
+
+def test_what_a_few_moments_say_is_no_evidence() -> None:
+    """Of 120 moments the six that speak most are left out."""
+    nothing = np.zeros(120)
+    lucky, seven = nothing.copy(), nothing.copy()
+    lucky[:6], seven[:7] = 20.0, 20.0
+    assert measure_steadiness(nothing, np.full(120, 0.5)) == pytest.approx(57.0)
+    assert measure_steadiness(nothing, lucky) == 0.0 and measure_steadiness(nothing, seven) == 20.0
+    assert measure_steadiness(nothing, np.full(120, -0.5)) == pytest.approx(-57.0)
 
 
 def judged(**hidden: float) -> tuple[Model, Model]:
@@ -48,17 +67,26 @@ def test_a_friction_that_is_there_has_evidence_on_both_parts() -> None:
     before, after = judged(ks=0.4)
     test = CandidateTest("coulomb_friction", before, after)
     assert test.evidence > after.held_out - before.held_out > 100.0
-    assert test.relevant
+    assert test.evidence > test.steadiness > 100.0 and test.relevant
 
 
-@pytest.mark.parametrize(
-    ("times", "held_out", "relevant"), [(1.01, 1.0, True), (0.99, 1.0, False), (1.01, -1.0, False)]
-)
+@pytest.mark.parametrize(("times", "held", "relevant"), [(1.01, 1.0, True), (0.99, 1.0, False), (1.01, -1.0, False)])
 def test_what_matters_is_a_share_of_the_white_residual_and_shows_on_held_out_motion(
-    times: float, held_out: float, relevant: bool
+    times: float, held: float, relevant: bool
 ) -> None:
     estimate, hold_out = fitted()
-    before = replace(validate_model(hold_out, estimate), learned=ERRORS, scored=2000, likelihood=0.0, held_out=0.0)
-    evidence = times * 0.5 * thresholds.RELEVANT_WHITE_SHARE * 2000
-    after = replace(before, likelihood=evidence, held_out=held_out)
+    least = times * 0.5 * thresholds.RELEVANT_WHITE_SHARE * 2000
+    moments = np.append(np.full(95, least / 95.0), np.full(5, least))  # the five are left out
+    model = validate_model(hold_out, estimate)
+    before = replace(model, learned=ERRORS, scored=2000, likelihood=0.0, held_out=0.0, moments=0.0 * moments)
+    after = replace(before, likelihood=6.0 * least, held_out=held, moments=moments)
     assert CandidateTest("coulomb_friction", before, after).relevant == relevant
+
+
+@pytest.mark.parametrize(("steady", "likely"), [(9.9, False), (10.1, True)])
+def test_an_effect_is_likely_without_the_best_moments_too(steady: float, likely: bool) -> None:
+    estimate, hold_out = fitted()
+    moments = np.append(np.full(95, steady / 95.0), np.full(5, 50.0))
+    before = replace(validate_model(hold_out, estimate), learned=ERRORS, likelihood=0.0, moments=0.0 * moments)
+    after = replace(before, likelihood=250.0 + steady, moments=moments)
+    assert CandidateTest("coulomb_friction", before, after).is_likely(10.0) == likely

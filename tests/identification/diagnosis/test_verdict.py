@@ -1,5 +1,6 @@
 """How a diagnosis ends, and missed edges as a finding."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -41,7 +42,7 @@ def test_how_it_ended(
     assert decide(findings, stub_model(gap, 0.0), hidden) == (verdict, profile)
 
 
-def short_by(slots: list[int], gap: float = 1.0) -> Model:
+def short_by(slots: Sequence[float], gap: float = 1.0) -> Model:
     """A model on intervals of one slot each, some of which are short by whole slots and are not scored."""
     model = stub_model(gap, 0.0)
     (data,), count = model.held.intervals, len(model.held.counted)
@@ -70,6 +71,18 @@ def test_the_rate_of_missed_edges() -> None:
 
 def test_edges_counted_twice_are_none_that_were_missed() -> None:
     assert find_missed_edges(short_by([-1] * 8)) is None
+
+
+@pytest.mark.parametrize(
+    ("odd", "found"), [([-1] * 4, True), ([-1] * 5, False), ([1.5] * 16, True), ([1.5] * 18, False)]
+)
+def test_motion_that_went_astray_is_no_missed_edge(
+    odd: list[float], found: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One and a half slots count as one or two that are missing, and as one that is none."""
+    monkeypatch.setattr(f"{__name__}.SLOT", 0.32)
+    monkeypatch.setattr(thresholds, "WHOLE_SLOT", (0.2, 0.2))
+    assert (find_missed_edges(short_by([1] * 8 + odd)) is not None) == found
 
 
 @pytest.mark.parametrize(("gap", "found"), [(AT, True), (OVER, False)])

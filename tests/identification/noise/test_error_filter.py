@@ -23,8 +23,10 @@ def filtered(
     white, gains, noise = np.empty_like(rows), np.empty((count, GAINS)), np.full(count, variance)
     pause = np.where(fresh, np.inf, 0.0)
     value = run_filter(
-        fresh, still, pause, duration, noise, noise, RATE, 1.0 / TIME, strength, growth, rows, ~still, white, gains
+        fresh, still, pause, duration, noise, noise, RATE, 1.0 / TIME, strength, growth, rows, ~still, white, gains,
+        density := np.empty(count),
     )  # fmt: skip
+    assert value == pytest.approx(density.sum(), rel=1e-12)
     return value, white, gains
 
 
