@@ -24,11 +24,10 @@ def diagnosed(hidden: dict[str, float], seed: int) -> Diagnosis:
     [
         ({}, ()),
         ({"ks": 0.3, "delay": 0.006}, ("coulomb_friction", "transport_delay")),
-        ({"limit_voltage": 9.0}, ("voltage_limit",)),
         ({"ks": 0.3, "drag": 4e-5}, ("coulomb_friction", "quadratic_drag")),
         ({"backlash_angle": 0.3, "load_fraction": 0.5}, ("backlash",)),
     ],
-    ids=["nothing", "friction and delay", "limit", "friction and drag", "backlash"],
+    ids=["nothing", "friction and delay", "friction and drag", "backlash"],
 )
 def test_effects_are_named_and_the_torque_is_measured(hidden: dict[str, float], named: tuple[str, ...]) -> None:
     found = diagnosed(hidden, 11)
