@@ -27,8 +27,8 @@ def find_lattice(values: Floats) -> float:
     """Find the largest step whose multiples all values (K,) are, within their rounding; 0 where there is none."""
     levels = np.unique(np.abs(values))
     levels = levels[levels > 1e-12 * levels[-1]] if len(levels) else levels
-    if len(levels) > MOST_LEVELS:
-        levels = levels[np.linspace(0, len(levels) - 1, MOST_LEVELS).astype(np.int64)]
+    if len(levels) > MOST_LEVELS:  # at random: every so many of many levels lie on a lattice of their own
+        levels = np.sort(np.random.default_rng(0).choice(levels, MOST_LEVELS, replace=False))
     for part in PARTS:
         some = levels[levels <= part * levels[-1]] if len(levels) else levels
         step = _find_step(some) if len(some) >= LEAST_PLACES else 0.0

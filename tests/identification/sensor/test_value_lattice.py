@@ -46,6 +46,16 @@ def test_values_without_a_lattice_have_none() -> None:
         assert find_lattice(random.uniform(0.0, 1.0, 30)) == 0.0
 
 
+def test_many_values_of_a_long_recording_have_none() -> None:
+    """Every so many of evenly distributed values would be a lattice of their own."""
+    for seed in range(5):
+        random, swing = np.random.default_rng(seed), np.sin(np.arange(100_000) / 500.0)
+        assert find_lattice(50.0 * swing + random.standard_normal(100_000)) == 0.0
+        assert find_lattice(random.uniform(0.0, 1.0, 100_000)) == 0.0
+        coarse = np.round((50.0 * swing + random.standard_normal(100_000)) / 0.3) * 0.3
+        assert find_lattice(coarse) == pytest.approx(0.3, rel=1e-6)
+
+
 def test_a_handful_of_places_decides() -> None:
     """Three multiples are chance, ten are none; a single value, or none, tells nothing."""
     assert find_lattice(np.repeat([3.0, 4.0, 5.0], 100) * 6.43) == 0.0
