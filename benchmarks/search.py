@@ -20,7 +20,7 @@ from peers import Meter, Peer
 from search_figure import Floats, Run, Table, draw
 
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.global_search import COARSE_INTERVAL
+from motor_identification.estimation.global_search import COARSE_SAMPLES
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.multistart import search
 from motor_identification.estimation.objective import Objective, make_objective
@@ -66,7 +66,7 @@ def made(values: dict[str, float]) -> tuple[Objective, float]:
     plan = make_plan(profile("rich"), None, 12.0, 1.0 / config.sample_rate)
     samples = [sample for _, sample in simulate_plan(plan, motor, config)]
     whole = make_problem([check(recording_of(samples, config.info(motor), "rich"))], EFFECTS, os.cpu_count() or 1)
-    problem, unknowns = whole.coarsen(COARSE_INTERVAL), whole.unknowns
+    problem, unknowns = whole.coarsen(COARSE_SAMPLES), whole.unknowns
     truth = np.array([motor.value(name) for name in unknowns.names])
     truth[unknowns.logarithmic] = np.log(truth[unknowns.logarithmic])
     return peers.in_unit_box(make_objective(problem)), fit_speeds(Estimate(problem, truth)).cost

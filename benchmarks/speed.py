@@ -20,7 +20,7 @@ import numpy as np
 from machine import machine
 from scipy.signal import lsim
 
-from motor_identification.estimation.global_search import COARSE_INTERVAL
+from motor_identification.estimation.global_search import COARSE_SAMPLES
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.swarm import SwarmConfig, minimise
 from motor_identification.recording import check, recording_of
@@ -51,7 +51,7 @@ def swarms() -> dict[str, float]:
     board = SimulatedBoard(paper_motor(), BoardConfig())
     samples = [board.sample(0.0 if k < 20 else 10.0) for k in range(220)]
     recording = check(recording_of(samples, BoardConfig().info(paper_motor()), "step"))
-    problem = make_problem([recording], (), workers=2).coarsen(COARSE_INTERVAL)
+    problem = make_problem([recording], (), workers=2).coarsen(COARSE_SAMPLES)
     low, high = problem.unknowns.low, problem.unknowns.high
     config = SwarmConfig(PARTICLES, EPOCHS, seed=0, stall=0)
     places = np.exp(np.random.default_rng(0).uniform(low, high, (PARTICLES, 2)))
@@ -71,7 +71,7 @@ def swarms() -> dict[str, float]:
     return {
         "ours (whole search, 2 threads)": timed(lambda: minimise(problem.costs, low, high, config)),
         "ours (one thread)": timed(
-            lambda: minimise(make_problem([recording], ()).coarsen(COARSE_INTERVAL).costs, low, high, config)
+            lambda: minimise(make_problem([recording], ()).coarsen(COARSE_SAMPLES).costs, low, high, config)
         ),
         "NumPy, exact steps at 1 kHz (simulation only)": EPOCHS * timed(numpys),
         "SciPy, lsim (simulation only)": EPOCHS * timed(scipys, 3),

@@ -48,6 +48,11 @@ class Recording:
         """[s] from the first sample to the last."""
         return float((self.sample_time[-1] - self.sample_time[0]) * 1e-9)
 
+    @property
+    def sample_period(self) -> float:
+        """[s] what the plant says of it, or the median of what it did."""
+        return self.info.sample_period or float(np.median(np.diff(self.sample_time))) * 1e-9
+
     def between(self, start: float, stop: float) -> "Recording":
         """The part from `start` to `stop` seconds after the first sample; 0, 0 is all of it.
 

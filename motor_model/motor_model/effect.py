@@ -5,19 +5,33 @@ from math import inf
 
 
 @dataclass(frozen=True, slots=True)
+class Extent:
+    """How far recordings reach: what the search box is scaled by."""
+
+    voltage: float  # [V] the largest
+    speed: float  # [rad/s] the largest
+    duration: float  # [s] the longest
+    sample: float = 0.005  # [s] the shortest sample period
+    cycles: float = 48.0  # [1/rev] of the finest ripple that can be told from its mirror image
+
+
+@dataclass(frozen=True, slots=True)
 class Scale:
-    """What a search bound is a multiple of: powers of a recording's largest voltage, largest speed and duration."""
+    """What a search bound is a multiple of: powers of what recordings reach."""
 
     voltage: float = 0.0
     speed: float = 0.0
     duration: float = 0.0
+    sample: float = 0.0
 
-    def of(self, voltage: float, speed: float, duration: float) -> float:
-        """Return the size for a recording that reaches `voltage` [V] and `speed` [rad/s] in `duration` [s]."""
-        return float(voltage**self.voltage * speed**self.speed * duration**self.duration)
+    def of(self, extent: Extent) -> float:
+        """Return the size for recordings."""
+        times = extent.duration**self.duration * extent.sample**self.sample
+        return float(extent.voltage**self.voltage * extent.speed**self.speed * times)
 
 
 ABSOLUTE = Scale()
+MOST_CERTAIN_CYCLES = 2.0  # [1/rev] that any disc shows
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +41,8 @@ class ParameterSpec:
     `minimum` and `maximum` are what physics allows at all; `logarithmic` parameters are searched by their logarithm.
     What is `of_recording` has a value for every recording of a motor, such as a phase: there is no index pulse.
     `starts` are where a fit begins that adds the effect to a model (in multiples of `scale`): as many as it has local
-    minima. `at_least` names a parameter that this one is never below: starts count from there.
+    minima. `at_least` names a parameter that this one is never below: starts count from there. `usual` is what the box
+    spans in any case, in the parameter's unit, and `most_duration` the share of a recording that it never exceeds.
     """
 
     name: str
@@ -42,6 +57,18 @@ class ParameterSpec:
     of_recording: bool = False
     starts: tuple[float, ...] = ()
     at_least: str | None = None
+    usual: tuple[float, float] | None = None
+    most_duration: float = inf
+    of_encoder: bool = False  # the box ends where the encoder's view does (`Extent.cycles`)
+
+    def box(self, extent: Extent) -> tuple[float, float]:
+        """Return where a search looks in recordings that reach so far."""
+        low, high = self.low * self.scale.of(extent), self.high * self.scale.of(extent)
+        if self.usual is not None:
+            low, high = min(low, self.usual[0]), max(high, self.usual[1])
+        if self.of_encoder:
+            high = max(extent.cycles, MOST_CERTAIN_CYCLES)
+        return low, min(high, self.most_duration * extent.duration)
 
 
 @dataclass(frozen=True, slots=True)

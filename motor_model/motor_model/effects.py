@@ -15,12 +15,13 @@ from motor_model.effect import Effect, ParameterSpec, Scale
 from motor_model.errors import ModelError
 
 P = ParameterSpec
-VOLTAGE, SPEED, DURATION = Scale(voltage=1), Scale(speed=1), Scale(duration=1)
+VOLTAGE, SPEED, DURATION, SAMPLE = Scale(voltage=1), Scale(speed=1), Scale(duration=1), Scale(sample=1)
+TURN = Scale(speed=1, sample=1)
 
 BASE = (
     P("kv", "V·s/rad", 0.0, 0.1, 4.0, Scale(voltage=1, speed=-1), True),
-    # ka = kv · time constant; 0.5 ms to 5 s of it are searched.
-    P("ka", "V·s²/rad", 0.0, 5e-4, 5.0, Scale(voltage=1, speed=-1), True),
+    # ka = kv · time constant; 0.04 to 12,000 samples of it are searched: 0.2 ms to 60 s at 200 Hz.
+    P("ka", "V·s²/rad", 0.0, 0.04, 12_000.0, Scale(voltage=1, speed=-1, sample=1), True),
 )
 
 EFFECTS = (
@@ -111,14 +112,26 @@ EFFECTS = (
         "first-order lag of the drive (L/R)",
         "prbs",
         "the inductance (armature_inductance)",
-        (P("electrical_time_constant", "s", 0.0, 1e-5, 0.03, logarithmic=True, starts=(5e-4, 4e-3)),),
+        (P("electrical_time_constant", "s", 0.0, 2e-3, 6.0, SAMPLE, True, starts=(0.1, 0.8), usual=(1e-5, 0.03)),),
     ),
     Effect(
         "transport_delay",
         "dead time between command and output",
         "prbs",
         "the delay (transport_delay)",
-        (P("delay", "s", 0.0, 0.0, 0.1, starts=(2e-3, 1e-2, 4e-2)),),
+        (
+            P(
+                "delay",
+                "s",
+                0.0,
+                0.0,
+                40.0,
+                SAMPLE,
+                starts=(0.4, 2.0, 8.0, 32.0),
+                usual=(0.0, 0.5),
+                most_duration=0.05,
+            ),
+        ),  # fmt: skip
     ),
     Effect(
         "torque_ripple",
@@ -127,7 +140,7 @@ EFFECTS = (
         "the torque ripple (torque_ripple)",
         (
             P("ripple_voltage", "V", 0.0, 0.0, 0.3, VOLTAGE),
-            P("ripple_cycles", "1/rev", 1.0, 1.0, 48.0),
+            P("ripple_cycles", "1/rev", 1.0, 1.0, 48.0, of_encoder=True),
             P("ripple_phase", "rad", 0.0, -2 * pi, 2 * pi, minimum=-inf, of_recording=True),
         ),
         periodic=True,
@@ -150,7 +163,8 @@ EFFECTS = (
         "reversals",
         "the backlash (backlash)",
         (
-            P("backlash_angle", "rad", 0.0, 0.0, 1.0, starts=(0.05, 0.4)),
+            # Starts and box by what the shaft turns in a sample, 0.75 rad at 150 rad/s and 200 Hz.
+            P("backlash_angle", "rad", 0.0, 0.0, 1.33, TURN, starts=(0.067, 0.53), usual=(0.0, 1.0)),
             P("load_fraction", "–", 0.0, 0.0, 0.95, maximum=0.99, starts=(0.3, 0.7)),
         ),
     ),
@@ -161,7 +175,9 @@ EFFECTS = (
         "the warming-up (warm_up)",
         (
             P("resistance_rise", "–", 0.0, 0.0, 0.6, starts=(0.1,)),
-            P("warm_up_time", "s", 1.0, 0.5, 600.0, logarithmic=True, minimum=1e-3, starts=(2.0, 15.0, 100.0)),
+            # A winding needs many times longer to heat up than a motor to gain speed: what is over within a tenth
+            # of a recording is no warming-up; but within an hour it may be.
+            P("warm_up_time", "s", 1.0, 0.1, 20.0, DURATION, True, starts=(0.15, 0.5, 3.5), usual=(10.0, 0.0)),
         ),
         anywhere=True,
     ),

@@ -23,7 +23,7 @@ from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Floats
 from motor_model.effects import EFFECT_BY_NAME, normalised
 
-QUICK_INTERVAL = 0.02  # [s] of the intervals of a quick look from every start,
+QUICK_SAMPLES = 4.0  # of the intervals of a quick look from every start,
 QUICK_ITERATIONS, QUICK_TOLERANCE = 10, 1e-4  # which shall only tell the starts apart
 ITERATIONS, TOLERANCE = 20, 1e-8  # of the fit from the best of them
 DISTURBED_ITERATIONS, DISTURBED_TOLERANCE = 8, 1e-5  # beside a random torque, which leaves more
@@ -42,7 +42,7 @@ def fit_with_effect(
         periodic = periodic_fit.add_periodic_effect(estimate, effect, max(least, LEAST_GAIN), freely=errors is None)
         return periodic if errors is None or periodic is None else fit_beside_torque(periodic, errors)
     larger = estimate.problem.with_effects(normalised((*estimate.problem.unknowns.effects, effect)))
-    quick, bare = larger.coarsen(QUICK_INTERVAL), estimate.problem.coarsen(QUICK_INTERVAL)
+    quick, bare = larger.coarsen(QUICK_SAMPLES), estimate.problem.coarsen(QUICK_SAMPLES)
     look = _make_target(estimate.on(bare), errors)
     best, start, spent = np.inf, estimate.theta, estimate.simulations
     for begin in _list_starts(estimate, larger):
@@ -85,7 +85,7 @@ def _list_starts(estimate: Estimate, larger: Problem) -> list[Floats]:
     for shares in product(*(spec.starts for spec in added)):
         sizes: dict[str, float] = {}
         for spec, share in zip(added, shares, strict=True):
-            sizes[spec.name] = share * new.extent.of(spec)
+            sizes[spec.name] = share * spec.scale.of(new.extent)
             if spec.at_least is not None:
                 least = spec.at_least
                 sizes[spec.name] += sizes[least] if least in sizes else float(estimate.theta[old.names.index(least)])

@@ -16,21 +16,21 @@ from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Floats, Integers, Recording
 from motor_model.effects import EFFECTS
 
-LONGEST_SEARCHED = 60.0  # [s] of all recordings together above which excerpts are searched
+MOST_SEARCHED = 12_000.0  # sample periods of all recordings together above which excerpts are searched
 PIECES_PER_RECORDING = 4
-LEAST_REST = 0.1  # [s] without any speed before a motor counts as standing
+LEAST_REST = 20.0  # sample periods without any speed before a motor counts as standing
 # Effects of something that happens once, or slowly, can be anywhere; phases count from a recording's beginning.
 ANYWHERE = frozenset(effect.name for effect in EFFECTS if effect.anywhere)
 BEGINNING = frozenset(effect.name for effect in EFFECTS if effect.periodic)
 
 
-def take_excerpt(problem: Problem, longest: float = LONGEST_SEARCHED) -> Problem:
-    """Take an excerpt of at most so many seconds of motion, with the same unknowns; a short problem as it is.
+def take_excerpt(problem: Problem, most: float = MOST_SEARCHED) -> Problem:
+    """Take an excerpt of at most so many sample periods of motion, with the same unknowns; a short problem as it is.
 
     Join intervals before (`Problem.coarse`), not after: joining starts at the recording's beginning again. Each piece
     counts as a recording: `commands` and `intervals` have as many entries as there are pieces.
     """
-    effects = set(problem.unknowns.effects)
+    effects, longest = set(problem.unknowns.effects), most * problem.sample_period
     total = sum(recording.duration for recording in problem.recordings)
     if total <= longest or effects & ANYWHERE:
         return problem
@@ -85,7 +85,7 @@ def _standing(recording: Recording, length: float) -> Integers:
     time, still = recording.time, recording.speed == 0.0
     began = np.flatnonzero(still & ~np.append(False, still[:-1]))
     ended = np.flatnonzero(still & ~np.append(still[1:], False))
-    long = time[ended] - time[began] >= LEAST_REST
+    long = time[ended] - time[began] >= LEAST_REST * recording.sample_period
     middle = (began[long] + ended[long]) // 2
     changes = np.append(np.flatnonzero(np.diff(recording.voltage)), len(time) - 1)  # the last samples before
     late = np.minimum(changes[np.searchsorted(changes, middle)], ended[long])[

@@ -10,16 +10,14 @@ from motor_identification.estimation.objective import make_objective
 from motor_identification.estimation.problem import Problem
 from motor_identification.estimation.request import SearchConfig
 
-COARSE_INTERVAL = (
-    0.02  # [s] length of the intervals that a search compares: many slots at speed, a part of a time constant
-)
+COARSE_SAMPLES = 4.0  # in the intervals that a search compares: many slots at speed, a part of a time constant
 
 
 def search_globally(
     problem: Problem, config: SearchConfig, progress: Callable[[float], None] | None = None
 ) -> tuple[Estimate, SearchReport]:
     """Search the whole box on an excerpt of joined intervals, then fit all intervals by least squares from there."""
-    coarse = problem.coarsen(COARSE_INTERVAL)
+    coarse = problem.coarsen(COARSE_SAMPLES)
     excerpt = take_excerpt(coarse)
     report = search(make_objective(excerpt), config, progress)
     estimate = Estimate(excerpt, report.theta, report.evaluations)

@@ -3,28 +3,18 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.measurement.initial_speed import estimate_initial_speed
 from motor_identification.recording import Floats, Recording
-from motor_model.effect import ParameterSpec
+from motor_model.effect import Extent, ParameterSpec
 from motor_model.effects import INDEX, normalised, specs_of
 from motor_model.parameters import Parameters, neutral
 
-
-@dataclass(frozen=True)
-class Extent:
-    """How far recordings reach: what the search box is scaled by."""
-
-    voltage: float  # [V]
-    speed: float  # [rad/s]
-    duration: float  # [s]
-
-    def of(self, spec: ParameterSpec) -> float:
-        """The size of a parameter's scale here."""
-        return spec.scale.of(self.voltage, self.speed, self.duration)
+SLOW_SPEED = 0.03  # of the largest speed: as slow as a motor turns for long, and a ripple is looked for
 
 
 @dataclass(frozen=True)
@@ -114,6 +104,25 @@ def _turning_speeds(recordings: Sequence[Recording]) -> Floats:
     return np.array([estimate_initial_speed(recording) for recording in recordings])
 
 
+def measure_extent(recordings: Sequence[Recording]) -> Extent:
+    """Measure how far recordings of one motor reach."""
+    speed = max(_reach(recording.speed) for recording in recordings)
+    return Extent(
+        max(float(np.abs(recording.voltage).max()) for recording in recordings),
+        speed,
+        max(recording.duration for recording in recordings),
+        min(recording.sample_period for recording in recordings),
+        max(_finest_cycles(recording, speed) for recording in recordings),
+    )
+
+
+def _finest_cycles(recording: Recording, speed: float) -> float:
+    """[1/rev] of the finest ripple: two slots to a cycle, and two samples where the motor turns slowly but surely."""
+    edges = recording.info.edges_per_revolution
+    seen = pi / (SLOW_SPEED * speed * recording.sample_period) if speed > 0.0 else inf
+    return min(0.5 * edges, seen) if edges else seen
+
+
 def make_unknowns(recordings: Sequence[Recording], effects: tuple[str, ...]) -> Unknowns:
     """Make the unknowns of these effects, in a box scaled by the largest voltage, the largest speed and the duration.
 
@@ -122,15 +131,11 @@ def make_unknowns(recordings: Sequence[Recording], effects: tuple[str, ...]) -> 
     Raises:
         ModelError: an effect is not in the table.
     """
-    extent = Extent(
-        max(float(np.abs(recording.voltage).max()) for recording in recordings),
-        max(_reach(recording.speed) for recording in recordings),
-        max(recording.duration for recording in recordings),
-    )
+    extent = measure_extent(recordings)
     specs = specs_of(effects)
     low, high = [], []
     for spec in specs:
-        bounds = np.array([spec.low, spec.high]) * extent.of(spec)
+        bounds = spec.box(extent)
         low.append(float(np.log(bounds[0]) if spec.logarithmic else bounds[0]))
         high.append(float(np.log(bounds[1]) if spec.logarithmic else bounds[1]))
     for _ in recordings[1:]:

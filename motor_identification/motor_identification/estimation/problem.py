@@ -67,8 +67,14 @@ class Problem:
         tracks = tuple(make_track(data, angle) for data, angle in rows)
         return replace(self.with_effects(effects), tracks=tracks)
 
-    def coarsen(self, duration: float) -> "Problem":
-        """The same problem with intervals joined to this length [s] where they follow each other: quicker to search."""
+    @property
+    def sample_period(self) -> float:
+        """[s] the shortest of all recordings."""
+        return self.unknowns.extent.sample
+
+    def coarsen(self, samples: float) -> "Problem":
+        """The same problem with intervals joined to so many sample periods: quicker to search."""
+        duration = samples * self.sample_period
         return replace(
             self,
             intervals=tuple(join_intervals(data, duration) for data in self.intervals),
@@ -82,7 +88,9 @@ class Problem:
 
     def keeping_out(self, blocks: TimeBlocks) -> "Problem":
         """The same problem without these blocks of its recordings, now and whenever its intervals are read again."""
-        return replace(self.without(tuple(blocks.mark(data) for data in self.intervals)), kept_out=blocks)
+        return replace(
+            self.without(tuple(blocks.mark(data, self.sample_period) for data in self.intervals)), kept_out=blocks
+        )
 
     def with_intervals(self, intervals: tuple[Intervals, ...]) -> "Problem":
         """The same problem with its recordings' intervals read in another way."""

@@ -6,7 +6,7 @@ from motor_identification.measurement.edges import Edges
 from motor_identification.measurement.sampled_counts import Changes
 from motor_identification.recording import Bools, Floats, Recording
 
-LEAST_STANDSTILL = 0.1  # [s] without an edge before the lack of edges is evidence
+LEAST_STANDSTILL = 20.0  # sample periods without an edge before the lack of edges is evidence
 
 
 def find_standstills_at_edges(recording: Recording, edges: Edges, open_ones: Bools) -> tuple[Floats, Floats]:
@@ -19,7 +19,7 @@ def find_standstills_at_edges(recording: Recording, edges: Edges, open_ones: Boo
     end[0] = min(end[0], _until_the_first(recording))  # several edges may pass before the first one that is reported
     next_one = np.abs(np.diff(edges.count)) <= 1
     told = np.concatenate([[True], open_ones & next_one, [True]]) if len(edges.time) else np.array([True])
-    long = told & (end - start > LEAST_STANDSTILL)
+    long = told & (end - start > LEAST_STANDSTILL * recording.sample_period)
     return start[long], end[long]
 
 
@@ -33,5 +33,5 @@ def find_standstills_at_reversals(recording: Recording, changes: Changes) -> tup
     """Find start and end [s] of the times around a turn in which the count does not change."""
     turned = np.flatnonzero(np.diff(changes.run) != 0)
     start, end = recording.time[changes.sample[turned]], recording.time[changes.sample[turned + 1] - 1]
-    long = end - start > LEAST_STANDSTILL
+    long = end - start > LEAST_STANDSTILL * recording.sample_period
     return start[long], end[long]

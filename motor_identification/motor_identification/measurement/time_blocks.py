@@ -7,7 +7,7 @@ import numpy as np
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Bools
 
-LONGEST_BLOCK = 0.5  # [s]: a motor's time constants are shorter, so that a block shows what the motor does
+LONGEST_BLOCK = 100.0  # sample periods: more than most time constants, so that a block shows what the motor does
 LEAST_BLOCKS = 12  # of a short recording: enough for three blocks of every fourth
 
 
@@ -17,8 +17,8 @@ class TimeBlocks:
 
     every: int
 
-    def mark(self, data: Intervals) -> Bools:
+    def mark(self, data: Intervals, sample_period: float) -> Bools:
         """Mark the intervals that begin in these blocks, shape (I,)."""
-        length = min(LONGEST_BLOCK, data.time[-1] / LEAST_BLOCKS)
+        length = min(LONGEST_BLOCK * sample_period, data.time[-1] / LEAST_BLOCKS)
         block = (data.time[data.first] // length).astype(np.int64)
         return np.asarray(block % self.every == self.every - 1)

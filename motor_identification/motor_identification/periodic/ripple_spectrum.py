@@ -15,6 +15,7 @@ from math import tau
 import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.parameter_space import SLOW_SPEED
 from motor_identification.estimation.whitened_fit import Encoder, learn_encoders
 from motor_identification.measurement.measured_angle import Track
 from motor_identification.periodic.linear_response import Course
@@ -27,7 +28,6 @@ BLOCK_TURNS = 8.0  # turns
 POINTS_PER_LINE = 4.0  # grid points to the width of a line
 ROUGH_PEAKS, PEAK_REACH = 32, 2.0  # of the rough spectrum, and how many of its grid points around each are searched
 FINE_CANDIDATES = 3  # of those, which are searched in the whole recording
-LEAST_SPEED = 0.03  # of the largest speed: below that a ripple holds or turns back the shaft, no linear response
 KNOT_DISTANCE = 16  # grid points
 SLIP_CHANCE, SLIP_CHANCE_BASE = (
     4.0,
@@ -62,10 +62,10 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     None where the spectrum promises less than `least` of the sum of white squares.
     """
     problem, runs = estimate.problem, _make_runs(estimate, tracks)
-    spec = SPEC_BY_NAME["ripple_cycles"]
+    low, high = SPEC_BY_NAME["ripple_cycles"].box(problem.unknowns.extent)
     turns = max(np.ptp(np.concatenate([run.course.start, run.course.end])) for run in runs) / tau
     width = 1.0 / (POINTS_PER_LINE * min(BLOCK_TURNS, max(turns, 1.0)))
-    rough = np.arange(spec.low, spec.high, width)
+    rough = np.arange(low, high, width)
     blocks = [_blocks(run) for run in runs]
     spectrum = _spectrum(runs, rough, blocks, problem.raise_if_stopped)
     if spectrum.max() - 2.0 * sum(int(block.max()) + 1 for block in blocks) < least:
@@ -125,7 +125,8 @@ def _fit_line(runs: Sequence[_Run], tracks: Sequence[Track], cycles: float, slot
 
 
 def _make_runs(estimate: Estimate, tracks: Sequence[Track]) -> list[_Run]:
-    slow = tuple(np.abs(data.speed) < LEAST_SPEED * np.abs(data.speed).max() for data in estimate.problem.intervals)
+    # Slower, a ripple holds or turns back the shaft: no linear response.
+    slow = tuple(np.abs(data.speed) < SLOW_SPEED * np.abs(data.speed).max() for data in estimate.problem.intervals)
     estimate = estimate.on(estimate.problem.without(slow))
     values = estimate.parameters.values
     runs = []

@@ -10,16 +10,19 @@ from motor_identification.recording import Bools, Floats
 from motor_model.effects import EFFECT_BY_NAME, EFFECTS, INDEX, SPEC_BY_NAME
 
 INVISIBLE = 1e-6  # of the speed: what an unknown moves by rounding alone
-LEAST_SCALE = 0.05  # of the box: 100 % of a parameter that is near zero
+LEAST_SCALE = 0.05  # of the scaled box: 100 % of a parameter that is near zero
 PRESENT_SIGMA = 3.0  # standard errors from which on an effect is there
 DETECTABLE_SIGMA = 10.0  # standard deviations by which a trace must differ from its imitation to be told apart
 RIVALS = tuple(effect.name for effect in EFFECTS if effect.linear_onset)  # their trace is a derivative
 
 
 def scale_unknowns(estimate: Estimate) -> Floats:
-    """Scale unknowns, 100 % of each: itself, or a twentieth of the box where it is near zero; 1 for logarithms."""
+    """Scale unknowns, 100 % of each: itself, or a twentieth of its box where it is near zero; 1 for logarithms."""
     unknowns = estimate.problem.unknowns
     least = LEAST_SCALE * (unknowns.high - unknowns.low)
+    for i, spec in enumerate(unknowns.specs):
+        if spec.usual is not None:  # the box also spans what is rare
+            least[unknowns.columns[:, i]] = LEAST_SCALE * (spec.high - spec.low) * spec.scale.of(unknowns.extent)
     return np.where(unknowns.logarithmic, 1.0, np.maximum(np.abs(estimate.theta), least))
 
 
@@ -83,7 +86,7 @@ def _trace(fit: WhitenedFit, effect: str) -> Floats:
     unknowns = fit.problem.unknowns
     name = EFFECT_BY_NAME[effect].parameters[0].name
     spec = SPEC_BY_NAME[name]
-    step = 1e-4 * spec.high * unknowns.extent.of(spec)
+    step = 1e-4 * spec.box(unknowns.extent)[1]
     vectors, starts = unknowns.decode(np.tile(fit.theta, (2, 1)))
     vectors[1, :, INDEX[name]] += step
     without, with_it = fit.problem.evaluate_vectors(vectors, starts)

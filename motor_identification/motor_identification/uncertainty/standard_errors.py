@@ -139,7 +139,11 @@ def _series(fit: WhitenedFit, white: Floats) -> tuple[Series, ...]:
     series, row = [], 0
     for r, (data, (intervals, table)) in enumerate(zip(fit.problem.intervals, _lengths(fit), strict=True)):
         middle = 0.5 * (data.time[data.first] + data.time[data.last])
-        series.append(Series(white[row : row + intervals], middle, data.fresh, *fit.problem.commands[r]))
+        series.append(
+            Series(
+                white[row : row + intervals], middle, data.fresh, *fit.problem.commands[r], fit.problem.sample_period
+            )
+        )
         row += intervals + table
     return tuple(series)
 

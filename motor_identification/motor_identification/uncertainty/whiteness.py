@@ -16,16 +16,7 @@ from scipy.special import chdtrc, ndtr
 from motor_identification.recording import Bools, Floats
 
 CORRELATION_LAGS = 20  # intervals over which residuals may repeat themselves
-VOLTAGE_DELAYS = (
-    0.0,
-    0.005,
-    0.01,
-    0.02,
-    0.04,
-    0.08,
-    0.16,
-    0.32,
-)  # [s] how long before a residual its voltage is looked at
+VOLTAGE_DELAYS = (0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0)  # sample periods before a residual
 LEAST_PAIRS = 10  # pairs that make a correlation
 VOLTAGE_FACES = (np.array, np.abs, np.sign)  # of a voltage: itself, its size, its direction
 
@@ -39,6 +30,7 @@ class Series:
     fresh: Bools  # which intervals do not begin where the one before ended
     command_time: Floats  # [s] ascending; the command holds from each of them on
     command: Floats  # [V]
+    sample_period: float  # [s]
 
 
 @dataclass(frozen=True)
@@ -91,7 +83,7 @@ def _follows(series: tuple[Series, ...], rho: Floats) -> tuple[float, float, flo
     white = np.concatenate([one.white for one in series])
     best, at, chance = 0.0, 0.0, nan
     tests = len(VOLTAGE_FACES) * len(VOLTAGE_DELAYS)
-    for past in VOLTAGE_DELAYS:
+    for past in [samples * min(one.sample_period for one in series) for samples in VOLTAGE_DELAYS]:
         held = np.concatenate([_held(one, past) for one in series])
         for face in VOLTAGE_FACES:
             voltage = face(held)

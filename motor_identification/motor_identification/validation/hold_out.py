@@ -37,7 +37,10 @@ class HoldOut(ABC):
         here = self.apply(fitted)
         intervals, increments = here.problem.intervals, here.increments
         bad = tuple(mark_miscounts(data, part) for data, part in zip(intervals, increments, strict=True))
-        scored = tuple(self.scored_blocks.mark(data) & ~marks for data, marks in zip(intervals, bad, strict=True))
+        scored = tuple(
+            self.scored_blocks.mark(data, here.problem.sample_period) & ~marks
+            for data, marks in zip(intervals, bad, strict=True)
+        )
         miscounted = int(sum(marks.sum() for marks in bad))
         return HeldOut(here.problem.recordings, intervals, here.angles, here.parameters, scored, miscounted)
 
@@ -55,7 +58,7 @@ class OtherRecordings(HoldOut):
 
     def apply(self, fitted: Estimate) -> Estimate:
         """Fit what belongs to these recordings on the blocks that do not count; the motor stays as it is."""
-        blocks = tuple(~self.scored_blocks.mark(data) for data in self.problem.intervals)
+        blocks = tuple(~self.scored_blocks.mark(data, self.problem.sample_period) for data in self.problem.intervals)
         return fit_nuisance_parameters(self.problem, fitted, blocks)
 
     def restrict(self, training: Problem) -> Problem:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.estimation.excerpt import LONGEST_SEARCHED, PIECES_PER_RECORDING, take_excerpt
+from motor_identification.estimation.excerpt import MOST_SEARCHED, PIECES_PER_RECORDING, take_excerpt
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import Recording, check, recording_of
@@ -13,6 +13,7 @@ from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
 TRUE = {"kv": 0.0955, "ka": 0.0055, "ks": 0.4}
 EFFECTS = ("coulomb_friction",)
+LONGEST = MOST_SEARCHED / 200.0  # [s]
 
 
 def recorded(repeats: int, first: int = 0) -> Recording:
@@ -32,7 +33,7 @@ def long() -> Recording:
 
 
 def coarse(recordings: list[Recording], effects: tuple[str, ...] = EFFECTS) -> Problem:
-    return make_problem(recordings, effects).coarsen(0.02)
+    return make_problem(recordings, effects).coarsen(4.0)
 
 
 def place_of(task: Problem, **values: float) -> np.ndarray:
@@ -45,7 +46,7 @@ def test_pieces_are_short_begin_at_rest_and_are_simulated_as_the_whole_is(long: 
     pieces = take_excerpt(whole)
     assert len(pieces.intervals) == PIECES_PER_RECORDING
     seen = sum(float(data.time[-1] - data.time[0]) for data in pieces.intervals)
-    assert 0.9 * LONGEST_SEARCHED < seen <= LONGEST_SEARCHED + 0.1
+    assert 0.9 * LONGEST < seen <= LONGEST + 0.1
     assert (
         len({int(data.time[0] / long.duration * PIECES_PER_RECORDING) for data in pieces.intervals})
         == PIECES_PER_RECORDING
@@ -74,7 +75,7 @@ def test_phases_count_from_the_beginning_and_a_turning_motor_has_one_initial_spe
     for recording, effects in ((long, (*EFFECTS, "torque_ripple")), (recorded(6, first=300), EFFECTS)):
         pieces = take_excerpt(coarse([recording], effects))
         assert [float(data.time[0]) for data in pieces.intervals] == [0.0]
-        assert 0.9 * LONGEST_SEARCHED < pieces.intervals[0].time[-1] <= LONGEST_SEARCHED + 0.1
+        assert 0.9 * LONGEST < pieces.intervals[0].time[-1] <= LONGEST + 0.1
     turning = coarse([recorded(6, first=300), long])
     assert list(turning.unknowns.turning) == [True, False]
     pieces = take_excerpt(turning)

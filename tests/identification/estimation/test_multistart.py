@@ -60,7 +60,7 @@ def hidden() -> Problem:
     plan = make_plan(profile("staircase"), None, 12.0, 1.0 / config.sample_rate)
     samples = [sample for _, sample in simulate_plan(plan, motor, config)]
     recording = check(recording_of(samples, config.info(motor), "staircase"))
-    return make_problem([recording], EFFECTS).coarsen(0.02)
+    return make_problem([recording], EFFECTS).coarsen(4.0)
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -197,7 +197,7 @@ def test_the_limits_are_limits() -> None:
 def test_a_wrong_model_is_searched_longer_than_one_that_explains_the_data(hidden: Problem) -> None:
     """Without friction nothing comes near the noise, so that only many descents can say that this is the best."""
     recording = hidden.recordings
-    poor = make_problem(recording, ("transport_delay",)).coarsen(0.02)
+    poor = make_problem(recording, ("transport_delay",)).coarsen(4.0)
     ground = make_objective(poor)
     found = search(ground, SearchConfig())
     assert found.cost > 1e3 * ground.noise_cost and found.agreed and found.agreeing >= 7

@@ -6,12 +6,24 @@ import numpy as np
 import pytest
 from small import THETA, TRUE, small_recording
 
-from motor_identification.estimation.parameter_space import make_unknowns, map_theta
+from motor_identification.estimation.parameter_space import SLOW_SPEED, make_unknowns, map_theta, measure_extent
 from motor_identification.recording import check
 from motor_model.effects import INDEX, SPEC_BY_NAME
 from motor_model.errors import ModelError
 
 MOVING = check(small_recording().between(0.1, 0.7))
+
+
+@pytest.mark.parametrize(
+    ("edges", "rate", "cycles"), [(6, 200.0, 3.0), (2880, 200.0, 1), (0, 200.0, 1), (2880, 1e5, 1440.0)]
+)
+def test_a_ripple_is_as_fine_as_disc_and_samples_show(edges: int, rate: float, cycles: float) -> None:
+    """Half a cycle a slot, and, where the motor turns slowly, half a cycle a sample."""
+    recording = small_recording()
+    info = replace(recording.info, edges_per_revolution=edges, sample_period=1.0 / rate)
+    extent = measure_extent([replace(recording, info=info)])
+    expected = cycles if cycles != 1 else np.pi / (SLOW_SPEED * extent.speed / rate)
+    assert extent.cycles == pytest.approx(expected)
 
 
 def test_the_box_is_scaled_by_voltage_speed_and_duration() -> None:
@@ -20,6 +32,8 @@ def test_the_box_is_scaled_by_voltage_speed_and_duration() -> None:
     assert unknowns.extent.voltage == 9.0
     assert unknowns.extent.duration == pytest.approx(recording.duration)
     assert 100.0 < unknowns.extent.speed < 9.0 / TRUE["kv"]
+    assert unknowns.extent.sample == recording.sample_period
+    assert unknowns.extent.cycles == 48.0  # of 96 edges
     ks = unknowns.names.index("ks")
     spec = SPEC_BY_NAME["ks"]
     assert (unknowns.low[ks], unknowns.high[ks]) == pytest.approx((spec.low * 9.0, spec.high * 9.0))

@@ -59,8 +59,8 @@ def test_where_no_edge_came_at_all_it_stood_all_the_time() -> None:
 @pytest.mark.parametrize(("samples", "found"), [(20, False), (23, True)])
 def test_counts_stand_around_a_turn(samples: int, found: bool) -> None:
     """From the last change one way to the sample before the first change back; 100 ms are not enough."""
-    assert standstill.LEAST_STANDSTILL == 0.1
     recording = turning(late(0.0), 1.0, Measurement.COUNTS)  # type: ignore[arg-type]
+    assert standstill.LEAST_STANDSTILL * recording.sample_period == pytest.approx(0.1)
     before = extract_count_changes(recording).sample[10]
     changes = Changes(np.array([before - 3, before, before + samples]), np.array([1, 1, -1]), np.array([0, 0, 1]))
     start, end = find_standstills_at_reversals(recording, changes)

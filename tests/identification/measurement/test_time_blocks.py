@@ -1,10 +1,12 @@
-"""Every n-th block of a recording's time, half a second long, or a twelfth of a short recording."""
+"""Every n-th block of a recording's time, a hundred samples long, or a twelfth of a short recording."""
 
 import numpy as np
 import pytest
 
 from motor_identification.measurement.intervals import Intervals, index_intervals
 from motor_identification.measurement.time_blocks import LEAST_BLOCKS, LONGEST_BLOCK, TimeBlocks
+
+PERIOD = 0.005  # [s]
 
 
 def intervals(duration: float, count: int = 1200) -> Intervals:
@@ -15,14 +17,14 @@ def intervals(duration: float, count: int = 1200) -> Intervals:
 @pytest.mark.parametrize("every", [2, 4])
 def test_the_last_of_every_few_blocks(every: int) -> None:
     data = intervals(12.0)
-    marks = TimeBlocks(every).mark(data)
-    block = np.floor(data.time[data.first] / LONGEST_BLOCK + 1e-9)
+    marks = TimeBlocks(every).mark(data, PERIOD)
+    block = np.floor(data.time[data.first] / (LONGEST_BLOCK * PERIOD) + 1e-9)
     assert np.array_equal(np.unique(block[marks]) % every, np.full(24 // every, every - 1))
     assert marks.mean() == pytest.approx(1.0 / every)
 
 
 @pytest.mark.parametrize(("times", "blocks"), [(0.5, LEAST_BLOCKS), (0.99, LEAST_BLOCKS), (2.0, 2 * LEAST_BLOCKS)])
 def test_a_short_recording_has_as_many_blocks(times: float, blocks: int) -> None:
-    marks = TimeBlocks(2).mark(intervals(times * LEAST_BLOCKS * LONGEST_BLOCK))
+    marks = TimeBlocks(2).mark(intervals(times * LEAST_BLOCKS * LONGEST_BLOCK * PERIOD), PERIOD)
     changes = np.count_nonzero(np.diff(marks.astype(int)) != 0) + 1
     assert blocks - 1 <= changes <= blocks + 1

@@ -32,7 +32,7 @@ def series(white: np.ndarray, seed: int = 0, runs: int = 1) -> Series:
     fresh[np.linspace(0, len(white), runs, endpoint=False).astype(int)] = True
     command_time = np.arange(0.0, len(white) * PERIOD, 0.1)
     command = np.where(random.random(len(command_time)) < 0.5, -4.0, 9.0)
-    return Series(white, (np.arange(len(white)) + 0.5) * PERIOD, fresh, command_time, command)
+    return Series(white, (np.arange(len(white)) + 0.5) * PERIOD, fresh, command_time, command, PERIOD)
 
 
 def noise(seed: int, repeats: float = 0.0) -> np.ndarray:

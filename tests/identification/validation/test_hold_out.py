@@ -40,7 +40,9 @@ def test_nothing_that_counts_is_fitted(hold_out: HoldOut) -> None:
     """What counts may be anything: the fit, nuisance parameters too, stays what it was."""
     rule = hold_out.scored_blocks
     (data,) = hold_out.problem.intervals
-    spoilt = replace(data, speed=np.where(rule.mark(data), data.speed + 3.0, data.speed))
+    spoilt = replace(
+        data, speed=np.where(rule.mark(data, hold_out.problem.sample_period), data.speed + 3.0, data.speed)
+    )
     other = replace(hold_out, problem=replace(hold_out.problem, intervals=(spoilt,)))
     problem = make_problem([TRAINING], ("coulomb_friction",))
     fits = []

@@ -24,7 +24,7 @@ def applied(recording: Recording, effects: tuple[str, ...], theta: list[float], 
     """A motor fitted to another recording, whose own values of what is the recording's are far off, on this one."""
     fitted = Estimate(make_problem([made({}, 9)], ("coulomb_friction", *effects)), np.array([*THETA, *theta]))
     problem = make_problem([recording], ())
-    return fit_nuisance_parameters(problem, fitted, tuple(~EVERY_OTHER.mark(data) for data in problem.intervals))
+    return fit_nuisance_parameters(problem, fitted, tuple(~EVERY_OTHER.mark(data, 0.005) for data in problem.intervals))
 
 
 def test_without_any_there_is_nothing_to_fit() -> None:
