@@ -55,7 +55,7 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     working.begin("standard errors", DESCENDED, 1.0)
     fit = fit_whitened(counted)
     notes = (*_list_left_out(directed.problem, counted.problem, fit.problem), *_list_doubts(search))
-    result = summarise_fit(fit, search, lambda: perf_counter() - begun, notes)
+    result = summarise_fit(fit, search, lambda: perf_counter() - begun, notes, effects)
     tell("done", 1.0)
     return result
 

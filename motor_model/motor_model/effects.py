@@ -129,7 +129,7 @@ EFFECTS = (
                 SAMPLE,
                 starts=(0.4, 2.0, 8.0, 32.0),
                 usual=(0.0, 0.5),
-                most_duration=0.05,
+                most_duration=0.1,
             ),
         ),  # fmt: skip
     ),

@@ -35,6 +35,8 @@ from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
 
+EFFECT_ORDER = {name: number for number, name in enumerate(EFFECT_BY_NAME)}  # the most common first
+
 
 @dataclass(frozen=True)
 class SelectionStep:
@@ -182,6 +184,7 @@ def _is_periodic(effect: str) -> bool:
 def list_partners(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
     """List the tests, best first, whose effects are tried together with any other: likely, if not relevant alone."""
     likely = [test for test in tests if test.evidence > likelihood_threshold() and not _is_periodic(test.effect)]
+    likely.sort(key=lambda test: (-round(test.evidence / thresholds.TIE_LIKELIHOOD), EFFECT_ORDER[test.effect]))
     return likely[: thresholds.PAIR_PARTNERS]
 
 
@@ -203,7 +206,7 @@ def _find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: P
             SelectionStep(current, first, tuple(tests), (), together),
             SelectionStep(first.model, second, tuple(seconds), find_rivals(second, seconds), together),
         ]
-        found.append((second.model.likelihood, -i, steps))
+        found.append((round(second.model.likelihood / thresholds.TIE_LIKELIHOOD), -i, steps))  # of equals the first
     return max(found)[2] if found else []
 
 

@@ -13,8 +13,10 @@ from motor_identification.recording import Floats, Recording
 from motor_model.effect import Extent, ParameterSpec
 from motor_model.effects import INDEX, normalised, specs_of
 from motor_model.parameters import Parameters, neutral
+from motor_model.sample import Measurement
 
-SLOW_SPEED = 0.03  # of the largest speed: as slow as a motor turns for long, and a ripple is looked for
+SLOW_SPEED = 0.03  # of the largest speed: slower, a ripple holds the shaft or turns it back
+TURNING_SPEED = 0.1  # of the largest speed: as slow as a motor turns for long enough to show a ripple
 
 
 @dataclass(frozen=True)
@@ -117,9 +119,10 @@ def measure_extent(recordings: Sequence[Recording]) -> Extent:
 
 
 def _finest_cycles(recording: Recording, speed: float) -> float:
-    """[1/rev] of the finest ripple: two slots to a cycle, and two samples where the motor turns slowly but surely."""
+    """[1/rev] of the finest ripple: two slots to a cycle, and two stamps where the motor turns slowly but surely."""
     edges = recording.info.edges_per_revolution
-    seen = pi / (SLOW_SPEED * speed * recording.sample_period) if speed > 0.0 else inf
+    stamps = 2.0 if recording.info.measurement is Measurement.EDGES else 1.0  # a sample has at most
+    seen = stamps * pi / (TURNING_SPEED * speed * recording.sample_period) if speed > 0.0 else inf
     return min(0.5 * edges, seen) if edges else seen
 
 

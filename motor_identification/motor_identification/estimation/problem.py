@@ -174,6 +174,7 @@ class Problem:
             residuals = self.evaluate(np.concatenate([theta + some, theta - some]))
             np.subtract(residuals[: len(some)], residuals[len(some) :], out=columns[i : i + share])
             columns[i : i + share] /= (2.0 * steps[i : i + share])[:, None]
+        columns[~np.isfinite(columns)] = 0.0  # a motor a step aside that is no motor says nothing
         return columns.T
 
 

@@ -31,6 +31,7 @@ def fit_to_json(fit: Fit) -> dict[str, Any]:
         },
         "slot_irregularity": [to_number(share) for share in fit.slot_irregularity],
         "not_identifiable": list(fit.not_identifiable),
+        "absent": list(fit.absent),
         "not_told_apart": {effect: list(rivals) for effect, rivals in fit.not_told_apart.items()},
         "suggested_experiment": fit.suggested_experiment or None,
         "duration": fit.duration,

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from math import isnan
 
-from motor_identification.reporting.names import join_names
+from motor_identification.reporting.names import capitalize, join_names
 from motor_identification.reporting.numbers import (
     describe_absence,
     format_error,
@@ -36,7 +36,9 @@ TOO_LARGE = (
 def summarize_fit(fit: Fit) -> str:
     """Say what was found, how well it fits, and every caution."""
     errors = fit.standard_errors
-    found = ", ".join(format_quantity(name, value, errors[name]) for name, value in fit.parameters.values.items())
+    absent = {spec.name for effect in _absent(fit) for spec in EFFECT_BY_NAME[effect].parameters}
+    there = {name: value for name, value in fit.parameters.values.items() if name not in absent}
+    found = ", ".join(format_quantity(name, value, errors[name]) for name, value in there.items())
     return " ".join((f"{found}; {describe_residual(fit)}.", *list_cautions(fit)))
 
 
@@ -53,6 +55,10 @@ def list_cautions(fit: Fit) -> tuple[str, ...]:
 
 
 def _open_questions(fit: Fit) -> Iterator[str]:
+    if fit.absent:
+        are, without = ("is", "it") if len(fit.absent) == 1 else ("are", "them")
+        named = capitalize(join_names([effect.replace("_", " ") for effect in fit.absent]))
+        yield f"{named} {are} absent (consistent with zero): the fit is as good without {without}."
     if fit.not_identifiable:
         apart = " separately" if len(fit.not_identifiable) > 1 else ""
         yield f"This recording does not determine {join_names(fit.not_identifiable)}{apart}."
@@ -61,11 +67,15 @@ def _open_questions(fit: Fit) -> Iterator[str]:
         yield f"This recording cannot distinguish {EFFECT_BY_NAME[effect].phrase} from {others}."
 
 
+def _absent(fit: Fit) -> tuple[str, ...]:
+    return tuple(effect for effect in fit.absent if effect in fit.parameters.effects)
+
+
 def _limits_hit(fit: Fit) -> Iterator[str]:
     base = {spec.name for spec in BASE}
     owners = {spec.name: effect.name for effect in EFFECTS for spec in effect.parameters}
     for name, hit in fit.on_bound.items():
-        if hit:
+        if hit and owners.get(name) not in fit.absent:
             unit = format_unit(name) and f" {format_unit(name)}"
             limit = f"{name} = {fit.parameters.values[name]:.4g}{unit}"
             cure = "check the units of voltage and speed" if name in base else f"fit without {owners[name]}"
@@ -76,7 +86,7 @@ def _residual_patterns(fit: Fit) -> Iterator[str]:
     left = fit.whiteness
     if residual_follows_voltage(fit):
         yield FOLLOWS.format(left.input_correlation)
-    elif left.p_value < SIGNIFICANT and left.autocorrelation > REPEATS:
+    elif left.p_value < SIGNIFICANT and left.autocorrelation > REPEATS and _is_above_floor(fit):
         yield NOT_WHITE.format(left.autocorrelation)
     elif 0.0 < LARGE * fit.noise_floor < fit.residual_rms:
         yield TOO_LARGE.format(format_ratio(fit.residual_rms / fit.noise_floor))
@@ -91,7 +101,12 @@ def residual_follows_voltage(fit: Fit) -> bool:
     """Whether what is left depends on the voltage: not by chance, visibly, and well above what the encoder leaves."""
     left = fit.whiteness
     related = left.input_p_value < SIGNIFICANT and abs(left.input_correlation) > VISIBLE
-    return related and fit.residual_rms > ABOVE * fit.noise_floor
+    return related and _is_above_floor(fit)
+
+
+def _is_above_floor(fit: Fit) -> bool:
+    """Whether the encoder does not explain the residual."""
+    return fit.residual_rms > ABOVE * fit.noise_floor
 
 
 def format_fit(fit: Fit) -> str:
@@ -107,6 +122,8 @@ def format_fit(fit: Fit) -> str:
 def describe_parameter(fit: Fit, name: str) -> str:
     """Say what limits one parameter; empty where nothing does."""
     error = fit.standard_errors[name]
+    if any(spec.name == name for effect in _absent(fit) for spec in EFFECT_BY_NAME[effect].parameters):
+        return "absent (consistent with zero)"
     if fit.on_bound.get(name):
         return "at the limit of its range"
     return "not identifiable" if isnan(error) else describe_absence(name, fit.parameters.values[name], error)

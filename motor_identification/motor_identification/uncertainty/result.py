@@ -2,16 +2,19 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import nan
 
 import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.multistart import SearchReport
 from motor_identification.estimation.whitened_fit import WhitenedFit
+from motor_identification.uncertainty.absence import find_absent_effects
 from motor_identification.uncertainty.identifiability import find_confusable_effects, suggest_profile
 from motor_identification.uncertainty.recording_consistency import compare_recordings, describe_dissent
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_identification.uncertainty.whiteness import Whiteness
+from motor_model.effect import ParameterSpec
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 from motor_model.parameters import Parameters
 
@@ -28,7 +31,8 @@ class Fit:
     correlations: dict[str, dict[str, float]]  # of the errors of two parameters; NaN where one is not identifiable
     on_bound: dict[str, bool]
     not_identifiable: tuple[str, ...]
-    not_told_apart: dict[str, tuple[str, ...]]  # fitted effect → absent effects with the same trace
+    not_told_apart: dict[str, tuple[str, ...]]  # fitted effect → other effects with the same trace
+    absent: tuple[str, ...]  # effects that were asked for, without which the fit is as good
     suggested_experiment: str  # a profile, or empty
     residual_rms: float  # [rad/s] time-weighted, of simulated − measured mean speed
     noise_floor: float  # [rad/s] what timer tick (or count quantisation) and irregular slots alone leave
@@ -44,27 +48,40 @@ class Fit:
 
 
 def summarise_fit(
-    fit: WhitenedFit, search: SearchReport, elapsed: Callable[[], float], notes: tuple[str, ...] = ()
+    fit: WhitenedFit,
+    search: SearchReport,
+    elapsed: Callable[[], float],
+    notes: tuple[str, ...] = (),
+    asked: tuple[str, ...] = (),
 ) -> Fit:
     """Summarise a fit: everything a user should know about it, after its recordings' own notes also `notes`.
 
-    elapsed: [s] since the identification began, asked once everything else is known.
+    elapsed: [s] since the identification began, asked once everything else is known. asked: effects that the fit was
+    asked for; what nothing spoke for is not in it.
     """
     problem, theta = fit.problem, fit.theta
     unknowns, weight, speed = problem.unknowns, problem.weight, problem.speed
     jacobian = fit.residuals.jacobian(theta)
     sure = estimate_uncertainty(fit, jacobian)
     alike = find_confusable_effects(fit, jacobian, sure.errors, sure.not_identifiable)
+    absent = find_absent_effects(fit)
+    nowhere = {spec.name for name in absent for spec in _own(name)}
+    # An error at zero is one where the effect begins in proportion; elsewhere it is that of a minimum in the noise.
+    noise = {spec.name for name in absent if not EFFECT_BY_NAME[name].linear_onset for spec in _own(name)}
+    open_ones = tuple(name for name in sure.not_identifiable if name not in nowhere)
+    alike = {effect: rivals for effect, rivals in alike.items() if effect not in absent}
+    errors = unknowns.value_errors(theta, sure.errors)
     cost = fit.estimate.cost
     variance = float(np.sum(weight * (speed - np.sum(weight * speed)) ** 2))
     return Fit(
         parameters=fit.estimate.parameters,
-        standard_errors=unknowns.value_errors(theta, sure.errors),
+        standard_errors={name: nan if name in noise else error for name, error in errors.items()},
         correlations=sure.correlations_of(unknowns.names),
         on_bound=find_bounds_hit(fit.estimate),
-        not_identifiable=sure.not_identifiable,
+        not_identifiable=open_ones,
         not_told_apart=alike,
-        suggested_experiment=_suggest_experiment(sure.not_identifiable, alike),
+        absent=(*absent, *(name for name in asked if name not in unknowns.effects)),
+        suggested_experiment=_suggest_experiment(open_ones, alike),
         residual_rms=float(np.sqrt(cost)),
         noise_floor=fit.residuals.noise_floor,
         r_squared=1.0 - cost / variance if variance > NO_VARIANCE * float(np.max(speed**2)) else float("nan"),
@@ -81,6 +98,10 @@ def summarise_fit(
         ),
         duration=elapsed(),
     )
+
+
+def _own(effect: str) -> tuple[ParameterSpec, ...]:
+    return EFFECT_BY_NAME[effect].parameters
 
 
 def find_bounds_hit(estimate: Estimate) -> dict[str, bool]:

@@ -32,7 +32,7 @@ def test_where_a_quick_look_gains_nothing_there_is_no_fit() -> None:
     assert fit_with_effect(estimate, "voltage_limit") is None
 
 
-@pytest.mark.parametrize(("effect", "starts"), [("coulomb_friction", 1), ("transport_delay", 3), ("load_step", 10)])
+@pytest.mark.parametrize(("effect", "starts"), [("coulomb_friction", 1), ("transport_delay", 4), ("load_step", 10)])
 def test_starts_are_every_combination_of_the_tables(effect: str, starts: int) -> None:
     estimate, _ = fitted()
     larger = estimate.problem.with_effects((effect,))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from small import THETA, TRUE, small_recording
 
-from motor_identification.estimation.parameter_space import SLOW_SPEED, make_unknowns, map_theta, measure_extent
+from motor_identification.estimation.parameter_space import TURNING_SPEED, make_unknowns, map_theta, measure_extent
 from motor_identification.recording import check
 from motor_model.effects import INDEX, SPEC_BY_NAME
 from motor_model.errors import ModelError
@@ -18,11 +18,11 @@ MOVING = check(small_recording().between(0.1, 0.7))
     ("edges", "rate", "cycles"), [(6, 200.0, 3.0), (2880, 200.0, 1), (0, 200.0, 1), (2880, 1e5, 1440.0)]
 )
 def test_a_ripple_is_as_fine_as_disc_and_samples_show(edges: int, rate: float, cycles: float) -> None:
-    """Half a cycle a slot, and, where the motor turns slowly, half a cycle a sample."""
+    """Half a cycle a slot, and, where the motor turns slowly, half a cycle a stamp."""
     recording = small_recording()
     info = replace(recording.info, edges_per_revolution=edges, sample_period=1.0 / rate)
     extent = measure_extent([replace(recording, info=info)])
-    expected = cycles if cycles != 1 else np.pi / (SLOW_SPEED * extent.speed / rate)
+    expected = cycles if cycles != 1 else 2.0 * np.pi / (TURNING_SPEED * extent.speed / rate)
     assert extent.cycles == pytest.approx(expected)
 
 

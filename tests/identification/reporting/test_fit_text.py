@@ -92,3 +92,12 @@ def test_notes_and_names_come_through(tmp_path: Path) -> None:
     assert shares == sorted(shares) and 0.0 < shares[0] < 0.1 and stages[-1] == ("done", 1.0)
     save_model(tmp_path / "model.yaml", fit, "2026-01-01T00:00:00+00:00")
     assert load(tmp_path / "model.yaml") == fit.parameters
+
+
+@pytest.mark.parametrize(("times", "said"), [(0.9, False), (1.25, False), (1.4, True)])
+def test_a_residual_that_the_encoder_explains_lacks_nothing(times: float, said: bool) -> None:
+    """However it repeats itself: in a closed loop the encoder's own pattern comes back through the controller."""
+    fit = identify([made({}, profiles.staircase(12.0, 2, 0.2), seed=0)], quick())
+    left = replace(fit.whiteness, p_value=1e-9, autocorrelation=0.8)
+    fit = replace(fit, whiteness=left, residual_rms=times * fit.noise_floor)
+    assert any("an effect is missing" in caution for caution in list_cautions(fit)) is said
