@@ -52,7 +52,9 @@ def score_held_out(hold_out: HoldOut, estimate: Estimate, errors: ErrorModel) ->
     here, (rate, ka) = hold_out.apply(estimate), _rate(estimate)
     rows: list[ErrorData] = []
     for data, increments in zip(here.problem.intervals, here.increments, strict=True):
-        rows.append(make_error_data(data, increments, hold_out.scored_blocks.mark(data)))
+        rows.append(
+            make_error_data(data, increments, hold_out.scored_blocks.mark(data, hold_out.problem.sample_period))
+        )
     unit = max(row.unit for row in rows)
     others = [replace(errors, white=share * unit**2) for share in UNFORESEEN_DRIFTS]
     if errors.rms_voltage > 0.0:
@@ -91,4 +93,9 @@ def measure_steadiness(before: Floats, after: Floats) -> float:
 
 def count_scored(hold_out: HoldOut) -> int:
     """Count the intervals of the common set."""
-    return int(sum(np.count_nonzero(hold_out.scored_blocks.mark(data)) for data in hold_out.problem.intervals))
+    return int(
+        sum(
+            np.count_nonzero(hold_out.scored_blocks.mark(data, hold_out.problem.sample_period))
+            for data in hold_out.problem.intervals
+        )
+    )

@@ -35,7 +35,7 @@ def test_only_blocks_of_the_common_set_are_scored(monkeypatch: pytest.MonkeyPatc
     """Half as many blocks say half as much."""
     estimate, hold_out = fitted()
     (data,) = hold_out.problem.intervals
-    assert count_scored(hold_out) == np.count_nonzero(hold_out.scored_blocks.mark(data))
+    assert count_scored(hold_out) == np.count_nonzero(hold_out.scored_blocks.mark(data, hold_out.problem.sample_period))
     score = score_held_out(hold_out, estimate, ERRORS)
     assert len(score.moments) == MOMENTS
     monkeypatch.setattr(OtherRecordings, "scored_blocks", TimeBlocks(4))
