@@ -83,5 +83,5 @@ def test_no_duty_gives_the_motor_more_than_its_voltage(
     if measured is not None:
         heard(board, replace(TELEMETRY, supply=measured))
     duty = board.duty(wanted)
-    assert -256 <= duty <= 256 and duty * wanted >= 0.0
+    assert -256 <= duty <= 256 and (duty == 0 or (duty > 0) == (wanted > 0.0))
     assert abs(duty) / 256 * board.supply <= motor * (1.0 + 1e-12)
