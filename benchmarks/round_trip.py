@@ -42,6 +42,7 @@ class Result:
     errors: dict[str, float]
     named: bool  # whether columns, kind and units were guessed as they are
     trouble: str = ""
+    on_bound: tuple[str, ...] = ()  # parameters that `identify` says are at the limit of their search range
 
     @property
     def near(self) -> bool:
@@ -61,7 +62,8 @@ def run(case: Case, folder: Path) -> Result:
     except MotorError as error:
         return Result(case, {}, False, str(error).replace(str(path), "log.csv"))
     found = fit.parameters.values
-    return Result(case, {name: found[name] / case.truth.values[name] - 1.0 for name in NEAR}, named)
+    errors = {name: found[name] / case.truth.values[name] - 1.0 for name in NEAR}
+    return Result(case, errors, named, on_bound=tuple(name for name, on in fit.on_bound.items() if on))
 
 
 def group(results: list[Result], title: str) -> str:
@@ -99,6 +101,7 @@ def failures(results: list[Result]) -> list[str]:
         about += ["duty"] if case.duty else []
         about += ["wraps"] if case.wraps else []
         about += [f"period {case.slow:.2g} time constants", "" if one.named else "named otherwise"]
+        about += [f"`identify` says that {' and '.join(one.on_bound)} is on its bound"] if one.on_bound else []
         lines.append(f"- {case.seed}: {what} ({', '.join(filter(None, about))})")
     return lines
 
