@@ -122,6 +122,8 @@ def _values(message: bytes, types: Mapping[str, Sequence[Field]]) -> dict[str, A
             break
         size = 4 if field.type_name == "string" else _PRIMITIVES[field.type_name].itemsize
         position += -(position - _ENCAPSULATION) % size
+        if position >= len(message):
+            break  # of an earlier version, which had fewer fields
         if field.type_name == "string":
             (length,) = struct.unpack_from(f"{endian}I", message, position)
             position += 4

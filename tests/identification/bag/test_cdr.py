@@ -108,3 +108,9 @@ def test_info_that_cannot_be_understood() -> None:
     for size in (0, 3, 8, 30, len(data) - 5):
         with pytest.raises(Undecodable):
             decode_info(data[:size], INFO_DEFINITION)
+
+
+def test_an_info_of_an_earlier_version_under_a_later_definition_keeps_the_defaults() -> None:
+    later = INFO_DEFINITION.replace("string decay", "string decay\nfloat64 supply_of_the_future", 1)
+    assert "supply_of_the_future" in later
+    assert decode_info(serialize_message(info_message(INFO, time_message(5))), later) == INFO
