@@ -94,6 +94,12 @@ def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
     return min(loss, steady) < thresholds.RIVAL_MARGIN
 
 
+def drop_step(selection: Selection, step: SelectionStep) -> Selection:
+    """Take one finding back, and fit the model again without it."""
+    without = refit_without(selection.model, step.found.effect, selection.hold_out)
+    return _replace_step(selection, step, None, without)
+
+
 def _replace_step(selection: Selection, step: SelectionStep, by: SelectionStep | None, model: Model) -> Selection:
     """Put another step, or none, instead of one; steps that the model does not have go too."""
     steps = [by if one is step else one for one in selection.steps]

@@ -205,9 +205,8 @@ class CandidateTest:
     def relevant(self) -> bool:
         """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual."""
         if self.model.beside_torque:
-            return self.model.held_out > self.before.held_out and (
-                2.0 * self.steadiness > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
-            )
+            shrinks = self.model.held.gap <= self.before.held.gap and self.model.held_out > self.before.held_out
+            return shrinks and 2.0 * self.steadiness > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
         before, after = self.before.lasting, self.model.lasting
         floor = after.floor(self.model.noise.share)
         if before.gap < thresholds.RELEVANT_GAP * floor:

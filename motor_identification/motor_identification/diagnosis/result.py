@@ -68,3 +68,4 @@ class Diagnosis:
     left_out: int  # intervals with a reversal
     trace: Floats  # [rad/s] the gap after each step, the first entry before any
     duration: float  # [s]
+    undetermined: tuple[str, ...] = ()  # effects that would explain more, of which this recording determines nothing

@@ -8,6 +8,7 @@ import numpy as np
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.detectability import find_undetectable
+from motor_identification.diagnosis.determination import drop_undetermined
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Verdict
 from motor_identification.discrepancy.region_text import describe_error
@@ -28,6 +29,7 @@ def conclude(
     elapsed: Callable[[], float],
 ) -> Diagnosis:
     """Conclude a diagnosis; `search` is that of the first fit, `elapsed` [s] since the diagnosis began."""
+    selection, undetermined = drop_undetermined(selection)
     last = selection.model
     model, baseline = _summarise(last, search, elapsed), _summarise(base, search, elapsed)
     gaps = [step.before.held.gap for step in selection.steps[1:]] + [last.held.gap]  # after each step, fitted again
@@ -37,7 +39,7 @@ def conclude(
     if missed is not None:
         findings = (*findings, missed)
     hidden = find_undetectable(last)
-    verdict, suggestion = decide(findings, last, hidden)
+    verdict, suggestion = decide(findings, last, hidden, undetermined)
     return Diagnosis(
         verdict=verdict,
         findings=findings,
@@ -60,6 +62,7 @@ def conclude(
         left_out=sum(data.left_out for data in last.held.intervals),
         trace=np.array([before.gap, *gaps[: len(selection.steps)]]),
         duration=elapsed(),
+        undetermined=undetermined,
     )
 
 
@@ -134,8 +137,12 @@ def find_missed_edges(model: Model) -> Finding | None:
     )
 
 
-def decide(findings: Sequence[Finding], last: Model, hidden: tuple[str, ...]) -> tuple[Verdict, str]:
+def decide(
+    findings: Sequence[Finding], last: Model, hidden: tuple[str, ...], undetermined: tuple[str, ...] = ()
+) -> tuple[Verdict, str]:
     """Decide how it ended, and the profile to record next."""
+    if undetermined:
+        return Verdict.UNDECIDED, EFFECT_BY_NAME[undetermined[0]].shown_by
     unclear = next((finding.suggested_experiment for finding in findings if finding.ambiguous_with), "")
     if not last.complete:
         return Verdict.UNEXPLAINED, unclear or ("rich" if hidden else "")

@@ -24,6 +24,7 @@ def diagnosis_to_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "verdict": diagnosis.verdict.value,
         "undetectable": list(diagnosis.undetectable),
         "not_testable": list(diagnosis.undetectable),
+        "undetermined": list(diagnosis.undetermined),
         "suggested_experiment": diagnosis.suggested_experiment or None,
         "baseline": to_model(diagnosis.baseline),
         "findings": [_finding_to_json(one) for one in diagnosis.findings],

@@ -11,6 +11,7 @@ from motor_model.text_table import align_columns
 
 GAP = "validation RMS error (gap)"
 TOO_SHORT = "The recording is too short to keep a part of it for validation: record more motion."
+UNDETERMINED = "this recording determines nothing of it."
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
 
 STRUCTURE_NAMES = {
@@ -124,8 +125,12 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts = [_describe_findings(diagnosis), f"{capitalize(describe_gap_reduction(diagnosis))}."]
     elif not diagnosis.after.counted.any():
         parts = [TOO_SHORT]
+    elif diagnosis.undetermined:
+        parts = [f"Something is missing that this recording does not determine: {_describe_gap(diagnosis)}."]
     else:
         parts = [f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."]
+    if diagnosis.undetermined:
+        parts.append(f"{capitalize(join_effects(diagnosis.undetermined))} may be missing: {UNDETERMINED}")
     if diagnosis.undetectable and not any(one.ambiguous_with for one in diagnosis.findings):
         parts.append(f"This recording could not show {join_effects(diagnosis.undetectable)}.")
     return " ".join(parts)

@@ -11,6 +11,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.result import Finding, Verdict
 from motor_identification.diagnosis.verdict import decide, find_missed_edges
+from motor_model.effects import EFFECT_BY_NAME
 
 SLOT = 0.3  # [rad] of 0.625 that the motor turns in an interval
 
@@ -40,6 +41,12 @@ def test_how_it_ended(
     gap: float, findings: tuple[Finding, ...], hidden: tuple[str, ...], verdict: Verdict, profile: str
 ) -> None:
     assert decide(findings, stub_model(gap, 0.0), hidden) == (verdict, profile)
+
+
+@pytest.mark.parametrize("gap", [AT, OVER])
+def test_what_is_not_determined_is_undecided_and_no_finding(gap: float) -> None:
+    verdict, profile = decide((finding(),), stub_model(gap, 0.0), (), ("transport_delay",))
+    assert verdict is Verdict.UNDECIDED and profile == EFFECT_BY_NAME["transport_delay"].shown_by
 
 
 def short_by(slots: Sequence[float], gap: float = 1.0) -> Model:

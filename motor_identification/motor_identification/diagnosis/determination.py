@@ -1,0 +1,36 @@
+"""Drop what is not determined: an effect of which nothing can be said but that something like it is missing."""
+
+from motor_identification.diagnosis.backward_elimination import drop_step
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.forward_selection import Selection
+from motor_identification.estimation.whitened_fit import fit_whitened
+from motor_identification.uncertainty.standard_errors import estimate_uncertainty
+from motor_model.effects import EFFECT_BY_NAME
+
+
+def drop_undetermined(selection: Selection) -> tuple[Selection, tuple[str, ...]]:
+    """Drop the findings none of whose parameters the training data determine, the least likely first; and name them.
+
+    A parameter that belongs to a recording, such as an instant, says nothing of the motor.
+    """
+    dropped: list[str] = []
+    while weak := [step for step in selection.steps if step.found.effect in find_undetermined(selection.model)]:
+        step = min(weak, key=lambda one: one.found.evidence)
+        dropped.append(step.found.effect)
+        selection = drop_step(selection, step)
+    return selection, tuple(dropped)
+
+
+def find_undetermined(model: Model) -> tuple[str, ...]:
+    """Find the effects of a model none of whose own parameters its training data determine."""
+    if not model.effects:
+        return ()
+    fit = fit_whitened(model.estimate)
+    unknown = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).not_identifiable
+    return tuple(name for name in model.effects if is_undetermined(name, unknown))
+
+
+def is_undetermined(effect: str, not_identifiable: tuple[str, ...]) -> bool:
+    """Decide whether none of an effect's own parameters is determined."""
+    own = [spec.name for spec in EFFECT_BY_NAME[effect].parameters if not spec.of_recording]
+    return all(name in not_identifiable for name in own)
