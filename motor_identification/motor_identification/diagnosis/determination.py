@@ -9,7 +9,7 @@ from motor_model.effects import EFFECT_BY_NAME
 
 
 def drop_undetermined(selection: Selection) -> tuple[Selection, tuple[str, ...]]:
-    """Drop the findings none of whose parameters the training data determine, the least likely first; and name them.
+    """Drop the findings whose one parameter the training data do not determine, the least likely first; and name them.
 
     A parameter that belongs to a recording, such as an instant, says nothing of the motor.
     """
@@ -22,7 +22,10 @@ def drop_undetermined(selection: Selection) -> tuple[Selection, tuple[str, ...]]
 
 
 def find_undetermined(model: Model) -> tuple[str, ...]:
-    """Find the effects of a model none of whose own parameters its training data determine."""
+    """Find the effects of a model none of whose own parameters its training data determine.
+
+    Size and time constant of one effect may each be unsure, because the other is, where both together are not.
+    """
     if not model.effects:
         return ()
     fit = fit_whitened(model.estimate)
@@ -31,6 +34,6 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
 
 
 def is_undetermined(effect: str, not_identifiable: tuple[str, ...]) -> bool:
-    """Decide whether none of an effect's own parameters is determined."""
+    """Decide whether an effect's one own parameter is not determined."""
     own = [spec.name for spec in EFFECT_BY_NAME[effect].parameters if not spec.of_recording]
-    return all(name in not_identifiable for name in own)
+    return len(own) == 1 and own[0] in not_identifiable

@@ -7,18 +7,26 @@ fit nor the curve has seen. What no curve can predict is disturbance, however la
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import log
+from math import log, tau
 
 import numpy as np
 
-from motor_identification.discrepancy.free_curves import FAMILIES, OF_ONE_RECORDING, Reach, measure_reach, respond
+from motor_identification.discrepancy.free_curves import (
+    FAMILIES,
+    HARMONICS,
+    OF_ONE_RECORDING,
+    Reach,
+    measure_reach,
+    respond,
+)
 from motor_identification.discrepancy.motion_history import MotionHistory
 from motor_identification.noise.error_model import ErrorData, ErrorModel
 from motor_identification.recording import Bools, Floats
 
 CERTAIN = log(len(FAMILIES) / 0.01)  # [nat] likelihood ratio that chance exceeds in 1 % of complete models (Markov)
 LEAST_SHARE = 0.1  # of the power of what is left: complete models show −0.03 to +0.04 in every variable
-LEAST_WHITE_SHARE = 0.03  # of the white residual's power: the harmonics of an irregular disc take up to 0.018
+LEAST_WHITE_SHARE = 0.03  # of the white residual's power
+OVER_THE_DISC = "angle"  # the family whose curves an irregular disc has too
 ROBUST = 4.0  # standard deviations: beyond, a white residual counts linearly
 LINES = 3  # of a spectrum that are taken together
 SMOOTHED = 20_000  # intervals that a spectrum is taken of at most
@@ -89,7 +97,7 @@ def _judge_family(
         speeds = (response / rest.errors.duration)[:, judged]
         kept.append((white[0, judged], white[1:, judged], rest.speeds[judged], speeds, rest, judged))
     knots = solve_ridge(normal, moment)
-    gain = white_power = before = after = floor = 0.0
+    gain = white_power = before = after = floor = disc = 0.0
     for z, x, speed, response, rest, judged in kept:
         left = z - knots @ x
         gain += float(np.sum(_loss(z) - _loss(left)))
@@ -99,9 +107,20 @@ def _judge_family(
         after += float(duration @ (speed - knots @ response) ** 2)
         sensor = rest.errors.blur[judged] ** 2 + (model.share * rest.errors.unit) ** 2
         floor += float(np.sum(2.0 * sensor / duration))
+        disc += float(np.sum(2.0 * (model.share * rest.errors.unit) ** 2 / duration)) * share_of_disc(rest.errors.unit)
+    if name == OVER_THE_DISC:  # harmonics of its slots are the sensor's, however well they are predicted
+        return Structure(name, (before - after - disc) / (before - floor) if before > floor else 0.0, gain)
     share = (before - after) / (before - floor) if before > floor else 0.0
     white_share = gain / white_power if white_power > 0.0 else 0.0
     return Structure(name, max(share, white_share * LEAST_SHARE / LEAST_WHITE_SHARE), gain)
+
+
+def share_of_disc(slot: float) -> float:
+    """Compute the share of irregular slots' power that harmonics of the angle predict: they span so many of its modes.
+
+    slot: [rad].
+    """
+    return min(2.0 * HARMONICS * slot / tau, 1.0)
 
 
 def _loss(white: Floats) -> Floats:

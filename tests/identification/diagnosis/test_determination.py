@@ -20,11 +20,12 @@ from motor_model.parameters import PAPER_KA, PAPER_KV
         ("load_step", ("step_voltage",), True),  # the instant is the recording's
         ("load_step", ("step_time",), False),
         ("backlash", ("backlash_angle",), False),
-        ("backlash", ("backlash_angle", "load_fraction"), True),
+        ("backlash", ("backlash_angle", "load_fraction"), False),  # each is unsure because the other is
+        ("transport_delay", ("delay",), True),
         ("coulomb_friction", ("kv", "ka"), False),
     ],
 )
-def test_an_effect_is_undetermined_where_all_of_its_own_is(
+def test_an_effect_is_undetermined_where_its_one_parameter_is(
     effect: str, unknown: tuple[str, ...], undetermined: bool
 ) -> None:
     assert is_undetermined(effect, unknown) == undetermined

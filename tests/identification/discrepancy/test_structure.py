@@ -1,12 +1,14 @@
 """What a model lacks is told from what is random, and in which variable it is; ridge and lines on made-up numbers."""
 
+from math import tau
+
 import numpy as np
 import pytest
 from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.forward_selection import begin_selection
-from motor_identification.discrepancy.structure import CERTAIN, LEAST_SHARE, Structure, solve_ridge
+from motor_identification.discrepancy.structure import CERTAIN, LEAST_SHARE, Structure, share_of_disc, solve_ridge
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.multistart import SearchConfig
 from motor_identification.estimation.problem import make_problem
@@ -62,6 +64,11 @@ def test_what_is_missing_is_found_in_its_variable(
 )
 def test_structure_is_large_and_significant(share: float, significance: float, certain: bool) -> None:
     assert Structure("speed", share, significance).certain == certain
+
+
+def test_harmonics_of_the_angle_predict_a_third_of_96_irregular_slots() -> None:
+    assert share_of_disc(tau / 96) == pytest.approx(1.0 / 3.0)
+    assert share_of_disc(tau / 8) == 1.0
 
 
 @pytest.mark.parametrize("scale", [0.0, 0.3])
