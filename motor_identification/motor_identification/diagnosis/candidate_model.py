@@ -107,7 +107,8 @@ class Model:
         seen = sum(
             float(data.duration[marks].sum()) for data, marks in zip(self.held.intervals, self.held.scored, strict=True)
         )
-        chance = exp(thresholds.RANDOM_SIGMA * sqrt(0.5 * time / seen))  # of the RMS of so many independent samples
+        # Chance of the RMS of so many independent samples.
+        chance = min(exp(thresholds.RANDOM_SIGMA * sqrt(0.5 * time / seen)), thresholds.MOST_CHANCE)
         low, high = thresholds.RANDOM_GAP
         return low / chance < self.held.gap / self.noise_floor < high * chance
 

@@ -83,3 +83,5 @@ MOST_ODD = 0.5
 RANDOM_GAP = (0.75, 1.33)
 # Standard deviations that it may be off by chance beyond: a few held-out seconds have few samples of a slow torque.
 RANDOM_SIGMA = 2.0
+# Times, at most: a torque that is as slow as the recording describes anything.
+MOST_CHANCE = 1.5
