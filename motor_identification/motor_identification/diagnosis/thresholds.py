@@ -81,7 +81,7 @@ MOST_ODD = 0.5
 # Times the noise floor of sensor and random torque together: a gap beyond is not what that torque leaves. Measured on
 # complete models beside 0.03 and 0.15 V: 0.92 to 1.12; a slewing bridge that an inductance stood in for: 0.29.
 RANDOM_GAP = (0.75, 1.33)
-# Standard deviations that it may be off by chance beyond: a few held-out seconds have few samples of a slow torque.
+# Standard deviations that it may be larger by chance beyond: a few held-out seconds have few samples of a slow torque.
 RANDOM_SIGMA = 2.0
 # Times, at most: a torque that is as slow as the recording describes anything.
 MOST_CHANCE = 1.5
