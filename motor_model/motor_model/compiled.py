@@ -64,6 +64,13 @@ def _source(module: str) -> Path:
     return Path(file).resolve()
 
 
+def _content(module: str) -> bytes:
+    """Read what a module is made of; one that is built into the interpreter is the interpreter's version."""
+    if getattr(sys.modules[module], "__file__", None) is None:
+        return sys.version.encode()
+    return _source(module).read_bytes()
+
+
 @cache
 def _digest(module: str) -> str:
     """Digest all that the machine code of an imported module depends on; its own imports have been executed."""
@@ -81,7 +88,7 @@ def _digest(module: str) -> str:
         elif isinstance(value, _PLAIN):
             digest.update(f"{name}={value!r}".encode())
         elif name in _called_by_constants(tree):
-            digest.update(_source(origin).read_bytes())
+            digest.update(_content(origin))
     return digest.hexdigest()[:16]
 
 

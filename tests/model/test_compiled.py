@@ -9,7 +9,7 @@ import pytest
 
 import motor_identification
 import motor_model
-from motor_model.compiled import cache_of
+from motor_model.compiled import _content, cache_of
 
 PACKAGES = [Path(package.__file__ or "").resolve().parent for package in (motor_model, motor_identification)]
 MODULES = {
@@ -26,7 +26,7 @@ ASK = """
 import sys
 sys.path.insert(0, sys.argv[1])
 from importlib import import_module
-from motor_model.compiled import cache_of
+from motor_model.compiled import _content, cache_of
 for name in sys.argv[2:]:
     module = import_module(name)
     assert module.__file__.startswith(sys.argv[1]), module.__file__
@@ -124,3 +124,9 @@ def test_the_caches_in_use_are_those_of_the_present_sources() -> None:
     for name in MODULES.values():
         __import__(name)
     assert any(cache_of("motor_model.dynamics.motor").rglob("*.nbi"))
+
+
+def test_a_module_that_is_built_into_the_interpreter_has_no_file() -> None:
+    """`math` is a file of its own in some distributions, and part of the interpreter in others."""
+    assert _content("sys") == sys.version.encode()
+    assert _content("motor_model.compiled") == Path(motor_model.__file__).with_name("compiled.py").read_bytes()
