@@ -1,0 +1,20 @@
+"""Try hostile inputs of every kind from a process of its own, and print how each ended, a line of JSON each.
+
+What is forked from a process with threads, such as that of tests that ran before, may wait for ever for a lock.
+"""
+
+import json
+import sys
+
+from hostile.inputs import KINDS
+from hostile.trial import tried, warm_up
+
+share, start = float(sys.argv[1]), int(sys.argv[2])
+out = sys.stdout
+warm_up()
+for kind in KINDS:
+    for trial in tried(kind, round(kind.share * share), start):
+        verdict = trial.verdict
+        faults = [str(fault) for fault in verdict.faults]
+        row = [kind.name, trial.number, list(trial.words), verdict.status, faults, repr(verdict)]
+        print(json.dumps(row), file=out, flush=True)
