@@ -58,6 +58,12 @@ def sources(*folders: str, suffixes: Iterable[str] = (".c",)) -> list[Path]:
     return sorted(path for folder in folders for path in (share() / folder).iterdir() if path.suffix in suffixes)
 
 
+def first_error(said: str) -> str:
+    """The line of a compiler's report that says what is wrong: the first error, or else the last line."""
+    lines = said.strip().splitlines() or ["it says nothing"]
+    return next((line.strip() for line in lines if " error: " in line), lines[-1].strip())
+
+
 def firmware(config: FirmwareConfig | None = None, strict: bool = False) -> Path:
     """The firmware's ELF file; with `strict` a warning is an error.
 
@@ -123,7 +129,9 @@ def _compile(command: list[str], libraries: Sequence[str], result: Path) -> None
             missing = "simavr" in done.stderr and "No such file" in done.stderr or "cannot find -l" in done.stderr
             missing = missing or "avr/io.h: No such file" in done.stderr
             raise BoardError(
-                f"libraries are missing here: {PACKAGES}" if missing else f"{command[0]} refuses:\n{done.stderr}"
+                f"libraries are missing here: {PACKAGES}"
+                if missing
+                else f"{command[0]} refuses: {first_error(done.stderr)}"
             )
         os.replace(made, result)
     kind = f"{result.stem.partition('-')[0]}-*{result.suffix}"

@@ -57,5 +57,11 @@ def test_what_the_compiler_refuses_is_shown(monkeypatch: pytest.MonkeyPatch, tmp
     need_emulator()
     (tmp_path / "wrong.c").write_text("int main(void) { int unused; }\n")
     monkeypatch.setattr(build, "sources", lambda *folders, **suffixes: [tmp_path / "wrong.c"])
-    with pytest.raises(BoardError, match=r"(?s)refuses:\n.*unused"):
+    with pytest.raises(BoardError, match=r"refuses: .*wrong\.c:1:22: error: unused variable"):
         firmware(strict=True)
+
+
+def test_the_line_that_says_what_is_wrong() -> None:
+    assert build.first_error("x.c: In function 'main':\nx.c:1:2: error: no\n int x;\n") == "x.c:1:2: error: no"
+    assert build.first_error("starting\nout of memory\n") == "out of memory"
+    assert build.first_error("") == "it says nothing"
