@@ -55,7 +55,8 @@ class StubModel(Model):
     def is_random(self) -> bool:
         return True
 
-    def _rate(self) -> tuple[float, float]:
+    @property
+    def lag(self) -> tuple[float, float]:
         return PAPER_KV / PAPER_KA, PAPER_KA
 
 

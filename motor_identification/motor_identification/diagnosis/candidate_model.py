@@ -7,9 +7,9 @@ from math import exp, sqrt
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.disturbed_fit import fit_beside_torque
+from motor_identification.diagnosis.disturbed_fit import fit_beside_torque, list_error_data
 from motor_identification.diagnosis.torque_evidence import (
-    count_scored,
+    mark_common_set,
     measure_steadiness,
     score_held_out,
     score_training,
@@ -19,10 +19,10 @@ from motor_identification.discrepancy.structure import Rest, Structure, find_str
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
+from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_model import (
     Disturbance,
-    ErrorData,
     ErrorModel,
     estimate_disturbance,
     learn_error_model,
@@ -46,7 +46,7 @@ class Model:
     learned: ErrorModel | None = None  # of what it leaves, where it is judged beside a random torque
     held_out: float = 0.0  # the held-out data's part of that likelihood
     scored: int = 0  # intervals that it is of
-    moments: Floats = field(default_factory=lambda: np.zeros(0))  # what each adds to it
+    moments: Floats = field(default_factory=lambda: np.zeros(0))  # of all motion, what each adds to the likelihood
 
     @property
     def beside_torque(self) -> bool:
@@ -57,6 +57,16 @@ class Model:
     def effects(self) -> tuple[str, ...]:
         """What it has beyond kv and ka."""
         return self.estimate.problem.unknowns.effects
+
+    @property
+    def lag(self) -> tuple[float, float]:
+        """The motor as a first-order lag: kv/ka [1/s] and ka [V·s²/rad]."""
+        return self.estimate.lag
+
+    @cached_property
+    def whitened(self) -> WhitenedFit:
+        """The last stage of its fit, which its parameters and their standard errors are said from."""
+        return fit_whitened(self.estimate)
 
     @property
     def floor(self) -> float:
@@ -103,7 +113,7 @@ class Model:
     @property
     def is_random(self) -> bool:
         """Whether the random torque that was learned leaves about as much as is left: else it does not describe it."""
-        time = self.errors.correlation_time + 1.0 / self._rate()[0]
+        time = self.errors.correlation_time + 1.0 / self.lag[0]
         seen = sum(
             float(data.duration[marks].sum()) for data, marks in zip(self.held.intervals, self.held.scored, strict=True)
         )
@@ -132,30 +142,21 @@ class Model:
 
     def estimate_disturbance(self) -> Disturbance | None:
         """Estimate the random torque beside the model, with its standard errors; None where there is none."""
-        return estimate_disturbance(self._error_data(), self.errors, *self._rate())
+        return estimate_disturbance(list_error_data(self.estimate), self.errors, *self.lag)
 
     def scatter_of_travel(self) -> tuple[Floats, ...]:
         """[rad] standard deviation that sensor and random torque leave in the travel of every held-out interval."""
         scatter = []
         for data in self.held.intervals:
             variance = data.floor_squared(self.errors.share * data.slot)
-            variance = variance + self.errors.speed_variance(data.duration, *self._rate())
+            variance = variance + self.errors.speed_variance(data.duration, *self.lag)
             scatter.append(np.sqrt(variance) * data.duration)
         return tuple(scatter)
-
-    def _rate(self) -> tuple[float, float]:
-        """kv/ka [1/s] and ka [V·s²/rad]."""
-        values = self.estimate.parameters.values
-        return values["kv"] / values["ka"], values["ka"]
-
-    def _error_data(self) -> list[ErrorData]:
-        rows = zip(self.estimate.problem.intervals, self.estimate.increments, strict=True)
-        return [make_error_data(intervals, increments) for intervals, increments in rows]
 
     def _random_variance(self, held: HeldOut) -> Floats:
         """[rad²/s²] that the random torque leaves in each interval that counts."""
         duration = np.concatenate([data.duration for data in held.intervals])[held.counted]
-        return self.errors.speed_variance(duration, *self._rate())
+        return self.errors.speed_variance(duration, *self.lag)
 
     def _find_structure(self) -> tuple[Structure, ...]:
         values, held, problem = self.estimate.parameters.values, self.held, self.estimate.problem
@@ -172,7 +173,7 @@ class Model:
             problem.recordings, problem.intervals, self.estimate.angles, self.estimate.increments, nothing, strict=True
         )
         others = [] if same else [rest(*row) for row in training]
-        return find_structure(own, others, self.errors, *self._rate())
+        return find_structure(own, others, self.errors, *self.lag)
 
 
 @dataclass(frozen=True)
@@ -223,14 +224,9 @@ def share_explained(before: float, after: float, floor: float) -> float:
     return (before**2 - after**2) / (before**2 - floor**2) if before > floor else 1.0
 
 
-def learn_errors(
-    estimate: Estimate, guess: ErrorModel | None = None, evaluations: int = thresholds.FINAL_EVALUATIONS
-) -> ErrorModel:
+def learn_errors(estimate: Estimate) -> ErrorModel:
     """Learn what sensor and random torque leave of an estimate in its training data."""
-    rows = zip(estimate.problem.intervals, estimate.increments, strict=True)
-    values = estimate.parameters.values
-    data = [make_error_data(intervals, increments) for intervals, increments in rows]
-    return learn_error_model(data, values["kv"] / values["ka"], values["ka"], guess, evaluations)
+    return learn_error_model(list_error_data(estimate), *estimate.lag, None, thresholds.FINAL_EVALUATIONS)
 
 
 def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = None) -> Model:
@@ -248,14 +244,15 @@ def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = N
 
 def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | None, evaluations: int) -> Model:
     """Judge a model beside a random torque: its errors are learned, from a guess if there is one."""
-    errors = learn_errors(model.estimate, guess, evaluations)
-    held, training = score_held_out(hold_out, model.estimate, errors), score_training(model.estimate, errors)
+    rows, lag = list_error_data(model.estimate), model.estimate.lag
+    errors = learn_error_model(rows, *lag, guess, evaluations)
+    held, training = score_held_out(hold_out, model.held, errors, lag), score_training(model.estimate, rows, errors)
     return replace(
         model,
         learned=errors,
         likelihood=held.likelihood + training.likelihood,
         held_out=held.likelihood,
-        scored=count_scored(hold_out),
+        scored=sum(map(np.count_nonzero, mark_common_set(hold_out))),
         moments=np.concatenate([held.moments, training.moments]),
     )
 

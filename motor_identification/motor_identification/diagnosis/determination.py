@@ -3,7 +3,6 @@
 from motor_identification.diagnosis.backward_elimination import drop_step
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.forward_selection import Selection
-from motor_identification.estimation.whitened_fit import fit_whitened
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -28,7 +27,7 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
     """
     if not model.effects:
         return ()
-    fit = fit_whitened(model.estimate)
+    fit = model.whitened
     unknown = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).not_identifiable
     return tuple(name for name in model.effects if is_undetermined(name, unknown))
 

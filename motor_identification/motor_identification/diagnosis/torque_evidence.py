@@ -17,8 +17,8 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_model import ErrorData, ErrorModel, log_likelihood, make_error_data
-from motor_identification.recording import Floats, Integers
-from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, mix_likelihoods
+from motor_identification.recording import Bools, Floats, Integers
+from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, HeldOut, mix_likelihoods
 from motor_identification.validation.hold_out import HoldOut
 
 UNFORESEEN_TORQUES = (1.5, 3.0)  # times the training data's: held-out motion may be rougher
@@ -34,47 +34,45 @@ class Score:
     moments: Floats
 
 
-def score_training(estimate: Estimate, errors: ErrorModel) -> Score:
-    """Compute the log likelihood of training motion under an estimate and the errors that it leaves, less its price."""
-    rows = zip(estimate.problem.intervals, estimate.increments, strict=True)
-    data = [make_error_data(*row) for row in rows]
-    moments = _add_moments(estimate, data, errors)
-    count = sum(len(row.fresh) for row in data)
+def score_training(estimate: Estimate, rows: Sequence[ErrorData], errors: ErrorModel) -> Score:
+    """Compute the log likelihood of training motion under an estimate and the errors that it leaves, less its price.
+
+    rows: of every training recording, what the estimate leaves.
+    """
+    moments = _add_moments(estimate.problem.intervals, rows, errors, estimate.lag)
+    count = sum(len(row.fresh) for row in rows)
     return Score(float(moments.sum()) - 0.5 * log(count) * len(estimate.theta), moments)
 
 
-def score_held_out(hold_out: HoldOut, estimate: Estimate, errors: ErrorModel) -> Score:
-    """Compute the log likelihood of held-out motion under an estimate and the errors that it leaves.
+def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: tuple[float, float]) -> Score:
+    """Compute the log likelihood of held-out motion under the errors that a model leaves.
 
     Under the training data's torque, or one of a few larger ones, or an angle that drifts: one restart that nobody
-    could predict must not refute a model.
+    could predict must not refute a model. lag: kv/ka [1/s] and ka [V·s²/rad].
     """
-    here, (rate, ka) = hold_out.apply(estimate), _rate(estimate)
-    rows: list[ErrorData] = []
-    for data, increments in zip(here.problem.intervals, here.increments, strict=True):
-        rows.append(
-            make_error_data(data, increments, hold_out.scored_blocks.mark(data, hold_out.problem.sample_period))
-        )
+    parts = zip(held.intervals, held.increments, mark_common_set(hold_out), strict=True)
+    rows = [make_error_data(*part) for part in parts]
     unit = max(row.unit for row in rows)
     others = [replace(errors, white=share * unit**2) for share in UNFORESEEN_DRIFTS]
     if errors.rms_voltage > 0.0:
         others += [replace(errors, rms_voltage=factor * errors.rms_voltage) for factor in UNFORESEEN_TORQUES]
-    moments = _add_moments(here, rows, errors)
-    others_too = [log_likelihood(rows, model, rate, ka) for model in others]
+    moments = _add_moments(held.intervals, rows, errors, lag)
+    others_too = [log_likelihood(rows, model, *lag) for model in others]
     return Score(mix_likelihoods(float(moments.sum()), others_too), moments)
 
 
-def _rate(estimate: Estimate) -> tuple[float, float]:
-    values = estimate.parameters.values
-    return values["kv"] / values["ka"], values["ka"]
+def mark_common_set(hold_out: HoldOut) -> tuple[Bools, ...]:
+    """Mark the held-out intervals that every model is scored on: whole blocks, whatever a model says of them."""
+    problem = hold_out.problem
+    return tuple(hold_out.scored_blocks.mark(data, problem.sample_period) for data in problem.intervals)
 
 
-def _add_moments(estimate: Estimate, rows: Sequence[ErrorData], errors: ErrorModel) -> Floats:
+def _add_moments(
+    intervals: Sequence[Intervals], rows: Sequence[ErrorData], errors: ErrorModel, lag: tuple[float, float]
+) -> Floats:
     """Add up what the intervals of each moment of every recording say, all recordings one after the other."""
-    parts = []
-    for data, row in zip(estimate.problem.intervals, rows, strict=True):
-        parts.append(np.bincount(_moment_of(data), row.densities(errors, *_rate(estimate)), MOMENTS))
-    return np.concatenate(parts)
+    pairs = zip(intervals, rows, strict=True)
+    return np.concatenate([np.bincount(_moment_of(data), row.densities(errors, *lag), MOMENTS) for data, row in pairs])
 
 
 def _moment_of(data: Intervals) -> Integers:
@@ -89,13 +87,3 @@ def measure_steadiness(before: Floats, after: Floats) -> float:
     """
     gains = np.sort(after - before)
     return float(gains[: len(gains) - ceil(FEW * len(gains))].sum())
-
-
-def count_scored(hold_out: HoldOut) -> int:
-    """Count the intervals of the common set."""
-    return int(
-        sum(
-            np.count_nonzero(hold_out.scored_blocks.mark(data, hold_out.problem.sample_period))
-            for data in hold_out.problem.intervals
-        )
-    )

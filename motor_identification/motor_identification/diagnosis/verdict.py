@@ -13,7 +13,6 @@ from motor_identification.diagnosis.forward_selection import Selection, Selectio
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Verdict
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.estimation.multistart import SearchReport
-from motor_identification.estimation.whitened_fit import fit_whitened
 from motor_identification.recording import Recording
 from motor_identification.uncertainty.identifiability import suggest_profile
 from motor_identification.uncertainty.result import Fit, summarise_fit
@@ -68,7 +67,7 @@ def conclude(
 
 def _summarise(model: Model, search: SearchReport, elapsed: Callable[[], float]) -> Fit:
     """Summarise a model with standard errors and everything else that an identification says."""
-    return summarise_fit(fit_whitened(model.estimate), search, elapsed)
+    return summarise_fit(model.whitened, search, elapsed)
 
 
 def _make_finding(step: SelectionStep, model: Fit, gap_after: float) -> Finding:

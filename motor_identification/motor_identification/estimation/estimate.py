@@ -35,6 +35,12 @@ class Estimate:
         """The motor, as the first recording has it."""
         return self.problem.unknowns.parameters(self.theta, self.problem.recordings[0].info.name)
 
+    @property
+    def lag(self) -> tuple[float, float]:
+        """The motor as a first-order lag: kv/ka [1/s] and ka [V·s²/rad]."""
+        values = self.parameters.values
+        return values["kv"] / values["ka"], values["ka"]
+
     def on(self, problem: Problem) -> "Estimate":
         """Apply the same θ to another problem with the same unknowns."""
         return replace(self, problem=problem)

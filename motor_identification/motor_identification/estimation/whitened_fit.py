@@ -7,6 +7,7 @@ model is right, and falls back to comparing speeds where it is not.
 
 from dataclasses import dataclass
 from math import nan, sqrt
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -101,24 +102,27 @@ def _estimate_drift(noise: AngleNoise, increments: Floats) -> float:
     return estimate_drift([noise], [increments], [scale * share for share in DRIFT_GRID])
 
 
+class Filter(Protocol):
+    """Something that whitens one recording's increments."""
+
+    def white(self, increments: Floats) -> Floats:
+        """White residuals from angle increments [rad] (I,)."""
+
+
+F = TypeVar("F", bound=Filter)
+
+
 @dataclass(frozen=True)
-class WhitenedResiduals:
-    """Whitened residuals of a problem, for least squares and for its statistics."""
+class FilteredResiduals(Generic[F]):
+    """Residuals of a problem for least squares, whitened by a filter for each recording."""
 
     problem: Problem
-    encoders: tuple[Encoder, ...]
-
-    @property
-    def noise_floor(self) -> float:
-        """[rad/s] time-weighted RMS of what timer tick (or count quantisation) and irregular slots alone leave."""
-        rows = zip(self.problem.intervals, self.encoders, strict=True)
-        squares = [data.floor_squared(encoder.slot_sigma) for data, encoder in rows]
-        return sqrt(float(self.problem.weight @ np.concatenate(squares)))
+    filters: tuple[F, ...]
 
     def white(self, residuals: Floats) -> Floats:
         """From mean speeds' residuals [rad/s] (I,) to white ones, all recordings one after the other."""
-        rows = zip(self.encoders, self.problem.to_travel(residuals), strict=True)
-        return np.concatenate([encoder.white(increments) for encoder, increments in rows])
+        rows = zip(self.filters, self.problem.to_travel(residuals), strict=True)
+        return np.concatenate([one.white(increments) for one, increments in rows])
 
     def residuals(self, theta: Floats) -> Floats:
         """White residuals at θ (D,)."""
@@ -133,6 +137,23 @@ class WhitenedResiduals:
         for row, column in zip(white[1:], columns[1:], strict=True):
             row[:] = self.white(column)
         return white.T
+
+
+@dataclass(frozen=True)
+class WhitenedResiduals(FilteredResiduals[Encoder]):
+    """Residuals whitened by what is known of every recording's encoder, and their statistics."""
+
+    @property
+    def encoders(self) -> tuple[Encoder, ...]:
+        """Every recording's encoder."""
+        return self.filters
+
+    @property
+    def noise_floor(self) -> float:
+        """[rad/s] time-weighted RMS of what timer tick (or count quantisation) and irregular slots alone leave."""
+        rows = zip(self.problem.intervals, self.encoders, strict=True)
+        squares = [data.floor_squared(encoder.slot_sigma) for data, encoder in rows]
+        return sqrt(float(self.problem.weight @ np.concatenate(squares)))
 
 
 @dataclass(frozen=True)

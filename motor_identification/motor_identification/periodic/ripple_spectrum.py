@@ -128,14 +128,13 @@ def _make_runs(estimate: Estimate, tracks: Sequence[Track]) -> list[_Run]:
     # Slower, a ripple holds or turns back the shaft: no linear response.
     slow = tuple(np.abs(data.speed) < SLOW_SPEED * np.abs(data.speed).max() for data in estimate.problem.intervals)
     estimate = estimate.on(estimate.problem.without(slow))
-    values = estimate.parameters.values
     runs = []
     rows = zip(estimate.problem.intervals, tracks, estimate.increments, learn_encoders(estimate), strict=True)
     for data, track, increments, encoder in rows:
         angle, begun = track.at(data.time), data.time[data.first]
         course = Course(
             np.argsort(begun, kind="stable"), track.run_at(begun), angle[data.first], angle[data.last], data.duration,
-            data.slack == 0.0, values["kv"] / values["ka"], values["ka"],
+            data.slack == 0.0, *estimate.lag,
         )  # fmt: skip
         run = _Run(encoder, course, -increments, increments)
         white, transient = _whitened(run, run.white), _whitened(run, course.transient())

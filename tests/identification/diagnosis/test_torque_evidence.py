@@ -8,9 +8,10 @@ from diagnosed import fitted, with_effect
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import CandidateTest, Model, judge_beside_torque, validate_model
+from motor_identification.diagnosis.disturbed_fit import list_error_data
 from motor_identification.diagnosis.torque_evidence import (
     MOMENTS,
-    count_scored,
+    mark_common_set,
     measure_steadiness,
     score_held_out,
     score_training,
@@ -27,7 +28,7 @@ def test_an_unknown_costs_half_the_logarithm_of_the_intervals() -> None:
     larger = with_effect(estimate, "quadratic_drag", {"drag": 1e-9})
     same = replace(larger, theta=np.append(estimate.theta, larger.problem.unknowns.low[-1]))
     price = 0.5 * np.log(sum(len(data.first) for data in estimate.problem.intervals))
-    smaller, other = (score_training(one, ERRORS).likelihood for one in (estimate, same))
+    smaller, other = (score_training(one, list_error_data(one), ERRORS).likelihood for one in (estimate, same))
     assert smaller - other == pytest.approx(price, abs=0.01)
 
 
@@ -35,11 +36,17 @@ def test_only_blocks_of_the_common_set_are_scored(monkeypatch: pytest.MonkeyPatc
     """Half as many blocks say half as much."""
     estimate, hold_out = fitted()
     (data,) = hold_out.problem.intervals
-    assert count_scored(hold_out) == np.count_nonzero(hold_out.scored_blocks.mark(data, hold_out.problem.sample_period))
-    score = score_held_out(hold_out, estimate, ERRORS)
+    (marks,) = mark_common_set(hold_out)
+    assert np.array_equal(marks, hold_out.scored_blocks.mark(data, hold_out.problem.sample_period))
+    score = score_held_out(hold_out, hold_out.validate(estimate), ERRORS, estimate.lag)
     assert len(score.moments) == MOMENTS
     monkeypatch.setattr(OtherRecordings, "scored_blocks", TimeBlocks(4))
-    assert 0.4 < score_held_out(hold_out, estimate, ERRORS).moments.sum() / score.moments.sum() < 0.6
+    assert (
+        0.4
+        < score_held_out(hold_out, hold_out.validate(estimate), ERRORS, estimate.lag).moments.sum()
+        / score.moments.sum()
+        < 0.6
+    )
 
 
 def test_what_a_few_moments_say_is_no_evidence() -> None:
