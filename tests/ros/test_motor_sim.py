@@ -210,12 +210,10 @@ def test_after_a_restart_an_old_reference_waits_and_a_fresh_one_drives(bench: Be
     start("motor_control", "motor_control")
     bench.heard(reference)
     user.more(50)  # a reference from more than 1 s before the first sample is an old one
-    reference.publish(Float64(data=60.0))
-    user.until(lambda sample: sample.speed > 50.0, "motion")
+    user.until_moving(reference, "motion", enable=False)
     user.until(lambda sample: sample.sample_time > LATER, "a clock that the next plant's is surely behind")
     first.kill()
     start("motor_sim", "motor_sim")
     bench.wait(lambda: len(of_the_latest_plant(user)) > 300, "samples of the next plant")
     assert {sample.voltage for sample in of_the_latest_plant(user)} == {0.0}
-    reference.publish(Float64(data=60.0))
-    user.until(lambda sample: sample.speed > 50.0, "motion by a fresh reference")
+    user.until_moving(reference, "motion by a fresh reference", enable=False)

@@ -2,7 +2,10 @@
 
 import warnings
 from collections.abc import Callable
+from typing import Any
 
+from diagnostic_msgs.msg import DiagnosticArray
+from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from workbench import Bench
 
@@ -27,6 +30,8 @@ class User:
         self.bench, self.voltage, self.sending = bench, 0.0, True
         self.samples: list[MotorSpeed] = []
         self.stops = 0
+        self._said: dict[str, str] = {}  # by node, why it does not drive
+        bench.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, qos.DIAGNOSTICS)
         self._publisher = bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
         bench.node.create_subscription(MotorSpeed, "motor/speed", self._on_sample, qos.SPEED)
 
@@ -36,14 +41,22 @@ class User:
             begun = len(self.samples) > BEGIN
             self._publisher.publish(voltage_message(self.voltage if begun else 0.0, time_message(0), "user"))
 
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        self._said.update({status.name: status.message for status in message.status})
+
     def until(self, condition: Callable[[MotorSpeed], bool], what: str) -> MotorSpeed:
         """The first new sample for which the condition holds."""
         begin = len(self.samples)
         self.bench.wait(lambda: any(condition(sample) for sample in self.samples[begin:]), what)
         return next(sample for sample in self.samples[begin:] if condition(sample))
 
-    def until_on(self, condition: Callable[[MotorSpeed], bool], what: str) -> MotorSpeed:
-        """As `until`, by a user who switches on again: a busy machine holds the emulated board up, which is a stop."""
+    def until_on(
+        self, condition: Callable[[MotorSpeed], bool], what: str, on_again: Callable[[], object] | None = None
+    ) -> MotorSpeed:
+        """As `until`, by a user who switches on again: a busy machine holds the emulated board up, which is a stop.
+
+        With a controller, that ends its reference as well: `on_again` has to publish a fresh one.
+        """
         begin = looked = len(self.samples)
 
         def enough() -> bool:
@@ -54,9 +67,24 @@ class User:
             looked = len(self.samples)
             if self.samples[-1].voltage == 0.0:
                 self.stops += 1
-                count_stop(self.stops, what)
-                self.bench.call(SetBool, "motor/enable", SetBool.Request(data=True))
+                count_stop(self.stops, f"{what} ({'; '.join(self._said.values())})")
+                (on_again or self.switch_on)()
         return next(sample for sample in self.samples[begin:] if condition(sample))
+
+    def switch_on(self) -> None:
+        """Call motor/enable."""
+        self.bench.call(SetBool, "motor/enable", SetBool.Request(data=True))
+
+    def until_moving(self, reference: Any, what: str, enable: bool = True) -> None:
+        """Publish 60 rad/s on `reference`, again after each stop, until the motor turns with 50."""
+
+        def refer() -> None:
+            if enable and self.stops:
+                self.switch_on()
+            reference.publish(Float64(data=60.0))
+
+        refer()
+        self.until_on(lambda sample: sample.speed > 50.0, what, refer)
 
     def steady(self, voltage: float, count: int) -> list[MotorSpeed]:
         """So many samples in a row at this voltage [V]."""

@@ -50,8 +50,7 @@ def test_a_killed_controller(driver: "Popen[str]", live: LiveBoard, user: User, 
     reference = user.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
     controller = start("motor_control", "motor_control")
     user.bench.heard(reference)
-    reference.publish(Float64(data=60.0))
-    user.until_on(lambda sample: sample.speed > 50.0, "motion")
+    user.until_moving(reference, "motion")
     controller.kill()
     assert seconds_to_rest(live) < MOST
 
@@ -80,8 +79,7 @@ def test_a_latched_stop_does_not_end_by_starting_the_driver_again(
     reference = user.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
     start("motor_control", "motor_control")
     user.bench.heard(reference)
-    reference.publish(Float64(data=60.0))
-    user.until_on(lambda sample: sample.speed > 50.0, "motion")
+    user.until_moving(reference, "motion")
     live.faults = replace(live.faults, stuck_telemetry=True)
     assert seconds_to_rest(live) < MOST
     driver.kill()
@@ -93,8 +91,7 @@ def test_a_latched_stop_does_not_end_by_starting_the_driver_again(
     user.bench.wait(lambda: len(user.samples) > count + 400, "samples of the next driver")
     assert {sample.voltage for sample in user.samples[count:]} == {0.0} and live.truth().voltage == 0.0
     assert user.bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
-    reference.publish(Float64(data=60.0))
-    user.until_on(lambda sample: sample.speed > 50.0, "motion after an enable and a fresh reference")
+    user.until_moving(reference, "motion after an enable and a fresh reference")
 
 
 def test_a_driver_that_is_ended_leaves_0_volt(driver: "Popen[str]", live: LiveBoard, user: User) -> None:
