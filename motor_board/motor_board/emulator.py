@@ -1,20 +1,16 @@
 """The emulated board: firmware on its chip, motor on its pins, advanced in lockstep; no wall clock, no port."""
 
 from pathlib import Path
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
-from motor_board.chip import FREQUENCY, Chip
-from motor_board.shaft import Edges, EncoderConfig, Shaft
+from motor_board.chip import FREQUENCY, Chip, Line
+from motor_board.faults import Wiring
+from motor_board.shaft import NO_EDGES, Edges, EncoderConfig, Shaft
 from motor_model.parameters import Parameters
 
 STEP = FREQUENCY // 1000  # [cycle] the motor is planned ahead by at most
 AHEAD = 64  # [cycle] more than the chip can run beyond its goal
-Cycles: TypeAlias = NDArray[np.uint64]
-Levels: TypeAlias = NDArray[np.uint8]
-NO_CYCLES, NO_LEVELS = np.empty(0, dtype=np.uint64), np.empty(0, dtype=np.uint8)
 
 
 class Emulator:
@@ -28,7 +24,8 @@ class Emulator:
         self.encoder_connected = True
         self.stray_edges = 0.0  # [1/s] that the line picks up, at random
         self._random = np.random.default_rng([self.encoder.seed, 2])
-        self._edges = Edges(NO_CYCLES, NO_LEVELS)  # of the latest plan
+        self._wiring, self._volts_at_a0 = Wiring(), 0.0
+        self._edges = NO_EDGES  # of the latest plan
         self._passed = 0  # of the next plan, those that have come already
 
     def run(self, until: int) -> None:
@@ -44,29 +41,44 @@ class Emulator:
             if self.chip.run(goal):
                 self._drive(self.chip.written)
 
+    @property
+    def wiring(self) -> Wiring:
+        """How motor, encoder and supply are connected; assign to change that."""
+        return self._wiring
+
+    @wiring.setter
+    def wiring(self, wiring: Wiring) -> None:
+        if wiring != self._wiring:
+            self._wiring = wiring
+            self.shaft.hold(wiring.shaft_stuck, wiring.hand)
+            self.supply(self._volts_at_a0)
+            self._drive(self.chip.cycle)
+
+    def supply(self, volts_at_a0: float) -> None:
+        """What the motor's supply puts on A0 [V], while it is on."""
+        self._volts_at_a0 = volts_at_a0
+        self.chip.supply(volts_at_a0 if self._wiring.powered else 0.0)
+
     def _plan(self, until: int) -> None:
         """Tell the chip which edges come up to a cycle, in place of what was void."""
         known = self.shaft.planned
         self._edges = self.shaft.plan(until)
-        cycles, what = self._edges.cycle[self._passed :], self._edges.what[self._passed :]
+        edges = self._edges.after(self._passed) if self.encoder_connected else NO_EDGES
         self._passed = 0
-        if not self.encoder_connected:
-            cycles, what = NO_CYCLES, NO_LEVELS
+        start = max(known, self.chip.cycle + AHEAD)
+        edges = self._wiring.sense(edges, start, until, self.encoder.channels == 2)
         if self.stray_edges > 0.0:
-            cycles, what = self._with_strays(max(known, self.chip.cycle + AHEAD), until, cycles, what)
-        self.chip.set_edges(known, cycles, what)
+            edges = edges.joined(self._strays(start, until))
+        self.chip.set_edges(known, edges.cycle, edges.what)
 
-    def _with_strays(self, start: int, until: int, cycles: Cycles, what: Levels) -> tuple[Cycles, Levels]:
-        """Add pulses that no flank has made."""
+    def _strays(self, start: int, until: int) -> Edges:
+        """Pulses that no flank has made."""
         count = self._random.poisson(self.stray_edges * max(until - start, 0) / FREQUENCY)
-        strays = self._random.integers(start, max(until, start + 1), count).astype(np.uint64)
-        every = np.concatenate([cycles, strays])
-        order = np.argsort(every, kind="stable")
-        return every[order], np.concatenate([what, np.zeros(count, dtype=np.uint8)])[order]
+        return Edges.alike(self._random.integers(start, max(until, start + 1), count).astype(np.uint64), Line(0))
 
     def _drive(self, cycle: int) -> None:
         """The motor gets what the pins say since a cycle; the edges that came since are not to come again."""
-        self.shaft.drive(cycle, self.chip.pins.share)
+        self.shaft.drive(cycle, self._wiring.drive(self.chip.pins.share))
         since = self._edges.cycle > self.shaft.planned
         self._passed = int(np.count_nonzero(since & (self._edges.cycle <= self.chip.cycle)))
 

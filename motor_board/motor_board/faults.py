@@ -1,13 +1,58 @@
-"""What can be wrong between a board and its computer: bytes that change, vanish or come late, a plug that is out."""
+"""What can be wrong around a board: its wiring, and between it and its computer bytes, plug and clock."""
 
 from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
 
+from motor_board.chip import FREQUENCY, Line
+from motor_board.shaft import Edges
+
+HUM_HIGH = 0.4  # of a period of the mains that a floating line is high
+
 
 @dataclass(frozen=True)
-class Faults:
+class Wiring:
+    """The connections; as they stand here, all is right."""
+
+    motor_swapped: bool = False  # the motor's two wires
+    channels_swapped: bool = False  # the encoder's two channels
+    a_connected: bool = True
+    b_connected: bool = True
+    powered: bool = True  # the motor's supply is on
+    bridge_stuck: float = 0.0  # share of the full voltage that a broken bridge gives, whatever it is told; 0: it obeys
+    shaft_stuck: bool = False
+    hum: float = 0.0  # [Hz] of the mains, on lines that no pull-up holds
+    hand: float = 0.0  # [V] with which a hand turns the shaft, as if it were at the motor
+
+    def drive(self, share: float) -> float:
+        """Of the full voltage, what the motor gets where the pins say this."""
+        given = self.bridge_stuck or share
+        return (-given if self.motor_swapped else given) if self.powered else 0.0
+
+    def sense(self, edges: Edges, start: int, until: int, two: bool) -> Edges:
+        """What of the encoder's edges between two cycles reaches the board's lines."""
+        cycle, what = edges.cycle, edges.what
+        if self.channels_swapped:
+            what = what ^ np.uint8(Line.B_HIGH)
+        if not self.b_connected:
+            what = what | np.uint8(Line.B_HIGH)  # its pull-up
+        if not self.a_connected:
+            cycle, what = cycle[:0], what[:0]
+        heard = Edges(cycle, what.astype(np.uint8))
+        return heard.joined(self._hum(start, until, two)) if self.hum > 0.0 else heard
+
+    def _hum(self, start: int, until: int, two: bool) -> Edges:
+        """A line that floats crosses its threshold once up and once down in a period, where B is low."""
+        period = FREQUENCY / self.hum
+        rises = np.arange(np.ceil(start / period), np.ceil(until / period)) * period
+        falls = np.arange(np.ceil(start / period - HUM_HIGH), np.ceil(until / period - HUM_HIGH)) + HUM_HIGH
+        up = Edges.alike(rises.astype(np.uint64), Line.A_STAYS if two else Line(0))
+        return up.joined(Edges.alike((falls * period).astype(np.uint64), Line.A_FALLS)) if two else up
+
+
+@dataclass(frozen=True)
+class Faults(Wiring):
     """The switches; as they stand here, nothing is wrong."""
 
     bit_error_rate: float = 0.0  # share of bits flipped, both ways

@@ -137,6 +137,7 @@ class LiveBoard:
             self._out.cut()
             self._port.plug() if faults.plugged else self._port.unplug()
         self._emulator.encoder_connected, self._emulator.stray_edges = faults.encoder_connected, faults.stray_edges
+        self._emulator.wiring = faults
         opened = self._port.opened()
         if opened:
             self._in.cut()

@@ -50,7 +50,7 @@ class BoardEmulator(Node):
             channels=1 if values["single_channel"] else 2,
         )
         emulator = Emulator(firmware(config), model, encoder)
-        emulator.chip.supply(5e3 * supply / SUPPLY_FULL_SCALE)
+        emulator.supply(5e3 * supply / SUPPLY_FULL_SCALE)
         self._board = LiveBoard(emulator, Port(Path(str(values["link"]))), int(values["seed"]))
         self._board.faults = Faults(**faults)  # type: ignore[arg-type]
         self.add_on_set_parameters_callback(self._on_parameters)

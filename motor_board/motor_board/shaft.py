@@ -15,6 +15,8 @@ from motor_model.parameters import Parameters
 from motor_model.sensing.encoder import make_disc, turn
 
 DELAY, MISS_RATE = INDEX["delay"], INDEX["miss_rate"]
+SLIDING, BREAKAWAY = INDEX["ks"], INDEX["breakaway_voltage"]
+MOST_VOLTAGE = 1e4  # [V] that moves no blocked shaft
 MOST_EDGES = 2048  # in one step
 
 
@@ -24,6 +26,24 @@ class Edges:
 
     cycle: NDArray[np.uint64]
     what: NDArray[np.uint8]
+
+    @classmethod
+    def alike(cls, cycle: NDArray[np.uint64], what: Line) -> "Edges":
+        """The same at each of these cycles."""
+        return cls(cycle, np.full(len(cycle), what, dtype=np.uint8))
+
+    def joined(self, other: "Edges") -> "Edges":
+        """Both, in the order of their cycles."""
+        cycle, what = np.concatenate([self.cycle, other.cycle]), np.concatenate([self.what, other.what])
+        order = np.argsort(cycle, kind="stable")
+        return Edges(cycle[order], what[order])
+
+    def after(self, count: int) -> "Edges":
+        """Without the first `count`."""
+        return Edges(self.cycle[count:], self.what[count:])
+
+
+NO_EDGES = Edges(np.empty(0, dtype=np.uint64), np.empty(0, dtype=np.uint8))
 
 
 @dataclass(frozen=True)
@@ -49,6 +69,7 @@ class Shaft:
         self._cycle, self._state = 0, at_rest(0.0)  # where the present plan starts
         self._planned, self._then = 0, self._state  # where it ends
         self._commands: deque[tuple[float, float]] = deque([(-inf, 0.0)])  # [s], [V] at the bridge's input
+        self._hand, self._free = 0.0, self._p.copy()
         self._times, self._directions = np.empty(MOST_EDGES), np.empty(MOST_EDGES, dtype=np.int64)
 
     @property
@@ -65,6 +86,12 @@ class Shaft:
     def voltage(self) -> float:
         """[V] that the board commands."""
         return self._commands[-1][1]
+
+    def hold(self, stuck: bool, hand: float) -> None:
+        """From the next plan on, something blocks the shaft, and a hand turns it as if with so many volts more."""
+        self._hand = hand
+        self._p[BREAKAWAY] = MOST_VOLTAGE if stuck else self._free[BREAKAWAY]
+        self._p[SLIDING] = MOST_VOLTAGE if stuck else self._free[SLIDING]
 
     @property
     def planned(self) -> int:
@@ -109,7 +136,7 @@ class Shaft:
         for (_, command), switch in zip(self._commands, [*switches, inf], strict=True):
             stop = min(switch, end)
             if stop > t:
-                u = effective_voltage(self._p, command)
+                u = effective_voltage(self._p, command) + self._hand
                 times, directions = self._times[count:], self._directions[count:]
                 disc = self._disc
                 state, passed = turn(
