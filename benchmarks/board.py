@@ -31,7 +31,7 @@ class Link:
     def __init__(self, period: int) -> None:
         self.emulator = Emulator(firmware(), paper_motor(), EncoderConfig(seed=1))
         self.chip, self.encoder, self.decoder = self.emulator.chip, Encoder(), Decoder()
-        self.period, self.telemetry = period, Telemetry(0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+        self.period, self.telemetry = period, Telemetry(0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0)
         self.run(8)
         self.run(1, b"\0" + self.encoder.send(Configure(period, 100, 0)))
         self.run(30)

@@ -49,8 +49,8 @@ def run(damage: Damage, random: np.random.Generator) -> tuple[int, int, int, int
     """Frames sent, damaged, returned, wrong, and undamaged ones missing after another undamaged one."""
     sent = touched = returned = wrong = beyond = 0
     while touched < DAMAGED // len(DAMAGES):
-        values = random.integers(0, 2**16, (BLOCK, 8))
-        frames = [Telemetry(int(row[0]), int(row[1]) - 2**15, *map(int, row[2:8]), boot=1, latch=0) for row in values]
+        values = random.integers(0, 2**16, (BLOCK, 9)) & ([65535] * 7 + [255] * 2)
+        frames = [Telemetry(int(row[0]), int(row[1]) - 2**15, *map(int, row[2:9]), boot=1, latch=0) for row in values]
         wires = [pack(frame, seq) for seq, frame in enumerate(frames)]
         wire = np.frombuffer(b"".join(wires), dtype=np.uint8)
         after, hit = damaged(wire, damage, random)

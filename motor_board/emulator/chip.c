@@ -14,8 +14,8 @@
 #define RUN_LIMIT 1000000 /* cycles that simavr may run without looking up; falls back to 1 at every reset */
 
 /* Addresses in data space (ATmega328P data sheet, chapter 30). */
-enum { DDRB = 0x24, PORTB = 0x25, DDRD = 0x2A, PORTD = 0x2B, TCCR0A = 0x44, OCR0A = 0x47, OCR0B = 0x48, TIMSK1 = 0x6F, TCCR1B = 0x81, TCCR2A = 0xB0, OCR2B = 0xB4 };
-enum { COMXA1 = 0x80, COMXB1 = 0x20, OCIE1A = 2, PIN_ENABLE = 3, PIN_FORWARD = 5, PIN_REVERSE = 6 };
+enum { DDRB = 0x24, PORTB = 0x25, DDRD = 0x2A, PORTD = 0x2B, TCCR0A = 0x44, OCR0A = 0x47, OCR0B = 0x48, TIMSK1 = 0x6F, TCCR1B = 0x81, TCCR2A = 0xB0, TCCR2B = 0xB1, OCR2A = 0xB3, OCR2B = 0xB4 };
+enum { COMXA1 = 0x80, COMXB1 = 0x20, WGM22 = 8, OCIE1A = 2, PIN_ENABLE = 3, PIN_FORWARD = 5, PIN_REVERSE = 6 };
 
 static void touch(struct chip *chip)
 {
@@ -44,8 +44,10 @@ static void on_register(avr_t *avr, avr_io_addr_t address, uint8_t value, void *
 static void on_clock_start(avr_t *avr, avr_io_addr_t address, uint8_t value, void *param)
 {
     (void)address;
-    if (value & 7) {
-        ((struct chip *)param)->clock_zero = avr->cycle;
+    struct chip *chip = param;
+    if (value & 7 && !chip->clocked) {
+        chip->clock_zero = avr->cycle;
+        chip->clocked = 1;
     }
 }
 
@@ -56,6 +58,7 @@ static void on_reset(avr_io_t *io)
     chip->resets++;
     chip->avr->run_cycle_limit = RUN_LIMIT;
     chip->feed_stopped = 0;
+    chip->clocked = 0;
     chip->settle = 0;
     chip->depth = 0;
     touch(chip);
@@ -142,7 +145,10 @@ static uint16_t level(const uint8_t *data, int pin, int control, int bit, int co
         return 0;
     }
     if (data[control] & bit) {
-        return (uint16_t)(data[compare] + 1);
+        int counts = control == TCCR2A && data[TCCR2B] & WGM22 ? data[OCR2A] + 1 : 256;
+        int high = data[compare] + 1 > counts ? counts : data[compare] + 1;
+        high = data[control] & bit >> 1 ? counts - high : high; /* inverting */
+        return (uint16_t)((high * 256 + counts / 2) / counts);
     }
     return data[PORTD] & 1 << pin ? 256 : 0;
 }

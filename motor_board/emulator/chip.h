@@ -37,8 +37,9 @@ struct chip_pins chip_pins(const struct chip *chip);
 /* The cycle at which the program last wrote to the pins' registers: some 80 before chip_run comes back for it. */
 uint64_t chip_written(const struct chip *chip);
 
-/* What the encoder's lines do: channel B (D7) is high or low, and channel A (D8) rises for a moment, rises, or falls. */
-enum { CHIP_B_HIGH = 1, CHIP_A_STAYS = 2, CHIP_A_FALLS = 4 };
+/* What the encoder's lines do: channel B (D7) is high or low, and channel A (D8) rises for a moment, rises, falls, or
+ * stays as it is. */
+enum { CHIP_B_HIGH = 1, CHIP_A_STAYS = 2, CHIP_A_FALLS = 4, CHIP_B_ALONE = 8 };
 
 /* Forgets edges later than `after` and adds these, ascending, with what happens there. Each is seen by the capture unit
  * at exactly its cycle. Returns how many there was room for. */

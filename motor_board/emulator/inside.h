@@ -18,6 +18,7 @@ struct chip {
 
     struct { uint64_t cycle; uint8_t what; } edges[EDGES];
     size_t edge_out, edge_in;
+    int a_high, b_high;
     uint64_t fall; /* cycle at which the encoder's pin goes low again; 0: it is low */
 
     uint8_t feed[BYTES];
@@ -34,6 +35,7 @@ struct chip {
 
     uint32_t resets;
     uint64_t clock_zero; /* cycle at which the program last started timer 1 */
+    int clocked;         /* it has, since the reset */
 
     struct chip_load loads[VECTORS];
     uint64_t raised[VECTORS], slept;

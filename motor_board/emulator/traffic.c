@@ -50,12 +50,19 @@ static void drive_lines(struct chip *chip, int a_high, int b_high)
     avr_ioport_external_t b = {.name = 'D', .mask = 1 << 7, .value = b_high ? 1 << 7 : 0};
     avr_ioctl(chip->avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('B'), &a);
     avr_ioctl(chip->avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('D'), &b);
-    avr_raise_irq(chip->direction, b_high != 0);
+    if (chip->b_high != (b_high != 0)) {
+        avr_raise_irq(chip->direction, b_high != 0);
+    }
+    chip->a_high = a_high != 0;
+    chip->b_high = b_high != 0;
 }
 
 static void pass_edge(struct chip *chip, uint64_t cycle, uint8_t what)
 {
-    drive_lines(chip, what & CHIP_A_STAYS, what & CHIP_B_HIGH);
+    drive_lines(chip, what & CHIP_B_ALONE ? chip->a_high : what & CHIP_A_STAYS, what & CHIP_B_HIGH);
+    if (what & CHIP_B_ALONE) {
+        return;
+    }
     if (what & CHIP_A_FALLS) {
         raise_at(chip, chip->edge, 0, cycle);
         return;
@@ -132,6 +139,7 @@ void traffic_connect(struct chip *chip)
     avr_t *avr = chip->avr;
     chip->edge = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 0);
     chip->direction = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), 7);
+    avr_raise_irq(chip->direction, 0);
     drive_lines(chip, 0, 0);
     chip->input = avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT), on_byte_out, chip);

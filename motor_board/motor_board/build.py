@@ -12,7 +12,7 @@ from pathlib import Path
 from motor_board.errors import BoardError
 from motor_board.places import share
 
-BRIDGES = {"l298n": 1, "tb6612": 2}
+BRIDGES = {"l298n": 1, "tb6612": 2, "drv8871": 3}
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow")
 STRICT = ("-Werror",)  # in tests; another version of the compiler may warn of more, and shall still build
 AVR = ("-std=gnu99", "-mmcu=atmega328p", "-DF_CPU=16000000UL", "-O2", "-flto")
@@ -24,7 +24,7 @@ PACKAGES = "sudo apt install gcc-avr avr-libc libsimavr-dev libelf-dev gcc"
 class FirmwareConfig:
     """What differs from set-up to set-up (firmware/board/config.h)."""
 
-    bridge: str = "l298n"  # l298n | tb6612
+    bridge: str = "l298n"  # l298n | tb6612 | drv8871
     board_id: int = 0
     edges_per_revolution: int = 0  # of one polarity; 0: the board does not know
     channels: int = 1  # of the encoder

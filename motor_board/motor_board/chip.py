@@ -15,7 +15,16 @@ from motor_board.errors import BoardError
 
 FREQUENCY = 16_000_000  # [Hz]
 MOST_BYTES = 4096  # taken out at once
-VECTORS = {1: "INT0", 3: "change", 10: "capture", 11: "compare", 13: "overflow", 18: "receive", 19: "transmit"}
+VECTORS = {
+    1: "INT0",
+    3: "change",
+    5: "channel B",
+    10: "capture",
+    11: "compare",
+    13: "overflow",
+    18: "receive",
+    19: "transmit",
+}
 
 
 class Line(IntFlag):
@@ -24,6 +33,7 @@ class Line(IntFlag):
     B_HIGH = 1  # channel B is high there
     A_STAYS = 2  # channel A rises and stays high; without it, it is high for a moment
     A_FALLS = 4
+    B_ALONE = 8  # channel A stays as it is
 
 
 class Hang(IntEnum):

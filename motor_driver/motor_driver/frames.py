@@ -28,6 +28,13 @@ class Decay(IntEnum):
     COAST = 1
 
 
+class Pwm(IntEnum):
+    """How fast the bridge is pulsed."""
+
+    STANDARD = 0  # 7.8 kHz
+    SILENT = 1  # 20 kHz and above
+
+
 class Board(IntEnum):
     """Kinds of boards."""
 
@@ -70,6 +77,16 @@ class Configure:
     sample_period: int  # [tick]
     command_timeout: int  # [ms]
     decay: int
+
+
+@dataclass(frozen=True, slots=True)
+class Setup:
+    """Host: switches the output off and sets how edges are counted; features say what holds. Since firmware 1.2."""
+
+    TYPE: ClassVar[int] = 0x06
+    BODY: ClassVar[struct.Struct] = struct.Struct("<BB")
+    quadrature: int  # 1, 2, 4
+    pwm: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +147,7 @@ class Telemetry:
     """Board: what was true at a sample tick."""
 
     TYPE: ClassVar[int] = 0x82
-    BODY: ClassVar[struct.Struct] = struct.Struct("<IhIIIHHHBB")
+    BODY: ClassVar[struct.Struct] = struct.Struct("<IhIIIHHBBBB")
     time: int  # [tick] wraps
     duty: int  # [1/pwm_top] latched at this sample, held until the next
     edge_count: int  # wraps
@@ -139,6 +156,7 @@ class Telemetry:
     supply: int  # [mV] NOT_MEASURED
     command: int  # seq of the newest command received
     flags: int
+    errors: int  # illegal transitions of the encoder's lines, wraps
     boot: int
     latch: int
 
@@ -167,6 +185,17 @@ class Pong:
 
 
 @dataclass(frozen=True, slots=True)
+class Features:
+    """Board: what holds after a setup. Since firmware 1.2."""
+
+    TYPE: ClassVar[int] = 0x84
+    BODY: ClassVar[struct.Struct] = struct.Struct("<BBB")
+    quadrature: int
+    pwm: int
+    silent_decays: int  # bit 0: silent PWM can brake, bit 1: it can coast
+
+
+@dataclass(frozen=True, slots=True)
 class OtherVersion:
     """A good frame of another protocol version: nothing in it can be read but this."""
 
@@ -182,9 +211,9 @@ class OtherVersion:
         )
 
 
-FromHost: TypeAlias = Identify | Configure | Enable | Command | Ping
-FromBoard: TypeAlias = Hello | Telemetry | Pong
+FromHost: TypeAlias = Identify | Configure | Setup | Enable | Command | Ping
+FromBoard: TypeAlias = Hello | Telemetry | Pong | Features
 Frame: TypeAlias = FromHost | FromBoard
 FRAMES: dict[int, type[Frame]] = {
-    kind.TYPE: kind for kind in (Identify, Configure, Enable, Command, Ping, Hello, Telemetry, Pong)
+    kind.TYPE: kind for kind in (Identify, Configure, Setup, Enable, Command, Ping, Hello, Telemetry, Pong, Features)
 }

@@ -68,7 +68,7 @@ def test_what_is_wrong_is_one_sentence(tmp_path: Path) -> None:
     need_emulator()
     cases = {
         f"link:={tmp_path}/no/port": "set the parameter link to another path.",
-        "bridge:=h": "there is no bridge 'h': choose one of l298n, tb6612.",
+        "bridge:=h": "there is no bridge 'h': choose one of l298n, tb6612, drv8871.",
     }
     started = {start("-p", f"link:={tmp_path}/port", "-p", argument): said for argument, said in cases.items()}
     for process, said in started.items():

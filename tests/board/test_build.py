@@ -35,7 +35,7 @@ def test_the_firmware_leaves_most_of_the_chip_free() -> None:
 @pytest.mark.parametrize(
     ("config", "said"),
     [
-        (FirmwareConfig("h-bridge"), "there is no bridge 'h-bridge': choose one of l298n, tb6612"),
+        (FirmwareConfig("h-bridge"), "there is no bridge 'h-bridge': choose one of l298n, tb6612, drv8871"),
         (FirmwareConfig(channels=3), "1 or 2 channels, not 3"),
         (FirmwareConfig(board_id=-1), "board_id is -1: it must be from 0 to 65535"),
         (FirmwareConfig(edges_per_revolution=70_000), "from 0 to 65535"),

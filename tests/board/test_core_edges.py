@@ -85,7 +85,7 @@ def test_edges_after_the_sample_belong_to_the_next(start: int, steps: Steps, lat
     now = times[seen] + (min(since, times[seen + 1] - times[seen] - 1) if later else since)
     edge = hardware.at(now, True)
     assert edge.count == counts[seen] % WRAP
-    kept = min(4 - later, seen)  # of those up to the sample
+    kept = min(core.KEPT - later, seen)  # of those up to the sample
     assert edge.valid == (kept > 0)
     if kept > 0:
         assert edge.time == times[seen] % WRAP and edge.reverse == steps[seen - 1][3]

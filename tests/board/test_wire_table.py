@@ -19,7 +19,7 @@ KINDS = {kind.__name__.lower(): kind for kind in frames.FRAMES.values()}
 
 def test_the_driver_has_the_table_s_constants() -> None:
     assert (TABLE.version, TABLE.baud, TABLE.longest_frame) == (frames.VERSION, frames.BAUD, frames.LONGEST_FRAME)
-    enums = {"decay": frames.Decay, "board": frames.Board}
+    enums = {"decay": frames.Decay, "board": frames.Board, "pwm": frames.Pwm}
     for name, members in TABLE.values.items():
         assert {member.name.lower(): member.value for member in enums[name]} == members
     flags = {"flag": frames.Flag, "reset_cause": frames.ResetCause}

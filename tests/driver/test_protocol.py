@@ -72,7 +72,7 @@ def test_20_000_damaged_frames_give_no_wrong_value() -> None:
     """1 bit in 100 flips; benchmarks/wire_fuzz.py does the same with a million."""
     random = np.random.default_rng(2)
     encoder, decoder = Encoder(), Decoder()
-    sent = [Telemetry(*map(int, random.integers(0, 256, 8)), boot=3, latch=0) for _ in range(20_000)]
+    sent = [Telemetry(*map(int, random.integers(0, 256, 9)), boot=3, latch=0) for _ in range(20_000)]
     wire = np.frombuffer(b"".join(map(encoder.send, sent)), dtype=np.uint8)
     flips = np.packbits(random.random((len(wire), 8)) < 0.01, axis=1)[:, 0]
     events = decoder.receive((wire ^ flips).tobytes())
@@ -100,7 +100,16 @@ def test_an_endless_frame_takes_no_memory() -> None:
 
 def test_lost_frames_are_counted_over_the_wrap_but_not_over_a_reset() -> None:
     decoder = Decoder()
-    telemetry = {"duty": 0, "edge_count": 0, "edge_time": 0, "edge_period": 0, "supply": 0, "command": 0, "flags": 0}
+    telemetry = {
+        "duty": 0,
+        "edge_count": 0,
+        "edge_time": 0,
+        "edge_period": 0,
+        "supply": 0,
+        "command": 0,
+        "flags": 0,
+        "errors": 0,
+    }
 
     def hear(seq: int, boot: int | None) -> int:
         frame = Pong(0, 0, 0, 0, 0) if boot is None else Telemetry(time=0, **telemetry, boot=boot, latch=0)

@@ -31,6 +31,7 @@ TELEMETRY = Telemetry(
     supply=NOT_MEASURED,
     command=0,
     flags=0,
+    errors=0,
     boot=7,
     latch=2,
 )

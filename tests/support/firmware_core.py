@@ -21,6 +21,7 @@ from motor_board.build import core_library
 from motor_board.errors import BoardError
 
 LONGEST = 48
+KEPT = 8  # edges
 
 
 class EdgeTimer(Structure):
@@ -29,10 +30,13 @@ class EdgeTimer(Structure):
         ("count", c_uint32),
         ("newest", c_uint8),
         ("known", c_uint8),
-        ("time", c_uint32 * 4),
-        ("way", c_uint8 * 4),
+        ("way", c_uint8 * KEPT),
         ("inside", c_bool),
         ("entered_reverse", c_bool),
+        ("fold", c_uint8),
+        ("lines", c_uint8),
+        ("errors", c_uint8),
+        ("time", c_uint32 * KEPT),
     ]
 
 
@@ -67,6 +71,7 @@ class Output(Structure):
         ("boot", c_uint8),
         ("latch", c_uint8),
         ("decay", c_uint8),
+        ("pwm", c_uint8),
         ("top", c_int16),
         ("newest", c_int16),
         ("duty", c_int16),
@@ -98,6 +103,7 @@ class DeviceConfig(Structure):
         ("lead", c_uint32),
         ("first_timeout", c_uint16),
         ("first_decay", c_uint8),
+        ("silent_top", c_uint16 * 2),
     ]
 
 
@@ -117,6 +123,7 @@ RESULTS: dict[str, Any] = {
     "frame_seal": c_uint8,
     "edge_timer_extend": c_uint32,
     "edge_timer_at": Edge,
+    "quadrature_at": Edge,
     "device_latch": c_bool,
     "device_next": c_uint16,
     "device_act": c_bool,
@@ -145,6 +152,10 @@ ARGUMENTS: dict[str, list[Any]] = {
     "device_capture": [c_void_p, c_uint16, c_bool],
     "device_rise": [c_void_p, c_uint16, c_bool, c_bool],
     "device_latch": [c_void_p],
+    "quadrature_start": [c_void_p, c_uint8, c_uint8],
+    "quadrature_see_a": [c_void_p, c_uint16, c_bool, c_uint8],
+    "quadrature_see_b": [c_void_p, c_uint16, c_bool, c_uint8, c_uint8],
+    "quadrature_at": [c_void_p, c_uint32],
     "device_next": [c_void_p],
     "device_sample": [c_void_p, c_void_p],
     "device_act": [c_void_p, c_void_p, c_uint32],

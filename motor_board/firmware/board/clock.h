@@ -12,11 +12,23 @@
 #define CLOCK_TICK_NS 500u
 #define CLOCK_TICKS_PER_MS 2000u
 
+#define CLOCK_RUN (_BV(ICNC1) | _BV(CS11)) /* noise canceller, clock/8 */
+
+/* The flank that is stamped next: rising or falling. */
+static inline void clock_capture(bool rising)
+{
+    if (rising) {
+        TCCR1B = CLOCK_RUN | _BV(ICES1);
+    } else {
+        TCCR1B = CLOCK_RUN;
+    }
+}
+
 static inline void clock_start(uint16_t first_compare)
 {
     OCR1A = first_compare;
     TCCR1A = 0;
-    TCCR1B = _BV(ICNC1) | _BV(ICES1) | _BV(CS11); /* noise canceller, rising edges, clock/8 */
+    clock_capture(true);
     TIMSK1 = _BV(ICIE1) | _BV(OCIE1A) | _BV(TOIE1);
 }
 

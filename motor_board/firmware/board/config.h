@@ -4,6 +4,7 @@
 
 #define BRIDGE_L298N 1  /* enable low: coasts; both inputs alike: brakes */
 #define BRIDGE_TB6612 2 /* PWM low: brakes; both inputs low: coasts */
+#define BRIDGE_DRV8871 3 /* no enable; both inputs high: brakes; both low: coasts */
 
 #ifndef MOTOR_BRIDGE
 #define MOTOR_BRIDGE BRIDGE_L298N
@@ -18,7 +19,7 @@
 #endif
 
 #ifndef MOTOR_CHANNELS
-#define MOTOR_CHANNELS 1 /* 2: the second encoder channel is on D7 and tells the direction */
+#define MOTOR_CHANNELS 1 /* 2: the second encoder channel is on D7 and tells the direction; the driver may have both counted */
 #endif
 
 #ifndef MOTOR_SUPPLY_FULL_SCALE

@@ -6,6 +6,8 @@
 #include <avr/io.h>
 #include <avr/sleep.h>
 #include <avr/wdt.h>
+#include <stddef.h>
+#include <string.h>
 #include <util/atomic.h>
 
 #include "bridge.h"
@@ -13,11 +15,13 @@
 #include "config.h"
 #include "device.h"
 #include "frame.h"
+#include "quadrature.h"
 #include "serial.h"
 #include "supply.h"
 
 /* Measured in the emulator [tick]. */
 #define SEAL_TICKS 254u /* from a pong's time being taken to its first byte going out */
+#define B_LATE 5u       /* from a flank of B to its interrupt's reading the clock, at least */
 #define LEAD 32u        /* from the compare match to the pins following it (222 to 274 cycles) */
 
 static const struct device_config config = {
@@ -33,6 +37,7 @@ static const struct device_config config = {
     .lead = LEAD,
     .first_timeout = 100,
     .first_decay = WIRE_DECAY_BRAKE,
+    .silent_top = BRIDGE_SILENT_TOP,
 };
 
 volatile bool main_woken;
@@ -64,6 +69,25 @@ static inline bool b_is_high(void)
     return PIND & _BV(PD7); /* D7 */
 }
 
+static inline uint8_t read_lines(void)
+{
+    return (uint8_t)((PINB & _BV(PB0) ? QUADRATURE_A : 0u) | (b_is_high() ? QUADRATURE_B : 0u));
+}
+
+/* The capture unit is set to A's next flank. One that came before that has the time of its being noticed. */
+static inline void see_a(uint16_t counter)
+{
+    for (;;) {
+        uint8_t lines = read_lines();
+        quadrature_see_a(&device.edges, counter, clock_overflow_pending(), lines);
+        clock_capture(!(lines & QUADRATURE_A));
+        if (!((read_lines() ^ lines) & QUADRATURE_A)) {
+            return;
+        }
+        counter = TCNT1;
+    }
+}
+
 static inline void see_fall(void)
 {
     if (!(PINB & _BV(PB0))) { /* D8 */
@@ -80,7 +104,24 @@ static void encoder_start(void)
     PORTD |= _BV(PD7);
 #if MOTOR_CHANNELS == 2
     PCMSK0 = _BV(PCINT0);
+    PCMSK2 = _BV(PCINT23);
     PCICR = _BV(PCIE0);
+#endif
+}
+
+/* Counts as the driver has asked to. */
+static void follow_quadrature(void)
+{
+#if MOTOR_CHANNELS == 2
+    ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
+    {
+        uint8_t fold = device.quadrature, lines = read_lines();
+        if (fold != device.edges.fold) {
+            quadrature_start(&device.edges, fold, lines);
+            PCICR = fold == 1 ? _BV(PCIE0) : fold == 4 ? _BV(PCIE2) : 0;
+            clock_capture(fold == 1 || !(lines & QUADRATURE_A));
+        }
+    }
 #endif
 }
 
@@ -90,6 +131,10 @@ ISR(TIMER1_CAPT_vect)
 #if MOTOR_CHANNELS == 1
     device_capture(&device, counter, clock_overflow_pending());
 #else
+    if (device.edges.fold > 1) {
+        see_a(counter);
+        return;
+    }
     device_rise(&device, counter, clock_overflow_pending(), b_is_high());
     see_fall(); /* a pulse that is over already: its interrupt came before this one, and knew of no rising edge */
 #endif
@@ -101,6 +146,18 @@ ISR(PCINT0_vect)
 {
     see_fall();
 }
+
+/* D7 has changed. */
+ISR(PCINT2_vect)
+{
+    uint16_t counter = TCNT1;
+    bool pending = clock_overflow_pending();
+    uint8_t lines = read_lines();
+    quadrature_see_b(&device.edges, counter, pending, lines, B_LATE);
+    if (!((device.edges.lines ^ lines) & QUADRATURE_A)) { /* also after an error: A's flank has been taken note of */
+        clock_capture(!(lines & QUADRATURE_A));
+    }
+}
 #endif
 
 ISR(TIMER1_OVF_vect)
@@ -108,12 +165,23 @@ ISR(TIMER1_OVF_vect)
     device_overflow(&device);
 }
 
+#define SURE (EDGE_TIMER_KEPT - 1u)
+
+/* Edges may come meanwhile: times are copied with interrupts on, and the oldest one, which such an edge overwrites, is
+ * not used. */
+static void copy_edges(struct edge_timer *edges)
+{
+    ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { memcpy(edges, &device.edges, offsetof(struct edge_timer, time)); }
+    memcpy(edges->time, device.edges.time, sizeof edges->time);
+    edges->known = edges->known < SURE ? edges->known : SURE;
+}
+
 /* Only its beginning keeps captures waiting: edges may come every 50 us. The next compare interrupt is at least 1 ms
  * away, so that this one is over before it. */
 ISR(TIMER1_COMPA_vect)
 {
     bool ticks = device_latch(&device);
-    bridge_write(device.output.duty, device.output.decay);
+    bridge_write(device.output.duty, device.output.decay, device.output.pwm);
     OCR1A = device_next(&device); /* before sei: 16-bit registers share their temporary byte */
     ticking = true;
     main_woken = true;
@@ -122,7 +190,7 @@ ISR(TIMER1_COMPA_vect)
         struct edge_timer edges;
         while (!clock_is_past((uint16_t)device.latest)) {
         }
-        ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { edges = device.edges; }
+        copy_edges(&edges);
         device_sample(&device, &edges);
     }
 }
@@ -186,7 +254,7 @@ int main(void)
     bridge_start();
     wdt_enable(WDTO_60MS);
     device_start(&device, &config, ++boot, reset_cause);
-    bridge_write(0, device.output.decay);
+    bridge_write(0, device.output.decay, WIRE_PWM_STANDARD);
     encoder_start();
     supply_start();
     serial_start();
@@ -195,6 +263,7 @@ int main(void)
     for (;;) {
         main_woken = false;
         receive();
+        follow_quadrature();
         send();
         supply_read(&device.supply);
         feed_watchdog();

@@ -5,7 +5,7 @@
 #define UNMEASURED 0xFFFFu
 
 #define FIRMWARE_MAJOR 1
-#define FIRMWARE_MINOR 1
+#define FIRMWARE_MINOR 2
 #define FIRMWARE_PATCH 0
 
 static uint32_t limited(uint32_t value, uint32_t low, uint32_t high)
@@ -37,6 +37,7 @@ void device_start(struct device *device, const struct device_config *config, uin
     device->output.decay = config->first_decay;
     device->period = config->first_period;
     device->tick = config->first_period;
+    device->quadrature = device->edges.fold = 1;
     device->asked = true;
     set_timeout(device, config->first_timeout);
     next_compare(device);
@@ -62,15 +63,15 @@ void device_fall(struct device *device, uint16_t counter, bool overflow_pending,
     edge_timer_fall(&device->edges, counter, overflow_pending, b_high);
 }
 
-static uint16_t flags_of(const struct device *device, const struct edge *edge)
+static uint8_t flags_of(const struct device *device, const struct edge *edge)
 {
-    uint16_t flags = 0;
+    unsigned flags = 0;
     flags |= device->output.on ? WIRE_FLAG_ENABLED : 0u;
     flags |= device->output.timed_out ? WIRE_FLAG_TIMED_OUT : 0u;
     flags |= edge->valid ? WIRE_FLAG_EDGE_VALID : 0u;
     flags |= edge->reverse ? WIRE_FLAG_REVERSE : 0u;
     flags |= device->config->channels == 2 ? WIRE_FLAG_TWO_CHANNELS : 0u;
-    return flags;
+    return (uint8_t)flags;
 }
 
 bool device_latch(struct device *device)
@@ -96,7 +97,8 @@ uint16_t device_next(struct device *device)
 void device_sample(struct device *device, const struct edge_timer *edges)
 {
     struct wire_telemetry *sample = &device->sample;
-    struct edge edge = edge_timer_at(edges, device->latest, device->config->channels == 2);
+    struct edge edge = edges->fold > 1 ? quadrature_at(edges, device->latest)
+                                       : edge_timer_at(edges, device->latest, device->config->channels == 2);
     device->dropped_samples = (uint16_t)(device->dropped_samples + device->sampled);
     device->sampled = true;
     sample->time = device->latest;
@@ -107,8 +109,26 @@ void device_sample(struct device *device, const struct edge_timer *edges)
     sample->supply = device->supply;
     sample->command = device->output.command;
     sample->flags = flags_of(device, &edge);
+    sample->errors = edges->errors;
     sample->boot = device->output.boot;
     sample->latch = device->output.latch;
+}
+
+static uint16_t top_of(const struct device *device, uint8_t decay)
+{
+    return device->output.pwm == WIRE_PWM_SILENT ? device->config->silent_top[decay] : device->config->top;
+}
+
+static void act_setup(struct device *device, const struct frame *frame, uint32_t now)
+{
+    (void)now;
+    struct wire_setup setup;
+    wire_get_setup(frame->body, &setup);
+    bool folds = device->config->channels == 2 && (setup.quadrature == 2 || setup.quadrature == 4);
+    output_off(&device->output);
+    device->quadrature = folds ? setup.quadrature : 1;
+    device->pwm = setup.pwm == WIRE_PWM_SILENT ? WIRE_PWM_SILENT : WIRE_PWM_STANDARD;
+    device->set_up = true;
 }
 
 static void act_configure(struct device *device, const struct frame *frame, uint32_t now)
@@ -120,6 +140,8 @@ static void act_configure(struct device *device, const struct frame *frame, uint
     set_timeout(device, configure.command_timeout);
     device->period = limited(configure.sample_period, device->config->shortest_period, DEVICE_LONGEST_PERIOD);
     device->output.decay = configure.decay == WIRE_DECAY_COAST ? WIRE_DECAY_COAST : WIRE_DECAY_BRAKE;
+    device->output.pwm = device->config->silent_top[device->output.decay] > 0 ? device->pwm : WIRE_PWM_STANDARD;
+    device->output.top = (int16_t)top_of(device, device->output.decay);
     device->tick = device->compare; /* a long period may be under way: the new one starts at the next interrupt */
     device->asked = true;
 }
@@ -158,6 +180,7 @@ static const struct {
 } actions[] = {
     {WIRE_IDENTIFY, WIRE_IDENTIFY_SIZE, act_identify},
     {WIRE_CONFIGURE, WIRE_CONFIGURE_SIZE, act_configure},
+    {WIRE_SETUP, WIRE_SETUP_SIZE, act_setup},
     {WIRE_ENABLE, WIRE_ENABLE_SIZE, act_enable},
     {WIRE_COMMAND, WIRE_COMMAND_SIZE, act_command},
     {WIRE_PING, WIRE_PING_SIZE, act_ping},
@@ -190,7 +213,7 @@ static uint8_t *put_hello(const struct device *device, uint8_t *at)
         .edges_per_revolution = config->edges_per_revolution,
         .channels = config->channels,
         .tick_ns = config->tick_ns,
-        .pwm_top = config->top,
+        .pwm_top = (uint16_t)device->output.top,
         .decay = device->output.decay,
         .sample_period = device->period,
         .shortest_period = config->shortest_period,
@@ -200,6 +223,17 @@ static uint8_t *put_hello(const struct device *device, uint8_t *at)
         .latch = device->output.latch,
     };
     return wire_put_hello(at, &hello);
+}
+
+static uint8_t *put_features(const struct device *device, uint8_t *at)
+{
+    const uint16_t *tops = device->config->silent_top;
+    struct wire_features features = {
+        .quadrature = device->quadrature,
+        .pwm = device->pwm,
+        .silent_decays = (uint8_t)((tops[WIRE_DECAY_BRAKE] > 0) | (tops[WIRE_DECAY_COAST] > 0) << 1),
+    };
+    return wire_put_features(at, &features);
 }
 
 static uint8_t *put_pong(const struct device *device, uint8_t *at, uint32_t now, uint16_t bad_frames)
@@ -228,6 +262,10 @@ bool device_take(struct device *device, struct device_frame *frame, bool quiet, 
         device->sampled = false;
         frame->type = WIRE_TELEMETRY;
         end = wire_put_telemetry(body, &device->sample);
+    } else if (device->set_up) {
+        device->set_up = false;
+        frame->type = WIRE_FEATURES;
+        end = put_features(device, body);
     } else if (device->asked) {
         device->asked = false;
         frame->type = WIRE_HELLO;

@@ -13,6 +13,7 @@
 #include "edge_timer.h"
 #include "frame.h"
 #include "output.h"
+#include "quadrature.h"
 #include "wire.h"
 
 #define DEVICE_LONGEST_PERIOD 0x1000000ul /* [tick] */
@@ -28,6 +29,7 @@ struct device_config {
     uint32_t lead; /* [tick] from the compare interrupt to the pins following it: the sample is at the latter */
     uint16_t first_timeout;                               /* [ms] */
     uint8_t first_decay;
+    uint16_t silent_top[2]; /* by decay: duty of full voltage with silent PWM; 0: it cannot be had */
 };
 
 struct device {
@@ -41,7 +43,9 @@ struct device {
     uint16_t timeout;               /* [ms] */
     uint16_t supply;                /* [mV] */
     struct wire_telemetry sample;   /* what was true at the latest tick */
-    bool sampled, asked, pinged;    /* a telemetry, hello, pong frame is to be sent */
+    uint8_t quadrature;             /* asked for; the pins' interrupts have to follow it by quadrature_start */
+    uint8_t pwm;                    /* of the bridge, from the next configure on */
+    bool sampled, asked, pinged, set_up; /* a telemetry, hello, pong, features frame is to be sent */
     struct wire_ping ping;
     uint32_t ping_received;
     uint16_t seq, dropped_samples;

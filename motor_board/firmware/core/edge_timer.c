@@ -16,7 +16,7 @@ void edge_timer_overflow(struct edge_timer *timer)
     timer->overflows++;
 }
 
-static inline void keep(struct edge_timer *timer, uint32_t time, uint8_t way)
+void edge_timer_keep(struct edge_timer *timer, uint32_t time, uint8_t way)
 {
     uint8_t newest = (timer->newest + 1u) & (EDGE_TIMER_KEPT - 1u);
     timer->newest = newest;
@@ -28,13 +28,13 @@ static inline void keep(struct edge_timer *timer, uint32_t time, uint8_t way)
 void edge_timer_capture(struct edge_timer *timer, uint16_t counter, bool pending)
 {
     timer->count++;
-    keep(timer, edge_timer_extend(timer->overflows, counter, pending), 0);
+    edge_timer_keep(timer, edge_timer_extend(timer->overflows, counter, pending), 0);
 }
 
 static void count_one(struct edge_timer *timer, uint32_t time, bool reverse, uint8_t undoes)
 {
     timer->count += reverse ? (uint32_t)-1 : 1u;
-    keep(timer, time, (uint8_t)(undoes | (reverse ? EDGE_REVERSE : 0u)));
+    edge_timer_keep(timer, time, (uint8_t)(undoes | (reverse ? EDGE_REVERSE : 0u)));
 }
 
 void edge_timer_fall(struct edge_timer *timer, uint16_t counter, bool pending, bool b_high)
@@ -83,13 +83,21 @@ static uint32_t period_of(const struct edge_timer *timer, uint8_t first)
     return 0;
 }
 
+uint8_t edge_timer_later(const struct edge_timer *timer, uint32_t now)
+{
+    uint8_t later = 0;
+    while (later < MOST_LATER && later < timer->known && is_after(time_of(timer, later), now)) {
+        later++;
+    }
+    return later;
+}
+
 struct edge edge_timer_at(const struct edge_timer *timer, uint32_t now, bool two_channels)
 {
     struct edge edge = {.count = timer->count};
-    uint8_t later = 0;
-    while (later < MOST_LATER && later < timer->known && is_after(time_of(timer, later), now)) {
-        edge.count += two_channels && (timer->way[index_of(timer, later)] & EDGE_REVERSE) ? 1u : (uint32_t)-1;
-        later++;
+    uint8_t later = edge_timer_later(timer, now);
+    for (uint8_t back = 0; back < later; back++) {
+        edge.count += two_channels && (timer->way[index_of(timer, back)] & EDGE_REVERSE) ? 1u : (uint32_t)-1;
     }
     if (later < timer->known) {
         edge.valid = true;

@@ -5,9 +5,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define EDGE_TIMER_KEPT 4u /* edges, a power of two */
+#define EDGE_TIMER_KEPT 8u /* edges, a power of two: up to 3 after the sample, one skipped, a period of A before it */
 #define EDGE_REVERSE 1u
 #define EDGE_UNDOES 2u
+#define EDGE_LATE 4u /* its time is that of an interrupt, not of the capture unit */
 
 /* What is known of the encoder at an instant. */
 struct edge {
@@ -23,9 +24,12 @@ struct edge_timer {
     uint16_t overflows; /* upper half of the clock */
     uint32_t count;
     uint8_t newest, known;          /* index of the newest edge kept; how many are */
-    uint32_t time[EDGE_TIMER_KEPT]; /* [tick] */
     uint8_t way[EDGE_TIMER_KEPT];   /* EDGE_REVERSE: passed backward; EDGE_UNDOES: takes back the edge before it */
     bool inside, entered_reverse; /* two channels: A is high; how its rising edge was passed */
+    uint8_t fold;   /* edges counted in a period of A; 0 and 1: one polarity (quadrature.h has the others) */
+    uint8_t lines;  /* their levels, as far as edges have been counted */
+    uint8_t errors; /* changes of both lines at once, wraps */
+    uint32_t time[EDGE_TIMER_KEPT]; /* [tick] last, see main.c */
 };
 
 /* The 32-bit time of a 16-bit counter value.
@@ -34,6 +38,12 @@ struct edge_timer {
  * overflow if it is in the upper half, after it if in the lower half. This holds as long as an overflow waits less than
  * half a turn of the counter (16 ms at 0.5 us) for its interrupt. */
 uint32_t edge_timer_extend(uint16_t overflows, uint16_t counter, bool pending);
+
+/* Keeps an edge at a 32-bit time, as the newest. */
+void edge_timer_keep(struct edge_timer *timer, uint32_t time, uint8_t way);
+
+/* How many of the edges kept came after `now` [tick]; at most 3. */
+uint8_t edge_timer_later(const struct edge_timer *timer, uint32_t now);
 
 /* The counter has overflowed. */
 void edge_timer_overflow(struct edge_timer *timer);

@@ -10,7 +10,7 @@
 struct output {
     bool on, timed_out;
     uint8_t boot, latch;
-    uint8_t decay;
+    uint8_t decay, pwm;
     int16_t top;      /* full duty */
     int16_t newest;   /* duty commanded last; 0 while off */
     int16_t duty;     /* duty at the pins */

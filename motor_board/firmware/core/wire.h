@@ -8,6 +8,9 @@
 #define WIRE_BAUD 500000UL
 #define WIRE_LONGEST_FRAME 48u /* byte, the closing zero included */
 
+#define WIRE_PWM_STANDARD 0u
+#define WIRE_PWM_SILENT 1u
+
 #define WIRE_DECAY_BRAKE 0u
 #define WIRE_DECAY_COAST 1u
 
@@ -54,6 +57,19 @@ static inline void wire_get_configure(const uint8_t *at, struct wire_configure *
     frame->sample_period = wire_get_u32(at + 0);
     frame->command_timeout = wire_get_u16(at + 4);
     frame->decay = wire_get_u8(at + 6);
+}
+
+/* From the host: switches the output off, sets how edges are counted and how fast the PWM runs (the latter from the next configure on), and is answered by features; since firmware 1.2. */
+#define WIRE_SETUP 0x06u
+#define WIRE_SETUP_SIZE 2u /* byte of body */
+struct wire_setup {
+    uint8_t quadrature; /* edges counted in a period of channel A: 1 (one polarity of A), 2 (both of A) or 4 (both of both) */
+    uint8_t pwm; /* pwm */
+};
+static inline void wire_get_setup(const uint8_t *at, struct wire_setup *frame)
+{
+    frame->quadrature = wire_get_u8(at + 0);
+    frame->pwm = wire_get_u8(at + 1);
 }
 
 /* From the host: switches the output on (rule 3) or off. */
@@ -143,10 +159,11 @@ struct wire_telemetry {
     int16_t duty; /* [1/pwm_top] latched at this sample and held until the next */
     uint32_t edge_count; /* edges since the reset, wraps; with two channels backward ones count down */
     uint32_t edge_time; /* [tick] of the latest edge up to the sample, if edge_valid */
-    uint32_t edge_period; /* [tick] between the latest two edges; 0: fewer than two, or too far apart */
+    uint32_t edge_period; /* [tick] between the latest two edges, with quadrature 2 and 4 the mean over the latest period of A if there is one; 0: fewer than two, or too far apart */
     uint16_t supply; /* [mV] 65535: not measured */
     uint16_t command; /* seq of the newest command received */
-    uint16_t flags; /* flag */
+    uint8_t flags; /* flag */
+    uint8_t errors; /* quadrature 4: transitions of both channels at once, which no motion makes, wraps; else 0 */
     uint8_t boot;
     uint8_t latch;
 };
@@ -159,7 +176,8 @@ static inline uint8_t *wire_put_telemetry(uint8_t *at, const struct wire_telemet
     at = wire_put_u32(at, frame->edge_period);
     at = wire_put_u16(at, frame->supply);
     at = wire_put_u16(at, frame->command);
-    at = wire_put_u16(at, frame->flags);
+    at = wire_put_u8(at, frame->flags);
+    at = wire_put_u8(at, frame->errors);
     at = wire_put_u8(at, frame->boot);
     at = wire_put_u8(at, frame->latch);
     return at;
@@ -182,6 +200,22 @@ static inline uint8_t *wire_put_pong(uint8_t *at, const struct wire_pong *frame)
     at = wire_put_u32(at, frame->sent);
     at = wire_put_u16(at, frame->bad_frames);
     at = wire_put_u16(at, frame->dropped_samples);
+    return at;
+}
+
+/* From the board: what holds, as the answer to setup; since firmware 1.2. */
+#define WIRE_FEATURES 0x84u
+#define WIRE_FEATURES_SIZE 3u /* byte of body */
+struct wire_features {
+    uint8_t quadrature; /* 1 where the board was not flashed for two channels */
+    uint8_t pwm; /* pwm */
+    uint8_t silent_decays; /* bit 0: silent PWM can brake, bit 1: it can coast */
+};
+static inline uint8_t *wire_put_features(uint8_t *at, const struct wire_features *frame)
+{
+    at = wire_put_u8(at, frame->quadrature);
+    at = wire_put_u8(at, frame->pwm);
+    at = wire_put_u8(at, frame->silent_decays);
     return at;
 }
 
