@@ -74,7 +74,7 @@ def test_a_shaft_that_dithers_about_a_flank_does_not_drift(make_bench: MakeBench
 
 
 def test_lines_whose_order_cannot_be_told_are_an_error_and_no_motion(make_bench: MakeBench) -> None:
-    """Flanks 20 cycles apart: B after A is in order, as A's interrupt had begun; of A after B both lines have changed."""
+    """Flanks 20 cycles apart: B after A is in order, as A's interrupt had begun; A after B is not."""
     bench = make_bench(config=TWO)
     _, what = dither_events(np.ones(8, dtype=np.int64), 1e-3)
     gaps = np.full(8, 16_000)
