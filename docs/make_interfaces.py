@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from motor_ros.topics import SERVICES, TOPICS
+from motor_ros.topics import ROBOT_TOPICS, SERVICES, TOPICS, Topic
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "interfaces.md"
@@ -13,6 +13,9 @@ HEAD = """\
 
 Topics and services are relative names: a namespace makes a second motor. "Plant" is whichever of `motor_sim` and
 `motor_driver` runs. All topics are reliable.
+"""
+ROBOT = """\
+A robot of two motors ([motor_examples](../motor_examples/README.md)) has these besides, in its own namespace:
 """
 FOOT = """\
 What follows is generated from the definitions in `motor_msgs` by `python docs/make_interfaces.py`; the tables above are
@@ -26,14 +29,15 @@ FIELD = re.compile(
 def page() -> str:
     """The whole page."""
     files = [path for kind in PARTS for path in sorted((ROOT / "motor_msgs" / kind).glob(f"*.{kind}"))]
-    return "\n".join([HEAD, *_topics(), "", *_services(), "", FOOT, *map(_section, files)])
+    tables = [*_topics(TOPICS), "", *_services(), "", ROBOT, *_topics(ROBOT_TOPICS)]
+    return "\n".join([HEAD, *tables, "", FOOT, *map(_section, files)])
 
 
-def _topics() -> list[str]:
+def _topics(topics: tuple[Topic, ...]) -> list[str]:
     rows = [
         f"| `{topic.name}` | `{topic.type_name}`{f' [{topic.unit}]' if topic.unit else ''} | {topic.way} "
         f"| {topic.qos.durability.name.lower().replace('_', ' ')}, {topic.qos.depth} |"
-        for topic in TOPICS
+        for topic in topics
     ]
     return ["| topic | type | from → to | durability, depth |", "|---|---|---|---|", *rows]
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from motor_board.parameters import FAULTS, SET_UP
 from motor_control.parameters import ROWS as CONTROL
 from motor_driver.parameters import ROWS as DRIVER
+from motor_examples.diff_drive.parameters import ROWS as DIFF_DRIVE
 from motor_identification.service.parameters import PARAMETERS as IDENTIFICATION
 from motor_ros.parameters import Row
 from motor_ros.plant import SHARED_PARAMETERS, max_voltage_row
@@ -39,6 +40,7 @@ FILES: dict[str, tuple[str, dict[str, tuple[Row, ...]]]] = {
         },
     ),
     "control.yaml": ("The speed controller.", {"/**/motor_control": tuple(CONTROL)}),
+    "robot.yaml": ("The differential drive of motor_examples.", {"/**/diff_drive": tuple(DIFF_DRIVE)}),
     "identification.yaml": ("The node that fits models to bags.", {"/**/motor_identification": tuple(IDENTIFICATION)}),
 }
 

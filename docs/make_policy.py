@@ -11,6 +11,7 @@ from xml.sax.saxutils import quoteattr
 from motor_board.parameters import PROGRAM as BOARD
 from motor_control.parameters import PROGRAM as CONTROL
 from motor_driver.parameters import PROGRAM as DRIVER
+from motor_examples.diff_drive.parameters import PROGRAM as DIFF_DRIVE
 from motor_identification.service.parameters import PROGRAM as IDENTIFICATION
 from motor_ros.program import Program
 from motor_ros.topics import SERVICES, TOPICS
@@ -24,7 +25,7 @@ OF_PARAMETERS = (
     "describe_parameters", "get_parameter_types", "get_parameters", "list_parameters", "set_parameters",
     "set_parameters_atomically", "get_type_description",
 )  # fmt: skip
-NODES = ("motor_sim", "motor_driver", "motor_control", "motor_identification")
+NODES = ("motor_sim", "motor_driver", "motor_control", "motor_identification", "diff_drive")
 HEAD = """\
 <?xml version="1.0" encoding="UTF-8"?>
 <!-- Who may say and hear what, by role; everything else is denied. Written by docs/make_policy.py.
@@ -52,7 +53,8 @@ def of_program(enclave: str, program: Program) -> Role:
     actions = [name for name in program.services if name in ACTIONS]
     parameters = [f"{program.name}/{name}" for name in OF_PARAMETERS]
     return Role(
-        enclave, program.name, program.publishes, program.subscribes, (*services, *parameters), (), tuple(actions)
+        *(enclave, program.name, program.publishes, program.subscribes, (*services, *parameters)),
+        *(program.requests, tuple(actions)),
     )
 
 
@@ -62,6 +64,7 @@ ROLES = (
     of_program("/motor/plant", BOARD),
     of_program("/motor/control", CONTROL),
     of_program("/motor/identification", IDENTIFICATION),
+    of_program("/motor/robot", DIFF_DRIVE),
     Role(
         "/motor/experiment",
         "experiment",
@@ -74,8 +77,8 @@ ROLES = (
     Role(
         "/motor/operator",
         "operator",
-        ("motor/reference",),
-        ALL,
+        ("motor/reference", "cmd_vel"),
+        (*ALL, "odom", "/tf"),
         requests=(*CALLS, *(f"{node}/{name}" for node in NODES for name in OF_PARAMETERS)),
         calls=ACTIONS,
     ),

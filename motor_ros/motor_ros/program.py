@@ -14,7 +14,7 @@ from rclpy.utilities import remove_ros_args
 
 from motor_model.printable import escape
 from motor_ros.parameters import Row
-from motor_ros.topics import SERVICES, TOPICS
+from motor_ros.topics import ROBOT_TOPICS, SERVICES, TOPICS
 
 INVALID_ARGUMENTS = (rclpy_implementation.RCLInvalidROSArgsError, rclpy_implementation.UnknownROSArgsError)
 PLANT_PUBLISHES = ("motor/speed", "motor/info", "joint_states", "/diagnostics")
@@ -22,7 +22,7 @@ PLANT_PUBLISHES = ("motor/speed", "motor/info", "joint_states", "/diagnostics")
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """A node as a program; topics and services are named as in the tables of `topics`."""
+    """A node as a program; topics and services as in the tables of `topics`, those of a motor behind its namespace."""
 
     package: str
     name: str
@@ -32,6 +32,7 @@ class Program:
     publishes: tuple[str, ...] = ()
     subscribes: tuple[str, ...] = ()
     services: tuple[str, ...] = ()
+    requests: tuple[str, ...] = ()  # services of others
 
     @property
     def command(self) -> str:
@@ -103,16 +104,23 @@ class _Parser(argparse.ArgumentParser):
 
 def describe(program: Program) -> str:
     """What the node is for, its parameters, topics and services, and an example."""
-    topics = {topic.name: topic for topic in TOPICS}
+    topics = {topic.name: topic for topic in (*TOPICS, *ROBOT_TOPICS)}
     services = {service.name: service for service in SERVICES}
     sections = {
         "parameters and their defaults": [(row.name, row.shown(), row.meaning()) for row in program.rows],
-        "publishes": [(name, topics[name].type_name, topics[name].way) for name in program.publishes],
-        "subscribes to": [(name, topics[name].type_name, topics[name].way) for name in program.subscribes],
+        "publishes": [(name, topics[own(name)].type_name, topics[own(name)].way) for name in program.publishes],
+        "subscribes to": [(name, topics[own(name)].type_name, topics[own(name)].way) for name in program.subscribes],
         "services and actions": [(name, services[name].type_name, services[name].does) for name in program.services],
+        "calls": [(name, services[own(name)].type_name, services[own(name)].does) for name in program.requests],
     }
     parts = [program.about, *(_section(title, rows) for title, rows in sections.items() if rows)]
     return "\n\n".join([*parts, f"example:\n  {program.example}\n"])
+
+
+def own(name: str) -> str:
+    """A topic's or service's name in its motor's namespace, as it stands in the tables."""
+    before, slash, after = name.partition("/motor/")
+    return f"motor/{after}" if slash else before
 
 
 def _section(title: str, rows: list[tuple[str, str, str]]) -> str:

@@ -21,4 +21,6 @@ CONTROL_STATE = _reliable(100)
 MODEL = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
 JOINT_STATES = _reliable(10)
 DIAGNOSTICS = _reliable(10)
+ODOMETRY = _reliable(10)
+TRANSFORMS = _reliable(100)  # as tf2 has it
 REQUESTS = _reliable(1000)  # of a service that many may call at once: who is not heard is not answered

@@ -38,6 +38,12 @@ TOPICS = (
     Topic("joint_states", "sensor_msgs/msg/JointState", qos.JOINT_STATES, "plant → all, every sample"),
     Topic("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", qos.DIAGNOSTICS, "plant, controller → all, 1 Hz"),
 )
+# Of a robot that several motors are part of; these are not the motors' own, and a recording of a motor lacks them.
+ROBOT_TOPICS = (
+    Topic("cmd_vel", "geometry_msgs/msg/Twist", qos.REFERENCE, "user → diff_drive; must keep coming", "m/s, rad/s"),
+    Topic("odom", "nav_msgs/msg/Odometry", qos.ODOMETRY, "diff_drive → all, 50 Hz"),
+    Topic("/tf", "tf2_msgs/msg/TFMessage", qos.TRANSFORMS, "diff_drive → all, 50 Hz, where tf2_msgs is installed"),
+)
 SERVICES = (
     Service("motor/enable", "std_srvs/srv/SetBool", "false switches the output off and latches that, true clears it",
             "plant"),

@@ -7,7 +7,7 @@ import pytest
 from ament_index_python.packages import get_package_prefix
 from bringup_tables import NODES, SESSIONS
 
-from motor_bringup import identify, motor, replay
+from motor_bringup import diff_drive, identify, motor, replay
 from motor_bringup.program import Program, Session
 from motor_model.errors import MotorError
 
@@ -39,6 +39,7 @@ def test_everything_that_is_started_exists(plant: str, namespace: str) -> None:
         motor.session({**told, "record": "true", "identification": "true", "gains": str(BAGS / "low_gain.yaml")}),
         identify.session({**told, "profile": "step", "effects": "coulomb_friction", "report": "out"}),
         replay.session({"bag": str(BAGS / "step")}),
+        diff_drive.session({"plant": plant, "left_model": str(BAGS / "emulated.yaml"), "record": "true"}),
     ]
     for session in sessions:
         for program in (*session.programs, *session.steps):

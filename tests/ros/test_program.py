@@ -13,12 +13,13 @@ from workbench import Bench
 from motor_board.parameters import PROGRAM as EMULATOR
 from motor_control.parameters import PROGRAM as CONTROL
 from motor_driver.parameters import PROGRAM as DRIVER
+from motor_examples.diff_drive.parameters import PROGRAM as DIFF_DRIVE
 from motor_identification.service.parameters import PROGRAM as IDENTIFICATION
 from motor_ros.program import Program
 from motor_sim.node import PROGRAM as SIM
 
 ROOT = Path(__file__).resolve().parents[2]
-PROGRAMS = [SIM, DRIVER, CONTROL, IDENTIFICATION, EMULATOR]
+PROGRAMS = [SIM, DRIVER, CONTROL, IDENTIFICATION, EMULATOR, DIFF_DRIVE]
 Start = Callable[..., "subprocess.Popen[str]"]
 
 

@@ -5,9 +5,10 @@ from pathlib import Path
 from types import ModuleType
 
 from motor_board.parameters import FAULTS, SET_UP
-from motor_bringup import identify, motor, replay
+from motor_bringup import diff_drive, identify, motor, replay
 from motor_control.parameters import ROWS as CONTROL
 from motor_driver.parameters import ROWS as DRIVER
+from motor_examples.diff_drive.parameters import ROWS as DIFF_DRIVE
 from motor_identification.service.node import PARAMETERS as IDENTIFICATION
 from motor_ros.plant import SHARED_PARAMETERS, max_voltage_row
 from motor_sim.node import PARAMETERS as SIM
@@ -20,8 +21,14 @@ NODES = {
     "board_emulator": ("plant.yaml", (*SET_UP, *FAULTS)),
     "motor_control": ("control.yaml", CONTROL),
     "motor_identification": ("identification.yaml", IDENTIFICATION),
+    "diff_drive": ("robot.yaml", DIFF_DRIVE),
 }
-SESSIONS = {"motor": motor, "identify": identify, "replay": replay}  # launch file: its session
+SESSIONS = {
+    "motor": motor,
+    "identify": identify,
+    "replay": replay,
+    "diff_drive": diff_drive,
+}  # launch file: its session
 
 
 def reference(name: str) -> ModuleType:

@@ -1,0 +1,142 @@
+"""Decide what both wheels shall do: the wanted velocity, 0, or nothing. No clock; `now` is a monotonic one.
+
+Whatever is in doubt, the robot stands:
+
+    cmd_vel is older than its timeout    slow down to 0 within the limits, then let go of both motors
+    cmd_vel is not a number              the same
+    one wheel is in trouble              0 for both at once, then let go; a robot on one wheel turns in circles
+
+While it moves, the wheels are kept to what they should have turned by now: `travel_gain` times what a wheel is behind
+is added to its reference. So what a start or a stop has left, the next motion makes up for, and the robot goes straight
+although its motors differ. At rest nothing is added: friction would hold a wheel short of a slot's way, and let go.
+
+After a trouble, velocities have to begin again, with 0 or after a silence as long as the timeout: who went on sending
+through it has not seen it.
+"""
+
+from dataclasses import dataclass, replace
+from math import isfinite
+
+from motor_examples.diff_drive.kinematics import (
+    STILL,
+    Geometry,
+    Limits,
+    Twist,
+    Wheels,
+    approach_twist,
+    limit_twist,
+    wheel_speeds,
+)
+from motor_examples.diff_drive.wheel import Wheel, find_trouble
+
+MOST_BEHIND = 1.0  # [rad] that a wheel makes up for: one that slipped or was blocked does not race afterwards
+LONGEST_STEP = 0.1  # [s] of the limits' ramp: after a pause of the computer the robot does not jump
+STANDING = 0.3  # [s] at 0 rad/s and reported as such, before the motors are let go
+PATIENCE = 2.0  # [s] at 0 rad/s after which they are let go whatever is reported
+
+IDLE = "No velocity on cmd_vel; both motors are left alone."
+DRIVING = "Driving."
+STALE = "The last cmd_vel is older than cmd_vel_timeout ({:g} s)."
+NOT_A_NUMBER = "cmd_vel is not a number: send a finite velocity."
+BEGIN = "{} Both wheels stop. Then send a cmd_vel of 0, or pause, before the next velocity."
+
+
+@dataclass(frozen=True, slots=True)
+class Config:
+    """How to drive."""
+
+    geometry: Geometry
+    limits: Limits = Limits()
+    cmd_vel_timeout: float = 0.5  # [s] 0: a velocity holds until the next
+    travel_gain: float = 2.0  # [1/s] 0: wheels that are behind stay behind
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """What is remembered; times are [s]."""
+
+    command: Twist | None = None  # the latest velocity, as long as it is obeyed
+    commanded: float | None = None  # when it came
+    twist: Twist = STILL  # behind the limits
+    stepped: float | None = None  # when that was
+    since: float | None = None  # since when both motors have been given references; None: they are left alone
+    still_since: float | None = None  # since when those have been 0
+    behind: Wheels = Wheels(0.0, 0.0)  # [rad] that each wheel still has to turn
+    angles: Wheels = Wheels(0.0, 0.0)  # [rad] of both at the last step
+    reason: str = IDLE
+    trouble: str = ""  # why velocities have to begin again; empty: they need not
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """What both motors shall be told."""
+
+    references: Wheels | None  # None: nothing
+    release: bool = False  # let go of both
+    reason: str = ""
+    healthy: bool = True
+
+
+def take_command(config: Config, state: State, twist: Twist, now: float) -> State:
+    """Take a velocity that comes at `now` [s]; one that is not a number is a stop."""
+    silence = state.commanded is None or now - state.commanded > config.cmd_vel_timeout > 0.0
+    state = replace(state, commanded=now)
+    if not (isfinite(twist.linear) and isfinite(twist.angular)):
+        return replace(state, command=None, trouble=NOT_A_NUMBER)
+    if state.trouble and not (silence or twist == STILL):
+        return state
+    return replace(state, command=twist, trouble="")
+
+
+def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) -> tuple[Decision, State]:
+    """Decide what both motors are told at `now` [s]."""
+    driven = 0.0 if state.since is None else now - state.since
+    trouble = next(filter(None, (find_trouble(wheel, now, driven) for wheel in wheels)), "")
+    if trouble:
+        state = replace(state, command=None, trouble=trouble, twist=STILL)
+    state = _drop_stale(config, state, now)
+    dt = 0.0 if state.stepped is None else min(max(now - state.stepped, 0.0), LONGEST_STEP)
+    wanted = STILL if state.command is None else limit_twist(config.geometry, config.limits, state.command)
+    twist = approach_twist(config.limits, state.twist, wanted, dt)
+    state = _follow_travel(config, replace(state, stepped=now), twist, wheels, dt)
+    healthy, reason = not state.trouble, BEGIN.format(state.trouble) if state.trouble else state.reason
+    if state.command is None and state.since is None:
+        return Decision(None, False, reason, healthy), replace(state, twist=STILL, behind=Wheels(0.0, 0.0))
+    still_since = (now if state.still_since is None else state.still_since) if twist == STILL else None
+    state = replace(state, since=now if state.since is None else state.since, still_since=still_since)
+    if state.command is None and _stands(state, wheels, now):
+        return Decision(None, True, reason, healthy), replace(state, since=None, still_since=None)
+    reason = DRIVING if state.command is not None else reason
+    return Decision(_references(config, state), False, reason, healthy), state
+
+
+def _follow_travel(config: Config, state: State, twist: Twist, wheels: tuple[Wheel, Wheel], dt: float) -> State:
+    """Follow what each wheel should have turned and has; `twist` is the velocity from here on."""
+    wanted, angles = wheel_speeds(config.geometry, state.twist), Wheels(wheels[0].angle, wheels[1].angle)
+    rows = zip(state.behind, wanted, angles, state.angles, strict=True)
+    behind = Wheels(*(min(max(b + w * dt - (a - was), -MOST_BEHIND), MOST_BEHIND) for b, w, a, was in rows))
+    return replace(state, twist=twist, behind=behind, angles=angles)
+
+
+def _references(config: Config, state: State) -> Wheels:
+    """Compute the references [rad/s] of both wheels."""
+    wanted = wheel_speeds(config.geometry, state.twist)
+    if state.twist == STILL:
+        return wanted
+    return Wheels(*(w + config.travel_gain * b for w, b in zip(wanted, state.behind, strict=True)))
+
+
+def _drop_stale(config: Config, state: State, now: float) -> State:
+    """Drop a velocity that is too old."""
+    if state.command is None or state.commanded is None or not config.cmd_vel_timeout:
+        return state
+    if now - state.commanded <= config.cmd_vel_timeout:
+        return replace(state, reason=IDLE)
+    return replace(state, command=None, reason=STALE.format(config.cmd_vel_timeout))
+
+
+def _stands(state: State, wheels: tuple[Wheel, Wheel], now: float) -> bool:
+    """Whether both wheels stand after their 0 rad/s, or had their time to."""
+    still = 0.0 if state.still_since is None else now - state.still_since
+    seen = all(wheel.sample is not None and wheel.speed == 0.0 for wheel in wheels)
+    return still > PATIENCE or (seen and still > STANDING)

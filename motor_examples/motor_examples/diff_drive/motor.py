@@ -1,0 +1,50 @@
+"""Talk to one wheel's motor: its samples and its controller's state in, references out."""
+
+import time
+from dataclasses import replace
+
+from rclpy.node import Node
+from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
+
+from motor_examples.diff_drive.wheel import Wheel, follow_controller, follow_sample
+from motor_model.errors import MotorError
+from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed
+from motor_ros import qos
+from motor_ros.messages import info_of, sample_of
+
+
+class Motor:
+    """One wheel's motor: what is heard of it and said to it; forwards is positive, whichever way it is mounted."""
+
+    def __init__(self, node: Node, name: str, is_reversed: bool) -> None:
+        self._node = node
+        self.wheel = Wheel(name, -1.0 if is_reversed else 1.0)
+        self._reference = node.create_publisher(Float64, f"{name}/motor/reference", qos.REFERENCE)
+        self._release = node.create_client(Trigger, f"{name}/motor/release")
+        node.create_subscription(MotorSpeed, f"{name}/motor/speed", self._on_speed, qos.newest(qos.SPEED))
+        node.create_subscription(MotorInfo, f"{name}/motor/info", self._on_info, qos.INFO)
+        state = qos.newest(qos.CONTROL_STATE)
+        node.create_subscription(ControlState, f"{name}/motor/control_state", self._on_control_state, state)
+
+    def refer(self, speed: float) -> None:
+        """Ask for a speed [rad/s], forwards."""
+        self._reference.publish(Float64(data=self.wheel.sign * speed))
+
+    def release(self) -> None:
+        """Let go of the motor."""
+        if self._release.service_is_ready():
+            self._release.call_async(Trigger.Request())
+
+    def _on_speed(self, message: MotorSpeed) -> None:
+        self.wheel = follow_sample(self.wheel, sample_of(message), time.monotonic())
+
+    def _on_info(self, message: MotorInfo) -> None:
+        try:
+            self.wheel = replace(self.wheel, info=info_of(message))
+        except MotorError as error:
+            self._node.get_logger().error(f"{self.wheel.name}: {error}")
+
+    def _on_control_state(self, message: ControlState) -> None:
+        said = (message.state, message.reason, message.voltage)
+        self.wheel = follow_controller(self.wheel, *said, time.monotonic())

@@ -1,0 +1,113 @@
+"""Drive a robot with two wheels as a ROS node: cmd_vel in, two references out, odometry back."""
+
+import time
+from typing import Any
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Twist as TwistMessage
+from geometry_msgs.msg import TwistStamped
+from nav_msgs.msg import Odometry
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from motor_examples.diff_drive import drive
+from motor_examples.diff_drive.kinematics import Twist, Wheels, body_twist
+from motor_examples.diff_drive.messages import diagnostics_message, odometry_message, transform_message
+from motor_examples.diff_drive.motor import Motor
+from motor_examples.diff_drive.odometry import Pose, advance_pose
+from motor_examples.diff_drive.parameters import PROGRAM, ROWS, config_of
+from motor_model.errors import MotorError
+from motor_ros import qos
+from motor_ros.interface_types import NotInstalled, load_message
+from motor_ros.parameters import declare
+from motor_ros.plant import steady_timer
+from motor_ros.run import quick_executor, run
+
+NO_TF = "tf2_msgs is not installed here: no transforms on /tf; the pose is on odom."
+
+
+class DiffDrive(Node):
+    """Two motors as one robot."""
+
+    def __init__(self) -> None:
+        super().__init__("diff_drive")
+        self._values = declare(self, ROWS)
+        self._config, self._state, self._pose = config_of(self._values), drive.State(), Pose()
+        self._decision, self._turned = drive.Decision(None), Wheels(0.0, 0.0)
+        sides = ("left", "right")
+        motors = [Motor(self, str(self._values[s]), bool(self._values[f"{s}_reversed"])) for s in sides]
+        self._left, self._right = motors
+        self._frames = (str(self._values["odom_frame"]), str(self._values["base_frame"]))
+        self._odometry = self.create_publisher(Odometry, "odom", qos.ODOMETRY)
+        self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+        self._tf, self._tf_type = None, self._transforms() if self._values["publish_tf"] else None
+        if self._tf_type is not None:
+            self._tf = self.create_publisher(self._tf_type, "/tf", qos.TRANSFORMS)
+        kind = TwistStamped if self._values["stamped"] else TwistMessage
+        self.create_subscription(kind, "cmd_vel", self._on_cmd_vel, qos.REFERENCE)
+        steady_timer(self, 1.0 / float(self._values["rate"]), self._on_timer)
+        steady_timer(self, 1.0, self._on_second)
+        self.add_on_set_parameters_callback(self._on_parameters)
+
+    def close(self) -> None:
+        """Stop both wheels and let go of them."""
+        self._tell(drive.Decision(Wheels(0.0, 0.0), True))
+
+    def _transforms(self) -> Any:
+        try:
+            return load_message("tf2_msgs/msg/TFMessage")
+        except NotInstalled:
+            self.get_logger().warning(NO_TF)
+            return None
+
+    def _on_cmd_vel(self, message: Any) -> None:
+        told = message.twist if isinstance(message, TwistStamped) else message
+        twist = Twist(told.linear.x, told.angular.z)
+        self._state = drive.take_command(self._config, self._state, twist, time.monotonic())
+
+    def _on_timer(self) -> None:
+        wheels = (self._left.wheel, self._right.wheel)
+        decision, self._state = drive.step(self._config, self._state, wheels, time.monotonic())
+        self._tell(decision)
+        if decision.reason != self._decision.reason:
+            say = self.get_logger()
+            say.info(decision.reason) if decision.healthy else say.warning(decision.reason)
+        self._decision = decision
+        turned = Wheels(self._left.wheel.angle, self._right.wheel.angle)
+        left, right = turned.left - self._turned.left, turned.right - self._turned.right
+        self._pose, self._turned = advance_pose(self._config.geometry, self._pose, left, right), turned
+        self._publish_pose()
+
+    def _tell(self, decision: drive.Decision) -> None:
+        if decision.references is not None:
+            self._left.refer(decision.references.left)
+            self._right.refer(decision.references.right)
+        if decision.release:
+            self._left.release()
+            self._right.release()
+
+    def _publish_pose(self) -> None:
+        stamp = self.get_clock().now().to_msg()
+        twist = body_twist(self._config.geometry, Wheels(self._left.wheel.speed, self._right.wheel.speed))
+        self._odometry.publish(odometry_message(self._pose, twist, stamp, self._frames))
+        if self._tf is not None:
+            self._tf.publish(self._tf_type(transforms=[transform_message(self._pose, stamp, self._frames)]))
+
+    def _on_second(self) -> None:
+        name, stamp = self.get_fully_qualified_name(), self.get_clock().now().to_msg()
+        wheels = (self._left.wheel, self._right.wheel)
+        self._diagnostics.publish(diagnostics_message(self._decision, self._pose, wheels, name, stamp))
+
+    def _on_parameters(self, changed: list[Parameter]) -> SetParametersResult:
+        values = {**self._values, **{parameter.name: parameter.value for parameter in changed}}
+        try:
+            self._config, self._values = config_of(values), values
+        except MotorError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+
+def main(args: list[str] | None = None) -> int:
+    """`ros2 run motor_examples diff_drive`."""
+    return run(DiffDrive, args, quick_executor, PROGRAM)

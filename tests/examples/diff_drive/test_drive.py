@@ -1,0 +1,141 @@
+"""What both wheels are told: velocities within limits, and 0 whenever something is in doubt."""
+
+from dataclasses import replace
+from math import nan
+
+import pytest
+
+from motor_examples.diff_drive import drive
+from motor_examples.diff_drive.kinematics import STILL, Geometry, Limits, Twist, Wheels, wheel_speeds
+from motor_examples.diff_drive.wheel import Wheel
+from motor_model.sample import Info, Sample
+
+ROBOT = Geometry(0.05, 0.2)
+SPEED = Twist(0.5, 0.0)
+DT = 0.02  # [s]
+NONE = Limits()
+
+
+class Robot:
+    """The drive on a clock of its own, with wheels that turn as they are told."""
+
+    def __init__(self, limits: Limits = NONE, timeout: float = 0.5, gain: float = 0.0) -> None:
+        self.config, self.state = drive.Config(ROBOT, limits, timeout, gain), drive.State()
+        self.now, self.speeds = 10.0, Wheels(0.0, 0.0)
+        self.info = Info(edges_per_revolution=1_000_000, single_channel=False)
+        self.said = {"left": "running", "right": "running"}
+        self.slip = Wheels(1.0, 1.0)  # share of what is asked for that each wheel turns
+        self.edges = [0.0, 0.0]
+        self.decisions: list[drive.Decision] = []
+
+    def send(self, twist: Twist) -> None:
+        self.state = drive.take_command(self.config, self.state, twist, self.now)
+
+    def wheel(self, side: int, name: str) -> Wheel:
+        sample = Sample(round(self.now * 1e9), self.speeds[side], 1.0, round(self.edges[side]))
+        said = {"state": self.said[name], "reason": "Blocked.", "answered": self.now, "heard": self.now}
+        return replace(Wheel(name, info=self.info, sample=sample, edges=sample.edge_count), **said)  # type: ignore[arg-type]
+
+    def run(self, duration: float, twist: Twist | None = None) -> drive.Decision:
+        """So long [s], with the velocity sent before every step."""
+        for _ in range(round(duration / DT)):
+            if twist is not None:
+                self.send(twist)
+            wheels = (self.wheel(0, "left"), self.wheel(1, "right"))
+            decision, self.state = drive.step(self.config, self.state, wheels, self.now)
+            self.speeds = decision.references or Wheels(0.0, 0.0)
+            for side in range(2):
+                self.edges[side] += self.slip[side] * self.speeds[side] * DT / (2.0 * 3.141592653589793) * 1e6
+            self.decisions.append(decision)
+            self.now += DT
+        return self.decisions[-1]
+
+
+def test_without_a_velocity_both_motors_are_left_alone() -> None:
+    assert Robot().run(1.0) == drive.Decision(None, False, drive.IDLE, True)
+
+
+def test_a_velocity_is_obeyed_within_the_limits() -> None:
+    robot = Robot(Limits(linear_acceleration=1.0))
+    robot.run(0.2, SPEED)
+    assert robot.state.twist.linear == pytest.approx(0.2, abs=1.1 * DT)
+    decision = robot.run(1.0, SPEED)
+    assert decision.references == wheel_speeds(ROBOT, SPEED) and decision.reason == drive.DRIVING
+
+
+def test_a_stale_velocity_slows_down_then_lets_go_once() -> None:
+    robot = Robot(Limits(linear_acceleration=1.0))
+    robot.run(1.0, SPEED)
+    begun = len(robot.decisions)
+    robot.run(3.0)
+    told = robot.decisions[begun:]
+    speeds = [one.references.left for one in told if one.references is not None]
+    assert speeds[0] == 10.0 and speeds[-1] == 0.0 and speeds == sorted(speeds, reverse=True)
+    slowing = sum(0.0 < speed < 10.0 for speed in speeds) * DT
+    assert 0.45 < slowing < 0.55
+    assert [one.release for one in told].count(True) == 1
+    assert told[-1].references is None and told[-1].reason == drive.STALE.format(0.5)
+    assert robot.run(DT, SPEED).references is not None  # and goes on with the next
+
+
+def test_without_a_timeout_a_velocity_holds() -> None:
+    robot = Robot(timeout=0.0)
+    robot.run(DT, SPEED)
+    assert robot.run(60.0).references == wheel_speeds(ROBOT, SPEED)
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize("state", ["stopped", "no_samples", "disabled"])
+def test_one_wheel_that_stops_stops_the_other(side: str, state: str) -> None:
+    robot = Robot(Limits(linear_acceleration=1.0))
+    robot.run(1.0, SPEED)
+    robot.said[side] = state
+    decision = robot.run(DT, SPEED)
+    assert decision.references == Wheels(0.0, 0.0) and not decision.healthy  # at once, not within the limits
+    assert f"The {side} wheel does not run: Blocked." in decision.reason and "cmd_vel of 0" in decision.reason
+    assert robot.run(3.0, SPEED).references is None
+    assert [one.release for one in robot.decisions].count(True) == 1
+
+
+def test_after_a_trouble_velocities_begin_again() -> None:
+    """Who went on sending through it has not seen it: 0 or a pause first."""
+    robot = Robot()
+    robot.run(1.0, SPEED)
+    robot.said["left"] = "stopped"
+    robot.run(1.0, SPEED)
+    robot.said["left"] = "running"
+    assert robot.run(3.0, SPEED).references is None and not robot.decisions[-1].healthy
+    robot.run(DT, STILL)
+    assert robot.run(DT, SPEED).references == wheel_speeds(ROBOT, SPEED)
+    robot.said["right"] = "stopped"
+    robot.run(1.0, SPEED)
+    robot.said["right"] = "running"
+    robot.run(0.6)
+    assert robot.run(DT, SPEED).references == wheel_speeds(ROBOT, SPEED)
+
+
+@pytest.mark.parametrize("twist", [Twist(nan, 0.0), Twist(0.5, float("inf"))])
+def test_what_is_not_a_number_is_a_stop(twist: Twist) -> None:
+    robot = Robot()
+    robot.run(1.0, SPEED)
+    decision = robot.run(DT, twist)
+    assert decision.references == Wheels(0.0, 0.0) and "not a number" in decision.reason
+    robot.run(0.2, SPEED)
+    assert robot.run(DT, SPEED).references in (None, Wheels(0.0, 0.0))
+
+
+def test_a_wheel_that_stays_behind_makes_up_for_it_and_no_more_than_a_little() -> None:
+    for gain, least, most in ((2.0, 0.0, 0.01), (0.0, 0.4, 0.6)):
+        robot = Robot(gain=gain)
+        robot.slip = Wheels(0.5, 1.0)
+        robot.run(0.1, SPEED)
+        robot.slip = Wheels(1.0, 1.0)
+        robot.run(3.0, SPEED)
+        behind = (robot.edges[1] - robot.edges[0]) / 1e6 * 2.0 * 3.141592653589793
+        assert least <= behind < most
+    robot = Robot(gain=2.0)
+    robot.run(1.0, SPEED)
+    robot.slip = Wheels(0.0, 1.0)  # blocked for 2 s: 20 rad
+    assert max(one.references.left for one in robot.decisions if one.references) < 10.1
+    assert robot.run(2.0, SPEED).references == pytest.approx((12.0, 10.0), abs=0.3)
+    assert robot.run(DT, STILL).references == (0.0, 0.0)  # at rest nothing is added

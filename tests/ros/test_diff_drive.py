@@ -1,0 +1,82 @@
+"""A robot of two simulated motors as a user drives it: there, its pose, one wheel that is switched off, and the end."""
+
+from collections.abc import Callable
+from math import sin
+from subprocess import Popen
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool
+from workbench import Bench, end
+
+from motor_msgs.msg import ControlState
+from motor_ros import qos
+
+Start = Callable[..., "Popen[str]"]
+SIDES = ("left", "right")
+RADIUS, SEPARATION = 0.05, 0.2  # [m]
+
+
+class Driver:
+    """Sends a velocity every 50 ms, and begins again with 0 where the drive says so: the machine may be held up."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench, self.twist, self.begins_again = bench, (0.0, 0.0), True
+        self.reason, self._level, self._zeros = "", DiagnosticStatus.OK, 0
+        self._publisher = bench.publisher(Twist, "cmd_vel", qos.REFERENCE)
+        bench.node.create_subscription(DiagnosticArray, "/diagnostics", self._on_diagnostics, qos.DIAGNOSTICS)
+        bench.node.create_timer(0.05, self._send)
+        bench.heard(self._publisher)
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        for status in message.status:
+            if status.name == "/diff_drive":
+                self.reason, self._level = status.message, status.level
+                self._zeros = 4 if status.level == DiagnosticStatus.ERROR and self.begins_again else 0
+
+    def _send(self) -> None:
+        self._zeros = max(self._zeros - 1, 0)
+        twist = Twist()
+        if not self._zeros:
+            twist.linear.x, twist.angular.z = self.twist
+        self._publisher.publish(twist)
+
+
+@pytest.mark.long
+def test_a_robot_is_driven_and_stops_where_one_wheel_does(bench: Bench, start: Start) -> None:
+    for side in SIDES:
+        options = ("--ros-args", "-r", f"__ns:=/{side}", "-p")
+        start("motor_sim", "motor_sim", *options, f"name:={side}", "-p", "single_channel:=false")
+        start("motor_control", "motor_control", *options, "reference_timeout:=2.0", "-p", "latency_limit:=0.5")
+    robot = ("-p", f"wheel_radius:={RADIUS}", "-p", f"wheel_separation:={SEPARATION}", "-p", "right_reversed:=true")
+    drive = start("motor_examples", "diff_drive", "--ros-args", *robot)
+    poses = bench.hear(Odometry, "odom", qos.ODOMETRY)
+    states = {side: bench.hear(ControlState, f"{side}/motor/control_state", qos.CONTROL_STATE) for side in SIDES}
+    joints = {side: bench.hear(JointState, f"{side}/joint_states", qos.JOINT_STATES) for side in SIDES}
+    driver = Driver(bench)
+    bench.wait(lambda: bool(poses) and all(states.values()), "both motors")
+
+    driver.twist = (0.4, 1.0)
+    bench.wait(lambda: poses[-1].pose.pose.position.y > 0.1, "a way to the left")
+    assert poses[-1].twist.twist.linear.x == pytest.approx(0.4, abs=0.2)
+    assert (poses[-1].header.frame_id, poses[-1].child_frame_id) == ("odom", "base_link")
+
+    driver.begins_again = False
+    assert bench.call(SetBool, "left/motor/enable", SetBool.Request(data=False)).success
+    bench.wait(lambda: "left wheel" in driver.reason, "the reason")
+    bench.wait(lambda: all(joints[side][-1].velocity[0] == 0.0 for side in SIDES), "a standstill")
+    turned = [RADIUS * joints[side][-1].position[0] * sign for side, sign in zip(SIDES, (1.0, -1.0), strict=True)]
+    seen, slot = poses[-1].pose.pose.orientation, RADIUS * 0.0654
+    bench.wait(lambda: states["right"][-1].state == "disabled", "a motor that was let go")
+    heading = (turned[1] - turned[0]) / SEPARATION
+    assert 2.0 * seen.z * seen.w == pytest.approx(sin(heading), abs=2.0 * slot / SEPARATION)
+
+    assert bench.call(SetBool, "left/motor/enable", SetBool.Request(data=True)).success
+    driver.begins_again, before = True, joints["right"][-1].position[0]
+    bench.wait(lambda: joints["right"][-1].position[0] < before - 1.0, "motion again")
+    end(drive)
+    assert drive.returncode == 0
+    bench.wait(lambda: all(states[side][-1].state == "disabled" for side in SIDES), "both motors let go")
