@@ -10,7 +10,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from time import perf_counter
 
-from motor_identification.diagnosis.backward_elimination import drop_stand_ins, eliminate_backward
+from motor_identification.diagnosis.backward_elimination import (
+    drop_stand_ins_of_either,
+    eliminate_backward,
+    keep_confirmed,
+)
+from motor_identification.diagnosis.determination import drop_undetermined
 from motor_identification.diagnosis.forward_selection import (
     Selection,
     begin_beside_torque,
@@ -63,12 +68,20 @@ def diagnose(
     reporter.report("first fit", 0.0, "", float("nan"))
     hold_out = make_hold_out(recordings, validation, reporter.stopped)
     start, search = _fit_known(recordings, request, hold_out)
-    selection = retry_with_another_first(select_forward(start, reporter), reporter)
+    first = select_forward(start, reporter)
+    selection = retry_with_another_first(first, reporter)
     reporter.report("checking", 0.9, "", selection.model.held.gap)
-    selection = _select_beside_torque(start, selection, reporter) or eliminate_backward(
-        drop_stand_ins(selection), reporter
+    beside = _select_beside_torque(start, selection, reporter)
+    if beside is None:
+        selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
+    elif beside.steps and beside.model.held.gap > start.model.held.gap:  # it fits the torque, not the motion
+        selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
+    else:
+        selection = beside
+    selection, undetermined = drop_undetermined(selection, reporter)
+    return conclude(
+        start.model, selection, recordings, validation, search, lambda: perf_counter() - begun, undetermined
     )
-    return conclude(start.model, selection, recordings, validation, search, lambda: perf_counter() - begun)
 
 
 def _select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:

@@ -87,6 +87,7 @@ class Effect:
             the slots, which are then learnt without it.
         linear_onset: it begins in proportion to its first parameter, so that the derivative at 0 says which other
             effects would have left the same trace.
+        holds: it holds the motor at rest under a voltage, which nothing that only shapes a motion does.
         anywhere: it happens once, or slowly: a few pieces of a long recording do not show it.
         fitted: a fit can have it as a parameter; else it is recognised in what any fit leaves.
     """
@@ -100,6 +101,7 @@ class Effect:
     periodic: bool = False
     on_disc: bool = False
     linear_onset: bool = False
+    holds: bool = False
     anywhere: bool = False
     fitted: bool = True
 

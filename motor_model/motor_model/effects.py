@@ -32,6 +32,7 @@ EFFECTS = (
         "the friction level (ks)",
         (P("ks", "V", 0.0, 0.0, 0.8, VOLTAGE, starts=(0.03,)),),
         linear_onset=True,
+        holds=True,
     ),
     Effect(
         "static_friction",
@@ -43,6 +44,7 @@ EFFECTS = (
             P("stribeck_speed", "rad/s", 1.0, 0.002, 0.3, SPEED, True, minimum=1e-6, starts=(0.01, 0.035, 0.1)),
         ),
         implies="coulomb_friction",
+        holds=True,
     ),
     Effect(
         "quadratic_drag",
@@ -78,6 +80,7 @@ EFFECTS = (
         "a dead zone of the bridge (dead_zone)",
         (P("dead_zone_voltage", "V", 0.0, 0.0, 0.5, VOLTAGE, starts=(0.03,)),),
         linear_onset=True,
+        holds=True,
     ),
     Effect(
         "voltage_limit",

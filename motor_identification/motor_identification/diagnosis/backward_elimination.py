@@ -16,6 +16,7 @@ from motor_identification.diagnosis.effect_test import (
     try_effects,
 )
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
+from motor_identification.diagnosis.standstill_evidence import explains_standstills
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -24,12 +25,40 @@ def drop_stand_ins(selection: Selection) -> Selection:
     """Drop what may only stand in for an effect that is not in the table, where the gap stays above the floor.
 
     That is every finding that leaves a visible part of what it should explain, and what was found after it; a line in
-    the spectrum over the angle is its own evidence.
+    the spectrum over the angle is its own evidence, and so is a standstill under a voltage.
     """
     if selection.model.complete:
         return selection
     for i, step in enumerate(selection.steps):
-        if step.explains < thresholds.STAND_IN_SHARE and not EFFECT_BY_NAME[step.found.effect].periodic:
+        if step.explains < thresholds.STAND_IN_SHARE and not _is_own_evidence(selection, i):
+            return replace(selection, steps=selection.steps[:i], model=step.before)
+    return selection
+
+
+def _is_own_evidence(selection: Selection, number: int) -> bool:
+    """Decide whether a step's effect is told by what nothing outside the table does."""
+    step = selection.steps[number]
+    effect = EFFECT_BY_NAME[step.found.effect]
+    if not effect.holds:
+        return effect.periodic
+    after = selection.steps[number + 1].before if number + 1 < len(selection.steps) else selection.model
+    return explains_standstills(step.before, after)
+
+
+def drop_stand_ins_of_either(first: Selection, second: Selection) -> Selection:
+    """Drop what may only stand in for something from two selections, and choose the one that keeps more findings.
+
+    Of equals the one with the smaller gap.
+    """
+    if second.model.complete or first is second:
+        return drop_stand_ins(second)
+    return max(drop_stand_ins(first), drop_stand_ins(second), key=lambda one: (len(one.steps), -one.model.held.gap))
+
+
+def keep_confirmed(selection: Selection, effects: Sequence[str]) -> Selection:
+    """Keep the findings up to the first that another selection does not have; effects: of that one's model."""
+    for i, step in enumerate(selection.steps):
+        if step.found.effect not in effects:
             return replace(selection, steps=selection.steps[:i], model=step.before)
     return selection
 
@@ -52,13 +81,13 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     effect, current = step.found.effect, selection.model
     without = refit_without(selection.model, effect, selection.hold_out)
     if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
-        return _replace_step(selection, step, None, without)
+        return replace_step(selection, step, None, without)
     judged_alike = step.found.model.beside_torque == current.beside_torque
     if step is selection.steps[-1] and judged_alike:  # what could be in its place was tried beside it
         return selection
     others = list_replacements(step, without.effects, current.effects)
     if not others:
-        return _replace_step(selection, step, replace(step, rivals=()), current)
+        return replace_step(selection, step, replace(step, rivals=()), current)
 
     def heard(test: CandidateTest) -> None:
         reporter.report(f"{test.effect} in place of {effect}", 0.9, effect, current.held.gap)
@@ -66,10 +95,10 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     tests = try_effects(without, selection.hold_out, others, selection.workers, heard)
     better = next((test for test in tests if is_better(test, effect, current)), None)
     if better is not None:
-        return _replace_step(selection, step, replace(step, found=better, rivals=()), better.model)
+        return replace_step(selection, step, replace(step, found=better, rivals=()), better.model)
     alike = [test.effect for test in tests if test.model.likelihood > current.likelihood - thresholds.RIVAL_MARGIN]
     rivals = sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
-    return _replace_step(selection, step, replace(step, rivals=rivals), current)
+    return replace_step(selection, step, replace(step, rivals=rivals), current)
 
 
 def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequence[str]) -> list[str]:
@@ -97,10 +126,10 @@ def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
 def drop_step(selection: Selection, step: SelectionStep) -> Selection:
     """Take one finding back, and fit the model again without it."""
     without = refit_without(selection.model, step.found.effect, selection.hold_out)
-    return _replace_step(selection, step, None, without)
+    return replace_step(selection, step, None, without)
 
 
-def _replace_step(selection: Selection, step: SelectionStep, by: SelectionStep | None, model: Model) -> Selection:
+def replace_step(selection: Selection, step: SelectionStep, by: SelectionStep | None, model: Model) -> Selection:
     """Put another step, or none, instead of one; steps that the model does not have go too."""
     steps = [by if one is step else one for one in selection.steps]
     kept = tuple(one for one in steps if one and one.found.effect in model.effects)

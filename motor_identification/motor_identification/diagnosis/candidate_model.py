@@ -213,7 +213,7 @@ class CandidateTest:
         floor = after.floor(self.model.noise.share)
         if before.gap < thresholds.RELEVANT_GAP * floor:
             return False
-        near = self.before.held.gap <= thresholds.EXPLAINED_GAP * self.model.floor
+        near = before.gap < thresholds.NEAR_FLOOR * floor
         least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE
         seen = self.model.held.gap < (1.0 - thresholds.LEAST_DROP) * self.before.held.gap
         return seen and share_explained(before.gap, after.gap, floor) > least

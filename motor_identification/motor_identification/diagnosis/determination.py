@@ -1,35 +1,66 @@
 """Drop what is not determined: an effect of which nothing can be said but that something like it is missing."""
 
-from motor_identification.diagnosis.backward_elimination import drop_step
+from dataclasses import replace
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward, replace_step
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.forward_selection import Selection
+from motor_identification.diagnosis.effect_test import likelihood_threshold, sort_by_table, try_effects
+from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
+from motor_identification.progress import ProgressReporter
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_model.effects import EFFECT_BY_NAME
 
 
-def drop_undetermined(selection: Selection) -> tuple[Selection, tuple[str, ...]]:
-    """Drop the findings whose one parameter the training data do not determine, the least likely first; and name them.
+def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple[Selection, tuple[str, ...]]:
+    """Drop the findings whose one parameter the training data do not determine; and name them.
 
-    A parameter that belongs to a recording, such as an instant, says nothing of the motor.
+    First the one whose absence costs least likelihood: of effects that do each other's work, what is left is then
+    determined. One that has a rival which is determined gives way to that. What is not needed any more goes, too.
     """
     dropped: list[str] = []
     while weak := [step for step in selection.steps if step.found.effect in find_undetermined(selection.model)]:
-        step = min(weak, key=lambda one: one.found.evidence)
+        without = {step.found.effect: drop_step(selection, step) for step in weak}
+        step = max(weak, key=lambda one: without[one.found.effect].model.likelihood)
+        smaller = without[step.found.effect]
+        rival = _replace_by_rival(selection, step, smaller.model)
+        if rival is not None:
+            selection = rival
+            continue
         dropped.append(step.found.effect)
-        selection = drop_step(selection, step)
-    return selection, tuple(dropped)
+        selection = eliminate_backward(smaller, reporter) if smaller.steps else smaller
+        if any(one.found.effect in dropped for one in selection.steps):  # back in the place of another: no circles
+            selection = smaller
+    return selection, sort_by_table(dropped)
+
+
+def _replace_by_rival(selection: Selection, step: SelectionStep, without: Model) -> Selection | None:
+    """Replace a step by a rival of its effect that is as likely, and determined; None if there is no such."""
+    tests = try_effects(without, selection.hold_out, step.rivals, selection.workers, lambda test: None)
+    for test in tests:
+        if test.evidence <= likelihood_threshold():
+            break
+        alike = test.model.likelihood > selection.model.likelihood - thresholds.RIVAL_MARGIN
+        if alike and not is_undetermined(test.effect, _find_unknown(test.model)):
+            others = sort_by_table({step.found.effect, *step.rivals} - {test.effect})
+            return replace_step(selection, step, replace(step, found=test, rivals=others), test.model)
+    return None
 
 
 def find_undetermined(model: Model) -> tuple[str, ...]:
     """Find the effects of a model none of whose own parameters its training data determine.
 
-    Size and time constant of one effect may each be unsure, because the other is, where both together are not.
+    Size and time constant of one effect may each be unsure, because the other is, where both together are not. A
+    parameter that belongs to a recording, such as an instant, says nothing of the motor.
     """
-    if not model.effects:
-        return ()
-    fit = model.whitened
-    unknown = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).not_identifiable
+    unknown = _find_unknown(model) if model.effects else ()
     return tuple(name for name in model.effects if is_undetermined(name, unknown))
+
+
+def _find_unknown(model: Model) -> tuple[str, ...]:
+    """Find the parameters that the training data do not determine."""
+    fit = model.whitened
+    return estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).not_identifiable
 
 
 def is_undetermined(effect: str, not_identifiable: tuple[str, ...]) -> bool:

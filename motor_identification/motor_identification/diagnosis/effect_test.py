@@ -66,18 +66,28 @@ def likelihood_threshold() -> float:
 
 
 def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
-    """Choose the finding among tests, best first, if there is one: likely, and relevant; of equals the most common."""
+    """Choose the finding among tests, best first, if there is one: likely, and relevant; of equals the most common.
+
+    What needs an instant for every recording has to be more likely than what needs none.
+    """
     best = next((test for test in tests if _is_finding(test)), None)
     if best is None:
         return None
+    margin = thresholds.RIVAL_MARGIN if _has_instants(best) else thresholds.TIE_LIKELIHOOD
     equals = [
         test
         for test in tests
-        if test.evidence > best.evidence - thresholds.TIE_LIKELIHOOD
+        if test.evidence > best.evidence - (thresholds.TIE_LIKELIHOOD if _has_instants(test) else margin)
         and count_parameters(test.effect) <= count_parameters(best.effect)
         and _is_finding(test)
     ]
     return min(equals, key=lambda test: list(EFFECT_BY_NAME).index(test.effect))
+
+
+def _has_instants(test: CandidateTest) -> bool:
+    """Whether an effect has parameters of its own in each of several held-out recordings."""
+    several = len(test.model.held.recordings) > 1
+    return several and any(spec.of_recording for spec in EFFECT_BY_NAME[test.effect].parameters)
 
 
 def _is_finding(test: CandidateTest) -> bool:

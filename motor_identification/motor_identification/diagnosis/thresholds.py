@@ -33,8 +33,10 @@ RELEVANT_GAP = 1.15
 # Of the excess over the floor (in squares, in lasting intervals) that a finding explains at least. Measured: right ones
 # explain 0.54 to 1 of it, beside other hidden ones too; what a wrong one explains by chance is near 0.
 RELEVANT_SHARE = 0.3
-# The same where the gap is at the floor already, and chance has a larger part in what little is left.
+# The same where the gap before is at the floor already, and chance has a larger part in what little is left; and times
+# the floor (in lasting intervals), up to where that holds. Measured: complete models leave up to 1.5.
 RELEVANT_SHARE_NEAR_FLOOR = 0.5
+NEAR_FLOOR = 2.0
 # Of the white residual's power beside a random torque, which no floor is known for: less is nothing to name.
 RELEVANT_WHITE_SHARE = 0.01
 # Likelihoods that the search for a candidate's errors may ask for, and that for a model's to begin with.
@@ -51,6 +53,15 @@ CHANCE_HARMONIC = 5.0
 # Of the excess over the floor: what explains less, and leaves the gap above the floor, may. Measured: the right single
 # effect explains 0.98 and more, a wrong one in its place up to 0.94 (drag as coasting, a limit as sag).
 STAND_IN_SHARE = 0.95
+
+# Of squares of travel, in units of the sensor's own: what a model moves where the motor stood under a voltage. A motion
+# of ten slots, or one interval in which a speed that was measured as zero is off by ten standard deviations.
+LEAST_FALSE_MOTION = 100.0
+# Of those squares: what an effect takes away that holds the motor. The rest, half of the travel, is of a level that
+# everything else in the recording pulls at.
+HELD_SHARE = 0.75
+# Of the largest voltage in a recording: less need not move any motor.
+HOLDING_VOLTAGE = 0.01
 
 # How far is searched?
 MOST_FINDINGS = 6  # twice as many as any motor had that was measured

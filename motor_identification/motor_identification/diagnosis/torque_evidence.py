@@ -64,7 +64,7 @@ def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: tu
 def mark_common_set(hold_out: HoldOut) -> tuple[Bools, ...]:
     """Mark the held-out intervals that every model is scored on: whole blocks, whatever a model says of them."""
     problem = hold_out.problem
-    return tuple(hold_out.scored_blocks.mark(data, problem.sample_period) for data in problem.intervals)
+    return hold_out.scored_blocks.mark_each(problem.intervals, problem.sample_period)
 
 
 def _add_moments(

@@ -8,7 +8,6 @@ import numpy as np
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.detectability import find_undetectable
-from motor_identification.diagnosis.determination import drop_undetermined
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Verdict
 from motor_identification.discrepancy.region_text import describe_error
@@ -26,9 +25,12 @@ def conclude(
     validation: Sequence[Recording],
     search: SearchReport,
     elapsed: Callable[[], float],
+    undetermined: tuple[str, ...] = (),
 ) -> Diagnosis:
-    """Conclude a diagnosis; `search` is that of the first fit, `elapsed` [s] since the diagnosis began."""
-    selection, undetermined = drop_undetermined(selection)
+    """Conclude a diagnosis; `search` is that of the first fit, `elapsed` [s] since the diagnosis began.
+
+    undetermined: effects one of which may be missing, though the recordings determine nothing of it.
+    """
     last = selection.model
     model, baseline = _summarise(last, search, elapsed), _summarise(base, search, elapsed)
     gaps = [step.before.held.gap for step in selection.steps[1:]] + [last.held.gap]  # after each step, fitted again

@@ -88,9 +88,7 @@ class Problem:
 
     def keeping_out(self, blocks: TimeBlocks) -> "Problem":
         """The same problem without these blocks of its recordings, now and whenever its intervals are read again."""
-        return replace(
-            self.without(tuple(blocks.mark(data, self.sample_period) for data in self.intervals)), kept_out=blocks
-        )
+        return replace(self.without(blocks.mark_each(self.intervals, self.sample_period)), kept_out=blocks)
 
     def with_intervals(self, intervals: tuple[Intervals, ...]) -> "Problem":
         """The same problem with its recordings' intervals read in another way."""

@@ -1,5 +1,6 @@
 """Cut a recording into blocks of time, every n-th of which serves another purpose than the rest."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,13 +15,20 @@ LEAST_BLOCKS = 12  # of a short recording: enough for three blocks of every four
 
 @dataclass(frozen=True)
 class TimeBlocks:
-    """The last of every so many blocks of a recording's time."""
+    """One of every so many blocks of a recording's time: the last, in the next recording the one before, and so on.
+
+    What happens once, at the beginning of every recording, is in the blocks of some and not of others.
+    """
 
     every: int
 
-    def mark(self, data: Intervals, sample_period: float) -> Bools:
-        """Mark the intervals that begin in these blocks, shape (I,)."""
+    def mark_each(self, intervals: Sequence[Intervals], sample_period: float) -> tuple[Bools, ...]:
+        """Mark the intervals of every recording that begin in these blocks."""
+        return tuple(self.mark(data, sample_period, number) for number, data in enumerate(intervals))
+
+    def mark(self, data: Intervals, sample_period: float, number: int = 0) -> Bools:
+        """Mark the intervals that begin in these blocks, shape (I,); number: of the recording among all."""
         shortest, longest = (samples * sample_period for samples in BLOCK_SAMPLES)
         length = min(max(shortest, min(USUAL_BLOCK, longest)), data.time[-1] / LEAST_BLOCKS)
         block = (data.time[data.first] // length).astype(np.int64)
-        return np.asarray(block % self.every == self.every - 1)
+        return np.asarray((block + number) % self.every == self.every - 1)

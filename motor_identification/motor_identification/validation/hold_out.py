@@ -37,10 +37,8 @@ class HoldOut(ABC):
         here = self.apply(fitted)
         intervals, increments = here.problem.intervals, here.increments
         bad = tuple(mark_miscounts(data, part) for data, part in zip(intervals, increments, strict=True))
-        scored = tuple(
-            self.scored_blocks.mark(data, here.problem.sample_period) & ~marks
-            for data, marks in zip(intervals, bad, strict=True)
-        )
+        blocks = self.scored_blocks.mark_each(intervals, here.problem.sample_period)
+        scored = tuple(block & ~marks for block, marks in zip(blocks, bad, strict=True))
         miscounted = int(sum(marks.sum() for marks in bad))
         return HeldOut(here.problem.recordings, intervals, here.angles, here.parameters, scored, miscounted)
 
@@ -58,8 +56,8 @@ class OtherRecordings(HoldOut):
 
     def apply(self, fitted: Estimate) -> Estimate:
         """Fit what belongs to these recordings on the blocks that do not count; the motor stays as it is."""
-        blocks = tuple(~self.scored_blocks.mark(data, self.problem.sample_period) for data in self.problem.intervals)
-        return fit_nuisance_parameters(self.problem, fitted, blocks)
+        blocks = self.scored_blocks.mark_each(self.problem.intervals, self.problem.sample_period)
+        return fit_nuisance_parameters(self.problem, fitted, tuple(~block for block in blocks))
 
     def restrict(self, training: Problem) -> Problem:
         """Keep all of the training recordings: none of them is held out."""

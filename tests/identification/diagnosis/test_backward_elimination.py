@@ -4,14 +4,16 @@ import pytest
 from diagnosed import fitted
 from stub_models import stub_model, stub_test
 
-from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import backward_elimination, thresholds
 from motor_identification.diagnosis.backward_elimination import (
     drop_stand_ins,
+    drop_stand_ins_of_either,
     eliminate_backward,
     is_better,
+    keep_confirmed,
     list_replacements,
 )
-from motor_identification.diagnosis.candidate_model import CandidateTest, validate_model
+from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.diagnosis.effect_test import likelihood_threshold
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
@@ -34,7 +36,7 @@ def step_of(effect: str, explains: float) -> SelectionStep:
 
 @pytest.mark.parametrize(("times", "kept"), [(BELOW, 0), (ABOVE, 2)])
 def test_a_stand_in_goes_and_all_that_was_found_after_it(times: float, kept: int) -> None:
-    steps = step_of("coulomb_friction", times * thresholds.STAND_IN_SHARE), step_of("load_bias", 0.99)
+    steps = step_of("quadratic_drag", times * thresholds.STAND_IN_SHARE), step_of("load_bias", 0.99)
     left = drop_stand_ins(selection_of(5.0, *steps))
     assert left.steps == steps[:kept]
     assert (left.model is steps[0].before) == (kept == 0)
@@ -42,8 +44,37 @@ def test_a_stand_in_goes_and_all_that_was_found_after_it(times: float, kept: int
 
 @pytest.mark.parametrize(("times", "kept"), [(BELOW, 1), (ABOVE, 0)])
 def test_at_the_floor_nothing_stands_in(times: float, kept: int) -> None:
-    selection = selection_of(times * thresholds.EXPLAINED_GAP, step_of("coulomb_friction", 0.5))
+    selection = selection_of(times * thresholds.EXPLAINED_GAP, step_of("load_bias", 0.5))
     assert len(drop_stand_ins(selection).steps) == kept
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_what_holds_the_motor_is_its_own_evidence_where_it_explains_standstills(
+    monkeypatch: pytest.MonkeyPatch, held: bool
+) -> None:
+    asked: list[tuple[Model, Model]] = []
+    monkeypatch.setattr(
+        backward_elimination, "explains_standstills", lambda *models: bool(asked.append(models)) or held
+    )
+    steps = step_of("coulomb_friction", 0.7), step_of("quadratic_drag", 0.3)
+    left = drop_stand_ins(selection_of(5.0, *steps))
+    assert left.steps == steps[: int(held)] and left.model is (steps[1].before if held else steps[0].before)
+    assert asked == [(steps[0].before, steps[1].before)]
+
+
+def test_of_two_selections_the_one_that_keeps_more() -> None:
+    poor, rich = selection_of(4.0, step_of("load_bias", 0.9)), selection_of(5.0, step_of("load_bias", 0.99))
+    assert drop_stand_ins_of_either(rich, poor).steps == rich.steps == drop_stand_ins_of_either(poor, rich).steps
+    done = selection_of(1.0)
+    assert drop_stand_ins_of_either(rich, done) is done
+
+
+def test_findings_that_another_selection_confirms_are_kept() -> None:
+    steps = step_of("coulomb_friction", 0.7), step_of("quadratic_drag", 0.3), step_of("load_bias", 0.3)
+    selection = selection_of(5.0, *steps)
+    kept = keep_confirmed(selection, ("coulomb_friction", "load_bias", "backlash"))
+    assert kept.steps == steps[:1] and kept.model is steps[1].before
+    assert keep_confirmed(selection, ("coulomb_friction", "quadratic_drag", "load_bias")) is selection
 
 
 def test_a_line_in_the_spectrum_is_its_own_evidence() -> None:

@@ -1,17 +1,26 @@
 """What a recording determines nothing of is no finding."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosed import fitted, with_effect
 from plant import profiles, record
 
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis.candidate_model import CandidateTest, validate_model
+from motor_identification.diagnosis import determination
+from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
 from motor_identification.diagnosis.determination import drop_undetermined, find_undetermined, is_undetermined
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.diagnosis.result import Verdict
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.estimation.parameter_space import map_theta
+from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check
 from motor_model.parameters import PAPER_KA, PAPER_KV
+
+SILENT = ProgressReporter(lambda stage: None, lambda: False)
 
 
 @pytest.mark.parametrize(
@@ -38,7 +47,7 @@ def test_a_friction_that_motion_both_ways_determines_stays() -> None:
     assert find_undetermined(after) == () and find_undetermined(before) == ()
     test = CandidateTest("coulomb_friction", before, after)
     selection = Selection((SelectionStep(before, test, (test,), (), 1.0),), after, hold_out, 1)
-    assert drop_undetermined(selection) == (selection, ())
+    assert drop_undetermined(selection, SILENT) == (selection, ())
 
 
 def test_what_a_recording_does_not_determine_is_dropped_and_named() -> None:
@@ -48,9 +57,50 @@ def test_what_a_recording_does_not_determine_is_dropped_and_named() -> None:
     after = validate_model(hold_out, with_effect(estimate, "armature_inductance", {"electrical_time_constant": 1e-6}))
     test = CandidateTest("armature_inductance", before, after)
     selection = Selection((SelectionStep(before, test, (test,), (), 1.0),), after, hold_out, 1)
-    left, names = drop_undetermined(selection)
+    left, names = drop_undetermined(selection, SILENT)
     assert names == ("armature_inductance",) and left.steps == () and left.model.effects == ()
     assert left.model.held.gap == pytest.approx(before.held.gap, rel=1e-6)
+
+
+def found_step(before: Model, after: Model, effect: str, rivals: tuple[str, ...] = ()) -> SelectionStep:
+    test = CandidateTest(effect, before, after)
+    return SelectionStep(before, test, (test,), rivals, 1.0)
+
+
+def test_a_rival_that_is_determined_takes_the_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Friction was taken for a dead zone, which says nothing of its size; the other name does, and both are said."""
+    estimate, hold_out = fitted(ks=0.4)
+    before = validate_model(hold_out, estimate)
+    after = validate_model(hold_out, with_effect(estimate, "dead_zone", {"dead_zone_voltage": 0.3}))
+    selection = Selection((found_step(before, after, "dead_zone", ("coulomb_friction",)),), after, hold_out, 1)
+    monkeypatch.setattr(determination, "_find_unknown", lambda model: ("dead_zone_voltage",))
+    left, names = drop_undetermined(selection, SILENT)
+    (step,) = left.steps
+    assert names == () and left.model.effects == ("coulomb_friction",) and left.model.at_floor
+    assert (step.found.effect, step.rivals) == ("coulomb_friction", ("dead_zone",))
+    monkeypatch.setattr(determination, "_find_unknown", lambda model: ("dead_zone_voltage", "ks"))
+    left, names = drop_undetermined(selection, SILENT)
+    assert names == ("dead_zone",) and left.steps == ()
+
+
+def test_of_two_that_do_each_others_work_the_needless_one_goes(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A load that is not there beside the friction that is: without the load the friction is determined."""
+    estimate, hold_out = fitted(ks=0.4)
+    bare = validate_model(hold_out, estimate)
+    friction = with_effect(estimate, "coulomb_friction", {"ks": 0.3})
+    after = validate_model(hold_out, friction)
+    more = friction.problem.with_effects(("coulomb_friction", "load_bias"))
+    start = map_theta(friction.problem.unknowns, friction.theta, more.unknowns, {"bias_voltage": np.array(0.01)})
+    last = validate_model(hold_out, fit_speeds(Estimate(more, start)))
+    steps = found_step(bare, after, "coulomb_friction"), found_step(after, last, "load_bias")
+    assert steps[0].found.evidence > steps[1].found.evidence
+    monkeypatch.setattr(
+        determination, "_find_unknown", lambda model: ("ks", "bias_voltage") if len(model.effects) == 2 else ()
+    )
+    for order in (steps, (replace(steps[1], found=replace(steps[1].found, before=bare)), steps[0])):
+        left, names = drop_undetermined(Selection(order, last, hold_out, 1), SILENT)
+        assert names == ("load_bias",) and left.model.effects == ("coulomb_friction",)
+        assert left.model.estimate.parameters.value("ks") == pytest.approx(0.4, rel=1e-2)
 
 
 def test_a_single_step_says_what_may_be_missing_and_no_size() -> None:

@@ -76,8 +76,12 @@ def test_relevant_gap(times: float, passes: bool) -> None:
 @SIDES
 @pytest.mark.parametrize(
     ("gap", "lasting", "share"),
-    [(5.0, 2.0, thresholds.RELEVANT_SHARE), (1.2, 1.0, thresholds.RELEVANT_SHARE_NEAR_FLOOR)],
-    ids=["far above the floor", "at the floor"],
+    [
+        (5.0, 2.0, thresholds.RELEVANT_SHARE),
+        (1.2, 1.01 * thresholds.NEAR_FLOOR * LASTING_FLOOR, thresholds.RELEVANT_SHARE),
+        (1.2, 0.99 * thresholds.NEAR_FLOOR * LASTING_FLOOR, thresholds.RELEVANT_SHARE_NEAR_FLOOR),
+    ],
+    ids=["far above the floor", "above the floor where it lasts", "at the floor"],
 )
 def test_relevant_share(gap: float, lasting: float, share: float, times: float, passes: bool) -> None:
     left = left_after(times * share, lasting, LASTING_FLOOR)

@@ -35,3 +35,11 @@ def test_a_short_recording_has_as_many_blocks(times: float, blocks: int) -> None
     marks = TimeBlocks(2).mark(intervals(times * LEAST_BLOCKS * USUAL_BLOCK), PERIOD)
     changes = np.count_nonzero(np.diff(marks.astype(int)) != 0) + 1
     assert blocks - 1 <= changes <= blocks + 1
+
+
+def test_every_recording_has_another_block_than_the_one_before() -> None:
+    data = intervals(12.0)
+    marks = TimeBlocks(4).mark_each([data] * 5, PERIOD)
+    assert np.array_equal(marks[0], TimeBlocks(4).mark(data, PERIOD)) and np.array_equal(marks[4], marks[0])
+    assert np.array_equal(sum(part.astype(int) for part in marks[:4]), np.ones(1200))
+    assert marks[3][0] and not marks[0][0]  # the beginning

@@ -1,0 +1,60 @@
+"""Judge an effect by standstills alone: a motor that rests under a voltage is held, whatever else its model lacks.
+
+What is not in the table bends a motion, and an effect of the table may stand in for that; nothing but friction or a
+dead zone holds a motor at rest under a voltage that moves its model.
+"""
+
+import numpy as np
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.measurement.intervals import Intervals
+from motor_identification.measurement.standstill import LEAST_STANDSTILL
+from motor_identification.recording import Bools, Floats, Integers, Recording
+
+ABOUT_ONE = 1.5  # slots are irregular
+Motion = tuple[Recording, Intervals, Floats]  # and simulated minus measured travel [rad] of every interval
+
+
+def explains_standstills(before: Model, after: Model) -> bool:
+    """Decide whether the model before moves where the motor stood under a voltage, and the model after much less."""
+    false, left = measure_false_motion(before), measure_false_motion(after)
+    return false > thresholds.LEAST_FALSE_MOTION and left < (1.0 - thresholds.HELD_SHARE) * false
+
+
+def measure_false_motion(model: Model) -> float:
+    """Measure simulated travel where the motor stood under a voltage: the sum of squares, in units of the sensor's."""
+    problem, held = model.estimate.problem, model.held
+    rows = list(zip(held.recordings, held.intervals, held.increments, strict=True))
+    if not any(one is recording for one, _, _ in rows for recording in problem.recordings):
+        rows += zip(problem.recordings, problem.intervals, model.estimate.increments, strict=True)
+    return sum(_sum_false_motion(row, model.noise.share) for row in rows)
+
+
+def _sum_false_motion(motion: Motion, share: float) -> float:
+    recording, data, increments = motion
+    still = find_held_intervals(recording, data)
+    scatter = np.sqrt(data.floor_squared(share * data.slot)) * data.duration
+    return float(np.sum((increments[still] / np.maximum(scatter, data.slot)[still]) ** 2))
+
+
+def find_held_intervals(recording: Recording, data: Intervals) -> Bools:
+    """Find the intervals in which the motor did not move, though a voltage was applied in the end, and none against it.
+
+    Not by more than one slot in many samples, where slots are what is known of its motion.
+    """
+    begin = np.maximum(np.searchsorted(recording.time, data.time[data.first], side="right") - 1, 0)
+    end = np.maximum(np.searchsorted(recording.time, data.time[data.last], side="left"), begin + 1)
+    least = thresholds.HOLDING_VOLTAGE * float(np.max(np.abs(recording.voltage), initial=0.0))
+    way = np.where(recording.voltage > least, 1, np.where(recording.voltage < -least, -1, 0))
+    last = way[end - 1]
+    against = np.where(last > 0, _count_between(way < 0, begin, end), _count_between(way > 0, begin, end))
+    long = data.duration > LEAST_STANDSTILL * recording.sample_period
+    one_slot = long & (np.abs(data.speed) * data.duration < ABOUT_ONE * data.slot)
+    return np.asarray(((data.speed == 0.0) | one_slot) & (last != 0) & (against == 0))
+
+
+def _count_between(marks: Bools, begin: Integers, end: Integers) -> Integers:
+    """Count the marks from each begin to its end."""
+    total = np.concatenate([[0], np.cumsum(marks)])
+    return np.asarray(total[end] - total[begin])
