@@ -27,8 +27,12 @@ class TimeBlocks:
         return tuple(self.mark(data, sample_period, number) for number, data in enumerate(intervals))
 
     def mark(self, data: Intervals, sample_period: float, number: int = 0) -> Bools:
-        """Mark the intervals that begin in these blocks, shape (I,); number: of the recording among all."""
+        """Mark the intervals that begin in these blocks, shape (I,); number: of the recording among all.
+
+        None where they would be all: nothing of a recording that is within one block serves another purpose.
+        """
         shortest, longest = (samples * sample_period for samples in BLOCK_SAMPLES)
         length = min(max(shortest, min(USUAL_BLOCK, longest)), data.time[-1] / LEAST_BLOCKS)
         block = (data.time[data.first] // length).astype(np.int64)
-        return np.asarray((block + number) % self.every == self.every - 1)
+        marks = np.asarray((block + number) % self.every == self.every - 1)
+        return marks & ~marks.all()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.measurement.intervals import Intervals, index_intervals
+from motor_identification.measurement.intervals import Intervals, exclude_intervals, index_intervals
 from motor_identification.measurement.time_blocks import LEAST_BLOCKS, USUAL_BLOCK, TimeBlocks
 
 PERIOD = 0.005  # [s]
@@ -43,3 +43,13 @@ def test_every_recording_has_another_block_than_the_one_before() -> None:
     assert np.array_equal(marks[0], TimeBlocks(4).mark(data, PERIOD)) and np.array_equal(marks[4], marks[0])
     assert np.array_equal(sum(part.astype(int) for part in marks[:4]), np.ones(1200))
     assert marks[3][0] and not marks[0][0]  # the beginning
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_a_recording_within_one_block_is_left_whole(count: int) -> None:
+    start = 0.001 * np.arange(count)
+    data = index_intervals(
+        np.append(start, 100.0), np.append(start + 0.001, 100.001), np.ones(count + 1), np.zeros(count + 1)
+    )
+    only = exclude_intervals(data, np.arange(count + 1) == count)
+    assert not TimeBlocks(4).mark(only, PERIOD, 3).any() and TimeBlocks(4).mark(data, PERIOD, 3).sum() == count
