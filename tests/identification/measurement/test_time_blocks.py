@@ -49,7 +49,7 @@ def test_every_recording_has_another_block_than_the_one_before() -> None:
 def test_a_recording_within_one_block_is_left_whole(count: int) -> None:
     start = 0.001 * np.arange(count)
     data = index_intervals(
-        np.append(start, 100.0), np.append(start + 0.001, 100.001), np.ones(count + 1), np.zeros(count + 1)
+        np.append(start, 100.6), np.append(start + 0.001, 100.601), np.ones(count + 1), np.zeros(count + 1)
     )
     only = exclude_intervals(data, np.arange(count + 1) == count)
     assert not TimeBlocks(4).mark(only, PERIOD, 3).any() and TimeBlocks(4).mark(data, PERIOD, 3).sum() == count
