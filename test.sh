@@ -13,8 +13,15 @@ if [ $# -gt 0 ]; then
   exit
 fi
 status=0
+run() { pytest "$@" || { local code=$?; [ $code -eq 1 ] || exit $code; status=1; }; } # 1: some test failed
 cores=$(nproc)
 workers=$((cores < 4 ? cores + 1 : 4)) # one more than cores, for many tests wait; each has ROS domains of its own
-pytest -n "$workers" --dist worksteal -m "not on_time" || status=$?
-pytest -n 2 -m on_time tests/{board,ros,ros2_stand_in,system} || status=$? # these measure times: nothing else runs
+run --cache-clear -n "$workers" --dist worksteal -m "not on_time"
+run -n 2 -m on_time tests/{board,ros,ros2_stand_in,system} # these measure times: nothing else runs
+failed=$(grep -sc '": true' .pytest_cache/v/cache/lastfailed || true) # in both runs
+if ((status == 1 && failed > 0 && failed <= 5)); then
+  echo "[test] $failed failed, and are run once more, alone: on a busy machine a live test may fail, a mistake fails twice."
+  status=0
+  run --last-failed
+fi
 exit $status
