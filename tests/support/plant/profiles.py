@@ -74,6 +74,12 @@ def rich(volts: float = 12.0, seed: int = 0) -> Profile:
     return joined(*(part(volts) for part in parts), random(volts, seed=seed))
 
 
+def compact(volts: float = 12.0, seed: int = 0) -> Profile:
+    """All of them in turn, in 22 s: for diagnoses whose time is that of their recording."""
+    parts = [staircase(volts, 4, 0.4), ramps(volts, 1.2), reversals(volts, 6), coast(volts, 2, 0.6)]
+    return joined(*parts, random(volts, 4.0, seed))
+
+
 def _timed(volts: Floats) -> Profile:
     values = np.append(volts, 0.0)
     return np.arange(len(values)) / RATE, values
