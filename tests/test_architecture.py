@@ -49,14 +49,14 @@ BAGS = re.compile(r"motor_identification/bag/((mcap|fields)/)?\w+\.py$")
 ROOMS = {
     "motor_model": (
         "compiled printable errors internal_error regular_file yaml_file text_table effect effects sample parameters "
-        "model_file excitation dynamics sensing simulate warm_up"
+        "physical model_file excitation dynamics sensing simulate warm_up"
     ),
     "motor_control": (
         "checks filter controller announcements tuning parameters warm_up preparation settings messages node cli"
     ),
     "motor_identification": (
-        "recording progress experiment bag sensor measurement noise estimation periodic uncertainty validation "
-        "discrepancy diagnosis identify diagnose reporting logs mapping service live cli"
+        "recording progress experiment bag sensor measurement noise estimation periodic uncertainty physical "
+        "validation discrepancy diagnosis identify diagnose reporting logs mapping service live cli"
     ),
 }
 MOST_MODULES = 15  # in one folder of a package

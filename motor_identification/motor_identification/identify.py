@@ -8,10 +8,12 @@ from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.miscounts import exclude_miscounts
 from motor_identification.estimation.multistart import SearchReport
 from motor_identification.estimation.problem import Problem, make_problem
-from motor_identification.estimation.request import Request, SearchConfig
-from motor_identification.estimation.whitened_fit import fit_whitened
+from motor_identification.estimation.request import PhysicalRequest, Request, SearchConfig
+from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
+from motor_identification.physical.known_resistance import convert_with_resistance
+from motor_identification.physical.measured_current import identify_with_current
 from motor_identification.progress import Heartbeat
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
@@ -55,9 +57,22 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     working.begin("standard errors", DESCENDED, 1.0)
     fit = fit_whitened(counted)
     notes = (*_list_left_out(directed.problem, counted.problem, fit.problem), *_list_doubts(search))
-    result = summarise_fit(fit, search, lambda: perf_counter() - begun, notes, effects)
+
+    def summarise(one: WhitenedFit) -> Fit:
+        return summarise_fit(one, search, lambda: perf_counter() - begun, notes, effects)
+
+    result = _add_physics(fit, summarise, request.physical)
     tell("done", 1.0)
     return result
+
+
+def _add_physics(fit: WhitenedFit, summarise: Callable[[WhitenedFit], Fit], request: PhysicalRequest | None) -> Fit:
+    """Summarise a fit, and what was asked for in ohms and newton-metres."""
+    if request is None:
+        return summarise(fit)
+    if request.resistance:
+        return convert_with_resistance(summarise(fit), request)
+    return identify_with_current(fit, summarise)
 
 
 def _list_left_out(whole: Problem, counted: Problem, kept: Problem) -> list[str]:

@@ -6,7 +6,13 @@ effects: [coulomb_friction]
 parameters:
   kv: {value: 0.0689, standard_error: 1.2e-06, unit: V·s/rad}
   …
+physical:  # where a current was measured, or the resistance is known: see `physical/`
+  resistance: {value: 2.31, standard_error: 0.004, unit: Ω}
+  torque_constant: {value: 0.0662, standard_error: 0.0001, unit: N·m/A}
+  …
 origin: {bags: [step], created: …}
+
+Of `physical` only resistance and torque_constant are read: the rest follows from them and the parameters.
 """
 
 from collections.abc import Mapping
@@ -20,6 +26,7 @@ from motor_model import yaml_file
 from motor_model.effects import SPEC_BY_NAME
 from motor_model.errors import ModelError
 from motor_model.parameters import Parameters
+from motor_model.physical.quantities import CONSTANT, PHYSICAL_BY_NAME, RESISTANCE, physical_values_of
 from motor_model.printable import escape
 from motor_model.regular_file import Unfit, write_text
 
@@ -56,15 +63,32 @@ def _parameters(content: Any, default_name: str) -> Parameters:
         tuple(effects),
         _number("max_voltage", content.get("max_voltage", 12.0)),
         escape(str(content.get("name") or default_name)),
+        **_physical(content.get("physical")),
     )
     _check_limits(parameters)
     return parameters
+
+
+def _physical(content: Any) -> dict[str, float]:
+    """Read resistance and torque constant; empty where a file has none."""
+    if content is None:
+        return {}
+    if not isinstance(content, Mapping):
+        raise ModelError("'physical' must be a table with a resistance.")
+    found = {name: _number(name, content[name]) for name in (RESISTANCE.name, CONSTANT.name) if name in content}
+    low, high = LIMITS[RESISTANCE.unit]
+    if not low <= found.get(RESISTANCE.name, low) <= high:
+        raise ModelError(
+            f"resistance = {found[RESISTANCE.name]:g} Ω is none that a motor has: it must be {low:g} to {high:g}."
+        )
+    return found
 
 
 # What a file may say, by unit: far beyond any motor, but within what a simulation computes in finite time and numbers.
 LIMITS = {
     "V": (0.0, 1e5), "V·s/rad": (1e-7, 1e4), "V·s²/rad": (1e-12, 1e6), "V·s²/rad²": (0.0, 1e6), "rad/s": (0.0, 1e7),
     "s": (0.0, 1e7), "rad": (0.0, 1e6), "1/rev": (0.0, 1e5), "–": (0.0, 1e3),
+    "Ω": (1e-6, 1e6),
 }  # fmt: skip
 FASTEST = 1e6  # [rad/s] ten times a dental drill: a simulated encoder counts every edge
 
@@ -101,8 +125,9 @@ def save(
     parameters: Parameters,
     standard_errors: Mapping[str, float] | None = None,
     origin: Mapping[str, Any] | None = None,
+    physical_errors: Mapping[str, float] | None = None,
 ) -> None:
-    """Write a model file; `origin` says where the numbers came from.
+    """Write a model file; `origin` says where the numbers came from, errors are by name.
 
     Raises:
         ModelError: the file cannot be written.
@@ -117,9 +142,18 @@ def save(
         "max_voltage": parameters.max_voltage,
         "effects": list(parameters.effects),
         "parameters": rows,
+        **_physical_section(parameters, physical_errors or {}),
         "origin": dict(origin or {}),
     }
     try:
         write_text(path, yaml.safe_dump(content, sort_keys=False, allow_unicode=True))
     except OSError as error:
         raise ModelError(f"cannot write the model file {path}: {error.strerror}.") from error
+
+
+def _physical_section(parameters: Parameters, errors: Mapping[str, float]) -> dict[str, Any]:
+    rows = {
+        name: {"value": value, "standard_error": errors.get(name), "unit": PHYSICAL_BY_NAME[name].unit}
+        for name, value in physical_values_of(parameters).items()
+    }
+    return {"physical": rows} if rows else {}

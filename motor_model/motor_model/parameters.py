@@ -2,21 +2,35 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import isfinite
+from math import inf, isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_model.effects import COARSENESS, INDEX, MAX_VOLTAGE, SPEC_BY_NAME, VECTOR_NAMES, normalised, specs_of
+from motor_model.effects import (
+    COARSENESS,
+    ELECTRICAL,
+    INDEX,
+    MAX_VOLTAGE,
+    SPEC_BY_NAME,
+    SPECS,
+    VECTOR_NAMES,
+    normalised,
+    specs_of,
+)
 from motor_model.errors import ModelError
 
 PAPER_KV = 12.0 / 174.097  # [V·s/rad] the base paper's coefficient0: 174.097 rad/s at 12 V
 PAPER_KA = 0.0055  # [V·s²/rad] its coefficient1 is not published; a time constant of 80 ms is our reference
+MOST_BACK_EMF = 1.2  # of kv: a fit may find a torque constant a little above it where there is no viscous friction
 
 
 @dataclass(frozen=True)
 class Parameters:
     """kv, ka and the parameters of `effects`, by name, in the units of the effect table.
+
+    With `resistance` the motor has a current; `torque_constant` (in SI units also the back-EMF constant) then says
+    which part of kv is back-EMF, the rest is viscous friction. See `physical/`.
 
     Raises:
         ModelError: an unknown effect, a missing, superfluous or non-physical value.
@@ -26,6 +40,8 @@ class Parameters:
     effects: tuple[str, ...] = ()
     max_voltage: float = 12.0
     name: str = field(default="motor", compare=False)
+    resistance: float = 0.0  # [Ω] of the cold armature; 0: unknown
+    torque_constant: float = 0.0  # [N·m/A]; 0: kv, no viscous friction
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "effects", normalised(self.effects))
@@ -58,6 +74,14 @@ class Parameters:
             raise ModelError("kv and ka must be positive: a motor with neither back-EMF nor inertia is none.")
         if not np.isfinite(self.max_voltage) or self.max_voltage <= 0.0:
             raise ModelError(f"max_voltage = {self.max_voltage:g} V must be positive.")
+        if not 0.0 <= self.resistance < inf:
+            raise ModelError(f"resistance = {self.resistance:g} Ω must be 0 (unknown) or more.")
+        most = MOST_BACK_EMF * self.values["kv"]
+        if not 0.0 <= self.torque_constant <= most:
+            raise ModelError(
+                f"torque_constant = {self.torque_constant:g} N·m/A must be 0 (unknown) to kv, the back-EMF with all "
+                f"viscous friction: {self.values['kv']:g} V·s/rad."
+            )
 
     def value(self, name: str) -> float:
         """The parameter's value, or the value that makes its effect vanish if this motor does not have it."""
@@ -68,6 +92,8 @@ class Parameters:
         vector = neutral(self.max_voltage)
         for name, value in self.values.items():
             vector[INDEX[name]] = value
+        for spec in ELECTRICAL:
+            vector[INDEX[spec.name]] = getattr(self, spec.name, spec.off)
         return vector
 
     @property
@@ -84,8 +110,8 @@ class Parameters:
 def neutral(max_voltage: float, coarseness: float = 1.0) -> NDArray[np.float64]:
     """A vector with every effect off; kv and ka are yet to be set. Shape (P,)."""
     vector = np.empty(len(VECTOR_NAMES))
-    for name, spec in SPEC_BY_NAME.items():
-        vector[INDEX[name]] = spec.off
+    for spec in (*SPECS, *ELECTRICAL):
+        vector[INDEX[spec.name]] = spec.off
     vector[INDEX[MAX_VOLTAGE]], vector[INDEX[COARSENESS]] = max_voltage, coarseness
     return vector
 

@@ -1,6 +1,6 @@
 """Roll-outs: where a motor is at given times under a recorded command, for one motor."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf
 
 import numpy as np
@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from motor_model.compiled import compiled
 from motor_model.dynamics.bridge import effective_voltage
+from motor_model.dynamics.current import current_at
 from motor_model.dynamics.linear import Coefficients, relaxed
 from motor_model.dynamics.motor import advance, is_straight, straight
 from motor_model.dynamics.state import State, at_rest, turning
@@ -26,7 +27,14 @@ NOWHERE: Floats = np.empty(0)  # no measured angles
 @compiled
 def _approach(c: Coefficients) -> tuple[float, float]:
     """dω/dt = push − rate·ω of a linear motor without inductance: push [rad/s²] and rate [1/s]."""
-    return (c.source - c.torque) / c.inertia, c.back_emf / c.inertia
+    return (c.source - c.torque) / c.inertia, (c.back_emf + c.slope) / c.inertia
+
+
+@compiled
+def _put_current(p: Floats, acted: float, s: State, t: float, current: Floats, k: int) -> None:
+    """Put the current [A] at time t [s] in its place, if it is wanted; acted: the command [V] that brought s there."""
+    if len(current) > 0:
+        current[k] = current_at(p, effective_voltage(p, acted), s, t)
 
 
 @compiled
@@ -40,12 +48,29 @@ def roll_out(
     angle: Floats,
     speed: Floats,
 ) -> None:
-    """Fill angle [rad] and speed [rad/s] of one motor at out_time [s].
+    """Fill angle [rad] and speed [rad/s] of one motor at out_time [s]; see `roll_out_with_current`."""
+    roll_out_with_current(p, start_speed, command_time, command, out_time, anchor, angle, speed, np.empty(0))
+
+
+@compiled
+def roll_out_with_current(
+    p: Floats,
+    start_speed: float,
+    command_time: Floats,
+    command: Floats,
+    out_time: Floats,
+    anchor: Floats,
+    angle: Floats,
+    speed: Floats,
+    current: Floats,
+) -> None:
+    """Fill angle [rad], speed [rad/s] and current [A] (where that is not empty) of one motor at out_time [s].
 
     p: parameter vector. command[i] [V] holds from command_time[i] + delay on. Before the first one a standing motor had
     0 V, a turning one that command (its current has settled). out_time is ascending. The motion starts at out_time[0]
     with start_speed [rad/s] at angle 0. What repeats with the angle takes it from `anchor` [rad], the angle that the
     encoder showed at out_time, where that is not empty: a simulated angle drifts, and its phase would be lost.
+    Where the command changes at the very out_time, the current is that just before.
     """
     delay = p[DELAY]
     switches = len(command_time)
@@ -53,9 +78,11 @@ def roll_out(
     angle[0], speed[0] = 0.0, start_speed
     j = np.searchsorted(command_time, t - delay, side="right") - 1
     u = command[max(j, 0)] if j >= 0 or start_speed != 0.0 else 0.0
+    acted = u if start_speed != 0.0 else 0.0
     s = at_rest(0.0)
     if start_speed != 0.0:
         s = turning(p, start_speed, effective_voltage(p, u))
+    _put_current(p, acted, s, t, current, 0)
     switch = command_time[j + 1] + delay if j + 1 < switches else inf
     quick = is_straight(p)  # then the equation of a whole hold is prepared once, for either direction
     ahead_push, ahead_rate = _approach(straight(p, effective_voltage(p, u), 1.0))
@@ -74,7 +101,7 @@ def roll_out(
                     s = State(s.angle + travel, then, s.drive, s.play, 1.0 if ahead else -1.0, s.turned)
                 else:
                     s = advance(p, u, s, t, stop - t)
-                t = stop
+                t, acted = stop, u
             if switch > until:
                 break
             j += 1
@@ -84,17 +111,19 @@ def roll_out(
                 ahead_push, ahead_rate = _approach(straight(p, effective_voltage(p, u), 1.0))
                 back_push, back_rate = _approach(straight(p, effective_voltage(p, u), -1.0))
         angle[k], speed[k] = s.angle, s.speed
+        _put_current(p, acted, s, t, current, k)
         if len(anchor) > 0:
             s = State(s.angle, s.speed, s.drive, s.play, s.direction, shaft_angle_at(p, anchor[k]) - s.angle)
 
 
 @dataclass(frozen=True)
 class Trajectory:
-    """A motor's motion at the times it was asked for; arrays of shape (K,)."""
+    """A motor's motion at the times it was asked for; arrays of shape (K,), `current` also empty."""
 
     time: Floats  # [s]
     angle: Floats  # [rad] travelled since time[0]
     speed: Floats  # [rad/s]
+    current: Floats = field(default_factory=lambda: np.empty(0))  # [A] of a motor whose resistance is known
 
 
 def simulate(
@@ -110,5 +139,7 @@ def simulate(
     if not len(command_time) == len(command) > 0 or len(out_time) == 0:
         raise ModelError("a simulation needs at least one command, a time for each, and at least one time to report.")
     angle, speed = np.empty(len(out_time)), np.empty(len(out_time))
-    roll_out(parameters.vector(), start_speed, command_time, command, out_time, NOWHERE, angle, speed)
-    return Trajectory(out_time, angle, speed)
+    current = np.empty(len(out_time) if parameters.resistance > 0.0 else 0)
+    where = (start_speed, command_time, command, out_time, NOWHERE)
+    roll_out_with_current(parameters.vector(), *where, angle, speed, current)
+    return Trajectory(out_time, angle, speed, current)

@@ -28,6 +28,24 @@ PARAMETERS = (
         0.2,
         read_only=True,
     ),
+    Row(
+        "resistance",
+        0.0,
+        "of the cold armature; with it motor/speed has a current; 0: the model file's, or none",
+        "Ω",
+        0.0,
+        1000.0,
+        read_only=True,
+    ),
+    Row(
+        "torque_constant",
+        0.0,
+        "also the back-EMF constant: the rest of kv is viscous friction; 0: the model file's, or all of kv",
+        "N·m/A",
+        0.0,
+        100.0,
+        read_only=True,
+    ),
     Row("seed", 0, "of the disc, its starting angle and missed edges", "", 0, 2**31 - 1, read_only=True),
 )
 PROGRAM = Program(
@@ -56,7 +74,8 @@ class MotorSim(Node):
         model = load(str(values["model"])) if values["model"] else paper_motor()
         limit = declare(self, (max_voltage_row(model.max_voltage),))["max_voltage"]
         limit, supply = float(limit), float(values["supply_voltage"]) or float(limit)
-        model = replace(model, max_voltage=supply)
+        known = {name: float(values[name]) for name in ("resistance", "torque_constant") if values[name]}
+        model = replace(model, max_voltage=supply, **known)
         fields = ("name", "sample_rate", "edges_per_revolution", "single_channel")
         fields += ("edge_resolution", "slot_irregularity", "seed")
         config = BoardConfig(**{field: values[field] for field in fields})  # type: ignore[arg-type]

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from motor_identification.cli._mapping_options import add_mapping_options, make_source
+from motor_identification.cli._physical_options import add_physical_options, read_physical
 from motor_identification.estimation.request import Request, SearchConfig
 from motor_model.effects import EFFECT_BY_NAME, EFFECTS
 from motor_model.errors import MotorError
@@ -51,6 +52,7 @@ def parser() -> argparse.ArgumentParser:
         metavar="N",
         help="of the swarm (default %(default)s)",
     )
+    add_physical_options(parser)
     parser.add_argument("--output", metavar="FILE", help="write the model here (YAML)")
     parser.add_argument("--json", metavar="FILE", help="write everything that was found here")
     parser.add_argument(
@@ -81,7 +83,7 @@ def _identify(options: argparse.Namespace) -> int:
     report = [os.path.join(options.report, name) for name in REPORT_FILES] if options.report else []
     check_outputs(filter(None, (options.output, options.json, *report)), options.force, options.report)
     search = SearchConfig(options.particles, options.epochs, options.seed)
-    request = Request(effects, search, os.cpu_count() or 1)
+    request = Request(effects, search, os.cpu_count() or 1, read_physical(options))
     job = Job(make_source(options), request)
     print(announce_effort(effects), end="", file=sys.stderr)
     with tqdm(total=100, desc="search", delay=2.0, disable=None, bar_format="{desc} {bar} {percentage:3.0f} %") as bar:
@@ -107,6 +109,7 @@ def _present(options: argparse.Namespace, fit: "Fit") -> int:
     from motor_identification.reporting.fit_model_file import save_model
     from motor_identification.reporting.fit_text import describe_residual, format_fit, list_cautions
     from motor_identification.reporting.json_values import write_json
+    from motor_identification.reporting.physical_text import format_physical, list_physical_notes
 
     created = datetime.now(timezone.utc).isoformat(timespec="seconds")
     written, troubles = [], []
@@ -124,7 +127,10 @@ def _present(options: argparse.Namespace, fit: "Fit") -> int:
             troubles.append(str(error))
     print(format_fit(fit))
     print(f"\n{describe_residual(fit)}; {fit.evaluations} simulations in {fit.duration:.2f} s")
-    for line in (*list_cautions(fit), *written):
+    if fit.physical is not None:
+        print(f"\n{format_physical(fit.physical)}\n")
+    limits = list_physical_notes(fit.physical) if fit.physical is not None else ()
+    for line in (*list_cautions(fit), *limits, *written):
         print(line)
     if troubles:
         raise MotorError(" ".join(troubles))

@@ -1,6 +1,7 @@
 """A request: which effects to fit, how hard to search, on how many cores; the only home of a search's defaults."""
 
 from dataclasses import dataclass
+from math import inf
 
 from motor_model.errors import MotorError
 
@@ -28,9 +29,30 @@ class SearchConfig:
 
 
 @dataclass(frozen=True)
+class PhysicalRequest:
+    """What to make physics of: a measured current, or (above 0) a resistance and perhaps a torque constant.
+
+    Raises:
+        MotorError: a number that no motor has.
+    """
+
+    resistance: float = 0.0  # [Ω] 0: from the current
+    resistance_error: float = 0.0  # [Ω] standard error
+    torque_constant: float = 0.0  # [N·m/A] 0: unknown
+
+    def __post_init__(self) -> None:
+        numbers = (self.resistance, self.resistance_error, self.torque_constant)
+        if not all(0.0 <= number < inf for number in numbers) or (self.resistance == 0.0 and any(numbers)):
+            raise MotorError(
+                "a resistance and a torque constant are positive numbers, and the constant needs the resistance."
+            )
+
+
+@dataclass(frozen=True)
 class Request:
     """What to fit beyond kv and ka (of a diagnosis: what is known), how hard to search, and on how many cores."""
 
     effects: tuple[str, ...] = ()
     search: SearchConfig = SearchConfig()
     workers: int = 1
+    physical: PhysicalRequest | None = None  # None: armature voltages only

@@ -140,6 +140,13 @@ class FilteredResiduals(Generic[F]):
 
 
 @dataclass(frozen=True)
+class Beside:
+    """White residuals of one recording that are no intervals of motion: a row for each time [s], shape (K,)."""
+
+    time: Floats
+
+
+@dataclass(frozen=True)
 class WhitenedResiduals(FilteredResiduals[Encoder]):
     """Residuals whitened by what is known of every recording's encoder, and their statistics."""
 
@@ -147,6 +154,11 @@ class WhitenedResiduals(FilteredResiduals[Encoder]):
     def encoders(self) -> tuple[Encoder, ...]:
         """Every recording's encoder."""
         return self.filters
+
+    @property
+    def beside(self) -> tuple[Beside, ...]:
+        """What was measured beside the motion; its rows come after all others, recording by recording."""
+        return ()
 
     @property
     def noise_floor(self) -> float:

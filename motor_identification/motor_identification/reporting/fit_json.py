@@ -5,6 +5,8 @@ from typing import Any
 from motor_identification.reporting.fit_text import summarize_fit
 from motor_identification.reporting.json_values import to_model, to_number
 from motor_identification.uncertainty.result import Fit
+from motor_model.physical.quantities import PHYSICAL_BY_NAME
+from motor_model.physical.result import PhysicalResult
 
 
 def fit_to_json(fit: Fit) -> dict[str, Any]:
@@ -42,5 +44,25 @@ def fit_to_json(fit: Fit) -> dict[str, Any]:
             "agreeing": fit.search.agreeing,
             "agreed": fit.search.agreed,
         },
+        "physical": _to_physical(fit.physical),
         "message": summarize_fit(fit),
+    }
+
+
+def _to_physical(result: PhysicalResult | None) -> dict[str, Any] | None:
+    if result is None:
+        return None
+    return {
+        "source": result.source,
+        "parameters": {
+            name: {
+                "value": to_number(value),
+                "standard_error": to_number(result.standard_errors[name]),
+                "unit": PHYSICAL_BY_NAME[name].unit,
+            }
+            for name, value in result.values.items()
+        },
+        "not_identifiable": list(result.not_identifiable),
+        "current_noise": [to_number(noise) for noise in result.current_noise],
+        "notes": list(result.notes),
     }

@@ -21,4 +21,6 @@ def save_model(path: str | Path, fit: Fit, created: str) -> None:
         "not_identifiable": list(fit.not_identifiable),
     }
     errors = {name: error for name, error in fit.standard_errors.items() if isfinite(error)}
-    save(path, fit.parameters, errors, origin)
+    found = fit.physical.standard_errors if fit.physical else {}
+    physical_errors = {name: error for name, error in found.items() if isfinite(error)}
+    save(path, fit.parameters, errors, origin, physical_errors)

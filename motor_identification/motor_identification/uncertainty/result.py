@@ -17,6 +17,7 @@ from motor_identification.uncertainty.whiteness import Whiteness
 from motor_model.effect import ParameterSpec
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 from motor_model.parameters import Parameters
+from motor_model.physical.result import PhysicalResult
 
 ON_BOUND = 1e-4  # of the box: how near its edge a parameter counts as on it
 NO_VARIANCE = 1e-18  # of the largest speed squared: a measured speed that does not vary, but for rounding
@@ -45,6 +46,7 @@ class Fit:
     duration: float  # [s]
     uris: tuple[str, ...]
     notes: tuple[str, ...]
+    physical: PhysicalResult | None = None  # where a current was measured, or the resistance is known
 
 
 def summarise_fit(
@@ -118,8 +120,8 @@ def find_bounds_hit(estimate: Estimate) -> dict[str, bool]:
 
 def _is_a_wall(name: str, at_low: bool) -> bool:
     """A parameter at the value where its effect vanishes is an answer, not the edge of the search."""
-    spec = SPEC_BY_NAME[name]
-    return not (at_low and spec.low == spec.off)
+    spec = SPEC_BY_NAME.get(name)
+    return spec is None or not (at_low and spec.low == spec.off)
 
 
 def _suggest_experiment(not_identifiable: tuple[str, ...], alike: dict[str, tuple[str, ...]]) -> str:

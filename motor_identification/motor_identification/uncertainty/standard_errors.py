@@ -65,11 +65,18 @@ def estimate_uncertainty(fit: WhitenedFit, jacobian: Floats) -> Uncertainty:
     if not whiteness.p_value >= LEAST_WHITE_P_VALUE and len(white) >= JACKKNIFE_BLOCKS[0] * LEAST_BLOCK_ROWS:
         covariance, errors = _blocked(fit, scaled, white, root)
     alone = measure_independence(scaled)
-    unsure = (alone < COLLINEAR_SINE) | (errors > MOST_RELATIVE_ERROR) | ~mark_visible(fit.estimate, scale)
+    visible = mark_visible(fit.estimate, scale) | _mark_visible_beside(fit, scaled)
+    unsure = (alone < COLLINEAR_SINE) | (errors > MOST_RELATIVE_ERROR) | ~visible
     names = tuple(name for name, bad in zip(fit.problem.unknowns.names, unsure, strict=False) if bad)
     sigma = np.where(unsure, np.nan, np.sqrt(np.diag(covariance)))
     correlations = np.clip(covariance / np.outer(sigma, sigma), -1.0, 1.0)
     return Uncertainty(np.where(unsure, np.nan, errors * scale), correlations, names, whiteness)
+
+
+def _mark_visible_beside(fit: WhitenedFit, columns: Floats) -> Bools:
+    """Which unknowns move what was measured beside the motion by more than its noise when they change by 100 %."""
+    rows = sum(len(further.time) for further in fit.residuals.beside)
+    return np.asarray(np.linalg.norm(columns[len(columns) - rows :], axis=0) > 1.0)
 
 
 def _root(columns: Floats) -> Floats:
@@ -145,14 +152,20 @@ def _series(fit: WhitenedFit, white: Floats) -> tuple[Series, ...]:
             )
         )
         row += intervals + table
+    for r, further in enumerate(fit.residuals.beside):
+        rows, first = white[row : row + len(further.time)], np.arange(len(further.time)) == 0
+        series.append(Series(rows, further.time, first, *fit.problem.commands[r], fit.problem.sample_period))
+        row += len(further.time)
     return tuple(series)
 
 
 def _block_of(fit: WhitenedFit, blocks: int) -> Integers:
     """Number of the block of equal time that each residual belongs to; −1 for those of the slot table."""
-    parts, begun = [], 0.0
-    for data, (_, table) in zip(fit.problem.intervals, _lengths(fit), strict=True):
+    parts, further, begun = [], [], 0.0
+    beside = fit.residuals.beside or (None,) * len(fit.problem.intervals)
+    for data, (_, table), more in zip(fit.problem.intervals, _lengths(fit), beside, strict=True):
         parts += [begun + 0.5 * (data.time[data.first] + data.time[data.last]), np.full(table, -1.0)]
+        further += [begun + np.minimum(more.time, data.time[-1])] if more is not None else []
         begun += float(data.time[-1])
-    middle = np.concatenate(parts)
+    middle = np.concatenate(parts + further)
     return np.where(middle < 0.0, -1, np.minimum(middle / begun * blocks, blocks - 1)).astype(np.int64)

@@ -17,7 +17,19 @@ STEP, STEP_TIME = INDEX["step_voltage"], INDEX["step_time"]
 COAST, SAG = INDEX["coast_share"], INDEX["sag"]
 RIPPLE, CYCLES, PHASE = INDEX["ripple_voltage"], INDEX["ripple_cycles"], INDEX["ripple_phase"]
 RISE, WARM_UP = INDEX["resistance_rise"], INDEX["warm_up_time"]
-U_MAX = INDEX["max_voltage"]
+U_MAX, CONSTANT = INDEX["max_voltage"], INDEX["torque_constant"]
+
+
+@compiled
+def back_emf_constant(p: Floats) -> float:
+    """Return ke [V·s/rad]: the torque constant, or all of kv where that is not known (0)."""
+    return p[CONSTANT] if p[CONSTANT] > 0.0 else p[KV]
+
+
+@compiled
+def viscous_part(p: Floats) -> float:
+    """Return what kv holds of viscous friction [V·s/rad]."""
+    return p[KV] - back_emf_constant(p)
 
 
 @compiled
@@ -50,7 +62,7 @@ def load_slope_at(p: Floats, angle: float) -> float:
 @compiled
 def friction_at(p: Floats, speed: float, direction: float) -> float:
     """Friction at a speed [rad/s], in V; the direction decides at rest."""
-    friction = direction * p[KS]
+    friction = direction * p[KS] + viscous_part(p) * speed
     if p[BREAKAWAY] > p[KS]:
         x = speed / p[STRIBECK]
         friction += direction * (p[BREAKAWAY] - p[KS]) * exp(-x * x)
@@ -60,7 +72,7 @@ def friction_at(p: Floats, speed: float, direction: float) -> float:
 @compiled
 def friction_slope_at(p: Floats, speed: float) -> float:
     """The slope of friction over the speed, in V·s/rad."""
-    slope = 2.0 * p[DRAG] * abs(speed)
+    slope = viscous_part(p) + 2.0 * p[DRAG] * abs(speed)
     if p[BREAKAWAY] > p[KS]:
         x = abs(speed) / p[STRIBECK]
         slope -= (p[BREAKAWAY] - p[KS]) * exp(-x * x) * 2.0 * x / p[STRIBECK]
@@ -81,7 +93,7 @@ def is_bent(p: Floats) -> bool:
 
 @compiled
 def drive_of(p: Floats, u: float) -> tuple[float, float]:
-    """The drive's constant part and the back-EMF per speed, for an effective voltage u."""
+    """The drive's constant part and the back-EMF per speed, for an effective voltage u; the drive is R·current."""
     share = u / p[U_MAX]
     sag = 1.0 + p[SAG] * share * share
-    return u / sag, p[KV] * (1.0 - p[COAST] * (1.0 - abs(share))) / sag
+    return u / sag, back_emf_constant(p) * (1.0 - p[COAST] * (1.0 - abs(share))) / sag

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_model.compiled import compiled
-from motor_model.dynamics.forces import drive_of, friction_at
+from motor_model.dynamics.forces import back_emf_constant, drive_of, friction_at
 from motor_model.effects import INDEX
 
-KV, KA, BIAS, U_MAX = INDEX["kv"], INDEX["ka"], INDEX["bias_voltage"], INDEX["max_voltage"]
+KA, BIAS, U_MAX = INDEX["ka"], INDEX["bias_voltage"], INDEX["max_voltage"]
 DEAD_ZONE, REVERSE_GAIN = INDEX["dead_zone_voltage"], INDEX["reverse_gain"]
 
 Floats = NDArray[np.float64]
@@ -31,7 +31,7 @@ def needed_command(p: Floats, speed: float, acceleration: float, load: float, di
     """
     torque = friction_at(p, speed, direction) + p[BIAS] + load + p[KA] * acceleration
     low, high = -p[U_MAX], p[U_MAX]
-    u = torque + p[KV] * speed  # the answer where neither bends it
+    u = torque + back_emf_constant(p) * speed  # the answer where neither bends it
     if _excess(p, u, speed, torque) != 0.0 or abs(u) > high:
         for _ in range(50):
             u = 0.5 * (low + high)

@@ -3,11 +3,13 @@
 In armature voltages throughout (symbols and parameters: `effects.py`; gain = 1/kv, time constant = ka/kv):
 
     ka·w dω/dt = v − w·friction(ω) − w·loads(θ, t),   dθ/dt = ω
-    drive      = (u_eff − kv·ω·(1 − share·(1 − |u_eff|/u_max))) / (1 + sag·(u_eff/u_max)²)
+    drive      = (u_eff − ke·ω·(1 − share·(1 − |u_eff|/u_max))) / (1 + sag·(u_eff/u_max)²)
     τ dv/dt    = drive − v                            (v = drive where the armature has no inductance)
-    friction   = sign ω·(ks + max(breakaway − ks, 0)·exp(−(ω/ω_s)²)) + drag·ω·|ω|
+    friction   = sign ω·(ks + max(breakaway − ks, 0)·exp(−(ω/ω_s)²)) + (kv − ke)·ω + drag·ω·|ω|
     loads      = bias + step(t) + ripple·sin(cycles·θ + phase)
     w          = 1 + rise·(1 − e^(−t/t_w))            (warm copper)
+
+ke is kv less its viscous part: back-EMF alone. Without a measured current the two are one (ke = kv). v is w·R·current.
 
 At rest the motor holds while |v − w·loads| ≤ w·max(ks, breakaway). After a reversal the inertia is ka·(1 − load
 fraction) until the play is taken up; the speed has no jump there. u_eff is the command after delay, limit, dead zone
@@ -62,7 +64,8 @@ def is_straight(p: Floats) -> bool:
 def straight(p: Floats, u: float, direction: float) -> Coefficients:
     """The linear equation of a motor for which `is_straight` holds, at an effective voltage u [V]."""
     source, back_emf = drive_of(p, u)
-    return Coefficients(p[KA], friction_at(p, 0.0, direction) + loads_at(p, 0.0, 0.0), 0.0, source, back_emf, 0.0)
+    torque = friction_at(p, 0.0, direction) + loads_at(p, 0.0, 0.0)
+    return Coefficients(p[KA], torque, friction_slope_at(p, 0.0), source, back_emf, 0.0)
 
 
 @compiled

@@ -17,7 +17,7 @@ class State(NamedTuple):
 
     angle: float  # [rad] shaft angle θ
     speed: float  # [rad/s] ω
-    drive: float  # [V] v, where the armature has inductance
+    drive: float  # [V] v, where the armature has inductance; see `current.py` for the current
     play: float  # [rad] travel left until the load is taken along again
     direction: float  # −1, 0, +1: of the latest motion
     turned: float  # [rad] added to θ in the ripple's argument (an angle taken from measured edges)

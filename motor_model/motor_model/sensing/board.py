@@ -2,15 +2,17 @@
 
 from collections import deque
 from dataclasses import dataclass
-from math import tau
+from math import nan, tau
 
 import numpy as np
 
 from motor_model.dynamics.bridge import effective_voltage
+from motor_model.dynamics.current import current_at
 from motor_model.dynamics.state import State, at_rest
 from motor_model.effects import INDEX
 from motor_model.parameters import Parameters
 from motor_model.sample import Info, Measurement, Sample
+from motor_model.sensing.current_sense import make_current_sense
 from motor_model.sensing.encoder import make_disc, turn
 from motor_model.sensing.speed_rule import SpeedState, revolution_share, single_channel_speed, speed_magnitude
 
@@ -59,6 +61,8 @@ class SimulatedBoard:
         self._offset = drawn if config.start_angle is None else config.start_angle
         self._slot = revolution_share(config.edges_per_revolution)
         self._state: State = at_rest(0.0)
+        self._acting = 0.0  # [V] the effective voltage that brought the motor here
+        self._current_sense = make_current_sense(parameters, config.seed)
         self._samples = 0
         self._commands: deque[tuple[float, float]] = deque([(-np.inf, 0.0)])  # [s], [V], as latched
         self._edge_count, self._edge_time, self._edge_period = 0, 0, 0.0
@@ -76,6 +80,14 @@ class SimulatedBoard:
         """[rad] the true shaft angle since power-up."""
         return float(self._state.angle)
 
+    @property
+    def current(self) -> float:
+        """[A] the true current, which no sensor reports; NaN where the motor's resistance is unknown."""
+        if self._p[INDEX["resistance"]] == 0.0:
+            return nan
+        t = max(self._samples - 1, 0) / self._config.sample_rate
+        return float(current_at(self._p, self._acting, self._state, t))
+
     def sample(self, command: float) -> Sample:
         """Move on to the next sample, latch the command [V] there, and report."""
         if self._samples > 0:
@@ -85,6 +97,7 @@ class SimulatedBoard:
         now = POWER_UP + round(self._samples * 1e9 / self._config.sample_rate)
         if voltage != self._commands[-1][1]:
             self._commands.append((self._samples / self._config.sample_rate, voltage))
+        current = self.current
         self._samples += 1
         return Sample(
             sample_time=now,
@@ -93,6 +106,7 @@ class SimulatedBoard:
             edge_count=self._edge_count,
             edge_time=self._edge_time,
             edge_period=self._edge_period,
+            current=self._current_sense.read(current) if self._current_sense is not None else nan,
         )
 
     def _move(self, start: float, end: float) -> None:
@@ -109,7 +123,7 @@ class SimulatedBoard:
                 t = stop
 
     def _turn(self, command: float, t: float, dt: float) -> None:
-        u = effective_voltage(self._p, command)
+        u = self._acting = effective_voltage(self._p, command)
         disc = self._disc
         self._state, count = turn(
             *(self._p, u, self._state, t, dt, disc.forward, disc.backward, self._offset),

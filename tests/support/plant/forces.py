@@ -12,6 +12,8 @@ room, these are the readings taken:
   whole sagged drive; at rest it is the lagged drive that has to overcome friction.
 - Warm-up multiplies ka, all friction (drag too) and all loads (bias, step, ripple, spring) by the same factor; kv does
   not grow. It starts cold at the recording's start. What holds at rest grows with it.
+- With a torque constant, back-EMF is that alone, and what kv has beyond it is viscous friction: a torque, which no
+  lag delays, no coasting bridge spares, and warm copper makes dear. The current is (lagged) drive over warm resistance.
 - The Stribeck term is (breakaway − ks)·exp(−(ω/ω_s)²) on top of ks, so friction at ω = 0 is the breakaway voltage.
 - Ripple takes θ from the recording's start. The load step is there from step_time on, counted from the same instant.
 """
@@ -38,10 +40,16 @@ def bridge(v: float, t: float, p: Any) -> float:
 
 
 @njit(cache=True)
+def back_emf_constant(p: Any) -> float:
+    """[V*s/rad] what the winding itself makes of speed."""
+    return p.torque_constant if p.torque_constant > 0.0 else p.kv
+
+
+@njit(cache=True)
 def drive(u: float, speed: float, p: Any) -> float:
     """Drive [V] before the lag: effective voltage less back-EMF, shared with a sagging supply."""
     duty = abs(u) / p.max_voltage
-    back_emf = p.kv * speed * (1.0 - p.coast_share * (1.0 - duty))
+    back_emf = back_emf_constant(p) * speed * (1.0 - p.coast_share * (1.0 - duty))
     pull = (u - back_emf) / (1.0 + p.sag * duty * duty)
     return min(max(pull, -p.current_limit_voltage), p.current_limit_voltage)
 
@@ -120,7 +128,7 @@ def rates(y: State, t: float, v: float, outer: float, way: float, share: float, 
         bristle_rate = (speed - abs(speed) * bristle) / p.presliding_angle
     acceleration = 0.0
     if way != 0.0:
-        resisting = load + dry * grip + p.drag * speed * abs(speed)
+        resisting = load + dry * grip + (p.kv - back_emf_constant(p)) * speed + p.drag * speed * abs(speed)
         if p.speed_wave != 0.0:
             resisting += p.speed_wave * sin(speed / p.speed_wave_scale)
         acceleration = (pull / warm - resisting) / (p.ka * share)

@@ -39,6 +39,7 @@ class Motion:
     time: Floats  # [s] since the start, not decreasing: a take-up is two nodes at one time
     angle: Floats  # [rad] since the start
     speed: Floats  # [rad/s]
+    lagged: Floats  # [V] resistance times current, where the armature has inductance
     at: NDArray[np.int64]  # (K,) the node that belongs to each of the times asked for
 
 
@@ -60,7 +61,7 @@ def move(
     stepped = middles - start > p["step_time"]
     nodes, at_bounds = _run(p, bounds, commands, stepped, random_torque(p, bounds[-1]), step, start_speed)
     at = at_bounds[np.searchsorted(bounds, times - start)]
-    return Motion(nodes[:, 0], nodes[:, 1], nodes[:, 2], at)
+    return Motion(nodes[:, 0], nodes[:, 1], nodes[:, 2], nodes[:, 3], at)
 
 
 def random_torque(p: Any, duration: float) -> Floats:
@@ -179,7 +180,7 @@ def _advance(
 def _put(nodes: Floats, count: int, t: float, y: State) -> tuple[Floats, int]:
     if count == len(nodes):
         nodes = np.concatenate((nodes, np.empty_like(nodes)))
-    nodes[count, 0], nodes[count, 1], nodes[count, 2] = t, y[0], y[1]
+    nodes[count, 0], nodes[count, 1], nodes[count, 2], nodes[count, 3] = t, y[0], y[1], y[2]
     return nodes, count + 1
 
 
@@ -193,10 +194,10 @@ def _run(
     step: float,
     start_speed: float,
 ) -> tuple[Floats, NDArray[np.int64]]:
-    """Nodes (time, angle, speed), shape (M, 3), and the number of the node at each bound."""
+    """Nodes (time, angle, speed, lagged drive), shape (M, 4), and the number of the node at each bound."""
     y = (0.0, start_speed, drive(bridge(0.0, 0.0, p), start_speed, p), np.sign(start_speed), 0.0, start_speed)
     mode = (np.sign(start_speed), 2.0 if start_speed == 0.0 else np.sign(start_speed), 0.0, 0.0)
-    nodes, count = _put(np.empty((1 << 14, 3)), 0, bounds[0], y)
+    nodes, count = _put(np.empty((1 << 14, 4)), 0, bounds[0], y)
     at = np.zeros(len(bounds), dtype=np.int64)
     v = 0.0
     for k in range(len(bounds) - 1):

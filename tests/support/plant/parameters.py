@@ -68,7 +68,13 @@ DISTURBANCE: dict[str, float] = {
     "random_torque_seed": 0.0,
 }
 
-_DEFAULTS = TABLE | BEYOND_THE_TABLE | DISTURBANCE
+# What a current sensor sees of the motor; with a resistance the board measures a current.
+ELECTRIC: dict[str, float] = {
+    "resistance": 0.0,  # [ohm] of the cold armature; 0: no current is measured
+    "torque_constant": 0.0,  # [V*s/rad] back-EMF alone, the rest of kv is viscous friction; 0: all of kv
+}
+
+_DEFAULTS = TABLE | BEYOND_THE_TABLE | DISTURBANCE | ELECTRIC
 # Numba's cache looks at the file of a function only, not at the files of what it calls: an edited forces.py would
 # leave the old forces in motor.py's cache. A field named after its contents gives every version a type of its own.
 _VERSION = f"forces_{crc32(Path(__file__).with_name('forces.py').read_bytes()):08x}"
@@ -88,6 +94,7 @@ _RANGES = {
         *("kv", "ka", "ks", "breakaway_voltage", "stribeck_speed", "drag", "dead_zone_voltage", "limit_voltage"),
         *("reverse_gain", "sag", "electrical_time_constant", "delay", "backlash_angle", "warm_up_time"),
         *("angle_friction", "presliding_angle", "compliance_stiffness", "compliance_damping", "slew_rate"),
+        *("resistance", "torque_constant"),
         *("current_limit_voltage", "random_torque", "random_torque_time", "random_torque_seed"),
     ),
     (0.0, inf),

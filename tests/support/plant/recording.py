@@ -9,6 +9,7 @@ from motor_identification.recording import Recording
 from motor_model.errors import ModelError
 from motor_model.sample import Info
 
+from .ammeter import Ammeter
 from .board import Report, report
 from .encoder import Disc, Edges, edges_of, missed, with_returns
 from .motor import Motion, move
@@ -61,6 +62,7 @@ def record(
     start_time: int = 1_000_000_000,
     step: float = RECORDED_STEP,
     name: str = "plant",
+    ammeter: Ammeter = Ammeter(),  # noqa: B008
 ) -> tuple[Recording, Truth]:
     """Run the plant and record it.
 
@@ -83,6 +85,7 @@ def record(
         start_time: [ns] on the board's clock at the first sample.
         step: [s] the longest step of the simulation.
         name: uri of the recording.
+        ammeter: reads the current, where the motor has a resistance.
 
     Raises:
         ModelError: parameters or commands that describe no run.
@@ -119,7 +122,8 @@ def record(
         sample_period=period * 1e-9,
         max_voltage=float(p["max_voltage"]),
     )
-    recording = _recording(name, info, samples + start_time, latched, board)
+    current = ammeter.read(p, sample_times, latched, motion, np.random.default_rng([seed, 1]))
+    recording = _recording(name, info, samples + start_time, latched, board, current)
     return recording, _truth(parameters, sample_times, motion, counted, every.time[lost], board, start_angle, disc)
 
 
@@ -137,8 +141,9 @@ def _stamps(time: Floats, start: int, tick: float) -> Integers:
     return np.round(ticks * tick * 1e9).astype(np.int64)
 
 
-def _recording(uri: str, info: Info, sample_time: Integers, latched: Floats, board: Report) -> Recording:
-    unmeasured = np.full(len(sample_time), np.nan)
+def _recording(
+    uri: str, info: Info, sample_time: Integers, latched: Floats, board: Report, current: Floats
+) -> Recording:
     return Recording(
         uri=uri,
         info=info,
@@ -148,8 +153,8 @@ def _recording(uri: str, info: Info, sample_time: Integers, latched: Floats, boa
         edge_count=board.edge_count,
         edge_time=board.edge_time,
         edge_period=board.edge_period,
-        supply_voltage=unmeasured,
-        current=unmeasured.copy(),
+        supply_voltage=np.full(len(sample_time), np.nan),
+        current=current,
     )
 
 
