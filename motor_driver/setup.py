@@ -18,6 +18,7 @@ setup(
     entry_points={
         "console_scripts": [
             "motor_driver = motor_driver.node:main",
+            "check = motor_driver.cli.check:main",
         ],
     },
 )

@@ -28,6 +28,8 @@ class Config:
     decay: Decay = Decay.BRAKE
     baud: int = BAUD
     board_id: int | None = None  # None: any
+    reverse_motor: bool = False  # its two wires are exchanged
+    reverse_encoder: bool = False  # its two channels are exchanged
 
     @property
     def silence(self) -> float:

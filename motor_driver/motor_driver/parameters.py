@@ -23,6 +23,8 @@ ROWS = (
         any_kind=True,
     ),
     Row("baud", BAUD, "of the serial port; the firmware's", "", 9600, 4_000_000, read_only=True),
+    Row("reverse_motor", False, "true: makes up for exchanged wires of the motor", read_only=True),
+    Row("reverse_encoder", False, "true: makes up for exchanged channels of the encoder, A and B", read_only=True),
     Row("decay", "brake", "what the bridge does in the off part of a PWM period: brake or coast", read_only=True),
 )
 PROGRAM = Program(
@@ -54,6 +56,8 @@ def config_of(values: Mapping[str, Value]) -> Config:
         max_voltage=float(values["max_voltage"]),
         supply_voltage=float(values["supply_voltage"]),
         board_id=_board_id(str(values["board_id"]).strip()),
+        reverse_motor=bool(values["reverse_motor"]),
+        reverse_encoder=bool(values["reverse_encoder"]),
         stall_time=float(values["stall_time"]),
         command_timeout=float(values["command_timeout"]),
         decay=Decay[str(values["decay"]).upper()],

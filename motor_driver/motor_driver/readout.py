@@ -18,6 +18,8 @@ class Readout:
 
     def __init__(self, config: Config, board: Hello) -> None:
         self._config = config
+        self._motor = -1 if config.reverse_motor else 1
+        self._encoder = -1 if config.reverse_encoder and not config.single_channel else 1
         self._slot = revolution_share(config.edges_per_revolution)
         self.supply = config.full_voltage  # [V] at full duty
         self._measured = False
@@ -41,13 +43,13 @@ class Readout:
         if frame.edge_valid:
             self._edge_time = self.clock.before(frame.edge_time)
         self._follow_supply(frame.supply)
-        voltage = frame.duty / self._top * self.supply
+        voltage = self._motor * frame.duty / self._top * self.supply
         period = frame.edge_period * self._tick / 1e9
         return Sample(
             sample_time=now,
             speed=self._speed(frame, speed_magnitude(self._slot, now, self._edge_time, period), voltage, now),
             voltage=voltage,
-            edge_count=self._count,
+            edge_count=self._encoder * self._count,
             edge_time=self._edge_time,
             edge_period=period,
             supply_voltage=nan if frame.supply == NOT_MEASURED else frame.supply * 1e-3,
@@ -55,7 +57,7 @@ class Readout:
 
     def _speed(self, frame: Telemetry, magnitude: float, voltage: float, now: int) -> float:
         if not self._config.single_channel:
-            return -magnitude if frame.flags & Flag.REVERSE else magnitude
+            return self._encoder * (-magnitude if frame.flags & Flag.REVERSE else magnitude)
         speed, self._speed_state = single_channel_speed(self._speed_state, magnitude, voltage, now)
         return speed
 
@@ -70,4 +72,5 @@ class Readout:
         """What to command for a voltage [V]: no more than the motor's, and than the supply gives."""
         limit = min(self._config.max_voltage, self.supply)
         most = int(limit / self.supply * self._top)  # rounded down: half a step more is more than the motor's
-        return min(max(round(min(max(voltage, -limit), limit) / self.supply * self._top), -most), most)
+        duty = min(max(round(min(max(voltage, -limit), limit) / self.supply * self._top), -most), most)
+        return self._motor * duty

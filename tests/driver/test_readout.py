@@ -85,3 +85,15 @@ def test_no_duty_gives_the_motor_more_than_its_voltage(
     duty = board.duty(wanted)
     assert -256 <= duty <= 256 and (duty == 0 or (duty > 0) == (wanted > 0.0))
     assert abs(duty) / 256 * board.supply <= motor * (1.0 + 1e-12)
+
+
+def test_what_is_exchanged_is_made_up_for_in_software() -> None:
+    frame = replace(TELEMETRY, duty=64, edge_count=5, time=30_000, edge_time=29_900, edge_period=2_000)
+    frame = replace(frame, flags=Flag.EDGE_VALID)
+    motor = readout(Config(reverse_motor=True))
+    assert motor.duty(6.0) == -128 and heard(motor, frame).voltage == -3.0
+    encoder = readout(Config(reverse_encoder=True, single_channel=False))
+    sample = heard(encoder, frame)
+    assert sample.edge_count == -5 and sample.speed == pytest.approx(-tau / 96 / 0.001) and sample.voltage == 3.0
+    one = readout(Config(reverse_encoder=True))  # one channel has no direction to exchange
+    assert heard(one, frame).edge_count == 5

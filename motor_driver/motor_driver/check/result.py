@@ -1,0 +1,73 @@
+"""The result of a first run as JSON, and as the driver's parameter file."""
+
+import json
+from dataclasses import asdict
+from math import isfinite
+from typing import Any
+
+from motor_driver.check.check import Check
+from motor_driver.check.record import UNKNOWN
+from motor_driver.check.settings import Settings
+
+NODE = "/**/motor_driver"  # in any namespace
+
+
+def parameters_of(check: Check, name: str, port: str, decay: str) -> dict[str, bool | int | float | str]:
+    """The driver's parameters that this board and motor need."""
+    settings, board = check.settings, check.board
+    place = {"board_id": str(board.board_id)} if board.board_id else {"port": port}
+    cures = {key: value for found in check.record.findings for key, value in found.parameters.items()}
+    edges = settings.edges(board)
+    return {
+        "name": name,
+        **place,
+        **({"edges_per_revolution": edges} if edges else {}),
+        "single_channel": board.channels == 1,
+        "max_voltage": float(settings.max_voltage),
+        "supply_voltage": float(settings.supply),
+        "decay": decay,
+        **cures,
+    }
+
+
+def parameter_text(check: Check, name: str, port: str, decay: str) -> str:
+    """The parameter file, with what was measured as comments."""
+    lines = [
+        "# The driver's parameters, by `ros2 run motor_driver check`. To use them:",
+        "#   ros2 run motor_driver motor_driver --ros-args --params-file THIS_FILE",
+        *(f"# {row.step}: {row.text}" for row in check.record.rows),
+        f"{NODE}:",
+        "  ros__parameters:",
+    ]
+    values = parameters_of(check, name, port, decay)
+    return "\n".join([*lines, *(f"    {key}: {json.dumps(value)}" for key, value in values.items())]) + "\n"
+
+
+def as_json(check: Check, name: str, port: str, decay: str) -> dict[str, Any]:
+    """The whole result; null where there is no number."""
+    record, board = check.record, check.board
+    measured = {key: value if isfinite(value) else None for key, value in asdict(record.measured).items()}
+    return {
+        "right": check.right,
+        "board": {
+            "port": port,
+            "board_id": board.board_id,
+            "firmware": f"{board.firmware_major}.{board.firmware_minor}.{board.firmware_patch}",
+            "channels": board.channels,
+            "edges_per_revolution": board.edges_per_revolution or None,
+        },
+        "findings": [
+            {"code": found.code, "sentence": found.sentence, "cure": found.cure, "parameters": found.parameters}
+            for found in record.findings
+        ],
+        "not_known": [{"step": row.step, "text": row.text} for row in record.rows if row.mark == UNKNOWN],
+        "measured": measured,
+        "parameters": parameters_of(check, name, port, decay) if check.right else None,
+    }
+
+
+def refused_json(settings: Settings, port: str, code: str, sentence: str) -> dict[str, Any]:
+    """The result where no board could be checked."""
+    found = {"code": code, "sentence": sentence, "cure": "", "parameters": {}}
+    board = {"port": port, "board_id": settings.board_id}
+    return {"right": False, "board": board, "findings": [found], "not_known": [], "measured": {}, "parameters": None}

@@ -1,0 +1,74 @@
+"""What a person says of motor, supply and encoder before the first run, and how far the run may go."""
+
+from dataclasses import dataclass, replace
+
+from motor_driver.config import Config
+from motor_driver.frames import Hello
+
+HIGHEST = 0.5  # of the motor's voltage: turns any motor that is meant for it, with half of its stall current at most
+RAMP_TIME = 4.0  # [s] from 0 to the highest voltage
+HOLD_TIME = 2.0  # [s] on one voltage at most
+DRIVE_TIME = RAMP_TIME + HOLD_TIME  # [s] with voltage on at a stretch at most
+
+
+@dataclass(frozen=True)
+class Settings:
+    """The run's settings; None where a person does not know."""
+
+    max_voltage: float = 12.0  # [V] of the motor
+    supply_voltage: float = 0.0  # [V] expected; 0: as max_voltage
+    edges_per_revolution: int | None = None  # None: as the board was flashed
+    single_channel: bool | None = None  # None: as the board was flashed
+    board_id: int | None = None  # None: any
+    hand: bool = True  # somebody is there to turn the shaft, and to say what it does
+    turns: int = 1  # by hand
+    hand_time: float = 30.0  # [s] that a person may take for an answer
+
+    @property
+    def supply(self) -> float:
+        """[V] expected at full duty."""
+        return self.supply_voltage or self.max_voltage
+
+    @property
+    def highest(self) -> float:
+        """[V] that the motor gets at most in this run."""
+        return HIGHEST * self.max_voltage
+
+    def edges(self, board: Hello) -> int | None:
+        """Edges of one polarity per turn, as far as somebody has said so."""
+        return self.edges_per_revolution or board.edges_per_revolution or None
+
+
+@dataclass(frozen=True, slots=True)
+class AnyBoard(Config):
+    """The driver's configuration for a board of which little is known: what nobody has said is taken from it."""
+
+    known_edges: bool = False
+    known_channels: bool = False
+
+    def refusal(self, board: Hello) -> str:
+        """Why this board is not the one that was meant; empty if it may be."""
+        own = replace(
+            self,
+            edges_per_revolution=self.edges_per_revolution if self.known_edges else board.edges_per_revolution or 1,
+            single_channel=self.single_channel if self.known_channels else board.channels == 1,
+        )
+        return Config.refusal(own, board)
+
+
+def config_of(settings: Settings, baud: int, decay: int) -> AnyBoard:
+    """The driver's configuration for this run; the run watches the motion itself."""
+    from motor_driver.frames import Decay
+
+    return AnyBoard(
+        edges_per_revolution=settings.edges_per_revolution or 1,
+        single_channel=settings.single_channel is not False,
+        max_voltage=settings.max_voltage,
+        supply_voltage=settings.supply,
+        stall_time=0.0,
+        decay=Decay(decay),
+        baud=baud,
+        board_id=settings.board_id,
+        known_edges=settings.edges_per_revolution is not None,
+        known_channels=settings.single_channel is not None,
+    )

@@ -1,0 +1,51 @@
+"""Driver and check joined, on the real firmware: the pins follow, and are off whenever the run is."""
+
+import pytest
+from emulated_board import need_emulator
+from first_run_bench import EmulatedRun
+
+from motor_board.build import FirmwareConfig
+from motor_board.faults import Wiring
+from motor_driver.check.settings import Settings
+
+TOLD = Settings(edges_per_revolution=96)
+BOARD = FirmwareConfig(channels=2, supply_full_scale=60_000, board_id=7)
+
+
+def test_a_whole_run_on_the_firmware() -> None:
+    need_emulator()
+    bench = EmulatedRun(TOLD, wiring=Wiring(motor_swapped=True), config=BOARD, seed=2)
+    run = bench.run()
+    assert run.check is not None and run.check.record.codes == ["motor_swapped"] and run.check.right
+    assert run.check.record.measured.gain == pytest.approx(bench.parameters.gain, rel=0.04)
+    assert run.off and bench.pins[-1][1] == 0.0
+    assert max(abs(volts) for _, volts in bench.pins) <= 6.0
+    asked = [volts for _, volts in bench.asked]
+    late = [abs(volts) for k, (_, volts) in enumerate(bench.pins) if k > 20 and not any(asked[k - 20 : k])]
+    assert max(late) == 0.0  # 20 ms after it asks for nothing, nothing is there
+
+
+@pytest.mark.parametrize(
+    ("settings", "code", "said"),
+    [
+        (Settings(board_id=9), "wrong_board", "This is the board number 7, and the parameter board_id is 9"),
+        (Settings(single_channel=True), "wrong_firmware", "reads 2 encoder channel(s)"),
+    ],
+)
+def test_another_board_than_the_one_that_was_meant_is_not_touched(settings: Settings, code: str, said: str) -> None:
+    need_emulator()
+    bench = EmulatedRun(settings, config=BOARD)
+    run = bench.run()
+    assert run.check is None and run.code == code and said in run.problem(10**12)
+    assert not any(volts for _, volts in bench.pins)
+
+
+def test_a_line_that_falls_silent_stops_it() -> None:
+    need_emulator()
+    bench = EmulatedRun(Settings(edges_per_revolution=96, hand=False), config=BOARD)
+    while not any(volts for _, volts in bench.pins[-1:]):
+        bench._step()
+    bench.run_.received = lambda data, now: None  # type: ignore[method-assign]
+    run = bench.run()
+    assert run.check is not None and "no telemetry from the port for 120 ms" in run.check.record.rows[-1].text
+    assert bench.pins[-1][1] == 0.0

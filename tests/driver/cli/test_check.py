@@ -1,0 +1,68 @@
+"""`check` as a person runs it, on the emulated board in real time: its sentences, its exit status, its file."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import workbench
+import yaml
+from board_fixtures import live  # noqa: F401
+from patience import PATIENCE
+
+from motor_board.live import LiveBoard
+from motor_driver.cli import check
+from motor_driver.link import open_port
+
+RUN = "from motor_driver.cli.check import main; import sys; sys.exit(main(sys.argv[1:]))"
+HELD_UP = "too long and switched off"  # the machine had no time for us: a person would check again
+
+
+def start(*arguments: object) -> "subprocess.Popen[str]":
+    words = [sys.executable, "-c", RUN, *map(str, arguments)]
+    pipe = subprocess.PIPE
+    return subprocess.Popen(words, env=workbench.ENVIRONMENT, stdin=pipe, stdout=pipe, stderr=pipe, text=True)
+
+
+@pytest.mark.long
+def test_a_first_run_stops_at_ctrl_c_and_else_writes_the_parameters(live: LiveBoard, tmp_path: Path) -> None:  # noqa: F811
+    port, output, found = tmp_path / "port", tmp_path / "motor.yaml", tmp_path / "found.json"
+    running, end = start("--port", port, "--no-hand"), time.monotonic() + PATIENCE
+    while live.truth().voltage == 0.0 and time.monotonic() < end:
+        time.sleep(0.01)
+    running.send_signal(signal.SIGINT)
+    said, _ = running.communicate(timeout=PATIENCE)
+    assert running.returncode == 130 and live.truth().voltage == 0.0
+    assert "at 6 V at most" in said and "The check has stopped the motor: Ctrl-C." in said
+    for _ in range(4):
+        running = start("--port", port, "--output", output, "--json", found, "--force")
+        said, wrong = running.communicate(timeout=PATIENCE)
+        if HELD_UP not in said:
+            break
+    assert running.returncode == 0, said + wrong
+    assert live.truth().voltage == 0.0 and f"--params-file {output}" in said
+    values = yaml.safe_load(output.read_text(encoding="utf-8"))["/**/motor_driver"]["ros__parameters"]
+    assert values["port"] == str(port) and values["edges_per_revolution"] == 96
+    measured = json.loads(found.read_text(encoding="utf-8"))["measured"]
+    assert 160.0 < measured["top_speed"] < 190.0
+
+
+def test_what_cannot_be_checked_is_one_sentence(
+    live: LiveBoard,  # noqa: F811
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    port, found = str(tmp_path / "port"), tmp_path / "found.json"
+    assert check.main(["--port", port, "--board-id", "9", "--json", str(found)]) == 1
+    assert capsys.readouterr().err.startswith("This is the board without a number, and the parameter board_id is 9")
+    assert json.loads(found.read_text(encoding="utf-8"))["findings"][0]["code"] == "wrong_board"
+    with open_port(port, 500_000):
+        assert check.main(["--port", port]) == 1
+    said = capsys.readouterr().err
+    assert "it is in use: end the other program" in said and "retrying" not in said
+    with pytest.raises(SystemExit) as usage:
+        check.main(["--max-voltage", "0"])
+    assert usage.value.code == 2
