@@ -33,13 +33,13 @@ class Wiring:
     def sense(self, edges: Edges, start: int, until: int, two: bool) -> Edges:
         """What of the encoder's edges between two cycles reaches the board's lines."""
         cycle, what = edges.cycle, edges.what
-        if self.channels_swapped:
+        alone = (what & Line.B_ALONE) != 0
+        kept = np.where(alone, self.b_connected, self.a_connected)
+        if self.channels_swapped:  # as if B were upside down: a quarter of a slot apart, nobody can tell
             what = what ^ np.uint8(Line.B_HIGH)
         if not self.b_connected:
             what = what | np.uint8(Line.B_HIGH)  # its pull-up
-        if not self.a_connected:
-            cycle, what = cycle[:0], what[:0]
-        heard = Edges(cycle, what.astype(np.uint8))
+        heard = Edges(cycle[kept], what[kept].astype(np.uint8))
         return heard.joined(self._hum(start, until, two)) if self.hum > 0.0 else heard
 
     def _hum(self, start: int, until: int, two: bool) -> Edges:
