@@ -167,20 +167,21 @@ def main() -> None:
 
 `check` on the emulated board: the real firmware on an emulated ATmega328P, a simulated motor on its pins, an encoder
 with two channels and slots that are irregular by 1 %, a supply that the board measures (where nothing else is said).
-{len(TOPS) * SEEDS} motors a row: top speeds of 6, 30, 174 and 600 rad/s at 6, 12, 12 and 24 V, {SEEDS} of each, with time
-constants of 40 to 200 ms, friction of 3 to 8 % of the voltage, breakaway 1.4 times that, and 24 to 360 edges a turn.
-Somebody turns the shaft when asked, to within 4 %, and answers. "Off": from the last sample at which the check wants a
-voltage to 0 V at the pins, at most (with the board's own sample period of 5 ms and frames in it). "Driven": the longest
-stretch with voltage; the check allows {DRIVE_TIME:.0f} s. "Highest": of the motor's voltage; the check allows {HIGHEST:.0%}.
+{len(TOPS) * SEEDS} motors a row: top speeds of 6, 30, 174 and 600 rad/s at 6, 12, 12 and 24 V, {SEEDS} of each, with
+time constants of 40 to 200 ms, friction of 3 to 8 % of the voltage, breakaway 1.4 times that, and 24 to 360 edges a
+turn. Somebody turns the shaft when asked, to within 4 %, and answers. "Off": from the last sample at which the check
+wants a voltage to 0 V at the pins, at most (with the board's sample period of 5 ms and frames in it). "Driven": the
+longest stretch with voltage; the check allows {DRIVE_TIME:.0f} s. "Highest": of the motor's voltage; the check allows
+{HIGHEST:.0%}.
 
 | wired | said | right | file written | off | driven | highest | whole run | said with `--no-hand` |
 |---|---|---|---|---|---|---|---|---|
 {chr(10).join(table)}
 
 A file is written where nothing is wrong, or where `reverse_motor` or `reverse_encoder` makes up for it. A bridge that
-is stuck on turns the motor whatever the pins say: there the pins are at 0 V from the beginning, and the sentence says to
-switch the supply off. With `--no-hand` wrong counts cannot be seen, one channel tells no direction, and where nothing moves the
-sentence names all that it may be.
+is stuck on turns the motor whatever the pins say: there the pins are at 0 V from the beginning, and the sentence says
+to switch the supply off. With `--no-hand` wrong counts cannot be seen, one channel tells no direction, and where
+nothing moves the sentence names all that it may be.
 
 What is measured of a motor that is wired right, over the truth; the breakaway is where the first edge came, which is a
 little later:

@@ -91,11 +91,16 @@ class Driver:
 
     def unsuitable(self, now: int) -> bool:
         """Whether the open port has no board that can be used."""
-        return self.session is not None and bool(self.session.handshake.problem(now))
+        return self.session is not None and (self.matches or bool(self.session.handshake.problem(now)))
 
-    def opened(self, port: str, now: int) -> None:
-        """A port was opened."""
-        self.session = Session(port, Handshake(self.config, port, now))
+    @property
+    def matches(self) -> bool:
+        """Whether the open port's board, which was only to say who it is, may be the one that is searched for."""
+        return self.session is not None and self.session.handshake.matches
+
+    def opened(self, port: str, now: int, roll_call: bool = False) -> None:
+        """A port was opened; at a roll call its board only says who it is."""
+        self.session = Session(port, Handshake(self.config, port, now, roll_call))
         self.openings += 1
 
     def closed(self, why: str) -> None:

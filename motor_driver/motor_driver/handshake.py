@@ -21,8 +21,9 @@ class Phase(Enum):
 class Handshake:
     """Asks until it is answered; time in ns is an argument."""
 
-    def __init__(self, config: Config, port: str, now: int) -> None:
-        self._config, self._port = config, port
+    def __init__(self, config: Config, port: str, now: int, roll_call: bool = False) -> None:
+        """`roll_call`: the board is only to say who it is."""
+        self._config, self._port, self._roll_call = config, port, roll_call
         self._opened, self._asked = now, now - ASK_EVERY
         self.phase = Phase.IDENTIFY
         self.hello: Hello | None = None  # the latest
@@ -33,7 +34,7 @@ class Handshake:
         if self.phase is Phase.IDENTIFY:
             self._refusal = self._config.refusal(frame)
             self.hello = frame
-            if not self._refusal:
+            if not self._refusal and not self._roll_call:
                 self._go(Phase.CONFIGURE)
         elif self.phase is Phase.CONFIGURE and self.hello is not None:
             if frame.boot != self.hello.boot:
@@ -63,8 +64,15 @@ class Handshake:
         self._asked = now
         return Configure(*self._wanted()) if self.phase is Phase.CONFIGURE else Identify()
 
+    @property
+    def matches(self) -> bool:
+        """Whether a board that was only to say who it is may be the one."""
+        return self._roll_call and self.hello is not None and not self._refusal
+
     def problem(self, now: int) -> str:
         """What keeps the board from running, as a sentence; empty if nothing does, or it is too early to say."""
+        if self.matches:
+            return ""
         if self._refusal or self.phase is Phase.RUN or now - self._opened < PATIENCE:
             return self._refusal
         return (

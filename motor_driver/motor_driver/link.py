@@ -1,7 +1,6 @@
 """The serial port: read by a thread of its own, and opened again when it comes back. Nothing else touches it."""
 
-import errno
-import getpass
+import glob
 import os
 import select
 import threading
@@ -14,19 +13,13 @@ import serial
 from serial.tools import list_ports
 
 from motor_driver.link_events import Closed, Event, Opened, Received
-from motor_model.errors import MotorError
+from motor_driver.ports.port_error import FAILED, PortError, cannot_open
+from motor_driver.ports.search import Search
 
 LOOK_AGAIN = 0.1  # [s] for a port that is not there
 SEARCH_AGAIN = 2.0  # [s] between two rounds through all ports
 END = 0.5  # [s] that the thread may take to end
 MOST_READ = 4096  # [byte] at once
-
-
-FAILED = "The serial port has failed ({}): see the cable, or end what else uses the port; retrying."
-
-
-class PortError(MotorError):
-    """A port that cannot be opened."""
 
 
 def ports() -> str:
@@ -36,16 +29,17 @@ def ports() -> str:
 
 
 def candidates(port: str, search: bool = False) -> list[str]:
-    """The ports that may be opened: the one that was asked for, or else the only one on USB; all of them to `search`.
+    """The ports that may be opened: the one, or those of the pattern, that was asked for, or else those on USB.
 
     Raises:
-        PortError: there is none, or it is not clear which.
+        PortError: there is none, or there are several and nobody is to `search` them.
     """
-    if port:
+    if port and not glob.has_magic(port):
         return [port]
-    found = sorted(str(entry.device) for entry in list_ports.comports() if entry.vid is not None)
+    found = sorted(glob.glob(port) or (str(one.device) for one in list_ports.comports() if not port and one.vid))
     if not found:
-        raise PortError(f"No board is plugged in ({ports()}): plug it in, or set the parameter port; retrying.")
+        which = f"There is no port '{port}'" if port else "No board is plugged in"
+        raise PortError(f"{which} ({ports()}): plug it in, or set the parameter port; retrying.")
     if len(found) > 1 and not search:
         raise PortError(
             f"There are several boards here: set the parameter port to one of {', '.join(found)}, or board_id."
@@ -62,30 +56,10 @@ def open_port(port: str, baud: int) -> serial.Serial:
     try:
         opened = serial.Serial(port, baud, exclusive=True)
     except (OSError, ValueError) as error:  # SerialException is an OSError
-        raise PortError(_cure(port, baud, getattr(error, "errno", None))) from error
+        raise PortError(cannot_open(port, baud, getattr(error, "errno", None), ports())) from error
     with suppress(OSError, ValueError):  # an FTDI adapter then passes bytes on after 1 ms instead of 16; others cannot
         opened.set_low_latency_mode(True)
     return opened
-
-
-def _cure(port: str, baud: int, number: int | None) -> str:
-    in_use = "it is in use: end the other program that has opened it (another motor_driver, a serial monitor)"
-    cures = {
-        errno.ENOENT: f"there is none: plug the board in, or set the parameter port ({ports()})",
-        errno.EACCES: f"no permission: add yourself to the group dialout (sudo usermod -aG dialout {_user()}), "
-        "log out and in again",
-        errno.EAGAIN: in_use,
-        errno.EBUSY: in_use,
-    }
-    other = f"it is no serial port that can do {baud} baud: set the parameters port and baud ({ports()})"
-    return f"Cannot open serial port '{port}', {cures.get(number or 0, other)}; retrying."
-
-
-def _user() -> str:
-    try:
-        return getpass.getuser()
-    except (OSError, KeyError):  # no such user, as in some containers
-        return "$USER"
 
 
 class Link:
@@ -93,8 +67,9 @@ class Link:
 
     def __init__(self, port: str, baud: int, wake: Callable[[], None], search: bool = False) -> None:
         """`search`: without a port's name every one on USB may be it; `pass_over` says that the open one is not."""
-        self._port, self._baud, self._wake, self._search = port, baud, wake, search and not port
-        self._passed: set[str] = set()  # ports of this round of the search
+        self._port, self._baud, self._wake = port, baud, wake
+        self._search = Search() if search and (not port or glob.has_magic(port)) else None
+        self._match = False  # what `pass_over` was told
         self._events: deque[Event] = deque()
         self._open: serial.Serial | None = None
         self._lock = threading.Lock()  # of `_open`, between writing and closing
@@ -108,8 +83,9 @@ class Link:
         """Whether the port is still looked after."""
         return self._thread.is_alive()
 
-    def pass_over(self) -> None:
-        """The open port is not the one that is searched for."""
+    def pass_over(self, match: bool = False) -> None:
+        """The open port is not the one that is searched for; or it may be (`match`), and the others are to be asked."""
+        self._match = match
         if self._search and self._open is not None and not self._passing.is_set():
             self._passing.set()
             os.write(self._end_write, b"\0")
@@ -134,7 +110,7 @@ class Link:
         told = ""
         while not self._ended.is_set():
             try:
-                self._use(self._next())
+                self._use(*self._next())
                 told = ""
             except Exception as error:  # whatever it is (termios.error is no OSError), the port is opened again
                 why = str(error) if isinstance(error, PortError) else FAILED.format(f"{type(error).__name__}: {error}")
@@ -143,41 +119,58 @@ class Link:
                     self._tell(Closed(why))
                 self._ended.wait(LOOK_AGAIN)
 
-    def _next(self) -> str:
-        """The port to try now; in a search each in turn.
+    def _next(self) -> tuple[str, bool]:
+        """The port to try now, and whether its board is only to say its number; no port: look again soon.
 
         Raises:
-            PortError: there is none, it is not clear which, or the search has been through all of them.
+            PortError: there is none, it is not clear which, or none or several have the number.
         """
-        found = candidates(self._port, self._search)
-        left = [port for port in found if port not in self._passed]
-        if left:
-            return left[0]
-        self._passed.clear()
-        self._ended.wait(SEARCH_AGAIN)  # to open a port resets the board on it
-        raise PortError(f"None of {', '.join(found)} has the board with that board_id: plug it in; retrying.")
+        found = candidates(self._port, self._search is not None)
+        if self._search is None:
+            return found[0], False
+        try:
+            return self._search.next(found)
+        except PortError:
+            self._ended.wait(SEARCH_AGAIN)  # to open a port resets the board on it
+            raise
 
-    def _use(self, port: str) -> None:
+    def _use(self, port: str, roll_call: bool) -> None:
         """Open a port and read until it is gone."""
-        if self._search:
-            self._passed.add(port)
-        opened = open_port(port, self._baud)
+        if not port:
+            self._ended.wait(LOOK_AGAIN)
+            return
+        opened = self._opened(port)
         try:
             with self._lock:
                 self._open = opened
-            self._tell(Opened(port, time.monotonic_ns()))
+            self._tell(Opened(port, time.monotonic_ns(), roll_call))
             self._read(opened.fileno())
         finally:
             with self._lock:
                 self._open = None
                 with suppress(OSError):  # a port that is gone may not even be closed
                     opened.close()
-        if self._passing.is_set():
+        if self._search and self._passing.is_set():
             self._passing.clear()
-            self._tell(Closed(f"The board on {port} is not the one that is searched for."))
+            self._search.hear(port, self._match and roll_call)
+            self._tell(Closed(f"The board on {port} is not the one that is searched for.", passed=True))
         elif not self._ended.is_set():
-            self._passed.discard(port)
+            if self._search and not roll_call:
+                self._search.is_lost(port)
             self._tell(Closed(f"The serial port {port} is gone: plug the board in again; retrying ({ports()})."))
+
+    def _opened(self, port: str) -> serial.Serial:
+        """The port, ours alone.
+
+        Raises:
+            PortError: it cannot be opened.
+        """
+        try:
+            return open_port(port, self._baud)
+        except PortError:
+            if self._search:
+                self._search.is_busy(port)
+            raise
 
     def _read(self, descriptor: int) -> None:
         while not self._ended.is_set() and not self._passing.is_set():

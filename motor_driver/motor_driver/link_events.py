@@ -10,6 +10,7 @@ class Opened:
 
     port: str
     at: int  # [ns] time.monotonic_ns
+    roll_call: bool = False  # its board is only to say its number
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +26,7 @@ class Closed:
     """The port is gone or cannot be opened; `why` is a sentence that names the cure."""
 
     why: str
+    passed: bool = False  # by ourselves, in a search
 
 
 Event: TypeAlias = Opened | Received | Closed

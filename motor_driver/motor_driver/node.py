@@ -64,11 +64,12 @@ class MotorDriver(Node):
         match event:
             case Received(data, at):
                 return self._driver.received(data, at)
-            case Opened(port, at):
-                self._driver.opened(port, at)
-            case Closed(why):
+            case Opened(port, at, roll_call):
+                self._driver.opened(port, at, roll_call)
+            case Closed(why, passed):
                 self._driver.closed(why)
-                self._say()
+                if not passed:
+                    self._say()
         return []
 
     def _publish(self, reading: Reading, to_ros: int) -> None:
@@ -94,7 +95,7 @@ class MotorDriver(Node):
         if order.stop:
             self._plant.stop(order.stop)
         if self._driver.unsuitable(now):
-            self._link.pass_over()
+            self._link.pass_over(self._driver.matches)
 
     def _say(self) -> None:
         """Log what is wrong, once."""

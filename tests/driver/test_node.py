@@ -1,9 +1,9 @@
 """The driver's node in the test's own process: a dead thread, and the right one of two boards."""
 
+import re
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
 import rclpy
@@ -15,7 +15,6 @@ from motor_board.build import FirmwareConfig, firmware
 from motor_board.emulator import Emulator
 from motor_board.live import LiveBoard
 from motor_board.port import Port
-from motor_driver import link
 from motor_driver.node import NO_THREAD, MotorDriver
 from motor_model.errors import MotorError
 from motor_model.parameters import paper_motor
@@ -77,22 +76,54 @@ def test_a_number_that_no_board_has_is_one_sentence(text: str) -> None:
         rclpy.shutdown()
 
 
-def test_finds_the_board_with_its_number(make: Make, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Two boards, alike but for the number that was flashed."""
+@pytest.fixture
+def boards(tmp_path: Path) -> Iterator[Callable[..., list[LiveBoard]]]:
+    """Makes boards, alike but for the number that was flashed, at tmp_path/NAME."""
     need_emulator()
-    boards, found = [], []
-    for name, number in (("left", 1), ("right", 2)):
-        elf = firmware(FirmwareConfig(board_id=number))
-        boards.append(LiveBoard(Emulator(elf, paper_motor()), Port(tmp_path / name)))
-        found.append(SimpleNamespace(device=str(tmp_path / name), vid=1, description="Nano"))
-    monkeypatch.setattr(link.list_ports, "comports", lambda: found)
-    node, begin = make("board_id:=2"), time.monotonic()
-    while not node._driver.runs:
+    made: list[LiveBoard] = []
+
+    def make(**numbers: int) -> list[LiveBoard]:
+        for name, number in numbers.items():
+            elf = firmware(FirmwareConfig(board_id=number))
+            made.append(LiveBoard(Emulator(elf, paper_motor()), Port(tmp_path / name)))
+        return made
+
+    yield make
+    for board in made:
+        board.close()
+
+
+def work(node: MotorDriver, condition: Callable[[], bool]) -> None:
+    """Let the node work until something holds."""
+    begin = time.monotonic()
+    while not condition():
         assert time.monotonic() - begin < PATIENCE
         node._work()
         time.sleep(0.005)
+
+
+@pytest.mark.parametrize("numbers", [{"left": 1, "right": 2}, {"left": 2, "right": 1}])
+def test_finds_the_board_with_its_number_whichever_port_it_is_on(
+    make: Make, boards: Callable[..., list[LiveBoard]], numbers: dict[str, int], tmp_path: Path
+) -> None:
+    boards(**numbers)
+    node = make(f"port:={tmp_path}/*", "board_id:=2")
+    work(node, lambda: node._driver.runs)
     assert node._driver.board is not None and node._driver.board.board_id == 2
-    assert node._driver.session is not None and node._driver.session.port == str(tmp_path / "right")
+    port = next(name for name, number in numbers.items() if number == 2)
+    assert node._driver.session is not None and node._driver.session.port == str(tmp_path / port)
     node._link.close()
-    for board in boards:
-        board.close()
+
+
+@pytest.mark.parametrize(
+    ("wanted", "says"), [(7, "Several boards have that board_id"), (9, "None of .* has the board")]
+)
+def test_a_number_that_two_boards_have_or_none_is_a_sentence_and_nothing_runs(
+    make: Make, boards: Callable[..., list[LiveBoard]], wanted: int, says: str, tmp_path: Path
+) -> None:
+    boards(left=7, right=7)
+    node = make(f"port:={tmp_path}/*", f"board_id:={wanted}")
+    work(node, lambda: re.match(says, node._driver.trouble) is not None)
+    assert not node._driver.runs and node._driver.board is None
+    assert "retrying" in node._driver.refusal()
+    node._link.close()

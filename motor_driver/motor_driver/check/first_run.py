@@ -21,9 +21,10 @@ def code_of_refusal(config: AnyBoard, board: Hello | None) -> str:
 class FirstRun:
     """Lives as long as one port is open; times are the host's monotonic clock in ns."""
 
-    def __init__(self, settings: Settings, config: AnyBoard, port: str, now: int) -> None:
+    def __init__(self, settings: Settings, config: AnyBoard, port: str, now: int, roll_call: bool = False) -> None:
+        """`roll_call`: the board is only to say who it is."""
         self.settings, self._config, self.driver = settings, config, Driver(config)
-        self.driver.opened(port, now)
+        self.driver.opened(port, now, roll_call)
         self.check: Check | None = None  # once the board runs
         self._answer: Answer | None = None
 

@@ -14,7 +14,7 @@ from motor_driver.frames import Hello
 LITTLE = 3.0  # [V] of supply: no bridge works with less
 LEAST_SUPPLY, MOST_SUPPLY = 0.8, 1.1  # of the expected one: a battery that is empty, a divider of two 5 % resistors
 SUPPLY_TIME = 0.3  # [s] of which the mean is taken
-MORE = (0.08, 0.2)  # of the motor's voltage above its breakaway: two paces tell what a volt does
+MORE, APART = 0.2, 0.12  # of the motor's voltage: the quicker pace above the breakaway, and above the slower one
 FOLLOWS = 1.1  # that the quicker of the two is over the slower one at least
 WAYS = {Answer.YES: 1, Answer.NO: -1, Answer.DONE: 0}
 HARMLESS = {"wrong_counts", "unknown_counts", "no_counts"}  # the motor may be driven all the same
@@ -156,8 +156,8 @@ def _judge_direction(two: bool, record: Record, by_hand: int, found: Breakaway, 
 
 def _pace(settings: Settings, record: Record, breakaway: float, way: int) -> Steps[list[Pace]]:
     paces = []
-    for more in MORE:
-        voltage = min(breakaway + more * settings.max_voltage, settings.highest)
+    quicker = min(breakaway + MORE * settings.max_voltage, settings.highest)
+    for voltage in (quicker - APART * settings.max_voltage, quicker):
         paces.append((yield from hold(way * voltage)))
     rate = yield from stop_motor()
     if rate:

@@ -18,6 +18,8 @@ from motor_driver.check.settings import Settings, config_of
 from motor_driver.frames import BAUD, Decay
 from motor_driver.link import candidates, open_port
 from motor_driver.parameters import MOST_ID
+from motor_driver.ports.port_error import PortError
+from motor_driver.ports.search import the_only
 from motor_model.errors import MotorError
 from motor_model.regular_file import write_text
 from motor_ros.command import CommandParser, between, positive, shell, whole_between
@@ -86,14 +88,28 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _run(options: argparse.Namespace, settings: Settings) -> tuple[FirstRun, str]:
-    """The run on the port that was named, or on the one whose board has the number."""
-    found = candidates(options.port, search=settings.board_id is not None)
-    for port in found:
+    """The run on the port that was named, or on the one whose board has the number.
+
+    Raises:
+        MotorError: there is none, or nobody knows which.
+    """
+    try:
+        found = candidates(options.port, search=settings.board_id is not None)
+        matches = found if len(found) == 1 else [port for port in found if _matches(options, settings, port)]
+        port = the_only(matches, found)
         with _interruptible() as interrupt:
-            run = _Terminal(options, settings, port, interrupt).run()
-        if run.check is not None or port == found[-1]:
-            return run, port
-    raise MotorError("there is no port to look at.")
+            return _Terminal(options, settings, port, interrupt).run(), port
+    except PortError as error:  # nobody tries again here
+        raise MotorError(str(error).replace("; retrying", "")) from error
+
+
+def _matches(options: argparse.Namespace, settings: Settings, port: str) -> bool:
+    """Whether the board on a port has the number; a port in use is somebody else's."""
+    try:
+        with _interruptible() as interrupt:
+            return _Terminal(options, settings, port, interrupt, roll_call=True).run().driver.matches
+    except PortError:
+        return False
 
 
 def _end(options: argparse.Namespace, settings: Settings, run: FirstRun, port: str) -> int:
@@ -136,21 +152,26 @@ def _interruptible() -> Iterator[Interrupt]:
 class _Terminal:
     """Passes bytes between port and run, keys to it, and its words to the screen."""
 
-    def __init__(self, options: argparse.Namespace, settings: Settings, port: str, interrupt: Interrupt) -> None:
+    def __init__(
+        self,
+        options: argparse.Namespace,
+        settings: Settings,
+        port: str,
+        interrupt: Interrupt,
+        roll_call: bool = False,
+    ) -> None:
         decay = Decay[options.decay.upper()]
         self._interrupt, self._settings, self._name = interrupt, settings, port
-        try:
-            self._port = open_port(port, options.baud)
-        except MotorError as error:  # nobody tries again here
-            raise MotorError(str(error).replace("; retrying", "")) from error
-        self._run = FirstRun(settings, config_of(settings, options.baud, decay), port, time.monotonic_ns())
+        self._port = open_port(port, options.baud)
+        config = config_of(settings, options.baud, decay)
+        self._run = FirstRun(settings, config, port, time.monotonic_ns(), roll_call)
         self._shown, self._ended = 0, False
         self._prompt: Prompt | None = None
 
     def run(self) -> FirstRun:
         """Until it has come to its end, with the output off."""
         try:
-            while not self._run.done and not self._run.problem(time.monotonic_ns()):
+            while not self._run.done and not self._run.driver.unsuitable(time.monotonic_ns()):
                 self._step()
                 self._show()
                 if self._interrupt:

@@ -59,6 +59,14 @@ def test_what_cannot_be_checked_is_one_sentence(
     assert check.main(["--port", port, "--board-id", "9", "--json", str(found)]) == 1
     assert capsys.readouterr().err.startswith("This is the board without a number, and the parameter board_id is 9")
     assert json.loads(found.read_text(encoding="utf-8"))["findings"][0]["code"] == "wrong_board"
+    assert check.main(["--port", f"{tmp_path}/por?", "--board-id", "9"]) == 1
+    assert "parameter board_id is 9" in capsys.readouterr().err
+    (tmp_path / "port2").symlink_to("port")  # two names of one board: two boards of one number
+    assert check.main(["--port", f"{tmp_path}/por*", "--board-id", "0"]) == 1
+    assert capsys.readouterr().err.startswith("Several boards have that board_id")
+    assert check.main(["--port", f"{tmp_path}/por*", "--board-id", "9"]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith("None of ") and "retrying" not in said
     with open_port(port, 500_000):
         assert check.main(["--port", port]) == 1
     said = capsys.readouterr().err
