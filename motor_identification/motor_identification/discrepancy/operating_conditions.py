@@ -74,7 +74,7 @@ def _since(start: Floats, end: Floats, speed: Floats, still: Bools) -> Floats:
     way = np.sign(speed)
     began = np.full(len(start), -inf)
     turned = ~still & (np.append(0.0, way[:-1]) * way < 0.0)
-    began[turned] = 0.5 * (np.append(start[0], end[:-1]) + start)[turned]
+    began[turned] = 0.5 * (np.append(start[:1], end[:-1]) + start)[turned]
     began[still] = end[still]
     latest = np.maximum.accumulate(began)
     return np.where(still, 0.0, 0.5 * (start + end) - latest)

@@ -1,5 +1,6 @@
 """What the motor was doing in every interval, held against the plant's truth."""
 
+from dataclasses import replace
 from math import tau
 
 import numpy as np
@@ -50,3 +51,12 @@ def test_the_angle_is_the_measured_one() -> None:
     # The disc shows θ + e·sin: off by twice e at most, from the angle at the start.
     assert np.ptp(off) < 2.5 * DISC["eccentricity"]
     assert recording.duration > 30.0
+
+
+def test_a_recording_of_which_nothing_counts_has_no_conditions() -> None:
+    recording, _ = record(BASE, *profiles.reversals(8.0, times=2), seed=3)
+    kept = make_hold_out([check(recording)] * 2, [check(recording)] * 2)
+    held = kept.validate(Estimate(make_problem([check(recording)], ()), np.log([BASE["kv"], BASE["ka"]])))
+    half = replace(held, scored=(held.scored[0], np.zeros_like(held.scored[1])))
+    seen = find_conditions(half.joined(0.1))
+    assert len(seen.since) > 0 and set(seen.recording.tolist()) == {0}
