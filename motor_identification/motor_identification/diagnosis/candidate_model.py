@@ -86,12 +86,17 @@ class Model:
     @property
     def at_floor(self) -> bool:
         """Whether nothing is left to explain."""
-        return self.held.gap <= thresholds.EXPLAINED_GAP * self.floor
+        return self.held.gap <= thresholds.EXPLAINED_GAP * self.floor and not self.lasts
 
     @property
     def above_floor(self) -> bool:
         """Whether the sensor leaves less; neither where there is nothing to judge by, and the gap no number."""
-        return self.held.gap > thresholds.EXPLAINED_GAP * self.floor
+        return self.held.gap > thresholds.EXPLAINED_GAP * self.floor or self.lasts
+
+    @cached_property
+    def lasts(self) -> bool:
+        """Whether it leaves what lasts, though fast samples of a coarse sensor may hide it in the gap."""
+        return self.lasting.gap > thresholds.LASTING_GAP * self.lasting.floor(self.noise.share)
 
     @cached_property
     def errors(self) -> ErrorModel:

@@ -15,6 +15,10 @@ LASTING_INTERVAL = 0.1
 # intervals: the ratio is unsure), so that this only spares time where the ratio is low by chance.
 QUIET_GAP = 1.05
 
+# Times the floor in lasting intervals; above it something is left to explain, however coarse the sensor is from sample
+# to sample. Complete models, as above, leave up to 1.5.
+LASTING_GAP = 2.0
+
 # Is an effect likely?
 # Chance that a complete model is given any effect that it does not have. By Markov's inequality a likelihood ratio on
 # unseen data exceeds n/rate with a chance of at most rate/n for each of n effects, see `noise/likelihood.py`.

@@ -6,6 +6,7 @@ import numpy as np
 
 from motor_identification.logs.form import CsvForm
 from motor_identification.logs.signals import Floats
+from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import estimate_white_noise
 from motor_model.errors import RecordingError
 
@@ -52,7 +53,29 @@ def count_size(form: CsvForm, values: Floats, voltage: Floats) -> tuple[float, i
 
 
 def position_step(values: Floats) -> float:
-    """The smallest step of positions, or that of their printed digits; 0 where there is none."""
+    """The smallest step of positions, or that of their printed digits; 0 where there is none.
+
+    Where no two positions are one step apart, what all the ways from row to row are multiples of.
+    """
+    return _step_of_neighbours(values) or _step_of_ways(values)
+
+
+def _step_of_ways(values: Floats) -> float:
+    """What all ways from row to row are multiples of, if all positions are, too; else 0."""
+    ways = np.diff(values)
+    if len(np.unique(ways)) < LEAST_LEVELS:
+        return 0.0
+    step = find_lattice(ways)
+    if step == 0.0:
+        return 0.0
+    numbers = np.cumsum(np.rint(ways / step))
+    places = values[1:] - values[0]
+    step = float(numbers @ places / (numbers @ numbers))
+    return step if np.max(np.abs(places / step - numbers)) < 2 * ON_GRID else 0.0
+
+
+def _step_of_neighbours(values: Floats) -> float:
+    """The smallest step between the levels of all positions, if all steps are multiples of it; else 0."""
     levels = np.unique(values)
     if len(levels) < LEAST_LEVELS:
         return 0.0

@@ -89,6 +89,12 @@ def test_relevant_share(gap: float, lasting: float, share: float, times: float, 
 
 
 @SIDES
+def test_what_lasts_is_left_however_small_it_is_in_the_gap(times: float, passes: bool) -> None:
+    model = stub_model(1.2, times * thresholds.LASTING_GAP * LASTING_FLOOR)
+    assert (model.above_floor, model.at_floor) == (passes, not passes)
+
+
+@SIDES
 def test_least_drop(times: float, passes: bool) -> None:
     gap = 5.0 * (1.0 - times * thresholds.LEAST_DROP)
     assert stub_test("load_bias", stub_model(5.0, 2.0), gap, 100.0, LASTING_FLOOR).relevant is passes

@@ -16,6 +16,17 @@ def test_the_step_of_positions_with_printed_digits(step: float) -> None:
     assert position_step(MOTION[: LEAST_LEVELS - 1] * 1.0) == 0.0
 
 
+@pytest.mark.parametrize("step", [30.0, 360 / 20])
+def test_positions_of_a_fast_shaft_are_never_one_step_apart(step: float) -> None:
+    """Of 12 counts a turn, 23 to 28 a row."""
+    way = np.random.default_rng(4).integers(23, 29, 400)
+    way[:20] = np.arange(20) + 4
+    moved = np.cumsum(way) * step
+    assert position_step(moved) == pytest.approx(step, rel=1e-9)
+    beside = moved + step * np.random.default_rng(5).uniform(-0.2, 0.2, 400)
+    assert position_step(beside) == 0.0
+
+
 def test_positions_without_steps_have_none() -> None:
     smooth = np.cumsum(np.random.default_rng(3).normal(1.0, 0.3, 400))
     assert position_step(smooth) == 0.0
