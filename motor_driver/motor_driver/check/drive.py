@@ -9,6 +9,7 @@ from motor_driver.check.settings import DRIVE_TIME, HOLD_TIME, RAMP_TIME, Settin
 
 MOVED = 3  # samples with a new edge are motion: one or two may be a shaft that gives in its gears
 WAIT_FOR_MORE = 0.8  # [s] on one voltage after a first edge
+ANEW = 0.06  # of the highest voltage: edges that come so much later are no part of the same motion
 SWITCH_TIME = 0.5  # [s] that the board may take to switch its output on
 STILL = 0.3  # [s] without an edge: the motor stands
 STOP_TIME = 5.0  # [s] in which a motor stops, or at least slows down
@@ -51,21 +52,21 @@ def break_away(settings: Settings, way: int) -> Steps[Breakaway]:
     """Raise the voltage slowly in one direction until the motor moves, to the highest at most."""
     look = yield from _switch_on()
     begun = zero = look.time
-    first, held, edges, current = look, None, 0, nan
+    first, held, edges, current = None, None, 0, nan  # first: the sample before the first edge
     while look.time - begun < DRIVE_TIME:
         if held is None and look.time - zero > RAMP_TIME + WAIT_FOR_MORE:
             break
-        share = min((look.time - zero) / RAMP_TIME, 1.0) if held is None else held / settings.highest
+        share = min((look.time - zero) / RAMP_TIME, 1.0) if held is None else held
         before, look = look, (yield Act(way * share * settings.highest, on=True))
         if look.edge_time != before.edge_time:
-            if held is None:
-                first, held, edges, low, high = before, abs(before.voltage), 0, before.count, before.count
+            if held is None and (first is None or share > abs(first.voltage) / settings.highest + ANEW):
+                first, held, edges, low, high = before, share, 0, before.count, before.count
             edges, low, high = edges + 1, min(low, look.count), max(high, look.count)
-            if edges >= MOVED:
-                return Breakaway(held, look.count - first.count, high - low, current)
+            if edges >= MOVED and first is not None:
+                return Breakaway(abs(first.voltage), look.count - first.count, high - low, current)
         elif held is None:
-            current = abs(look.current)
-        elif look.time - first.time > WAIT_FOR_MORE:  # it gave way and stands again: go on from here
+            current = current if first else abs(look.current)
+        elif first is not None and look.time - first.time > WAIT_FOR_MORE:  # it stands again, or is slow: go on
             zero, held = look.time - share * RAMP_TIME, None
     return Breakaway(None, current=current)
 

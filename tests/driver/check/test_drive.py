@@ -61,6 +61,11 @@ def test_a_shaft_that_only_gives_in_its_gears_has_not_moved() -> None:
     assert 1.5 < found.voltage < 1.8
 
 
+def test_edges_that_come_slowly_are_motion_all_the_same() -> None:
+    found, acts = Line(lambda u, _: 2.0 * max(abs(u) - 1.5, 0.0)).run(break_away(SETTINGS, 1))
+    assert 1.5 < found.voltage < 3.5 and max(abs(act.voltage) for act in acts) < 5.0
+
+
 def test_a_board_that_does_not_switch_on_is_said() -> None:
     with pytest.raises(OutputStaysOff):
         Line(free, switches_on=False).run(break_away(SETTINGS, 1))
