@@ -39,6 +39,7 @@ class BoardEmulator(Node):
         model = replace(model, max_voltage=supply) if supply > 0.0 else model
         config = FirmwareConfig(
             bridge=str(values["bridge"]),
+            board_id=int(values["board_id"]),
             edges_per_revolution=edges,
             channels=1 if values["single_channel"] else 2,
             supply_full_scale=SUPPLY_FULL_SCALE if supply > 0.0 else 0,

@@ -11,6 +11,7 @@ SET_UP = (
     Row("slot_irregularity", 0.0, "scatter of the disc's flanks, share of a slot", "", 0.0, 0.2, read_only=True),
     Row("seed", 0, "of the disc, its starting angle, missed edges and faults", "", 0, 2**31 - 1, read_only=True),
     Row("bridge", "l298n", "bridge that the firmware is built for: l298n or tb6612", read_only=True),
+    Row("board_id", 0, "number that the board is flashed with; 0: none", "", 0, 65535, read_only=True),
     Row(
         "supply_voltage",
         0.0,

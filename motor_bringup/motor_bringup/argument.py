@@ -25,6 +25,7 @@ PLANT = Argument(
 MODEL = Argument("model", "", "model file (YAML) of the motor; empty: the paper's motor")
 NAMESPACE = Argument("namespace", "", "of this motor's topics; one for each motor where there are several")
 PORT = Argument("port", "", "the board's serial port; empty: the only one on USB, or the emulated board's own")
+BOARD_ID = Argument("board_id", "", "number the board was flashed with; it is found by that, on whatever port")
 PARAMETERS = Argument("parameters", "", "parameter file (YAML) whose values prevail over those in config/")
 
 

@@ -24,7 +24,8 @@ ARGUMENTS = (
     PLANT,
     *of_each("model", "", "model file (YAML)"),
     *of_each("gains", "", "parameter file (YAML) with the gains of the controller, such as 'tune' writes,"),
-    *of_each("port", "", "serial port (with two boards on USB, give both a port or a board_id in the parameter file)"),
+    *of_each("port", "", "serial port (with two boards on USB, give both a port or a board_id)"),
+    *of_each("board_id", "", "number that the board was flashed with"),
     Argument("record", "false", "true: record each motor's topics into a bag named after it and the time"),
     PARAMETERS,
 )
@@ -45,7 +46,7 @@ def session(told: Mapping[str, str]) -> Session:
 
 def _wheel(side: str, values: Mapping[str, str]) -> list[Program]:
     """One motor in the namespace of its side."""
-    own = {name: values[f"{side}_{name}"] for name in ("model", "gains", "port")}
+    own = {name: values[f"{side}_{name}"] for name in ("model", "gains", "port", "board_id")}
     shared = {name: values[name] for name in ("plant", "record", "parameters")}
     programs = motor.session({**own, **shared, "namespace": side}).programs
     return [_let_references_end(program, values) for program in programs]

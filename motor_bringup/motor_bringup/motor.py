@@ -5,7 +5,7 @@ from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
-from motor_bringup.argument import MODEL, NAMESPACE, PARAMETERS, PLANT, PORT, Argument, checked, namespace_of
+from motor_bringup.argument import BOARD_ID, MODEL, NAMESPACE, PARAMETERS, PLANT, PORT, Argument, checked, namespace_of
 from motor_bringup.files import named
 from motor_bringup.parameter_file import parameters_named
 from motor_bringup.plant import model_of, plant_programs, with_files
@@ -18,6 +18,7 @@ ARGUMENTS = (
     Argument("record", "false", "true: record the motor's topics into a bag named after the time; or the bag's path"),
     NAMESPACE,
     PORT,
+    BOARD_ID,
     PARAMETERS,
     Argument("control", "true", "false: no controller, for voltages of your own", ("true", "false")),
     Argument("identification", "false", "true: also the services that fit models", ("true", "false")),

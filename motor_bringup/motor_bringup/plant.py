@@ -58,15 +58,18 @@ def _sim(values: Mapping[str, str]) -> tuple[Program, ...]:
 
 
 def _hardware(values: Mapping[str, str]) -> tuple[Program, ...]:
-    port: dict[str, Value] = {"port": values["port"]} if values["port"] else {}
-    return (Program("motor_driver", "motor_driver", parameters=port),)
+    told: dict[str, Value] = {name: values[name] for name in ("port", "board_id") if values.get(name)}
+    return (Program("motor_driver", "motor_driver", parameters=told),)
 
 
 def _emulated(values: Mapping[str, str]) -> tuple[Program, ...]:
     link = values["port"] or "_".join(("/tmp/motor_board", *filter(None, namespace_of(values).split("/"))))
+    number = values.get("board_id", "")
+    wanted: dict[str, Value] = {"board_id": number} if number else {}
+    flashed: dict[str, Value] = {"board_id": int(number)} if number.isdecimal() else {}
     return (
-        Program("motor_driver", "motor_driver", parameters={"port": link, **_full_duty(values)}),
-        Program("motor_board", "board_emulator", parameters={"link": link, **model_of(values)}),
+        Program("motor_driver", "motor_driver", parameters={"port": link, **wanted, **_full_duty(values)}),
+        Program("motor_board", "board_emulator", parameters={"link": link, **flashed, **model_of(values)}),
     )
 
 

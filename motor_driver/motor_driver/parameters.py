@@ -14,7 +14,12 @@ MOST_ID = 65535
 ROWS = (
     *SHARED_PARAMETERS,
     max_voltage_row(),
-    Row("port", "", "the board's serial port, such as /dev/ttyACM0; empty: the only one on USB", read_only=True),
+    Row(
+        "port",
+        "",
+        "the board's serial port, such as /dev/ttyACM0, or a pattern; empty: the only one on USB",
+        read_only=True,
+    ),
     Row(
         "board_id",
         "",

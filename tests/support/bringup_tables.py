@@ -5,7 +5,7 @@ from pathlib import Path
 from types import ModuleType
 
 from motor_board.parameters import FAULTS, SET_UP
-from motor_bringup import diff_drive, identify, motor, replay
+from motor_bringup import diff_drive, identify, motor, motors, replay
 from motor_control.parameters import ROWS as CONTROL
 from motor_driver.parameters import ROWS as DRIVER
 from motor_examples.diff_drive.parameters import ROWS as DIFF_DRIVE
@@ -25,6 +25,7 @@ NODES = {
 }
 SESSIONS = {
     "motor": motor,
+    "motors": motors,
     "identify": identify,
     "replay": replay,
     "diff_drive": diff_drive,

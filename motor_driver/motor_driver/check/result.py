@@ -19,7 +19,7 @@ def parameters_of(check: Check, name: str, port: str, decay: str) -> dict[str, b
     cures = {key: value for found in check.record.findings for key, value in found.parameters.items()}
     edges = settings.edges(board)
     return {
-        "name": name,
+        **({"name": name} if name else {}),
         **place,
         **({"edges_per_revolution": edges} if edges else {}),
         "single_channel": board.channels == 1,

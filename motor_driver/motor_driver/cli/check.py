@@ -58,7 +58,11 @@ def parser() -> argparse.ArgumentParser:
     add("--turns", type=whole_between(1, 100), default=1, metavar="N", help="to turn the shaft by hand (default 1)")
     add("--time-limit", type=positive, default=30.0, metavar="S", help="for an answer (default 30)")
     add("--no-hand", action="store_true", help="nobody is there to turn the shaft or to answer")
-    add("--name", default="motor", help="of the motor, for the parameter file (default motor)")
+    add(
+        "--name",
+        default="",
+        help="of the motor, for the parameter file (default: left out)",
+    )
     add("--output", type=Path, metavar="FILE", help="write the driver's parameters here, if all is right")
     add("--json", type=Path, metavar="FILE", help="write all that was found here")
     add_force_option(parser)

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from motor_driver.ports.port_error import PortError
 
-BUSY_ROUNDS = 40  # times that ports in use are tried again: another driver that is asking has done so by then (4 s)
+BUSY_ROUNDS = 20  # times that ports in use are tried again (4 s): another driver that is asking has done so by then
 
 MISSING = "None of {} has the board with that board_id: plug it in, or see which number it was flashed with; retrying."
 DOUBLED = (
