@@ -1,13 +1,20 @@
 """Driver and check joined, on the real firmware: the pins follow, and are off whenever the run is."""
 
+import re
+from pathlib import Path
+
 import pytest
 from emulated_board import need_emulator
 from first_run_bench import EmulatedRun
 
 from motor_board.build import FirmwareConfig
 from motor_board.faults import Wiring
+from motor_driver.check.look import Prompt
 from motor_driver.check.settings import Settings
+from motor_driver.check.words import board_row, line_of, plan_of, prompt_of, verdict_of
 
+README = Path(__file__).resolve().parents[3] / "README.md"
+NUMBER = re.compile(r"\d+(?:\.\d+)?")
 TOLD = Settings(edges_per_revolution=96)
 BOARD = FirmwareConfig(channels=2, supply_full_scale=60_000, board_id=7)
 
@@ -23,6 +30,11 @@ def test_a_whole_run_on_the_firmware() -> None:
     asked = [volts for _, volts in bench.asked]
     late = [abs(volts) for k, (_, volts) in enumerate(bench.pins) if k > 20 and not any(asked[k - 20 : k])]
     assert max(late) == 0.0  # 20 ms after it asks for nothing, nothing is there
+    shown = README.read_text(encoding="utf-8").splitlines()
+    rows = [line_of(row) for row in (board_row(run.check.board, "/dev/ttyUSB0"), *run.check.record.rows)]
+    prompts = [prompt_of(prompt, TOLD) for prompt in (Prompt.HANDS_OFF, Prompt.TURN)]
+    for line in (plan_of(TOLD), *rows, *prompts, verdict_of(run.check)):  # what a person sees is what the README shows
+        assert NUMBER.sub("#", line) in [NUMBER.sub("#", one) for one in shown], line
 
 
 @pytest.mark.parametrize(
