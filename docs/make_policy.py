@@ -77,7 +77,7 @@ ROLES = (
     Role(
         "/motor/operator",
         "operator",
-        ("motor/reference", "cmd_vel"),
+        ("motor/reference", "motor/position_reference", "motor/joint_command", "cmd_vel"),
         (*ALL, "odom", "/tf"),
         requests=(*CALLS, *(f"{node}/{name}" for node in NODES for name in OF_PARAMETERS)),
         calls=ACTIONS,

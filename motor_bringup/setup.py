@@ -27,7 +27,7 @@ setup(
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{package_name}"]),
         (f"share/{package_name}", ["package.xml"]),
-        *files("launch", "config", "layouts", "security"),
+        *files("launch", "config", "layouts", "security", "ros2_control"),
     ],
     install_requires=["setuptools", "PyYAML>=6.0"],
     zip_safe=False,

@@ -1,8 +1,11 @@
 """Turn what the controller says into messages."""
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
+from motor_control.controller.demand import Demand
+from motor_control.controller.joint_command import Unreadable, read_joint_command
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output
 from motor_control.controller.run import Config
 from motor_msgs.msg import ControlState
@@ -35,6 +38,16 @@ def control_state_message(output: Output, header: Header) -> ControlState:
         saturated=terms.saturated,
         latency=output.latency,
     )
+
+
+def joint_demand_of(message: JointState, config: Config) -> Demand | str | None:
+    """Find what a message asks of this motor, or a sentence why that cannot be told; None: nothing."""
+    try:
+        return read_joint_command(
+            message.name, message.velocity, message.effort, config.joint, config.effort_as_voltage
+        )
+    except Unreadable as error:
+        return str(error)
 
 
 def diagnostics_message(

@@ -11,13 +11,15 @@ from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Header
 from std_srvs.srv import Trigger
 
 from motor_control.announcements import Told, announce, describe_start
 from motor_control.controller import controller
+from motor_control.controller.demand import Kind
 from motor_control.controller.output import Output
-from motor_control.messages import control_state_message, diagnostics_message
+from motor_control.messages import control_state_message, diagnostics_message, joint_demand_of
 from motor_control.parameters import PROGRAM, ROWS
 from motor_control.settings import Settings
 from motor_model.errors import MotorError
@@ -47,6 +49,8 @@ class MotorControl(Node):
         self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
         self.create_subscription(Float64, "motor/reference", self._on_reference, qos.REFERENCE)
+        self.create_subscription(Float64, "motor/position_reference", self._on_position_reference, qos.REFERENCE)
+        self.create_subscription(JointState, "motor/joint_command", self._on_joint_command, qos.REFERENCE)
         self.create_service(Trigger, "motor/reset", lambda _, response: self._serve(controller.reset, response))
         self.create_service(Trigger, "motor/release", lambda _, response: self._serve(controller.release, response))
         steady = Clock(clock_type=ClockType.STEADY_TIME)  # goes on under use_sim_time and when the clock is set
@@ -70,14 +74,18 @@ class MotorControl(Node):
     def _on_watch(self) -> None:
         self._settings.refresh()
         if (count := self.count_publishers("motor/speed")) != self._speakers:
-            self._speakers, self._state = count, replace(self._state, speakers=self._name_speakers())
+            self._speakers, self._state = count, replace(self._state, speakers=self._name_senders("motor/speed"))
+        several = self.count_publishers("motor/joint_command") > 1
+        if several != bool(self._state.joint_senders):
+            names = self._name_senders("motor/joint_command") if several else ""
+            self._state = replace(self._state, joint_senders=names)
         output, self._state = controller.watch(self._settings.config, self._state, time.monotonic())
         if output is not None:
             self._header.stamp = self._now()
             self._publish(output, self._header.stamp)
 
-    def _name_speakers(self) -> str:
-        found = self.get_publishers_info_by_topic(self.resolve_topic_name("motor/speed"))
+    def _name_senders(self, topic: str) -> str:
+        found = self.get_publishers_info_by_topic(self.resolve_topic_name(topic))
         return "(" + ", ".join(sorted(f"{one.node_namespace.rstrip('/')}/{one.node_name}" for one in found)) + ")"
 
     def _now(self) -> Time:
@@ -94,12 +102,21 @@ class MotorControl(Node):
         self._output = output
         self._control_state.publish(control_state_message(output, self._header))
         say, config = self.get_logger(), self._settings.config
-        lines, self._told = announce(self._told, output, self._state.reference, config, time.monotonic())
+        speed = self._state.reference if self._state.kind is Kind.SPEED else None
+        lines, self._told = announce(self._told, output, speed, config, time.monotonic())
         for line in lines:
             say.warning(line.text) if line.severe else say.info(line.text)
 
     def _on_reference(self, message: Float64) -> None:
         self._state = controller.refer(self._state, message.data, time.monotonic())
+
+    def _on_position_reference(self, message: Float64) -> None:
+        self._state = controller.refer(self._state, message.data, time.monotonic(), Kind.POSITION)
+
+    def _on_joint_command(self, message: JointState) -> None:
+        demand = joint_demand_of(message, self._settings.config)
+        if demand is not None:
+            self._state = controller.command_joint(self._settings.config, self._state, demand, time.monotonic())
 
     def _serve(self, change: controller.Change, response: Trigger.Response) -> Trigger.Response:
         response.success, (response.message, self._state) = True, change(self._state)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from math import isfinite, tau
 
-from motor_control.controller import pi
+from motor_control.controller import pi, position_law
 from motor_control.controller.faults.evidence import SPARE, SPARE_SINGLE
 from motor_control.controller.faults.evidence import Config as FaultConfig
 from motor_control.controller.run import Config
@@ -50,22 +50,30 @@ NUMBERS = (
     Row("plug_limit", 1.0, "voltage against the back-EMF in a reversal, share of voltage_limit; 2: any", "-", 0.0, 2.0),
     Row("latency_limit", 0.02, "age of a sample that is too old to act on; at least two samples", "s", 0.002, 10.0),
     Row("reference_timeout", 0.0, "age at which a reference is dropped; 0: it holds", "s", 0.0, 3600.0),
+    Row(
+        "joint_command_timeout", 0.5, "silence on motor/joint_command that stops the motor; 0: it holds", "s", 0.0, 60.0
+    ),
 )
 ROWS = (
     *NUMBERS,
     Row("speed_source", MEASURED, f"speed that the law uses: {MEASURED} (by the plant) or {OBSERVER} (by the model)"),
     Row("model", "", "model file (YAML) for observer and feed-forward, as identify writes it; empty: none"),
     Row("feedforward", False, "add the voltage that the model needs for the reference"),
+    Row("joint", "", "name of this motor in motor/joint_command; empty: the motor's own, as motor/info says it"),
+    Row(
+        "effort_as_voltage", False, "efforts of motor/joint_command are voltages [V]; false: its velocities are obeyed"
+    ),
 )
 PROGRAM = Program(
     "motor_control",
     "motor_control",
     "Holds the speed on motor/reference: answers every sample of a plant with a voltage (PI, observer, feed-forward).\n"
+    "Also takes JointState commands, as ros2_control sends them, and with observer and two channels an angle.\n"
     "Without a reference it leaves the motor alone; Ctrl-C leaves the motor at 0 V.",
     ROWS,
     "ros2 run motor_control motor_control --ros-args -p kp:=0.1 -p model:=model.yaml -p speed_source:=observer",
     publishes=("motor/voltage", "motor/control_state", "/diagnostics"),
-    subscribes=("motor/speed", "motor/info", "motor/reference"),
+    subscribes=("motor/speed", "motor/info", "motor/reference", "motor/position_reference", "motor/joint_command"),
     services=("motor/reset", "motor/release"),
 )
 
@@ -73,6 +81,8 @@ NO_MODEL = "No model is loaded, so {}: set the parameter model to a file that id
 NO_OBSERVER, NO_FEEDFORWARD = "the speed is the measured one", "there is no feed-forward"
 NO_INFO = "The observer waits for motor/info to say what the encoder is like; the speed is the measured one until then."
 NO_EDGES = "The plant does not stamp its edges, which the observer needs: the speed is the measured one."
+NO_DIRECTION = "An angle cannot be approached: a single channel does not measure the direction; use two channels."
+NO_POSITION = "An angle cannot be approached without the observer: set model, and speed_source to observer."
 NOT_READY = "Observer and feed-forward are being prepared; the speed is the measured one until then."
 BAD_INFO = "motor/info says {} = {:g}, which cannot be: correct it in the plant. The motor gets 0 V until then."
 
@@ -99,7 +109,7 @@ def config_of(
     motor = motor or model_of(str(values["model"]))
     unusable = info_problem(info) if info else ""
     info = None if unusable else info
-    kp, ki, limit, timeout, rate_limit, reversal_speed, stall_time, _, plug_limit, latency_limit, reference_timeout = (
+    kp, ki, limit, timeout, rate_limit, reversal_speed, stall_time, _, plug_limit, latency_limit, *timeouts = (
         float(values[row.name]) for row in NUMBERS
     )
     if info is not None:
@@ -116,7 +126,11 @@ def config_of(
         note=_lack(values, info, motor, ready),
         plug_limit=plug_limit,
         latency_limit=max(latency_limit, 2.0 * info.sample_period if info else 0.0),
-        reference_timeout=reference_timeout,
+        reference_timeout=timeouts[0],
+        joint_timeout=timeouts[1],
+        joint=str(values["joint"]) or (info.name if info is not None else ""),
+        effort_as_voltage=bool(values["effort_as_voltage"]),
+        no_position=NO_DIRECTION if single else NO_POSITION,
         sample_period=info.sample_period if info else 0.0,
         unusable=unusable,
     )
@@ -166,7 +180,7 @@ def _add_model(config: Config, values: Mapping[str, Value], info: Info | None, m
 
     if info is not None:
         motor = replace(motor, max_voltage=info.max_voltage)
-    forward, watcher = FeedForward(motor), None
+    forward, watcher, place = FeedForward(motor), None, None
     if values["speed_source"] == OBSERVER and info is not None and info.measurement is Measurement.EDGES:
         watcher = Observer(motor, info, float(values["slot_irregularity"]))
     rate_limit, limit, gentle = config.reference_rate_limit, config.voltage_limit, 0.0
@@ -174,12 +188,15 @@ def _add_model(config: Config, values: Mapping[str, Value], info: Info | None, m
         rate_limit, gentle = 2.0 * limit / motor.value("ka"), 0.5 * motor.value("ka") / max(config.gains.kp, 1e-9)
     friction = forward.breakaway
     kv = max(limit - friction, 0.1 * limit) / max(forward.top_speed(limit), 1e-9)
+    if watcher is not None and not config.single_channel:
+        place = position_law.design(slot_of(info), config.gains.kp, motor.value("ka"), limit, forward.top_speed(limit))
     lag = motor.value("delay") + motor.value("electrical_time_constant")
     return replace(
         config,
         reference_rate_limit=rate_limit,
         gentle=gentle,
         observer=watcher,
+        position=place,
         feedforward=forward if values["feedforward"] else None,
         faults=replace(
             config.faults,

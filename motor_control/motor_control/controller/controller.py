@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from math import isfinite, nan
 
 from motor_control.controller import speed_law as law
+from motor_control.controller.demand import Demand, Kind, Source
 from motor_control.controller.latency import LatencyState, track_latency
 from motor_control.controller.motion import Motion
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
@@ -28,6 +29,11 @@ FRESH = "{} The motor waits for a fresh reference: publish a speed in rad/s on m
 RESTARTED = "The plant was restarted."
 RETURNED = "The plant was away for more than 1 s."
 WAS_OFF = "The plant's output is off: call motor/enable with data: true."
+SILENT_JOINT = "No command on motor/joint_command for joint_command_timeout ({:g} s)."
+OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call motor/release."
+TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
+BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
+TOLD = 0.5  # [s] for which it is said that a demand was not taken
 TIMED_OUT = "The last reference is older than reference_timeout ({:g} s)."
 RELEASED = "The motor was released."
 CLEARED = "The stop was cleared."
@@ -50,7 +56,13 @@ class State:
     silent: float | None = None  # when silence was last reported; None while samples come
     run: Run | None = None
     latched: str = ""  # why the motor stays at 0 V until `reset`
-    reference: float | None = None  # [rad/s] the latest one, as long as it is obeyed
+    reference: float | None = None  # the latest one, as long as it is obeyed: [rad/s], or as `kind` says
+    kind: Kind = Kind.SPEED
+    source: Source = Source.REFERENCE  # of the reference
+    joint_heard: float | None = None  # when the latest joint command came
+    joint_senders: str = ""  # who publishes motor/joint_command, where they are several
+    refused: str = ""  # why a demand was not taken
+    refused_at: float = 0.0
     referred: float = 0.0  # when it came
     dropped: str = ""  # why there is none any more
     drives: bool = False  # the latest voltage was ours, so the next has to be too
@@ -73,6 +85,8 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     ours = after.reference is not None or bool(after.latched) and state.drives
     drives = state.drives or after.reference is not None
     begins = ours and (not state.drives or state.silent is not None) or _is_unheard(state.run, after, now)
+    if after.refused and now - after.refused_at <= TOLD and (output.state == DISABLED or not output.reason):
+        output = replace(output, reason=after.refused, warning=True)
     after = replace(after, arrival=now, silent=None, drives=ours, plant=plant, latency=latency)
     return replace(output, latency=age, drives=drives, begins=begins), after
 
@@ -87,11 +101,40 @@ def watch(config: Config, state: State, now: float) -> tuple[Output | None, Stat
     return output, replace(state, run=None, silent=now)
 
 
-def refer(state: State, reference: float, now: float) -> State:
-    """Take a fresh reference [rad/s]; while a stop is latched it is not taken."""
+def refer(state: State, reference: float, now: float, kind: Kind = Kind.SPEED) -> State:
+    """Take a fresh reference, [rad/s] or as `kind` says; while a stop is latched it is not taken."""
+    return _take(state, Demand(reference, kind), now)
+
+
+def command_joint(config: Config, state: State, demand: Demand | str, now: float) -> State:
+    """Take one command of a stream that is meant for this motor; a text says why it cannot be obeyed: 0 V.
+
+    A stream begins with 0, or after a silence. One that goes on through a stop, or was there before the controller, has
+    not seen it, and nobody knows what it would do.
+    """
+    heard = state.since if state.joint_heard is None else state.joint_heard
+    silent = config.joint_timeout > 0.0 and now - heard > config.joint_timeout
+    drives = state.reference is not None and state.source is Source.JOINT
+    state = replace(state, joint_heard=now)
+    if state.joint_senders:
+        demand = TWO_SENDERS.format(state.joint_senders)
+    if isinstance(demand, str):
+        return replace(_drop(state, demand) if drives else state, refused=demand, refused_at=now)
+    if state.reference is None and not (silent or demand.value == 0.0):
+        return replace(state, refused=BEGIN_JOINT.format(config.joint_timeout), refused_at=now)
+    return _take(state, demand, now)
+
+
+def _take(state: State, demand: Demand, now: float) -> State:
+    """Take a demand, unless a stop is latched or another source drives."""
     if state.latched:
         return state
-    return replace(state, reference=reference, referred=now, dropped="")
+    if state.reference is not None and state.source is not demand.source:
+        why = OTHER_DRIVES.format(demand.source.value, state.source.value)
+        return replace(state, refused=why, refused_at=now)
+    value, kind, source = demand
+    run = state.run if kind is state.kind else None  # another kind of demand is another run
+    return replace(state, reference=value, kind=kind, source=source, referred=now, dropped="", refused="", run=run)
 
 
 def release(state: State) -> tuple[str, State]:
@@ -123,6 +166,8 @@ def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: fl
         return _drop(replace(state, motion=None), RESTARTED)
     if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
         return _drop(state, RETURNED)
+    if state.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
+        return _drop(state, SILENT_JOINT.format(config.joint_timeout))
     if config.reference_timeout and now - state.referred > config.reference_timeout:
         return _drop(state, TIMED_OUT.format(config.reference_timeout))
     if state.run is not None and state.run.ignored > OFF and now - state.referred > OFF:
@@ -144,11 +189,11 @@ def _answer(config: Config, state: State, sample: Sample, age: float) -> tuple[O
     """Answer a sample of an age [s] with the reference in force."""
     reference = state.reference
     name, reason = _find_obstacle(config, state, sample)
-    shown = nan if reference is None else reference
+    shown = nan if reference is None or state.kind is not Kind.SPEED else reference
     if reference is None or name != RUNNING:
         return replace(halt(name, reason, shown, sample.speed), warning=bool(state.dropped)), replace(state, run=None)
     late = age > config.latency_limit
-    output, run = law.step(config, _continue_run(config, state, sample), sample, reference, late)
+    output, run = law.step(config, _continue_run(config, state, sample), sample, reference, late, state.kind)
     if output.fault:
         stopped = halt(STOPPED, CALL_RESET.format(output.fault), output.reference, output.speed)
         return replace(stopped, fault=output.fault), stop(replace(state, motion=run.motion), output.fault)
@@ -173,6 +218,8 @@ def _find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, s
         return DISABLED, FRESH.format(state.dropped) if state.dropped else NO_REFERENCE
     if not isfinite(state.reference - sample.speed):
         return STOPPED, BAD_REFERENCE.format(state.reference)
+    if state.kind is Kind.POSITION and config.position is None:
+        return STOPPED, config.no_position
     return RUNNING, ""
 
 

@@ -68,6 +68,12 @@ def update(
     return Terms(error, proportional, integral, feedforward, voltage, voltage != total), State(integral)
 
 
+def apply_voltage(voltage: float, low: float, high: float) -> Terms:
+    """Apply a voltage [V] as it is asked for, within the span; it stands as the feed-forward, for there is no law."""
+    applied = min(max(voltage, low), high)
+    return Terms(0.0, 0.0, 0.0, voltage, applied, applied != voltage)
+
+
 def _integrate(limit: float, integral: float, step: float, rest: float, low: float, high: float) -> float:
     """The next integral [V]: further by `step` [V], but not past where integral + rest meets an end of the span."""
     if step > 0.0:

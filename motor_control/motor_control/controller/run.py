@@ -7,7 +7,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from motor_control.checks import at_least
-from motor_control.controller import pi
+from motor_control.controller import pi, position_law
 from motor_control.controller.faults import detection
 from motor_control.controller.faults.evidence import Config as FaultConfig
 from motor_control.controller.motion import Motion
@@ -44,6 +44,11 @@ class Config:
     reference_timeout: float = 0.0  # [s] after which a reference is dropped; 0: never
     sample_period: float = 0.0  # [s] 0: not known
     gentle: float = 0.0  # [s] steps that the rate limit does in this time are left to the loop: no slope is fed forward
+    position: position_law.Config | None = None  # None: no angle can be approached
+    no_position: str = ""  # why not
+    joint_timeout: float = 0.0  # [s] after which a command of motor/joint_command is dropped; 0: never
+    joint: str = ""  # name of this motor in motor/joint_command
+    effort_as_voltage: bool = False  # of motor/joint_command
     unusable: str = ""  # what the plant says of itself and cannot be
     resting: pi.Config = field(init=False, repr=False)  # the gains without the integral's
 
@@ -51,6 +56,7 @@ class Config:
         at_least(0.0, voltage_limit=self.voltage_limit, sample_timeout=self.sample_timeout)
         at_least(0.0, reference_rate_limit=self.reference_rate_limit, reversal_speed=self.reversal_speed)
         at_least(0.0, plug_limit=self.plug_limit, reference_timeout=self.reference_timeout)
+        at_least(0.0, joint_timeout=self.joint_timeout)
         object.__setattr__(self, "resting", replace(self.gains, ki=0.0))
 
 
@@ -69,6 +75,7 @@ class Run:
     ignored: float = 0.0  # [s] for which the plant has applied nothing of what was asked
     faults: detection.State = detection.State()
     begins: bool = False  # with this sample: the reference has a sample period to start in
+    place: position_law.State | None = None  # of an angle that is approached
     paused: bool = False  # 0 V was sent since this sample, whatever the law said: the integral has no part in the error
 
 

@@ -1,0 +1,140 @@
+"""What is asked for, by whom: one source at a time drives, and a stream has to begin."""
+
+from dataclasses import replace
+from math import nan
+
+import pytest
+from bench_board import DEFAULTS
+
+from motor_control.controller import controller
+from motor_control.controller.demand import Demand, Kind, Source
+from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
+from motor_control.parameters import config_of
+from motor_model.sample import Info, Sample
+
+INFO = Info(single_channel=False)
+CONFIG = config_of(DEFAULTS, INFO)
+JOINT = Demand(20.0, source=Source.JOINT)
+STOP = Demand(0.0, source=Source.JOINT)
+DT = 0.005  # [s]
+
+
+class Loop:
+    """The controller on a clock of its own, beside a motor that does not turn and applies what it is told."""
+
+    def __init__(self, **changes: float | bool) -> None:
+        self.config = replace(CONFIG, **changes)  # type: ignore[arg-type]
+        self.now, self.voltage, self.state = 100.0, 0.0, controller.State(since=100.0)
+
+    def run(self, duration: float, demand: Demand | str | None = None) -> Output:
+        """So long [s], with the joint's command before every sample."""
+        for _ in range(round(duration / DT)):
+            self.now += DT
+            if demand is not None:
+                self.state = controller.command_joint(self.config, self.state, demand, self.now)
+            sample = Sample(round(self.now * 1e9), 0.0, self.voltage)
+            output, self.state = controller.update(self.config, self.state, sample, None, self.now)
+            self.voltage = output.terms.voltage
+        return output
+
+
+def test_a_stream_begins_with_zero_or_after_a_silence() -> None:
+    """One that was there before the controller is not obeyed: nobody knows what it would do."""
+    loop = Loop()
+    output = loop.run(1.0, JOINT)
+    assert (output.state, output.terms.voltage) == (DISABLED, 0.0) and "with 0, or after a silence" in output.reason
+    loop.run(DT, STOP)
+    assert loop.run(0.02, JOINT).terms.voltage > 0.0
+    silent = Loop()
+    silent.run(0.6)
+    assert silent.run(DT, JOINT).state == RUNNING
+    early = Loop()
+    early.run(0.4)
+    assert early.run(DT, JOINT).state == DISABLED
+
+
+def test_a_stream_that_ends_stops_the_motor() -> None:
+    loop = Loop()
+    loop.run(DT, STOP)
+    loop.run(0.1, JOINT)
+    assert loop.run(0.49).state == RUNNING
+    output = loop.run(0.03)
+    assert (output.state, output.terms.voltage, output.warning) == (DISABLED, 0.0, True)
+    assert "joint_command_timeout (0.5 s)" in output.reason
+    held = Loop(joint_timeout=0.0)
+    held.run(DT, STOP)
+    held.run(0.1, JOINT)
+    assert held.run(0.3).state == RUNNING
+
+
+def test_after_a_stop_a_stream_that_goes_on_is_not_obeyed_until_it_begins_again() -> None:
+    loop = Loop()
+    loop.run(DT, STOP)
+    loop.run(0.1, JOINT)
+    loop.state = controller.stop(loop.state, "It is blocked.")
+    assert loop.run(1.0, STOP).state == STOPPED  # latched, whatever comes
+    _, loop.state = controller.reset(loop.state)
+    assert loop.run(1.0, JOINT).state == DISABLED
+    loop.run(DT, STOP)
+    assert loop.run(DT, JOINT).state == RUNNING
+    _, loop.state = controller.release(loop.state)
+    assert loop.run(1.0, JOINT).state == DISABLED
+
+
+@pytest.mark.parametrize("why", ["motor/joint_command asks for nan rad/s: send a finite number."])
+def test_what_cannot_be_obeyed_is_a_stop(why: str) -> None:
+    loop = Loop()
+    loop.run(DT, STOP)
+    loop.run(0.1, JOINT)
+    output = loop.run(DT, why)
+    assert (output.state, output.terms.voltage) == (DISABLED, 0.0) and why in output.reason
+    assert loop.run(0.1, JOINT).state == DISABLED
+
+
+def test_one_source_drives_and_the_other_is_told() -> None:
+    loop = Loop()
+    loop.state = controller.refer(loop.state, 10.0, loop.now)
+    output = loop.run(0.1, STOP)
+    assert output.state == RUNNING and output.reference == 10.0
+    assert output.reason.startswith("motor/joint_command is not obeyed while motor/reference drives the motor")
+    _, loop.state = controller.release(loop.state)
+    loop.run(DT, STOP)
+    loop.run(0.1, JOINT)
+    loop.state = controller.refer(loop.state, 10.0, loop.now)
+    output = loop.run(DT, JOINT)
+    assert output.reference == 20.0
+    output = loop.run(0.6)  # the stream has ended
+    loop.state = controller.refer(loop.state, 10.0, loop.now)
+    assert loop.run(DT).reference == 10.0
+
+
+def test_several_senders_of_joint_commands_are_none() -> None:
+    loop = Loop()
+    loop.run(DT, STOP)
+    loop.run(0.1, JOINT)
+    loop.state = replace(loop.state, joint_senders="(/a, /b)")
+    output = loop.run(DT, JOINT)
+    assert output.state == DISABLED and "Several nodes publish motor/joint_command (/a, /b)" in output.reason
+
+
+@pytest.mark.parametrize(("asked", "applied"), [(3.0, 3.0), (-3.0, -3.0), (30.0, 12.0), (0.0, 0.0)])
+def test_a_voltage_is_applied_as_it_is_within_the_limits(asked: float, applied: float) -> None:
+    loop = Loop()
+    loop.run(DT, Demand(0.0, Kind.VOLTAGE, Source.JOINT))
+    output = loop.run(0.05, Demand(asked, Kind.VOLTAGE, Source.JOINT))
+    assert output.terms.voltage == output.terms.feedforward + (applied - asked) == applied
+    assert output.terms.saturated == (asked != applied) and output.reference != output.reference
+    assert (output.terms.proportional, output.terms.integral, output.terms.error) == (0.0, 0.0, 0.0)
+
+
+def test_a_blocked_motor_under_a_voltage_is_stopped_as_under_a_speed() -> None:
+    loop = Loop()
+    loop.run(DT, Demand(0.0, Kind.VOLTAGE, Source.JOINT))
+    output = loop.run(0.7, Demand(12.0, Kind.VOLTAGE, Source.JOINT))
+    assert output.state == STOPPED and "no edge came" in output.reason
+
+
+def test_a_voltage_that_is_no_number_is_0_volt() -> None:
+    loop = Loop()
+    loop.state = controller.refer(loop.state, nan, loop.now, Kind.VOLTAGE)
+    assert loop.run(DT).terms.voltage == 0.0 and loop.run(DT).state == STOPPED
