@@ -6,11 +6,11 @@ from dataclasses import replace
 from motor_bringup import motor
 from motor_bringup.argument import PARAMETERS, PLANT, Argument, checked
 from motor_bringup.files import named
+from motor_bringup.motors import BOARDS, SIDES, boards_of
 from motor_bringup.parameter_file import parameters_for
 from motor_bringup.plant import with_files
 from motor_bringup.program import Program, Session
 
-SIDES = ("left", "right")
 REFERENCE_TIMEOUT = 0.5  # [s] a drive that dies leaves no wheel turning: it sends references every 20 ms
 
 
@@ -22,10 +22,9 @@ def of_each(name: str, default: str, description: str) -> tuple[Argument, Argume
 
 ARGUMENTS = (
     PLANT,
+    *BOARDS,
     *of_each("model", "", "model file (YAML)"),
     *of_each("gains", "", "parameter file (YAML) with the gains of the controller, such as 'tune' writes,"),
-    *of_each("port", "", "serial port (with two boards on USB, give both a port or a board_id)"),
-    *of_each("board_id", "", "number that the board was flashed with"),
     Argument("record", "false", "true: record each motor's topics into a bag named after it and the time"),
     PARAMETERS,
 )
@@ -35,20 +34,21 @@ def session(told: Mapping[str, str]) -> Session:
     """What `diff_drive.launch.py` starts.
 
     Raises:
-        MotorError: a word is none of the choices, or a file that was named cannot be read.
+        MotorError: a word is none of the choices, a file cannot be read, or the boards cannot be told apart.
     """
     values = checked(ARGUMENTS, told)
-    programs = [program for side in SIDES for program in _wheel(side, values)]
+    boards = boards_of(values)
+    programs = [program for side in SIDES for program in _wheel(side, values, boards[side])]
     drive = Program("motor_examples", "diff_drive")
     parameters = with_files(drive.full_name, "robot.yaml", values, {})
     return Session((*programs, replace(drive, parameters=parameters)))
 
 
-def _wheel(side: str, values: Mapping[str, str]) -> list[Program]:
-    """One motor in the namespace of its side."""
-    own = {name: values[f"{side}_{name}"] for name in ("model", "gains", "port", "board_id")}
+def _wheel(side: str, values: Mapping[str, str], board: Mapping[str, str]) -> list[Program]:
+    """One motor in the namespace of its side; for its board the file that `check` wrote prevails."""
+    own = {name: values[f"{side}_{name}"] for name in ("model", "gains")}
     shared = {name: values[name] for name in ("plant", "record", "parameters")}
-    programs = motor.session({**own, **shared, "namespace": side}).programs
+    programs = motor.session({**shared, **own, **board, "namespace": side}).programs
     return [_let_references_end(program, values) for program in programs]
 
 

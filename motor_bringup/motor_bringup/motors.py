@@ -10,9 +10,12 @@ from motor_bringup.program import Session
 from motor_model.errors import MotorError
 
 SIDES = ("left", "right")
+BOARDS = tuple(
+    Argument(side, "", f"the {side} board's number, as flashed, or the file that `check` wrote") for side in SIDES
+)
 ARGUMENTS = (
     PLANT,
-    *(Argument(side, "", f"the {side} board's number, as flashed, or the file that `check` wrote") for side in SIDES),
+    *BOARDS,
     *(argument for argument in motor.ARGUMENTS if argument.name in ("model", "gains", "record", "control")),
 )
 
@@ -25,6 +28,17 @@ def session(told: Mapping[str, str]) -> Session:
     """
     values = checked(ARGUMENTS, told)
     shared = {name: value for name, value in values.items() if name not in SIDES}
+    boards = boards_of(values)
+    programs = (motor.session({**shared, **boards[side], "namespace": side}).programs for side in SIDES)
+    return Session(tuple(program for both in programs for program in both))
+
+
+def boards_of(values: Mapping[str, str]) -> dict[str, dict[str, str]]:
+    """Find both boards, as arguments of one motor each.
+
+    Raises:
+        MotorError: a file cannot be read, or the boards cannot be told apart.
+    """
     boards = {side: _board(side, values[side]) for side in SIDES}
     numbers = [board["board_id"] for board in boards.values()]
     if values["plant"] == "hardware" and not all(numbers):
@@ -38,8 +52,7 @@ def session(told: Mapping[str, str]) -> Session:
             f"left and right are both the board {numbers[0]}: flash one of them with another number (ros2 run "
             "motor_board flash --board-id)."
         )
-    programs = (motor.session({**shared, **boards[side], "namespace": side}).programs for side in SIDES)
-    return Session(tuple(program for both in programs for program in both))
+    return boards
 
 
 def _board(side: str, said: str) -> dict[str, str]:

@@ -19,7 +19,7 @@ def by_side(told: dict[str, str]) -> dict[tuple[str, str], Program]:
 
 @pytest.mark.parametrize(("plant", "each"), [("sim", 2), ("emulated", 3), ("hardware", 2)])
 def test_both_wheels_and_the_drive_are_started(plant: str, each: int) -> None:
-    programs = by_side({"plant": plant})
+    programs = by_side({"plant": plant, "left": "1", "right": "2"})
     assert [sum(side == name for side, _ in programs) for name in ("left", "right", "")] == [each, each, 1]
     assert all(programs[side, "motor_control"].parameters["reference_timeout"] == 0.5 for side in ("left", "right"))
     assert programs["", "diff_drive"].parameters["cmd_vel_timeout"] == 0.5
@@ -34,11 +34,8 @@ def test_each_wheel_has_its_own(tmp_path: Path) -> None:
     )
     model, gains = str(BAGS / "emulated.yaml"), str(BAGS / "low_gain.yaml")
     told = {"plant": "hardware", "left_model": model, "right_gains": gains, "parameters": str(file)}
-    programs = by_side({**told, "left_port": "/dev/ttyUSB0", "right_port": "/dev/ttyUSB1"})
-    assert [programs[s, "motor_driver"].parameters["port"] for s in ("left", "right")] == [
-        "/dev/ttyUSB0",
-        "/dev/ttyUSB1",
-    ]
+    programs = by_side({**told, "left": "7", "right": "9"})
+    assert [programs[s, "motor_driver"].parameters["board_id"] for s in ("left", "right")] == ["7", "9"]
     assert [programs[s, "motor_driver"].parameters["name"] for s in ("left", "right")] == ["left", "right"]
     controls = [programs[s, "motor_control"].parameters for s in ("left", "right")]
     assert [one["model"] for one in controls] == [model, ""]

@@ -39,7 +39,9 @@ def test_everything_that_is_started_exists(plant: str, namespace: str) -> None:
         motor.session({**told, "record": "true", "identification": "true", "gains": str(BAGS / "low_gain.yaml")}),
         identify.session({**told, "profile": "step", "effects": "coulomb_friction", "report": "out"}),
         replay.session({"bag": str(BAGS / "step")}),
-        diff_drive.session({"plant": plant, "left_model": str(BAGS / "emulated.yaml"), "record": "true"}),
+        diff_drive.session(
+            {"plant": plant, "left": "1", "right": "2", "left_model": str(BAGS / "emulated.yaml"), "record": "true"}
+        ),
     ]
     for session in sessions:
         for program in (*session.programs, *session.steps):
