@@ -1,10 +1,13 @@
 """The first run on a board: bytes and time in, bytes, prompts and findings out; driver and check joined."""
 
 from motor_driver.check.check import Check
-from motor_driver.check.look import Answer, Look, Prompt
+from motor_driver.check.look import OFF, Answer, Look, Prompt
 from motor_driver.check.settings import AnyBoard, Settings
 from motor_driver.driver import Driver, Reading
 from motor_driver.frames import Hello
+from motor_driver.handshake import PATIENCE
+
+SILENT = "no telemetry comes from {port} any more"
 
 
 def code_of_refusal(config: AnyBoard, board: Hello | None) -> str:
@@ -91,8 +94,12 @@ class FirstRun:
 
     def step(self, now: int) -> bytes:
         """What to send at `now`."""
-        act = self.check.act if self.check and not self.check.done else None
-        order = self.driver.step(now, act.on if act else False, act.voltage if act else 0.0)
-        if order.stop:
+        act = self.check.act if self.check and not self.check.done else OFF
+        order = self.driver.step(now, act.on, act.voltage)
+        session = self.driver.session
+        waits = session is not None and session.silent and not act.on  # nothing turns: samples may come again
+        if order.stop and not waits:
             self.abort(order.stop)
+        if waits and session is not None and now - session.heard > PATIENCE:
+            self.abort(SILENT.format(port=session.port))
         return order.data

@@ -61,3 +61,22 @@ def test_a_line_that_falls_silent_stops_it() -> None:
     run = bench.run()
     assert run.check is not None and "no telemetry from the port for 120 ms" in run.check.record.rows[-1].text
     assert bench.pins[-1][1] == 0.0
+
+
+def test_a_line_that_is_silent_for_a_while_with_the_motor_off_is_waited_for_and_no_longer() -> None:
+    need_emulator()
+    bench = EmulatedRun(Settings(edges_per_revolution=96, hand=False), config=BOARD)
+    while bench.run_.check is None:
+        bench._step()
+    hear = bench.run_.received
+    bench.run_.received = lambda data, now: None  # type: ignore[method-assign]
+    for _ in range(500):
+        bench._step()
+    assert not bench.run_.done
+    bench.run_.received = hear  # type: ignore[method-assign]
+    for _ in range(500):
+        bench._step()
+    assert not bench.run_.done and not any(volts for _, volts in bench.pins)
+    bench.run_.received = lambda data, now: None  # type: ignore[method-assign]
+    run = bench.run(10.0)
+    assert run.check is not None and "no telemetry comes from the port any more" in run.check.record.rows[-1].text
