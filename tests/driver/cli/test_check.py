@@ -27,10 +27,10 @@ def start(*arguments: object) -> "subprocess.Popen[str]":
     return subprocess.Popen(words, env=workbench.ENVIRONMENT, stdin=pipe, stdout=pipe, stderr=pipe, text=True)
 
 
-def interrupted(live: LiveBoard, port: Path) -> "tuple[int, str]":
+def interrupted(board: LiveBoard, port: Path) -> "tuple[int, str]":
     """Ctrl-C while the motor has voltage: exit status and words."""
     running = start("--port", port, "--no-hand")
-    while live.truth().voltage == 0.0 and running.poll() is None:
+    while board.truth().voltage == 0.0 and running.poll() is None:
         time.sleep(0.01)
     running.send_signal(signal.SIGINT)
     said, _ = running.communicate(timeout=PATIENCE)
