@@ -18,6 +18,7 @@ setup(
     entry_points={
         "console_scripts": [
             "diff_drive = motor_examples.diff_drive.node:main",
+            "compare = motor_examples.cli.compare:main",
         ],
     },
 )

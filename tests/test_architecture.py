@@ -25,7 +25,7 @@ BELOW = {
     "motor_driver": {"motor_model", "motor_ros"},
     "motor_control": {"motor_model", "motor_msgs", "motor_ros"},
     "motor_identification": {"motor_model", "motor_msgs", "motor_ros"},
-    "motor_examples": {"motor_model", "motor_msgs", "motor_ros"},
+    "motor_examples": {"motor_model", "motor_msgs", "motor_ros", "motor_identification"},
     "motor_bringup": {"motor_model", "motor_identification"},
 }
 ROS = {"rclpy", "motor_msgs", "motor_ros", "std_msgs", "std_srvs", "sensor_msgs", "diagnostic_msgs", "rcl_interfaces"}

@@ -17,6 +17,7 @@ Of `physical` only resistance and torque_constant are read: the rest follows fro
 
 from collections.abc import Mapping
 from contextlib import suppress
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -49,6 +50,18 @@ def load(path: str | Path) -> Parameters:
         return _parameters(content, Path(path).stem)
     except ModelError as error:
         raise ModelError(f"{path}: {error}") from error
+
+
+def load_errors(path: str | Path) -> dict[str, float]:
+    """Read the standard errors of a model file's parameters, NaN where the file has none.
+
+    Raises:
+        ModelError: as `load`.
+    """
+    names = load(path).values
+    rows = yaml_file.read(path)["parameters"]
+    errors = {name: rows[name].get("standard_error") if isinstance(rows[name], Mapping) else None for name in names}
+    return {name: nan if error is None else _number(name, error) for name, error in errors.items()}
 
 
 def _parameters(content: Any, default_name: str) -> Parameters:
