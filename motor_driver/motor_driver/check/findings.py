@@ -39,7 +39,7 @@ TABLE: dict[str, tuple[str, str, tuple[str, ...]]] = {
         (),
     ),
     "bridge_stuck_on": (
-        "The motor turns although the board gives 0 V ({rate:.3g} edges a second): the bridge is stuck on.",
+        "The motor turns although the board gives 0 V ({rate:.0f} edges a second): the bridge is stuck on.",
         "Switch the motor's supply off. D3 has to be wired to the bridge's enable, with that one's jumper taken off, "
         "and pulled down by 10 kΩ; D5 and D6 to its inputs; or the bridge is broken.",
         (),
@@ -51,7 +51,7 @@ TABLE: dict[str, tuple[str, str, tuple[str, ...]]] = {
         (),
     ),
     "noise": (
-        "{rate:.3g} edges a second come with the motor off and the shaft at rest.",
+        "{rate:.0f} edges a second come with the motor off and the shaft at rest.",
         "See the encoder's supply and ground, and its line's pull-up (4.7 kΩ to 5 V); keep its cable away from others.",
         (),
     ),
@@ -129,9 +129,14 @@ TABLE: dict[str, tuple[str, str, tuple[str, ...]]] = {
         (),
     ),
     "not_proportional": (
-        "The speed does not follow the voltage: {low:.3g} V give {low_rate:.3g} edges a second, {high:.3g} V "
-        "{high_rate:.3g}.",
+        "The speed does not follow the voltage: {low:.3g} V give {low_rate:.0f} edges a second, {high:.3g} V "
+        "{high_rate:.0f}.",
         "See D3 to the bridge's enable, with that one's jumper taken off.",
+        (),
+    ),
+    "too_many_edges": (
+        "At {voltage:.3g} V the encoder makes {rate:.0f} edges a second, and the board counts {most:.0f} for certain.",
+        "Lower --max-voltage, or take an encoder with fewer edges.",
         (),
     ),
     "stopped": ("The check has stopped the motor: {why}.", "Mend that, and check again.", ()),

@@ -2,8 +2,11 @@
 
 from math import nan
 
+import numpy as np
 import pytest
 from first_run_bench import SimulatedRun, hello, motor
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from motor_board.faults import Wiring
 from motor_driver.check.check import Check
@@ -128,3 +131,28 @@ def test_a_current_that_is_measured_gives_the_stall_current() -> None:
         act = check.see(Look(time, 0, edge, act.voltage, act.on, current=0.5 * act.voltage, answer=Answer.DONE))
         time += 0.005
     assert check.record.measured.stall_current == pytest.approx(6.0, rel=0.02)  # 12 V over 2 ohm
+
+
+@given(st.integers(0, 2**32 - 1), st.sampled_from([1, 2]), st.booleans())
+@settings(max_examples=25, deadline=None)
+def test_whatever_comes_it_ends_within_its_limits(seed: int, channels: int, hand: bool) -> None:
+    """Edges, counts, supplies and answers at random, with some sense at times: no exception, no voltage beyond."""
+    random = np.random.default_rng(seed)
+    check = Check(Settings(edges_per_revolution=96, hand=hand, hand_time=2.0), hello(channels))
+    act, time, count, edge = Act(), 1.0, 0, 0.0
+    rate = float(random.choice([0.0, 3.0, 50.0, 900.0, 30_000.0]))
+    for _ in range(12_000):
+        if random.random() < 0.01:
+            rate = float(random.choice([0.0, 3.0, 50.0, 900.0, 30_000.0])) * (
+                act.voltage != 0.0 or random.random() < 0.2
+            )
+        passed = int(random.poisson(rate * 0.005)) * int(random.choice([-1, 1]))
+        count, edge = count + passed, time - 0.001 * random.random() if passed else edge
+        answer = random.choice([None, None, None, *Answer]) if random.random() < 0.02 else None
+        supply = float(random.choice([12.0, nan, 0.0, 30.0])) if random.random() < 0.0005 else 12.0
+        act = check.see(Look(time, count, edge, act.voltage, act.on, supply, answer=answer))
+        assert abs(act.voltage) <= 6.0
+        time += 0.005 if random.random() > 1e-4 else 0.3
+        if check.done:
+            break
+    assert check.done and check.act == OFF and check.record.rows

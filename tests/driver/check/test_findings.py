@@ -22,6 +22,8 @@ VALUES = {
     "low_rate": 100.0,
     "high": 3.0,
     "high_rate": 101.0,
+    "voltage": 12.0,
+    "most": 20_000.0,
     "why": "Ctrl-C",
 }
 
