@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -36,11 +37,16 @@ def name_of(path: Path) -> str:
     return path.relative_to(ROOT).as_posix()
 
 
-def nodes(kind: type) -> Iterator[tuple[str, ast.AST]]:
-    for path in FILES:
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, kind):
-                yield name_of(path), node
+@cache
+def nodes(kind: type) -> list[tuple[str, ast.AST]]:
+    return [(name, node) for name, node in all_nodes() if isinstance(node, kind)]
+
+
+@cache
+def all_nodes() -> list[tuple[str, ast.AST]]:
+    return [
+        (name_of(path), node) for path in FILES for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+    ]
 
 
 def imported() -> Iterator[tuple[str, str]]:
@@ -51,11 +57,11 @@ def imported() -> Iterator[tuple[str, str]]:
         yield name, node.module or ""
 
 
-def called() -> Iterator[tuple[str, str, ast.Call]]:
+@cache
+def called() -> list[tuple[str, str, ast.Call]]:
     """Files and what they call, as it is written: `subprocess.run`, `eval`."""
-    for name, node in nodes(ast.Call):
-        if isinstance(node.func, (ast.Name, ast.Attribute)):
-            yield name, ast.unparse(node.func), node
+    calls = [(name, node) for name, node in nodes(ast.Call) if isinstance(node.func, (ast.Name, ast.Attribute))]
+    return [(name, ast.unparse(node.func), node) for name, node in calls]
 
 
 def users(*modules: str) -> set[str]:

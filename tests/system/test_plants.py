@@ -1,6 +1,5 @@
 """Simulated and real motor swap: the same checks over motor_sim, and over motor_driver on the emulated board."""
 
-import json
 from collections.abc import Callable
 from itertools import pairwise
 from math import tau
@@ -14,6 +13,8 @@ from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 from workbench import PATIENCE, Bench, end
 
+from motor_identification.bag import read_recording
+from motor_identification.identify import Request, identify
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_msgs.msg import MotorInfo
 from motor_ros import qos
@@ -117,22 +118,7 @@ def test_experiment_and_identification_find_the_motor(
     hidden = {"kv": 0.071, "ka": 0.0052, "ks": 0.4, "breakaway_voltage": 0.7, "stribeck_speed": 8.0}
     start_plant(Parameters(hidden, ("static_friction",)))
     bag = recorded(bench, start, tmp_path)
-    process = start(
-        "motor_identification",
-        *("identify", bag, "--effects", "static_friction", "--json", tmp_path / "fit.json"),
-    )
-    out, err = process.communicate(timeout=60.0)
-    assert process.returncode == 0, err
-    fit = json.loads((tmp_path / "fit.json").read_text(encoding="utf-8"))
-    found = fit["model"]["parameters"]
+    fit = identify([read_recording(str(bag))], Request(effects=("static_friction",)))
     for name, share in {"kv": 1e-4, "ka": 1e-3, "ks": 1e-3, "breakaway_voltage": 1e-3}.items():
-        assert found[name]["value"] == pytest.approx(hidden[name], rel=share), name
-    assert fit["residual_rms"] < 3.0 * fit["noise_floor"]
-    process = start("motor_identification", "diagnose", bag, "--json", tmp_path / "diagnosis.json")
-    out, err = process.communicate(timeout=90.0)
-    assert process.returncode == 0, err
-    diagnosis = json.loads((tmp_path / "diagnosis.json").read_text(encoding="utf-8"))
-    assert [one["effect"] for one in diagnosis["findings"]] == ["coulomb_friction", "static_friction"]
-    assert diagnosis["verdict"] != "unexplained" and diagnosis["gap_before"] > 5.0 * diagnosis["gap_after"]
-    for name in ("ks", "breakaway_voltage"):
-        assert diagnosis["model"]["parameters"][name]["value"] == pytest.approx(hidden[name], rel=2e-3), name
+        assert fit.parameters.value(name) == pytest.approx(hidden[name], rel=share), name
+    assert fit.residual_rms < 3.0 * fit.noise_floor  # so nothing else of the firmware is in the recording
