@@ -4,7 +4,6 @@ On the simulated plant with motors of 6, 30, 174 and 600 rad/s at 12 V and of 17
 1 kHz, with the controller's measured speed and with a model; and on the emulated board with the real firmware.
 """
 
-import subprocess
 import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -15,7 +14,7 @@ from faults_limits import limits
 from faults_loop import Loop, Outcome, outcome
 from faults_motor import MOTORS, Motor
 from faults_rows import FAULTS, Fault
-from machine import machine
+from machine import commit, machine
 
 RESULTS = Path(__file__).with_name("results")
 RATES = (200.0, 1000.0)  # [Hz]
@@ -90,7 +89,6 @@ def emulated() -> Iterable[tuple[str, bool]]:
 
 def page() -> str:
     """The whole page."""
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout
     sim, board = list(simulated()), list(emulated())
     met = [ok for _, ok in sim + board]
     heads = " | ".join(motor.name for motor in MOTORS)
@@ -98,7 +96,7 @@ def page() -> str:
         [
             "# Faults",
             "",
-            f"`python benchmarks/faults.py` at {commit.strip()}, {machine()}.",
+            f"`python benchmarks/faults.py` at {commit()}, {machine()}.",
             "",
             f"{sum(met)} of {len(met)} rows are within their time: 150 ms after a fault could be known, 500 ms where",
             "only motion can tell. A row that is not is marked **no**; `never` is no 0 V for good within 3 s.",

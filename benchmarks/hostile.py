@@ -7,13 +7,12 @@ output, no code run. `--share 0.1` tries a tenth, `--seed` others. `--kind NAME`
 
 import argparse
 import os
-import subprocess
 import sys
 import time
 from collections import Counter
 from pathlib import Path
 
-from machine import machine
+from machine import commit, machine
 
 sys.path[0] = str(Path(__file__).resolve().parents[1] / "tests" / "support")  # not beside control.py: tune imports one
 os.environ.setdefault("ROS_DOMAIN_ID", "99")
@@ -51,12 +50,6 @@ def row(kind: Kind, count: int, seed: int) -> tuple[str, int, list[Trial]]:
     return line, len(trials), bad
 
 
-def commit() -> str:
-    """What is checked out: asked before the first input, for the run takes a quarter of an hour."""
-    command = ["git", "rev-parse", "--short", "HEAD"]
-    return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
-
-
 def page(lines: list[str], total: int, bad: int, seed: int, live: str, begun: str) -> str:
     return "\n".join(
         [
@@ -84,7 +77,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--kind", default="")
     options = parser.parse_args()
-    begun = commit()
+    begun = commit()  # before the first input, for the run takes a quarter of an hour
     warm_up()
     lines, total, harm = [], 0, 0
     for kind in KINDS:

@@ -9,7 +9,6 @@ cent, as an identified one is. A latched stop is a false one.
 
 import argparse
 import os
-import subprocess
 import sys
 from collections import Counter
 from dataclasses import dataclass
@@ -19,7 +18,7 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
 
 import numpy as np
-from machine import machine
+from machine import commit, machine
 
 from motor_control.controller import controller
 from motor_control.parameters import ROWS, config_of
@@ -123,13 +122,13 @@ def table(results: dict[float, list[Result]]) -> list[str]:
     return lines
 
 
-def page(results: dict[float, list[Result]], commit: str, first: int, seconds: float) -> str:
+def page(results: dict[float, list[Result]], begun: str, first: int, seconds: float) -> str:
     """Write the page of what has been run so far."""
     runs = ", ".join(f"{len(some)} at {rate:.0f} Hz" for rate, some in results.items())
     stops = [one.stop for some in results.values() for one in some if one.stop]
     hours = sum(one.time for some in results.values() for one in some) / 3600.0
     lines = ["# No false stop", "", (__doc__ or "").split("\n\n")[1].strip(), ""]
-    lines += [f"At {commit}; {machine()}. Random motors from seed {first} on: {runs}, {seconds:g} s each.", ""]
+    lines += [f"At {begun}; {machine()}. Random motors from seed {first} on: {runs}, {seconds:g} s each.", ""]
     lines += [f"**{len(stops)} false stops in {hours:.1f} hours of simulated running.**", "", *table(results), ""]
     lines += [f"- {count} ×: {text}" for text, count in Counter(stops).most_common()]
     return "\n".join(lines).rstrip() + "\n"
@@ -142,7 +141,7 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=36.0, help="simulated, of each run (default 36)")
     parser.add_argument("--first", type=int, default=0, help="seed of the first run (default 0)")
     options = parser.parse_args()
-    commit = subprocess.run(["git", "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout
+    begun = commit()
     results: dict[float, list[Result]] = {}
     for rate in RATES:
         results[rate] = []
@@ -152,7 +151,7 @@ def main() -> int:
             if result.stop:
                 print(f"seed {seed}, {rate:.0f} Hz, {result.source}, {result.time:.2f} s: {result.stop}", flush=True)
             if seed % 25 == 24 or seed == options.first + options.runs - 1:
-                PAGE.write_text(page(results, commit.strip(), options.first, options.seconds), encoding="utf-8")
+                PAGE.write_text(page(results, begun, options.first, options.seconds), encoding="utf-8")
     print(PAGE.read_text(encoding="utf-8"))
     return 1 if any(one.stop for some in results.values() for one in some) else 0
 

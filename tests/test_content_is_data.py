@@ -44,9 +44,7 @@ def nodes(kind: type) -> list[tuple[str, ast.AST]]:
 
 @cache
 def all_nodes() -> list[tuple[str, ast.AST]]:
-    return [
-        (name_of(path), node) for path in FILES for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-    ]
+    return [(name_of(path), node) for path in FILES for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))]
 
 
 def imported() -> Iterator[tuple[str, str]]:

@@ -32,10 +32,10 @@ def made(hidden: dict[str, float], drive: profiles.Profile, seed: int) -> Record
 
 
 def diagnosed(hidden: dict[str, float], known: tuple[str, ...] = ()) -> Diagnosis:
-    """Trained on `rich`, judged on other voltages from another start."""
+    """Trained on all profiles, judged on other voltages from another start."""
     later = hidden | ({"step_time": 4.0} if "step_time" in hidden else {})
     return diagnose(
-        [made(hidden, profiles.rich(), 1)], [made(later, profiles.random(12.0, 10.0, 5), 2)], Request(known)
+        [made(hidden, profiles.compact(), 1)], [made(later, profiles.random(12.0, 10.0, 5), 2)], Request(known)
     )
 
 
@@ -149,7 +149,7 @@ def test_a_single_step_cannot_tell_and_says_what_would() -> None:
 
 
 def test_a_part_of_one_recording_is_kept_out_of_every_fit() -> None:
-    recording = made({"ks": 0.4}, profiles.rich(), 6)
+    recording = made({"ks": 0.4}, profiles.compact(), 6)
     problem = make_problem([recording], ("coulomb_friction",))
     theta = np.array([np.log(BASE["kv"]), np.log(BASE["ka"]), 0.4])
     model = validate_model(make_hold_out([recording], []), Estimate(problem, theta))

@@ -16,7 +16,7 @@ DISC = {"irregularity": 0.006, "disc_seed": 5}
 
 def test_the_plant_reproduces_the_reported_gap() -> None:
     hidden = {"dead_zone_voltage": 0.5}
-    train, _ = record(BASE | hidden, *profiles.rich(), seed=1, **DISC)  # type: ignore[arg-type]
+    train, _ = record(BASE | hidden, *profiles.compact(), seed=1, **DISC)  # type: ignore[arg-type]
     kept, truth = record(BASE | hidden, *profiles.random(12.0, 10.0, 7), seed=2, **DISC)  # type: ignore[arg-type]
     found = diagnose([check(train)], [check(kept)])
     assert len(found.findings) == 1

@@ -1,6 +1,7 @@
 """A motor under a random voltage as logs of speeds: by counts, or with white noise."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from plant import Truth, profiles, record
@@ -26,6 +27,7 @@ def noisy(sigma: float, seed: int = 0, digits: int = 9, **motor: float) -> Recor
     return without_count(replace(logged, speed=np.round(speed, digits)))
 
 
+@cache
 def _record(seed: int, edges: int, sample_rate: float, **motor: float) -> tuple[Recording, Truth]:
     drive = profiles.random(6.0, 20.0, seed=seed)
     return record(RUBBING | motor, *drive, seed=seed, edges=edges, sample_rate=sample_rate, single_channel=False)

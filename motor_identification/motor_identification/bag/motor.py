@@ -9,7 +9,7 @@ import numpy as np
 
 from motor_identification.bag.cdr import INFO_TYPE, ROW, SPEED_TYPE, Rows, SpeedDecoder, Undecodable, decode_info
 from motor_identification.bag.definition import installed
-from motor_identification.bag.storage import Bag
+from motor_identification.bag.storage import Bag, tell_damage
 from motor_identification.bag.topic import Topic, absolute_name
 from motor_identification.recording import Recording, check
 from motor_model.errors import RecordingError
@@ -48,20 +48,14 @@ def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.
     if bag.cut:
         span = float(kept["sample_time"][-1] - kept["sample_time"][0]) * 1e-9
         notes = [f"{uri} is cut off: {len(kept)} samples, {span:.2f} s up to the cut.", *notes]
-    if bag.damaged or bag.lost:
-        notes.append(tell_damage(bag, str(uri)))
+    if damage := tell_damage(bag, str(uri)):
+        notes.append(damage)
     if bag.garbled:
         notes.append(f"{uri}: {bag.garbled} messages are garbled and were left out.")
     if bag.missing:
         notes.append(f"{uri} lacks {', '.join(bag.missing)}, which its metadata.yaml lists: those samples are missing.")
     info = _info(infos, kept, info_topic, bag.uri, notes)
     return check(_recording(bag.uri, info, kept, tuple(notes)).between(start, stop))
-
-
-def tell_damage(bag: Bag, uri: str) -> str:
-    """What a bag that was read has lost."""
-    lost = f"{bag.lost} messages" if bag.lost else "some messages"
-    return f"{uri} is damaged: {lost} cannot be read; what stands behind them is used."
 
 
 def _motor(bag: Bag, namespace: str) -> tuple[Rows, list[Info], str]:

@@ -1,11 +1,11 @@
 """Reads any topic of a bag: what is in it, and its messages as they were serialised."""
 
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator
 from heapq import heappop, heappush
 from pathlib import Path
 
 from motor_identification.bag.contents import Contents
-from motor_identification.bag.storage import Bag
+from motor_identification.bag.storage import Bag, tell_damage
 from motor_identification.bag.topic import Topic
 from motor_model.errors import RecordingError
 
@@ -32,14 +32,24 @@ def topics(uri: str | Path) -> tuple[Topic, ...]:
     return contents(uri).topics
 
 
-def messages(uri: str | Path, topics: Container[str] | None = None) -> Iterator[Message]:
+def messages(
+    uri: str | Path, topics: Container[str] | None = None, tell: Callable[[str], object] = lambda damage: None
+) -> Iterator[Message]:
     """Messages on the topics (None: on all) in the order of the file; a bag that is cut off ends at the cut.
+
+    Args:
+        uri: the bag.
+        topics: whose messages are wanted.
+        tell: hears at the end what is damaged, if anything is.
 
     Raises:
         RecordingError: no such bag, or not a bag.
     """
-    for topic, log_time, data in Bag(uri).messages(topics):
+    bag = Bag(uri)
+    for topic, log_time, data in bag.messages(topics):
         yield topic.name, topic.type_name, log_time, data
+    if damage := tell_damage(bag, str(uri), "read"):
+        tell(damage)
 
 
 def in_time_order(stored: Iterable[Message], uri: str | Path) -> Iterator[Message]:

@@ -99,6 +99,14 @@ class Bag:
         return False
 
 
+def tell_damage(bag: Bag, uri: str, done: str = "used") -> str:
+    """What a bag that was read has lost, and what was done with the rest; empty where nothing is."""
+    if not (bag.damaged or bag.lost):
+        return ""
+    lost = f"{bag.lost} messages" if bag.lost else "some messages"
+    return f"{uri} is damaged: {lost} cannot be read; what stands behind them is {done}."
+
+
 def _files(path: Path) -> list[Path]:
     with _readable(path):
         if not path.exists():

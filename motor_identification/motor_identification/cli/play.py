@@ -134,10 +134,11 @@ def _publish(
     for topic, data in _latched_before(start, options, bag, publishers):
         publishers.publish(topic, data)
     shown = time.monotonic()
+    damage: set[str] = set()
     going = True
     while going:
         begun = False
-        for topic, log_time, data in _from(start, options.bag, publishers):
+        for topic, log_time, data in _from(start, options.bag, publishers, damage):
             if not begun:
                 schedule.begin(log_time)
                 begun = True
@@ -167,11 +168,17 @@ def _check_gap(uri: str, gap: float) -> None:
         print(f"{uri}: the next message comes {gap:.0f} s later.", file=sys.stderr)
 
 
-def _from(start: int, uri: str, wanted: "Publishers") -> Iterator[tuple[str, int, bytes]]:
-    """Topic, log time and data of the wanted messages from a log time on, in the order of time."""
+def _from(start: int, uri: str, wanted: "Publishers", damage: set[str]) -> Iterator[tuple[str, int, bytes]]:
+    """Topic, log time and data of the wanted messages from a log time on, in the order of time; damage is said once."""
     from motor_identification.bag import in_time_order, messages
 
-    for topic, _, log_time, data in in_time_order(messages(uri, wanted), uri):
+    def tell(sentence: str) -> None:
+        if sentence not in damage:
+            in_place("")
+            print(sentence, file=sys.stderr)
+        damage.add(sentence)
+
+    for topic, _, log_time, data in in_time_order(messages(uri, wanted, tell), uri):
         if log_time >= start:
             yield topic, log_time, data
 

@@ -10,7 +10,7 @@ from motor_bags import COLUMNS, INFO, SAMPLES, START, refusal, rewritten, write_
 from rclpy.serialization import serialize_message
 from rosbags.rosbag2 import StoragePlugin
 
-from motor_identification.bag import BagWriter, read_recording
+from motor_identification.bag import BagWriter, messages, read_recording
 from motor_identification.bag.mcap.summary import read_summary
 from motor_identification.recording import Recording
 from motor_model.errors import MotorError
@@ -61,12 +61,17 @@ def test_one_flipped_bit_costs_one_chunk(bag: Path, tmp_path: Path, chunk: int, 
 
 
 def test_how_much_was_lost_is_said(bag: Path, tmp_path: Path) -> None:
+    heard: list[str] = []
+    whole = len(list(messages(bag, None, heard.append)))
+    assert heard == []
     recording = flipped(bag, tmp_path / "flipped.mcap", 3, 100)
     (note,) = recording.notes
     assert len(recording) == len(SAMPLES) - CHUNK
     assert note == f"{tmp_path / 'flipped.mcap'} is damaged: 200 messages cannot be read; " + (
         "what stands behind them is used."
     )
+    assert len(list(messages(tmp_path / "flipped.mcap", None, heard.append))) == whole - CHUNK
+    assert heard == [note.replace(" used.", " read.")]
 
 
 def test_a_garbled_message_costs_itself(tmp_path: Path) -> None:

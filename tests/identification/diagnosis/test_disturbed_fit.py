@@ -1,5 +1,7 @@
 """Generalised least squares beside a random torque: white residuals, and less scatter than mean speeds have."""
 
+from functools import cache
+
 import numpy as np
 from plant import profiles, record
 
@@ -15,10 +17,11 @@ from motor_model.parameters import PAPER_KA, PAPER_KV
 TRUE = {"kv": PAPER_KV, "ka": PAPER_KA}
 
 
+@cache
 def fits(seed: int) -> tuple[Estimate, Estimate]:
     """By mean speeds as they are, and beside the torque that is learned from what that leaves."""
     torque = {"random_torque": 0.15, "random_torque_time": 0.05, "random_torque_seed": seed}
-    recording = check(record(TRUE | torque, *profiles.rich(12.0, seed), seed=seed)[0])
+    recording = check(record(TRUE | torque, *profiles.compact(12.0, seed), seed=seed)[0])
     ordinary = fit_speeds(Estimate(make_problem([recording], ()), np.log([PAPER_KV, PAPER_KA])))
     ordinary = fit_speeds(correct_directions(ordinary))
     return ordinary, fit_beside_torque(ordinary, learn_errors(ordinary))

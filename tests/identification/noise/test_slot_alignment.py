@@ -62,7 +62,7 @@ def test_a_perfect_disc_has_nothing_to_tell() -> None:
 def swinging(irregularity: float) -> Estimate:
     """A fit that lacks a ripple, on which a motor without friction swings where it should stand."""
     values = {"kv": 0.06, "ka": 0.0059, "ripple_voltage": 0.3, "ripple_cycles": 11.626, "ripple_phase": 1.0}
-    recording = check(record(values, *profiles.rich(12.0, 6), seed=6, irregularity=irregularity, disc_seed=9)[0])
+    recording = check(record(values, *profiles.compact(12.0, 6), seed=6, irregularity=irregularity, disc_seed=9)[0])
     bare = fit_speeds(Estimate(make_problem([recording], ()), np.log([values["kv"], values["ka"]])))
     return fit_speeds(correct_directions(bare))
 

@@ -66,7 +66,7 @@ SWINGING = {"kv": 0.071, "ka": 0.0056, "ripple_voltage": 0.39, "ripple_cycles": 
 def test_a_ripple_is_followed_through_every_standstill(friction: float) -> None:
     """Without friction the shaft swings where it should stand, no edge says which way, and a fit takes it for noise."""
     values = SWINGING | ({"ks": friction} if friction else {})
-    recording = check(record(values, *profiles.rich(12.0, 3), seed=3, irregularity=0.005)[0])
+    recording = check(record(values, *profiles.compact(12.0, 3), seed=3, irregularity=0.005)[0])
     bare, guess = without_ripple(recording, values)
     line = find_ripples(bare, measure_angles(bare, bare.problem.unknowns.effects))[0]
     assert abs(line.cycles - 10.866) < 0.01
@@ -87,7 +87,7 @@ def test_a_ripple_is_followed_through_every_standstill(friction: float) -> None:
 def test_a_ripple_is_found_that_is_not_among_the_highest_lines_of_the_blocks() -> None:
     """A small one beside an irregular disc: in blocks of a few turns eleven other lines look more likely."""
     values = {"kv": 0.05004, "ka": 0.005761, "ripple_voltage": 0.26745, "ripple_cycles": 10.8622, "ripple_phase": -1.21}
-    recording = check(record(values, *profiles.rich(12.0, 1002), seed=1002, irregularity=0.00525, disc_seed=195)[0])
+    recording = check(record(values, *profiles.compact(12.0, 1002), seed=1002, irregularity=0.00525, disc_seed=195)[0])
     bare, _guess = without_ripple(recording, values)
     lines = find_ripples(bare, measure_angles(bare, ()), 4.0)
     assert abs(lines[0].cycles - 10.8622) < 0.005

@@ -25,7 +25,7 @@ THERE = {
 @cache
 def fitted(effect: str, seed: int, there: bool) -> Fit:
     values = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.4, **(THERE[effect] if there else {})}
-    recording, _ = record(values, *profiles.rich(12.0, seed), irregularity=0.005, disc_seed=seed, seed=seed)
+    recording, _ = record(values, *profiles.compact(12.0, seed), irregularity=0.005, disc_seed=seed, seed=seed)
     return identify([check(recording)], Request(("coulomb_friction", effect)))
 
 
