@@ -22,6 +22,8 @@ from motor_ros import qos
 from motor_ros.messages import time_message
 
 KV, KA = 12.0 / 174.097, 0.0055
+# A busy machine does not interrupt, nor a plant whose time is slower than ours.
+PATIENT = ("--ros-args", "-p", "sample_timeout:=5.0", "-p", "latency_limit:=10.0")
 
 
 @pytest.fixture
@@ -34,9 +36,7 @@ def plant() -> Iterator[FakePlant]:
 @pytest.fixture
 def process(plant: FakePlant) -> Iterator[subprocess.Popen[str]]:
     """A controller that hears the plant and is heard."""
-    process = start(
-        "motor_control", "motor_control", "--ros-args", "-p", "sample_timeout:=5.0", "-p", "latency_limit:=10.0"
-    )  # so that a busy machine does not interrupt, nor a plant whose time is slower than ours
+    process = start("motor_control", "motor_control", *PATIENT)
     try:
         plant.meet()
         yield process
@@ -194,16 +194,7 @@ def warned(plant: FakePlant, words: str) -> bool:
 
 def test_a_model_at_the_start_is_ready_for_the_first_sample(plant: FakePlant, model: str) -> None:
     arguments = ("-p", f"model:={model}", "-p", "speed_source:=observer", "-p", "feedforward:=true")
-    process = start(
-        "motor_control",
-        "motor_control",
-        "--ros-args",
-        *arguments,
-        "-p",
-        "sample_timeout:=5.0",
-        "-p",
-        "latency_limit:=10.0",
-    )
+    process = start("motor_control", "motor_control", *PATIENT, *arguments)
     try:
         plant.tell(Info(name="wheel"))
         plant.meet()
@@ -310,7 +301,7 @@ def test_diagnostics_once_a_second(plant: FakePlant) -> None:
 
 
 def test_a_namespace_makes_another_motor() -> None:
-    plant, process = FakePlant("left"), start("motor_control", "motor_control", "--ros-args", "-r", "__ns:=/left")
+    plant, process = FakePlant("left"), start("motor_control", "motor_control", *PATIENT, "-r", "__ns:=/left")
     try:
         plant.meet()
         plant.refer(10.0)
@@ -320,6 +311,7 @@ def test_a_namespace_makes_another_motor() -> None:
         plant.close()
 
 
+@pytest.mark.on_time
 def test_at_1_khz_the_newest_sample_is_answered(plant: FakePlant, process: subprocess.Popen[str]) -> None:
     """In order, and none twice; one that has been overtaken is left out."""
     plant.refer(100.0)

@@ -94,6 +94,10 @@ def test_a_value_out_of_range_is_one_sentence(start_plant: Start) -> None:
     assert "sample_rate" in err and "10 to 1000 Hz" in err and err.count("\n") == 1
 
 
+def switched_on(bench: Bench) -> bool:
+    return bool(bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success)
+
+
 def recorded(bench: Bench, start: Start, directory: Path) -> Path:
     """The bag of an experiment, begun anew after a stop: each is counted, and there may be few."""
     stops = 0
@@ -106,7 +110,7 @@ def recorded(bench: Bench, start: Start, directory: Path) -> Path:
         assert "output is off" in err, err
         stops += 1
         count_stop(stops, "experiment")
-        assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+        bench.wait(lambda: switched_on(bench), "a board whose telemetry has come back")
 
 
 @pytest.mark.long

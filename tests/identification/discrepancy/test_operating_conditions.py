@@ -43,7 +43,7 @@ def test_the_angle_is_the_measured_one() -> None:
     one = held_with_true_gains(**DISC)
     seen = find_conditions(one)
     recording, truth = record(
-        BASE | DISC, *profiles.compact(9.0, seed=5), seed=2, disc_seed=1, irregularity=0.003
+        BASE | DISC, *profiles.rich(9.0, seed=5), seed=2, disc_seed=1, irregularity=0.003
     )  # the held-out recording of `diagnosed`, with what really happened
     first = (seen.time < 4.0) & ~seen.still
     angle = np.interp(seen.time[first], truth.time, truth.angle)

@@ -19,7 +19,7 @@ from motor_identification.validation.hold_out import make_hold_out
 def fitted(hidden: dict[str, float], effects: tuple[str, ...] = (), torque: float = 0.1) -> Model:
     """A model with some effects, fitted to a motor with more."""
     values = {"kv": 0.07, "ka": 0.0055, "random_torque": torque, "random_torque_seed": 2.0} | hidden
-    recording = check(record(values, *profiles.compact(12.0, 4), seed=4, irregularity=0.005, disc_seed=4)[0])
+    recording = check(record(values, *profiles.rich(12.0, 4), seed=4, irregularity=0.005, disc_seed=4)[0])
     hold_out = make_hold_out([recording], [])
     estimate, _search = search_globally(hold_out.restrict(make_problem([recording], effects)), SearchConfig())
     return begin_selection(estimate, hold_out, 1).model

@@ -87,7 +87,7 @@ def test_a_ripple_is_followed_through_every_standstill(friction: float) -> None:
 def test_a_ripple_is_found_that_is_not_among_the_highest_lines_of_the_blocks() -> None:
     """A small one beside an irregular disc: in blocks of a few turns eleven other lines look more likely."""
     values = {"kv": 0.05004, "ka": 0.005761, "ripple_voltage": 0.26745, "ripple_cycles": 10.8622, "ripple_phase": -1.21}
-    recording = check(record(values, *profiles.compact(12.0, 1002), seed=1002, irregularity=0.00525, disc_seed=195)[0])
+    recording = check(record(values, *profiles.rich(12.0, 1002), seed=1002, irregularity=0.00525, disc_seed=195)[0])
     bare, _guess = without_ripple(recording, values)
     lines = find_ripples(bare, measure_angles(bare, ()), 4.0)
     assert abs(lines[0].cycles - 10.8622) < 0.005
