@@ -204,6 +204,12 @@ class CandidateTest:
         """Share of the excess over the noise floor that it takes away."""
         return share_explained(self.before.held.gap, self.model.held.gap, self.model.unpredictable_gap)
 
+    @property
+    def has_instants(self) -> bool:
+        """Whether the effect has parameters of its own in each of several held-out recordings."""
+        several = len(self.model.held.recordings) > 1
+        return several and any(spec.of_recording for spec in EFFECT_BY_NAME[self.effect].parameters)
+
     def is_likely(self, least: float) -> bool:
         """Decide whether the evidence is beyond a least, beside a random torque without its few best moments too."""
         return self.evidence > least and (not self.model.beside_torque or self.steadiness > least)
@@ -218,7 +224,7 @@ class CandidateTest:
         floor = after.floor(self.model.noise.share)
         if before.gap < thresholds.RELEVANT_GAP * floor:
             return False
-        near = before.gap < thresholds.NEAR_FLOOR * floor
+        near = before.gap < thresholds.NEAR_FLOOR * floor or self.has_instants
         least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE
         seen = self.model.held.gap < (1.0 - thresholds.LEAST_DROP) * self.before.held.gap
         return seen and share_explained(before.gap, after.gap, floor) > least

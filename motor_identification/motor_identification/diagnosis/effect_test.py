@@ -73,21 +73,15 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
     best = next((test for test in tests if _is_finding(test)), None)
     if best is None:
         return None
-    margin = thresholds.RIVAL_MARGIN if _has_instants(best) else thresholds.TIE_LIKELIHOOD
+    margin = thresholds.RIVAL_MARGIN if best.has_instants else thresholds.TIE_LIKELIHOOD
     equals = [
         test
         for test in tests
-        if test.evidence > best.evidence - (thresholds.TIE_LIKELIHOOD if _has_instants(test) else margin)
+        if test.evidence > best.evidence - (thresholds.TIE_LIKELIHOOD if test.has_instants else margin)
         and count_parameters(test.effect) <= count_parameters(best.effect)
         and _is_finding(test)
     ]
     return min(equals, key=lambda test: list(EFFECT_BY_NAME).index(test.effect))
-
-
-def _has_instants(test: CandidateTest) -> bool:
-    """Whether an effect has parameters of its own in each of several held-out recordings."""
-    several = len(test.model.held.recordings) > 1
-    return several and any(spec.of_recording for spec in EFFECT_BY_NAME[test.effect].parameters)
 
 
 def _is_finding(test: CandidateTest) -> bool:

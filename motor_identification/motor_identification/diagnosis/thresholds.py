@@ -38,7 +38,8 @@ RELEVANT_GAP = 1.15
 # explain 0.54 to 1 of it, beside other hidden ones too; what a wrong one explains by chance is near 0.
 RELEVANT_SHARE = 0.3
 # The same where the gap before is at the floor already, and chance has a larger part in what little is left; and times
-# the floor (in lasting intervals), up to where that holds. Measured: complete models leave up to 1.5.
+# the floor (in lasting intervals), up to where that holds. Measured: complete models leave up to 1.5. The same for what
+# has an instant in each of several recordings.
 RELEVANT_SHARE_NEAR_FLOOR = 0.5
 NEAR_FLOOR = 2.0
 # Of the white residual's power beside a random torque, which no floor is known for: less is nothing to name.

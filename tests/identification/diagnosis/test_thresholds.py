@@ -1,18 +1,22 @@
 """Every threshold of the diagnosis decides: just on one side of it, and just on the other."""
 
+from dataclasses import replace
 from math import log, sqrt, tau
+from typing import cast
 
 import numpy as np
 import pytest
 from stub_models import LASTING_FLOOR, stub_held, stub_model, stub_test
 
 from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import CandidateTest
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     find_rivals,
     is_beyond_chance,
     likelihood_threshold,
 )
+from motor_identification.recording import Recording
 from motor_model.effects import EFFECTS
 
 BELOW, ABOVE = 0.999, 1.001
@@ -57,6 +61,29 @@ def test_tie_likelihood(times: float, passes: bool) -> None:
     friction = stub_test("coulomb_friction", before, 1.0, 100.0 - times * thresholds.TIE_LIKELIHOOD)
     assert choose_finding([load, friction]) is (load if passes else friction)
     assert choose_finding([stub_test("coulomb_friction", before, 1.0, 100.0), load]) is not load
+
+
+def of_two_recordings(test: CandidateTest) -> CandidateTest:
+    held = replace(test.model.held, recordings=cast(tuple[Recording, ...], (None, None)))
+    return replace(test, model=replace(test.model, held=held))
+
+
+@SIDES
+def test_an_instant_in_each_of_several_recordings_has_to_be_likelier_than_none(times: float, passes: bool) -> None:
+    before = stub_model(5.0)
+    load = stub_test("load_step", before, 1.0, 100.0)
+    friction = stub_test("coulomb_friction", before, 1.0, 100.0 - times * thresholds.RIVAL_MARGIN)
+    both = of_two_recordings(load)
+    assert (load.has_instants, both.has_instants, of_two_recordings(friction).has_instants) == (False, True, False)
+    assert choose_finding([both, friction]) is (both if passes else friction)
+    assert choose_finding([load, friction]) is load
+
+
+@SIDES
+def test_such_an_instant_explains_as_much_as_near_the_floor(times: float, passes: bool) -> None:
+    left = left_after(times * thresholds.RELEVANT_SHARE_NEAR_FLOOR, 2.0, LASTING_FLOOR)
+    load = stub_test("load_step", stub_model(5.0, 2.0), 0.99 * 5.0, 100.0, left)
+    assert load.relevant and of_two_recordings(load).relevant is passes
 
 
 @SIDES
