@@ -48,8 +48,8 @@ BAGS = re.compile(r"motor_identification/bag/((mcap|fields)/)?\w+\.py$")
 # Inside a package too: its rooms (folders, or files beside them) from the ground up; each may import those before it.
 ROOMS = {
     "motor_model": (
-        "compiled printable errors internal_error regular_file yaml_file text_table effect effects sample parameters "
-        "physical model_file excitation dynamics sensing simulate warm_up"
+        "compiled printable errors gear encoder_count internal_error regular_file yaml_file text_table effect effects "
+        "sample parameters physical model_file excitation dynamics sensing simulate warm_up"
     ),
     "motor_control": (
         "checks filter controller announcements tuning parameters warm_up preparation settings messages node cli"

@@ -17,8 +17,10 @@ from motor_board.live import LiveBoard
 from motor_board.parameters import FAULTS, PROGRAM, SET_UP
 from motor_board.port import Port
 from motor_board.shaft import EncoderConfig
+from motor_model.encoder_count import read_encoder_count
 from motor_model.model_file import load
 from motor_model.parameters import paper_motor
+from motor_model.sensing.encoder import Lines
 from motor_ros import qos
 from motor_ros.parameters import declare
 from motor_ros.plant import steady_timer
@@ -35,20 +37,23 @@ class BoardEmulator(Node):
         super().__init__("board_emulator")
         values, faults = declare(self, SET_UP), declare(self, FAULTS)
         model = load(str(values["model"])) if values["model"] else paper_motor()
-        edges, supply = int(values["edges_per_revolution"]), float(values["supply_voltage"])
+        count, supply = read_encoder_count(values), float(values["supply_voltage"])
+        pulses, channels = count.edges_per_revolution // count.quadrature, 1 if count.single_channel else 2
         model = replace(model, max_voltage=supply) if supply > 0.0 else model
         config = FirmwareConfig(
             bridge=str(values["bridge"]),
             board_id=int(values["board_id"]),
-            edges_per_revolution=edges,
-            channels=1 if values["single_channel"] else 2,
+            edges_per_revolution=pulses,
+            channels=channels,
             supply_full_scale=SUPPLY_FULL_SCALE if supply > 0.0 else 0,
         )
         encoder = EncoderConfig(
-            edges,
+            pulses,
             float(values["slot_irregularity"]),
             int(values["seed"]),
-            channels=1 if values["single_channel"] else 2,
+            channels=channels,
+            lines=Lines(float(values["duty_cycle"]), float(values["channel_phase"])) if channels == 2 else None,
+            gear=count.gear if count.gear != 1 else None,
         )
         emulator = Emulator(firmware(config), model, encoder)
         emulator.supply(5e3 * supply / SUPPLY_FULL_SCALE)

@@ -2,6 +2,7 @@
 
 from collections import deque
 from dataclasses import dataclass
+from fractions import Fraction
 from math import inf, tau
 
 import numpy as np
@@ -11,8 +12,9 @@ from motor_board.chip import FREQUENCY, Line
 from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.state import State, at_rest
 from motor_model.effects import INDEX
+from motor_model.gear import exact_gear
 from motor_model.parameters import Parameters
-from motor_model.sensing.encoder import make_disc, turn
+from motor_model.sensing.encoder import Lines, make_disc, make_lines_disc, next_flank, shown_angle, turn
 
 DELAY, MISS_RATE = INDEX["delay"], INDEX["miss_rate"]
 SLIDING, BREAKAWAY = INDEX["ks"], INDEX["breakaway_voltage"]
@@ -46,6 +48,13 @@ class Edges:
 NO_EDGES = Edges(np.empty(0, dtype=np.uint64), np.empty(0, dtype=np.uint8))
 
 
+# What the lines do at A's rising flank, B's, A's falling flank, B's; passed forward and backward.
+A_UP, A_DOWN, B_ALONE, B_HIGH = Line.A_STAYS, Line.A_FALLS, Line.B_ALONE, Line.B_HIGH
+FORWARD = np.array([A_UP, B_ALONE | B_HIGH, A_DOWN | B_HIGH, B_ALONE], dtype=np.uint8)
+BACKWARD = np.array([A_DOWN, B_ALONE, A_UP | B_HIGH, B_ALONE | B_HIGH], dtype=np.uint8)
+LEVELS = np.array([A_UP, A_UP | B_HIGH, A_DOWN | B_HIGH, A_DOWN], dtype=np.uint8)  # between that flank and the next
+
+
 @dataclass(frozen=True)
 class EncoderConfig:
     """The disc and its sensor."""
@@ -55,6 +64,8 @@ class EncoderConfig:
     seed: int = 0  # of the disc, its starting angle and missed edges
     start_angle: float | None = None  # [rad] of the disc; None: drawn from the seed
     channels: int = 1
+    lines: Lines | None = None  # every flank of both channels reaches the board; None: A's, and B only at these
+    gear: Fraction | None = None  # encoder turns per turn of the output; None: as the motor's
 
 
 class Shaft:
@@ -62,7 +73,13 @@ class Shaft:
 
     def __init__(self, parameters: Parameters, encoder: EncoderConfig) -> None:
         self._p, self._two = parameters.vector(), encoder.channels == 2
-        self._disc = make_disc(encoder.edges_per_revolution, encoder.slot_irregularity, encoder.seed)
+        gear = float(exact_gear(parameters.gear_ratio) if encoder.gear is None else encoder.gear)
+        self._p[INDEX["gear_ratio"]], self._lines = gear, encoder.lines is not None
+        shape = (encoder.slot_irregularity, encoder.seed, gear)
+        if encoder.lines is None:
+            self._disc = make_disc(encoder.edges_per_revolution, *shape)
+        else:
+            self._disc = make_lines_disc(encoder.edges_per_revolution, 4, *shape, encoder.lines)
         self._random = np.random.default_rng([encoder.seed, 1])
         drawn = float(self._random.uniform(0.0, tau))
         self._offset = drawn if encoder.start_angle is None else encoder.start_angle
@@ -102,7 +119,9 @@ class Shaft:
         """The edges from the end of the present plan to this cycle, if the voltage stays."""
         self._start(self._planned, self._then)
         self._then, times, directions = self._advance(until)
-        self._planned = until
+        begun, self._planned = self._planned == 0, until
+        if self._lines:
+            return self._line_edges(times, directions, begun)
         if self._p[MISS_RATE] > 0.0:
             seen = (self._random.random(len(times)) >= self._p[MISS_RATE]) | (np.abs(directions) == 2)
             times, directions = times[seen], directions[seen]
@@ -111,6 +130,17 @@ class Shaft:
         b_high = backward ^ falls  # a quarter of a slot behind A
         what = np.where(falls, Line.A_FALLS, Line.A_STAYS if self._two else 0) | np.where(b_high, Line.B_HIGH, 0)
         return Edges(cycles, what.astype(np.uint8))
+
+    def _line_edges(self, times: NDArray[np.float64], directions: NDArray[np.int64], begun: bool) -> Edges:
+        """All flanks of both lines; at power-up first their levels."""
+        flanks, here = self._disc.forward, shown_angle(self._p, self._state.angle) + self._offset
+        first = next_flank(flanks, here, 1, tau / self._p[INDEX["gear_ratio"]])
+        after = first + np.cumsum(directions)
+        what = np.where(directions > 0, FORWARD[(after - 1) % 4], BACKWARD[after % 4]).astype(np.uint8)
+        cycles = np.rint(times * FREQUENCY).astype(np.uint64)
+        if begun:
+            cycles, what = np.append(np.uint64(1), cycles), np.append(LEVELS[(first - 1) % 4], what)
+        return Edges(cycles, what)
 
     def drive(self, cycle: int, share: float) -> None:
         """The pins ask for a share of the full voltage (−1 to 1) from a cycle on; what was planned beyond it is void.
@@ -141,7 +171,7 @@ class Shaft:
                 disc = self._disc
                 state, passed = turn(
                     *(self._p, u, state, t, stop - t, disc.forward, disc.backward, self._offset),
-                    *(times, directions, self._two),
+                    *(times, directions, self._two and not self._lines),
                 )
                 t, count = stop, count + passed
         return state, self._times[:count].copy(), self._directions[:count].copy()

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from math import isfinite, tau
+from math import isfinite
 
 from motor_control.controller import pi, position_law
 from motor_control.controller.faults.evidence import SPARE, SPARE_SINGLE
@@ -140,7 +140,7 @@ def config_of(
 def slot_of(info: Info | None) -> float:
     """Find the angle [rad] between edges that are counted; 0: none are, or nothing is known."""
     counted = info is not None and info.measurement is not Measurement.SPEED
-    return tau / info.edges_per_revolution if info is not None and counted else 0.0
+    return info.edge_angle if info is not None and counted else 0.0
 
 
 def info_problem(info: Info) -> str:

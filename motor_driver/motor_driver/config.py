@@ -1,8 +1,9 @@
 """What the driver is told at its start."""
 
 from dataclasses import dataclass
+from fractions import Fraction
 
-from motor_driver.frames import BAUD, Configure, Decay, Hello
+from motor_driver.frames import BAUD, Configure, Decay, Features, Hello, Pwm, Setup
 from motor_model.sample import Info, Measurement
 
 SILENCE = 0.12  # [s] without telemetry, or for the board without commands: then it is 0 V within 150 ms
@@ -10,6 +11,7 @@ LEAST_TIMEOUT = 0.05  # [s] of the board: no computer is quicker for certain
 # Of the firmware: 1.0 has no pull-ups on the encoder's lines, so that a lost cable makes stray edges, and it counts a
 # shaft that dithers over one flank as turning.
 OLDEST = (1, 1)
+SETUP = (1, 2)  # of the firmware: knows setup, and counts both channels
 USUAL_TICK = 500  # [ns] of the boards there are, before one has said so
 
 
@@ -19,13 +21,16 @@ class Config:
 
     name: str = "motor"
     sample_rate: float = 200.0  # [Hz]
-    edges_per_revolution: int = 96
+    edges_per_revolution: int = 96  # counted in a turn of the encoder's shaft
     single_channel: bool = True
+    quadrature: int = 1  # of these, in a period of one channel: 1, 2, 4
+    gear: Fraction = Fraction(1)  # encoder turns per turn of the output, which speeds are of
     max_voltage: float = 12.0  # [V] of the motor
     supply_voltage: float = 0.0  # [V] at full duty, where the board does not measure it; 0: as max_voltage
     command_timeout: float = 0.1  # [s]
     stall_time: float = 0.4  # [s] 0: the driver never stops the motor
     decay: Decay = Decay.BRAKE
+    pwm: Pwm = Pwm.STANDARD
     baud: int = BAUD
     board_id: int | None = None  # None: any
     reverse_motor: bool = False  # its two wires are exchanged
@@ -47,10 +52,23 @@ class Config:
         timeout = min(max(1.2 * self.command_timeout, LEAST_TIMEOUT), SILENCE)
         return Configure(period, round(timeout * 1e3), self.decay)
 
+    def setup(self, board: Hello) -> Setup | None:
+        """How this board shall count and pulse; None where it has no choice."""
+        return Setup(self.quadrature, self.pwm) if _firmware(board) >= SETUP else None
+
+    def refusal_of(self, features: Features) -> str:
+        """Why a board with these cannot be used as configured; empty if it can."""
+        if self.pwm is Pwm.SILENT and not features.silent_decays >> self.decay & 1:
+            return (
+                f"This board's bridge has no PWM above hearing with decay {self.decay.name.lower()}: set decay to "
+                f"{Decay(1 - self.decay).name.lower()}, or silent_pwm to false."
+            )
+        return ""
+
     def refusal(self, board: Hello) -> str:
         """Why this board cannot be used as configured; empty if it can."""
-        edges, channels = self.edges_per_revolution, 1 if self.single_channel else 2
-        if (board.firmware_major, board.firmware_minor) < OLDEST:
+        pulses, channels = self.edges_per_revolution // self.quadrature, 1 if self.single_channel else 2
+        if _firmware(board) < OLDEST:
             return (
                 f"The board runs firmware {board.firmware_major}.{board.firmware_minor}, and this driver needs "
                 f"{OLDEST[0]}.{OLDEST[1]} or a newer one: flash the board again (ros2 run motor_board flash)."
@@ -61,10 +79,22 @@ class Config:
                 f"This is the board {number}, and the parameter board_id is {self.board_id}: plug the right board in, "
                 "set port or board_id, or flash its number (ros2 run motor_board flash --board-id)."
             )
-        if board.edges_per_revolution not in (0, edges):
+        if board.edges_per_revolution not in (0, pulses):
+            name = "edges_per_revolution" if self.quadrature == 1 else "pulses_per_revolution"
             return (
                 f"The board was flashed for an encoder with {board.edges_per_revolution} edges per revolution, and the "
-                f"parameter edges_per_revolution is {edges}: set the parameter, or flash the board again."
+                f"parameter {name} is {pulses}: set the parameter, or flash the board again."
+            )
+        if self.quadrature > 1 and board.channels == 1:
+            return (
+                f"quadrature is {self.quadrature}, and the board was flashed for one encoder channel: flash it again "
+                "(ros2 run motor_board flash --channels 2), or set quadrature to 1."
+            )
+        wanted = f"quadrature {self.quadrature}" if self.quadrature > 1 else "silent_pwm" if self.pwm else ""
+        if wanted and _firmware(board) < SETUP:
+            return (
+                f"The board runs firmware {board.firmware_major}.{board.firmware_minor}, and {wanted} needs "
+                f"{SETUP[0]}.{SETUP[1]}: flash the board again (ros2 run motor_board flash)."
             )
         if board.channels != channels:
             return (
@@ -87,4 +117,10 @@ class Config:
             max_voltage=min(self.max_voltage, self.full_voltage),
             supply_voltage=self.full_voltage,
             decay=Decay(board.decay).name.lower() if board else self.decay.name.lower(),
+            quadrature=self.quadrature,
+            gear_ratio=float(self.gear),
         )
+
+
+def _firmware(board: Hello) -> tuple[int, int]:
+    return board.firmware_major, board.firmware_minor

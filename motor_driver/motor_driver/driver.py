@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from motor_driver.config import Config
 from motor_driver.exchange import Exchange
-from motor_driver.frames import Flag, Hello, OtherVersion, Pong, Telemetry
+from motor_driver.frames import Features, Flag, Hello, OtherVersion, Pong, Telemetry
 from motor_driver.handshake import Handshake, reset_cause
 from motor_driver.protocol import Event, LinkCounters
 from motor_driver.readout import Readout
@@ -81,6 +81,11 @@ class Driver:
         """[V] at full duty, measured where the board can."""
         return self._readout.supply if self._readout else self.config.full_voltage
 
+    @property
+    def encoder_errors(self) -> int:
+        """Transitions of both encoder lines at once, which no motion makes."""
+        return self._readout.errors if self._readout else 0
+
     def refusal(self) -> str:
         """Why the output cannot be switched on now; empty if it can."""
         if self.session is None:
@@ -139,6 +144,8 @@ class Driver:
             session.handshake.refuse(event)
         elif isinstance(event.frame, Hello):
             self._hear_hello(session, event.frame, now)
+        elif isinstance(event.frame, Features):
+            session.handshake.hear_features(event.frame)
         elif isinstance(event.frame, Telemetry):
             return self._hear_telemetry(session, event.frame, now)
         elif isinstance(event.frame, Pong) and session.exchange and session.latest and self._readout:

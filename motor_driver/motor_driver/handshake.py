@@ -3,7 +3,7 @@
 from enum import Enum, auto
 
 from motor_driver.config import Config
-from motor_driver.frames import Configure, FromHost, Hello, Identify, OtherVersion, ResetCause, Telemetry
+from motor_driver.frames import Configure, Features, FromHost, Hello, Identify, OtherVersion, ResetCause, Telemetry
 from motor_model.errors import MotorError
 
 ASK_EVERY = 200_000_000  # [ns]
@@ -14,6 +14,7 @@ class Phase(Enum):
     """How far it has come."""
 
     IDENTIFY = auto()
+    SETUP = auto()  # of boards that have a choice
     CONFIGURE = auto()
     RUN = auto()
 
@@ -35,7 +36,7 @@ class Handshake:
             self._refusal = self._config.refusal(frame)
             self.hello = frame
             if not self._refusal and not self._roll_call:
-                self._go(Phase.CONFIGURE)
+                self._go(Phase.SETUP if self._config.setup(frame) else Phase.CONFIGURE)
         elif self.phase is Phase.CONFIGURE and self.hello is not None:
             if frame.boot != self.hello.boot:
                 self.hello = frame
@@ -44,6 +45,13 @@ class Handshake:
                 self.hello, self.phase = frame, Phase.RUN
                 return True
         return False
+
+    def hear_features(self, features: Features) -> None:
+        """Take what holds after a setup."""
+        if self.phase is Phase.SETUP and features.quadrature == self._config.quadrature:
+            self._refusal = self._config.refusal_of(features)
+            if not self._refusal:
+                self._go(Phase.CONFIGURE)
 
     def refuse(self, other: OtherVersion) -> None:
         """A frame of another version came."""
@@ -62,6 +70,8 @@ class Handshake:
         if self.phase is Phase.RUN or now - self._asked < ASK_EVERY:
             return None
         self._asked = now
+        if self.phase is Phase.SETUP and self.hello is not None:
+            return self._config.setup(self.hello)
         return Configure(*self._wanted()) if self.phase is Phase.CONFIGURE else Identify()
 
     @property

@@ -3,10 +3,10 @@
 from collections.abc import Mapping
 
 from motor_driver.config import Config
-from motor_driver.frames import BAUD, Decay
+from motor_driver.frames import BAUD, Decay, Pwm
+from motor_model.encoder_count import read_encoder_count
 from motor_model.errors import MotorError
-from motor_ros.parameters import Row, Value
-from motor_ros.plant import SHARED_PARAMETERS, max_voltage_row
+from motor_ros.parameters import SHARED_PARAMETERS, Row, Value, max_voltage_row
 from motor_ros.program import PLANT_PUBLISHES, Program
 
 MOST_ID = 65535
@@ -30,6 +30,12 @@ ROWS = (
     Row("baud", BAUD, "of the serial port; the firmware's", "", 9600, 4_000_000, read_only=True),
     Row("reverse_motor", False, "true: makes up for exchanged wires of the motor", read_only=True),
     Row("reverse_encoder", False, "true: makes up for exchanged channels of the encoder, A and B", read_only=True),
+    Row(
+        "silent_pwm",
+        False,
+        "PWM above hearing: 20 kHz in 100 steps on the bridge's enable, 62.5 kHz in 256 on its inputs; false: 7.8 kHz",
+        read_only=True,
+    ),
     Row("decay", "brake", "what the bridge does in the off part of a PWM period: brake or coast", read_only=True),
 )
 PROGRAM = Program(
@@ -48,16 +54,19 @@ def config_of(values: Mapping[str, Value]) -> Config:
     """The driver's configuration.
 
     Raises:
-        MotorError: there is no such decay, or no such board_id.
+        MotorError: there is no such decay or board_id, or the encoder's parameters contradict each other.
     """
     names = [decay.name.lower() for decay in Decay]
     if values["decay"] not in names:
         raise MotorError(f"there is no decay '{values['decay']}': choose {' or '.join(names)}.")
+    count = read_encoder_count(values)
     return Config(
         name=str(values["name"]),
         sample_rate=float(values["sample_rate"]),
-        edges_per_revolution=int(values["edges_per_revolution"]),
-        single_channel=bool(values["single_channel"]),
+        edges_per_revolution=count.edges_per_revolution,
+        single_channel=count.single_channel,
+        quadrature=count.quadrature,
+        gear=count.gear,
         max_voltage=float(values["max_voltage"]),
         supply_voltage=float(values["supply_voltage"]),
         board_id=_board_id(str(values["board_id"]).strip()),
@@ -66,6 +75,7 @@ def config_of(values: Mapping[str, Value]) -> Config:
         stall_time=float(values["stall_time"]),
         command_timeout=float(values["command_timeout"]),
         decay=Decay[str(values["decay"]).upper()],
+        pwm=Pwm.SILENT if values["silent_pwm"] else Pwm.STANDARD,
         baud=int(values["baud"]),
     )
 

@@ -5,8 +5,9 @@ from math import nan
 from motor_driver.clock.board_clock import BoardClock
 from motor_driver.config import Config
 from motor_driver.frames import NOT_MEASURED, Flag, Hello, Telemetry
+from motor_model.gear import edge_angle
 from motor_model.sample import Sample
-from motor_model.sensing.speed_rule import SpeedState, revolution_share, single_channel_speed, speed_magnitude
+from motor_model.sensing.speed_rule import SpeedState, single_channel_speed, speed_magnitude
 
 HALF, WRAP = 1 << 31, 1 << 32
 NO_SUPPLY = 3.0  # [V] measured below this, the supply is off
@@ -20,15 +21,17 @@ class Readout:
         self._config = config
         self._motor = -1 if config.reverse_motor else 1
         self._encoder = -1 if config.reverse_encoder and not config.single_channel else 1
-        self._slot = revolution_share(config.edges_per_revolution)
+        self._slot = edge_angle(config.edges_per_revolution, config.gear)
+        self.errors = 0  # transitions of both encoder lines at once, over all resets
         self.supply = config.full_voltage  # [V] at full duty
         self._measured = False
         self.clock = BoardClock(board.tick_ns)
         self._begin(board)
 
     def _begin(self, board: Hello) -> None:
+        self._errors: int | None
         self._tick, self._top = board.tick_ns, board.pwm_top
-        self._count, self._edge_time, self._speed_state = 0, 0, SpeedState()
+        self._count, self._edge_time, self._errors, self._speed_state = 0, 0, None, SpeedState()
 
     def restart(self, frame: Telemetry, board: Hello, host: int) -> None:
         """The board has started anew; this is the first that it says, read at `host` [ns]."""
@@ -40,14 +43,17 @@ class Readout:
         now = self.clock.newest
         steps = (frame.edge_count - self._count) % WRAP
         self._count += steps - WRAP if steps >= HALF else steps
+        self.errors += 0 if self._errors is None else (frame.errors - self._errors) % 256
+        self._errors = frame.errors
         if frame.edge_valid:
             self._edge_time = self.clock.before(frame.edge_time)
         self._follow_supply(frame.supply)
         voltage = self._motor * frame.duty / self._top * self.supply
         period = frame.edge_period * self._tick / 1e9
+        magnitude = speed_magnitude(self._slot, now, self._edge_time, period, self._config.quadrature)
         return Sample(
             sample_time=now,
-            speed=self._speed(frame, speed_magnitude(self._slot, now, self._edge_time, period), voltage, now),
+            speed=self._speed(frame, magnitude, voltage, now),
             voltage=voltage,
             edge_count=self._encoder * self._count,
             edge_time=self._edge_time,

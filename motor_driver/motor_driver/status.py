@@ -20,11 +20,12 @@ class Tally:
     link: LinkCounters = LinkCounters()
     runs: bool = False
     openings: int = 0
+    encoder_errors: int = 0
 
 
 def tally(driver: Driver, now: int) -> Tally:
     """What has been counted by now [ns]."""
-    return Tally(now, driver.readings, driver.counters, driver.runs, driver.openings)
+    return Tally(now, driver.readings, driver.counters, driver.runs, driver.openings, driver.encoder_errors)
 
 
 def problem(driver: Driver, was: Tally, now: int) -> str:
@@ -42,6 +43,7 @@ def problem(driver: Driver, was: Tally, now: int) -> str:
         "lower sample_rate."
         if steady and rate < LEAST_RATE * driver.config.sample_rate
         else "",
+        _encoder(driver.encoder_errors - was.encoder_errors, driver.board),
         _noise(driver.counters, was.link),
     )
     return next(filter(None, sentences), "")
@@ -73,6 +75,7 @@ def values(driver: Driver, was: Tally, now: int) -> dict[str, str]:
         "voltage at full duty [V]": f"{driver.supply:.2f}",
         "ports opened": driver.openings,
         "board resets": driver.resets,
+        "encoder errors": driver.encoder_errors,
         **_board(driver.board),
         **_clock(session.exchange if session else None),
     }
@@ -89,6 +92,16 @@ def _noise(counters: LinkCounters, was: LinkCounters) -> str:
     if not bad and not lost:
         return ""
     return f"{bad} damaged and {lost} lost frames in the last second: see cable, ground and the machine's load."
+
+
+def _encoder(errors: int, board: Hello | None) -> str:
+    """Transitions that no motion makes."""
+    if errors <= 0 or board is None:
+        return ""
+    return (
+        f"Both encoder lines changed at once {errors} times in the last second, and the counts there are lost: see the "
+        "encoder's cable and supply, or count less with quadrature 2."
+    )
 
 
 def _supply(driver: Driver) -> str:

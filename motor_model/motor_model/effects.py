@@ -199,14 +199,15 @@ SPECS = BASE + tuple(spec for effect in EFFECTS for spec in effect.parameters)
 SPEC_BY_NAME = {spec.name: spec for spec in SPECS}
 
 # The vector the compiled code works on: every parameter in the order of the table, then the supply, then how many times
-# longer than full accuracy allows a piece of the motion may be, then what a measured current adds (`physical/`).
-MAX_VOLTAGE, COARSENESS = "max_voltage", "coarseness"
+# longer than full accuracy allows a piece of the motion may be, then what a measured current adds (`physical/`),
+# then turns of the encoder's (the motor's) shaft per turn of the output: what is periodic in the angle is so over it.
+MAX_VOLTAGE, COARSENESS, GEAR_RATIO = "max_voltage", "coarseness", "gear_ratio"
 ELECTRICAL = (
     P("resistance", "Ω", 0.0, 0.02, 20.0, logarithmic=True, minimum=1e-6),  # times the voltage per largest current
     P("torque_constant", "N·m/A", 0.0, 0.2, 1.2),  # times kv; 0 is kv
     P("current_offset", "A", 0.0, -0.2, 0.2, minimum=-inf, of_recording=True),  # times the largest current
 )
-VECTOR_NAMES = (*SPEC_BY_NAME, MAX_VOLTAGE, COARSENESS, *(spec.name for spec in ELECTRICAL))
+VECTOR_NAMES = (*SPEC_BY_NAME, MAX_VOLTAGE, COARSENESS, *(spec.name for spec in ELECTRICAL), GEAR_RATIO)
 INDEX = {name: i for i, name in enumerate(VECTOR_NAMES)}
 
 

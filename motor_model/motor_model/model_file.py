@@ -76,6 +76,7 @@ def _parameters(content: Any, default_name: str) -> Parameters:
         tuple(effects),
         _number("max_voltage", content.get("max_voltage", 12.0)),
         escape(str(content.get("name") or default_name)),
+        gear_ratio=_number("gear_ratio", content.get("gear_ratio", 1.0)),
         **_physical(content.get("physical")),
     )
     _check_limits(parameters)
@@ -153,6 +154,7 @@ def save(
     content = {
         "name": parameters.name,
         "max_voltage": parameters.max_voltage,
+        **({"gear_ratio": parameters.gear_ratio} if parameters.gear_ratio != 1.0 else {}),
         "effects": list(parameters.effects),
         "parameters": rows,
         **_physical_section(parameters, physical_errors or {}),

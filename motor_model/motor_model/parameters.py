@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from motor_model.effects import (
     COARSENESS,
     ELECTRICAL,
+    GEAR_RATIO,
     INDEX,
     MAX_VOLTAGE,
     SPEC_BY_NAME,
@@ -42,6 +43,7 @@ class Parameters:
     name: str = field(default="motor", compare=False)
     resistance: float = 0.0  # [Ω] of the cold armature; 0: unknown
     torque_constant: float = 0.0  # [N·m/A]; 0: kv, no viscous friction
+    gear_ratio: float = 1.0  # turns of the encoder's shaft per turn of the output, which speed and angle are of
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "effects", normalised(self.effects))
@@ -82,6 +84,8 @@ class Parameters:
                 f"torque_constant = {self.torque_constant:g} N·m/A must be 0 (unknown) to kv, the back-EMF with all "
                 f"viscous friction: {self.values['kv']:g} V·s/rad."
             )
+        if not np.isfinite(self.gear_ratio) or self.gear_ratio <= 0.0:
+            raise ModelError(f"gear_ratio = {self.gear_ratio:g} must be positive.")
 
     def value(self, name: str) -> float:
         """The parameter's value, or the value that makes its effect vanish if this motor does not have it."""
@@ -89,7 +93,7 @@ class Parameters:
 
     def vector(self) -> NDArray[np.float64]:
         """Every parameter of the table in its order, then max_voltage: what the compiled code takes. Shape (P,)."""
-        vector = neutral(self.max_voltage)
+        vector = neutral(self.max_voltage, gear_ratio=self.gear_ratio)
         for name, value in self.values.items():
             vector[INDEX[name]] = value
         for spec in ELECTRICAL:
@@ -107,12 +111,13 @@ class Parameters:
         return self.values["ka"] / self.values["kv"]
 
 
-def neutral(max_voltage: float, coarseness: float = 1.0) -> NDArray[np.float64]:
+def neutral(max_voltage: float, coarseness: float = 1.0, gear_ratio: float = 1.0) -> NDArray[np.float64]:
     """A vector with every effect off; kv and ka are yet to be set. Shape (P,)."""
     vector = np.empty(len(VECTOR_NAMES))
     for spec in (*SPECS, *ELECTRICAL):
         vector[INDEX[spec.name]] = spec.off
     vector[INDEX[MAX_VOLTAGE]], vector[INDEX[COARSENESS]] = max_voltage, coarseness
+    vector[INDEX[GEAR_RATIO]] = gear_ratio
     return vector
 
 

@@ -2,9 +2,11 @@
 
 from dataclasses import dataclass
 from enum import Enum
+from fractions import Fraction
 from math import nan
 
 from motor_model.errors import MotorError
+from motor_model.gear import MOST, edge_angle, exact_gear
 
 
 class Measurement(str, Enum):
@@ -36,7 +38,7 @@ class Info:
     name: str = "motor"
     source: str = "simulation"  # hardware | simulation | import
     measurement: Measurement = Measurement.EDGES
-    edges_per_revolution: int = 96  # of one polarity
+    edges_per_revolution: int = 96  # counted in a turn of the encoder's shaft
     single_channel: bool = True
     edge_resolution: float = 4e-6  # [s] tick of the timer that stamps edges
     sample_period: float = 0.005  # [s]
@@ -45,6 +47,18 @@ class Info:
     max_voltage: float = 12.0  # [V] at most that the motor gets
     decay: str = "unknown"  # brake | coast | unknown
     supply_voltage: float = 0.0  # [V] at full duty; 0: max_voltage
+    quadrature: int = 1  # counts in a period of one channel: 1 (one polarity), 2, 4; 0 is 1
+    gear_ratio: float = 0.0  # encoder turns per turn of the output, which speeds and angles are of; 0: none
+
+    @property
+    def gear(self) -> Fraction:
+        """Encoder turns per output turn, exactly."""
+        return exact_gear(self.gear_ratio)
+
+    @property
+    def edge_angle(self) -> float:
+        """[rad] by which the output turns from one count to the next."""
+        return edge_angle(self.edges_per_revolution, self.gear)
 
     @property
     def full_voltage(self) -> float:
@@ -61,6 +75,8 @@ RANGES = {
     "speed_lag": (-1000.0, 1000.0),
     "max_voltage": (0.0, 1e5),
     "supply_voltage": (0.0, 1e5),
+    "quadrature": (0.0, 4.0),
+    "gear_ratio": (0.0, float(MOST)),
 }
 
 

@@ -8,6 +8,7 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 from rclpy.node import Node
 
+from motor_model.encoder_count import DEFAULT_EDGES, MOST_EDGES
 from motor_model.errors import MotorError
 
 Value = bool | int | float | str
@@ -87,3 +88,80 @@ def unknown_parameters(node: Node, rows: Iterable[Row]) -> list[str]:
 def _did_you_mean(name: str, names: list[str]) -> str:
     close = get_close_matches(name, names, 1)
     return f": did you mean {close[0]}?" if close else f"; there are {', '.join(names)}."
+
+
+# What simulated and real motor share, so that they swap.
+SHARED_PARAMETERS = (
+    Row("name", "motor", "the motor's name: frame_id of its samples, joint of joint_states", read_only=True),
+    Row("sample_rate", 200.0, "samples per second", "Hz", 10.0, 1000.0, read_only=True),
+    Row(
+        "edges_per_revolution",
+        DEFAULT_EDGES,
+        "counts per turn of the encoder's shaft, of one polarity; pulses_per_revolution prevails",
+        "",
+        1,
+        MOST_EDGES,
+        read_only=True,
+    ),
+    Row(
+        "single_channel",
+        True,
+        "the encoder has one channel and does not measure direction; with quadrature 2 or 4 it has two",
+        read_only=True,
+    ),
+    Row(
+        "quadrature",
+        1,
+        "counts in a period of one channel: 1 (one polarity), 2 (both of A) or 4 (both of both)",
+        "",
+        1,
+        4,
+        read_only=True,
+    ),
+    Row(
+        "pulses_per_revolution",
+        0,
+        "periods of one channel per turn of the encoder's shaft; times quadrature it makes the counts; 0: not said",
+        "",
+        0,
+        MOST_EDGES,
+        read_only=True,
+    ),
+    Row(
+        "gear_ratio",
+        "1",
+        "turns of the encoder's shaft per turn of the output, which speed and angle are of: 34.014, 9291/273",
+        read_only=True,
+        any_kind=True,
+    ),
+    Row(
+        "supply_voltage",
+        0.0,
+        "voltage at full duty, where none is measured; 0: as max_voltage",
+        "V",
+        0.0,
+        100.0,
+        read_only=True,
+    ),
+    Row("command_timeout", 0.1, "without a command for this long the motor gets 0 V", "s", 0.005, 10.0, read_only=True),
+    Row(
+        "enabled_at_start",
+        True,
+        "true: the output is on as soon as voltages begin, at 0 V or from a new sender; false: off until motor/enable",
+        read_only=True,
+    ),
+    Row(
+        "stall_time",
+        0.4,
+        "half of max_voltage and more without an edge for this long, or against the motion, is a stop; 0: never",
+        "s",
+        0.0,
+        60.0,
+        read_only=True,
+    ),
+)
+
+
+def max_voltage_row(default: float = 12.0) -> Row:
+    """The shared parameter whose default a model file may set."""
+    return Row("max_voltage", default, "the motor's; commands are limited to it", "V", 0.1, 100.0, read_only=True)

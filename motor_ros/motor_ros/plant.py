@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Callable
-from math import tau
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
@@ -11,51 +10,15 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 
+from motor_model.gear import angle_of_count
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.gate import OFF, STOPPED, Gate
 from motor_ros.messages import info_message, speed_message
-from motor_ros.parameters import Row
 from motor_ros.voltage_input import VoltageInput
 
 STEADY = Clock(clock_type=ClockType.STEADY_TIME)
-SHARED_PARAMETERS = (
-    Row("name", "motor", "the motor's name: frame_id of its samples, joint of joint_states", read_only=True),
-    Row("sample_rate", 200.0, "samples per second", "Hz", 10.0, 1000.0, read_only=True),
-    Row("edges_per_revolution", 96, "encoder edges of one polarity per turn", "", 1, 100_000, read_only=True),
-    Row("single_channel", True, "the encoder has one channel and does not measure direction", read_only=True),
-    Row(
-        "supply_voltage",
-        0.0,
-        "voltage at full duty, where none is measured; 0: as max_voltage",
-        "V",
-        0.0,
-        100.0,
-        read_only=True,
-    ),
-    Row("command_timeout", 0.1, "without a command for this long the motor gets 0 V", "s", 0.005, 10.0, read_only=True),
-    Row(
-        "enabled_at_start",
-        True,
-        "true: the output is on as soon as voltages begin, at 0 V or from a new sender; false: off until motor/enable",
-        read_only=True,
-    ),
-    Row(
-        "stall_time",
-        0.4,
-        "half of max_voltage and more without an edge for this long, or against the motion, is a stop; 0: never",
-        "s",
-        0.0,
-        60.0,
-        read_only=True,
-    ),
-)
-
-
-def max_voltage_row(default: float = 12.0) -> Row:
-    """The shared parameter whose default a model file may set."""
-    return Row("max_voltage", default, "the motor's; commands are limited to it", "V", 0.1, 100.0, read_only=True)
 
 
 def steady_timer(node: Node, period: float, callback: Callable[[], None]) -> None:
@@ -80,7 +43,7 @@ class Plant:
         """
         self._node, self.info, self.gate = node, info, gate.come_up(time.monotonic_ns())
         self._refusal, self._changed = refusal, changed or (lambda: None)
-        self._angle, self._count = 0.0, 0
+        self._turned, self._count = 0, 0  # counts: signed, and the board's own
         self._speed = node.create_publisher(MotorSpeed, "motor/speed", qos.SPEED)
         self._info = node.create_publisher(MotorInfo, "motor/info", qos.INFO)
         self._joint = node.create_publisher(JointState, "joint_states", qos.JOINT_STATES)
@@ -119,9 +82,10 @@ class Plant:
         turned = sample.edge_count - self._count
         if self.info.single_channel and sample.speed < 0.0:
             turned = -turned
-        self._angle += turned * tau / self.info.edges_per_revolution
+        self._turned += turned
         self._count = sample.edge_count
-        joint = JointState(name=[self.info.name], position=[self._angle], velocity=[sample.speed])
+        angle = angle_of_count(self._turned, self.info.edges_per_revolution, self.info.gear)
+        joint = JointState(name=[self.info.name], position=[angle], velocity=[sample.speed])
         joint.header.stamp = stamp
         self._joint.publish(joint)
 

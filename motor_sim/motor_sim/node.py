@@ -5,14 +5,16 @@ from dataclasses import replace
 
 from rclpy.node import Node
 
+from motor_model.encoder_count import read_encoder_count
 from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
+from motor_model.sensing.encoder import Lines
 from motor_model.sensing.motion_check import MotionCheck
 from motor_ros.gate import Gate
 from motor_ros.messages import time_message
-from motor_ros.parameters import Row, declare
-from motor_ros.plant import SHARED_PARAMETERS, Plant, max_voltage_row, steady_timer
+from motor_ros.parameters import SHARED_PARAMETERS, Row, declare, max_voltage_row
+from motor_ros.plant import Plant, steady_timer
 from motor_ros.program import PLANT_PUBLISHES, Program
 from motor_ros.run import quick_executor, run
 
@@ -46,6 +48,24 @@ PARAMETERS = (
         100.0,
         read_only=True,
     ),
+    Row(
+        "duty_cycle",
+        0.5,
+        "with quadrature 2 or 4: share of a period that a channel is high",
+        "",
+        0.3,
+        0.7,
+        read_only=True,
+    ),
+    Row(
+        "channel_phase",
+        0.25,
+        "with quadrature 4: share of a period by which B is behind A",
+        "",
+        0.1,
+        0.29,
+        read_only=True,
+    ),
     Row("seed", 0, "of the disc, its starting angle and missed edges", "", 0, 2**31 - 1, read_only=True),
 )
 PROGRAM = Program(
@@ -76,9 +96,16 @@ class MotorSim(Node):
         limit, supply = float(limit), float(values["supply_voltage"]) or float(limit)
         known = {name: float(values[name]) for name in ("resistance", "torque_constant") if values[name]}
         model = replace(model, max_voltage=supply, **known)
-        fields = ("name", "sample_rate", "edges_per_revolution", "single_channel")
-        fields += ("edge_resolution", "slot_irregularity", "seed")
-        config = BoardConfig(**{field: values[field] for field in fields})  # type: ignore[arg-type]
+        fields = ("name", "sample_rate", "edge_resolution", "slot_irregularity", "seed")
+        encoder = read_encoder_count(values)
+        config = BoardConfig(
+            **{field: values[field] for field in fields},  # type: ignore[arg-type]
+            edges_per_revolution=encoder.edges_per_revolution,
+            single_channel=encoder.single_channel,
+            quadrature=encoder.quadrature,
+            gear=encoder.gear if encoder.gear != 1 else None,
+            lines=Lines(float(values["duty_cycle"]), float(values["channel_phase"])),
+        )
         self._board = SimulatedBoard(model, config)
         self._board.sample(0.0)  # compiled now, not in the first sample
         gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]), 1.0 / config.sample_rate)

@@ -20,7 +20,7 @@ def test_plants_swap_in_that_word_only() -> None:
     first = [session.programs[0] for session in sessions.values()]
     assert [program.executable for program in first] == ["motor_sim", "motor_driver", "motor_driver"]
     shared = {row.name for row in NODES["motor_sim"][1]} & {row.name for row in NODES["motor_driver"][1]}
-    assert len(shared) == 9
+    assert len(shared) == 12
     for a, b in itertools.combinations(first, 2):
         differing = {name for name in shared if a.parameters[name] != b.parameters[name]}
         assert differing <= {"max_voltage"}  # which a model file cannot tell of real hardware

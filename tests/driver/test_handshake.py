@@ -6,7 +6,7 @@ import pytest
 from board_frames import HELLO, TELEMETRY
 
 from motor_driver.config import Config
-from motor_driver.frames import Configure, Hello, Identify, OtherVersion, ResetCause
+from motor_driver.frames import Configure, Features, Hello, Identify, OtherVersion, ResetCause, Setup
 from motor_driver.handshake import ASK_EVERY, PATIENCE, Handshake, Phase, reset_cause
 
 ANSWER = replace(HELLO, command_timeout=120, latch=HELLO.latch + 1)  # as asked, and switched off by that
@@ -72,3 +72,19 @@ def test_causes_of_a_reset_are_named() -> None:
     both = replace(HELLO, reset_cause=ResetCause.BROWN_OUT | ResetCause.WATCHDOG)
     assert reset_cause(both) == "brown out, watchdog"
     assert reset_cause(replace(HELLO, reset_cause=0)) == "unknown cause"
+
+
+def test_a_board_that_can_count_otherwise_is_told_how_before_it_is_configured() -> None:
+    new = replace(HELLO, firmware_minor=2)
+    shaken = handshake()
+    assert not shaken.hear(new) and shaken.phase is Phase.SETUP and shaken.asks(ASK_EVERY) == Setup(1, 0)
+    shaken.hear_features(Features(4, 0, 0))  # an old answer
+    assert shaken.phase is Phase.SETUP
+    shaken.hear_features(Features(1, 0, 0))
+    assert shaken.phase is Phase.CONFIGURE and shaken.asks(2 * ASK_EVERY) == Configure(10_000, 120, 0)
+
+
+def test_an_old_board_that_cannot_count_both_channels_is_refused() -> None:
+    shaken = Handshake(Config(edges_per_revolution=44, single_channel=False, quadrature=4), "the port", 0)
+    shaken.hear(replace(HELLO, edges_per_revolution=11, channels=2))
+    assert "runs firmware 1.1, and quadrature 4 needs 1.2: flash" in shaken.problem(0)

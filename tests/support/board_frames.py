@@ -6,7 +6,7 @@ from motor_driver.frames import NOT_MEASURED, Decay, Flag, Hello, ResetCause, Te
 
 HELLO = Hello(
     firmware_major=1,
-    firmware_minor=2,
+    firmware_minor=1,  # it has no choice of counting: see SETUP of the driver
     firmware_patch=3,
     board=1,
     board_id=0,

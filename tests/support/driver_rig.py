@@ -1,7 +1,7 @@
 """The driver's logic against the real firmware on the emulated chip, in lockstep: the test owns both clocks."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from emulated_board import MS, TICK
 
@@ -24,6 +24,7 @@ class Rig:
     config: Config = field(default_factory=Config)
     parameters: Parameters = field(default_factory=paper_motor)
     firmware: FirmwareConfig = field(default_factory=lambda: FirmwareConfig(edges_per_revolution=96))
+    encoder: EncoderConfig = field(default_factory=lambda: EncoderConfig(seed=3))
     enabled: bool = True
     cautious: bool = True  # the user begins with 0 V whenever a board has begun to run
     step: int = MS // 4  # [cycle] between two looks at the port
@@ -31,7 +32,7 @@ class Rig:
 
     def __post_init__(self) -> None:
         if self.emulator is None:
-            encoder = EncoderConfig(seed=3, channels=self.firmware.channels)
+            encoder = replace(self.encoder, channels=self.firmware.channels)
             self.emulator = Emulator(firmware(self.firmware), self.parameters, encoder)
         self.driver = Driver(self.config)
         self.gate = Gate(self.enabled, self.config.command_timeout)

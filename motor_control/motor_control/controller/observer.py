@@ -14,7 +14,7 @@ which count as noise instead.
 """
 
 from dataclasses import dataclass, field, replace
-from math import ceil, copysign, inf, nan, sqrt, tau
+from math import ceil, copysign, inf, nan, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,7 +78,7 @@ class Observer:
         at_least(0.0, slot_irregularity=self.slot_irregularity)
         if self.info.measurement is not Measurement.EDGES:
             raise MotorError("the observer needs edges with time stamps, and this plant does not have them.")
-        vector, slot = self.parameters.vector(), tau / self.info.edges_per_revolution
+        vector, slot = self.parameters.vector(), self.info.edge_angle
         ripple, off_centre = vector[INDEX["ripple_voltage"]], vector[INDEX["eccentricity"]]
         for name in ("ripple_voltage", "eccentricity", "step_voltage"):
             vector[INDEX[name]] = 0.0

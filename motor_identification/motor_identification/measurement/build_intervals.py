@@ -5,7 +5,7 @@ An edge is an exact angle at a time known to the timer's tick, so that between t
 window.
 """
 
-from math import sqrt, tau
+from math import sqrt
 
 import numpy as np
 
@@ -51,7 +51,7 @@ def _from_edges(recording: Recording) -> Intervals:
 
 def make_edge_intervals(recording: Recording, edges: Edges) -> Intervals:
     """Make intervals between stamped edges with known directions."""
-    slot = tau / recording.info.edges_per_revolution
+    slot = recording.info.edge_angle
     good = mark_one_way(edges)
     first, last = edges.only(np.flatnonzero(good)), edges.only(np.flatnonzero(good) + 1)
     speed = last.direction * np.abs(last.count - first.count) * slot / (last.time - first.time)
@@ -75,7 +75,7 @@ def _from_counts(recording: Recording) -> Intervals:
 
 def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
     """Make intervals from counts read at the samples, between the instants at which they fix the angle."""
-    slot = tau / recording.info.edges_per_revolution
+    slot = recording.info.edge_angle
     fixes = locate_fixes(recording, changes)
     good = (np.diff(fixes.run) == 0) & (fixes.way[1:] != 0) & (np.diff(fixes.time) > 0.0)
     begin, end = np.flatnonzero(good), np.flatnonzero(good) + 1
@@ -90,7 +90,7 @@ def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
 
 def _from_noisy_angles(recording: Recording, noise: float) -> Intervals:
     """Make intervals from sample to sample, where the angle is known to within `noise` [counts] at each."""
-    slot, time = tau / recording.info.edges_per_revolution, recording.time
+    slot, time = recording.info.edge_angle, recording.time
     speed = np.diff(recording.edge_count) * slot / np.diff(time)
     return index_intervals(time[:-1], time[1:], speed, np.full(len(speed), noise * slot))
 

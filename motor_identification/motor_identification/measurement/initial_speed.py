@@ -31,7 +31,7 @@ def estimate_initial_speed(recording: Recording) -> float:
     head = recording.between(0.0, float(recording.time[min(HEAD_SAMPLES, len(recording) - 1)]))
     time, place = _passed(head)
     speed = _followed_back(time, place, _first_voltage(head)) if len(time) > 3 else 0.0
-    return speed * _way(head) * 2.0 * np.pi / info.edges_per_revolution
+    return speed * _way(head) * info.edge_angle
 
 
 def _passed(recording: Recording) -> tuple[Floats, Floats]:

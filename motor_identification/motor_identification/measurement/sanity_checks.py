@@ -1,7 +1,5 @@
 """Refuse counts and speeds that no motor makes: counters that wrap or are reset, speeds in another unit."""
 
-from math import tau
-
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
@@ -54,7 +52,7 @@ def compare_speed_with_count(recording: Recording) -> float | None:
     telling = counted >= CHUNK_COUNTS
     if np.count_nonzero(telling) < 3:
         return None
-    slot = tau / recording.info.edges_per_revolution
+    slot = recording.info.edge_angle
     return float(np.median(travelled[telling] / counted[telling])) / slot
 
 

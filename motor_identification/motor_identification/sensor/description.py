@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from math import degrees, tau
+from math import degrees
 
 from motor_identification.recording import Recording
 from motor_identification.sensor.noisy_angle import find_angle_noise
@@ -60,7 +60,7 @@ def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
 def _describe_angles(recordings: Sequence[Recording]) -> str:
     """Say how noisy sampled angles are; empty where they are counts of edges."""
     noises = [
-        find_angle_noise(one) * tau / one.info.edges_per_revolution
+        find_angle_noise(one) * one.info.edge_angle
         for one in recordings
         if one.info.measurement is Measurement.COUNTS and not one.info.single_channel
     ]

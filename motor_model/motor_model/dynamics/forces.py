@@ -17,7 +17,7 @@ STEP, STEP_TIME = INDEX["step_voltage"], INDEX["step_time"]
 COAST, SAG = INDEX["coast_share"], INDEX["sag"]
 RIPPLE, CYCLES, PHASE = INDEX["ripple_voltage"], INDEX["ripple_cycles"], INDEX["ripple_phase"]
 RISE, WARM_UP = INDEX["resistance_rise"], INDEX["warm_up_time"]
-U_MAX, CONSTANT = INDEX["max_voltage"], INDEX["torque_constant"]
+U_MAX, CONSTANT, GEAR = INDEX["max_voltage"], INDEX["torque_constant"], INDEX["gear_ratio"]
 
 
 @compiled
@@ -47,7 +47,7 @@ def loads_at(p: Floats, angle: float, t: float) -> float:
     if p[STEP] != 0.0 and t >= p[STEP_TIME]:
         load += p[STEP]
     if p[RIPPLE] != 0.0:
-        load += p[RIPPLE] * sin(p[CYCLES] * angle + p[PHASE])
+        load += p[RIPPLE] * sin(p[CYCLES] * p[GEAR] * angle + p[PHASE])
     return load
 
 
@@ -56,7 +56,8 @@ def load_slope_at(p: Floats, angle: float) -> float:
     """The slope of the loads over the angle [rad], in V/rad, cold."""
     if p[RIPPLE] == 0.0:
         return 0.0
-    return p[RIPPLE] * p[CYCLES] * cos(p[CYCLES] * angle + p[PHASE])
+    cycles = p[CYCLES] * p[GEAR]
+    return p[RIPPLE] * cycles * cos(cycles * angle + p[PHASE])
 
 
 @compiled

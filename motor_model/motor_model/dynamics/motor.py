@@ -6,7 +6,7 @@ In armature voltages throughout (symbols and parameters: `effects.py`; gain = 1/
     drive      = (u_eff − ke·ω·(1 − share·(1 − |u_eff|/u_max))) / (1 + sag·(u_eff/u_max)²)
     τ dv/dt    = drive − v                            (v = drive where the armature has no inductance)
     friction   = sign ω·(ks + max(breakaway − ks, 0)·exp(−(ω/ω_s)²)) + (kv − ke)·ω + drag·ω·|ω|
-    loads      = bias + step(t) + ripple·sin(cycles·θ + phase)
+    loads      = bias + step(t) + ripple·sin(cycles·gear·θ + phase)
     w          = 1 + rise·(1 − e^(−t/t_w))            (warm copper)
 
 ke is kv less its viscous part: back-EMF alone. Without a measured current the two are one (ke = kv). v is w·R·current.

@@ -29,7 +29,7 @@ RIPPLE, CYCLES, RISE, WARM_UP = (
     INDEX["resistance_rise"],
     INDEX["warm_up_time"],
 )
-COARSENESS = INDEX["coarseness"]
+COARSENESS, GEAR = INDEX["coarseness"], INDEX["gear_ratio"]
 
 STRIBECK_PIECE, RUNAWAY, DRAG_PIECE = 0.25, 0.5, 1e-3
 RIPPLE_ANGLE = 2e-8  # [rad] error of the swing that a ripple makes of a fast shaft
@@ -44,11 +44,11 @@ def _ripple_piece(p: Floats, speed: float, acceleration: float, inertia: float) 
     Where it passes with a frequency f = cycles·ω, two Gauss nodes miss a share (f·h)⁴/4320 of its acceleration r, and
     the angle swings by r/f²: the faster, the less. Near a standstill the bend of its phase, cycles·(a + r)·h², counts.
     """
-    jolt = abs(p[RIPPLE]) / inertia
-    frequency = p[CYCLES] * speed + 1e-9
+    jolt, cycles = abs(p[RIPPLE]) / inertia, p[CYCLES] * p[GEAR]
+    frequency = cycles * speed + 1e-9
     turned = RIPPLE_TURN / frequency
-    swing = sqrt(4320.0 * RIPPLE_ANGLE / jolt) / frequency
-    bend = RIPPLE_BEND / (p[CYCLES] * (acceleration + jolt))
+    swing = sqrt(4320.0 * RIPPLE_ANGLE / p[GEAR] / jolt) / frequency
+    bend = RIPPLE_BEND / (cycles * (acceleration + jolt))
     return sqrt(min(turned * turned, min(swing, bend)))
 
 

@@ -2,6 +2,7 @@
 
 from collections import deque
 from dataclasses import dataclass
+from fractions import Fraction
 from math import nan, tau
 
 import numpy as np
@@ -10,11 +11,12 @@ from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.current import current_at
 from motor_model.dynamics.state import State, at_rest
 from motor_model.effects import INDEX
+from motor_model.gear import edge_angle, exact_gear
 from motor_model.parameters import Parameters
 from motor_model.sample import Info, Measurement, Sample
 from motor_model.sensing.current_sense import make_current_sense
-from motor_model.sensing.encoder import make_disc, turn
-from motor_model.sensing.speed_rule import SpeedState, revolution_share, single_channel_speed, speed_magnitude
+from motor_model.sensing.encoder import Lines, make_disc, make_lines_disc, turn
+from motor_model.sensing.speed_rule import SpeedState, single_channel_speed, speed_magnitude
 
 DELAY, MISS_RATE = INDEX["delay"], INDEX["miss_rate"]
 MOST_EDGES = 4096  # in one sample; at 200 Hz that is 54,000 rad/s on 96 edges
@@ -27,12 +29,19 @@ class BoardConfig:
 
     name: str = "motor"
     sample_rate: float = 200.0  # [Hz]
-    edges_per_revolution: int = 96
+    edges_per_revolution: int = 96  # counted in a turn of the encoder's shaft
     single_channel: bool = True
     edge_resolution: float = 4e-6  # [s] timer tick
     slot_irregularity: float = 0.0  # share of a slot
     seed: int = 0  # of the disc, the starting angle and missed edges
     start_angle: float | None = None  # [rad] of the disc; None: drawn from the seed
+    quadrature: int = 1  # counts in a period of one channel; 2 and 4 need both channels
+    gear: Fraction | None = None  # encoder turns per turn of the output; None: as the motor's
+    lines: Lines = Lines()  # with quadrature 2 and 4
+
+    def gear_of(self, parameters: Parameters) -> Fraction:
+        """The gear between this encoder and the output of that motor."""
+        return exact_gear(parameters.gear_ratio) if self.gear is None else self.gear
 
     def info(self, parameters: Parameters) -> Info:
         """What a reader of the samples has to know."""
@@ -46,6 +55,8 @@ class BoardConfig:
             sample_period=1.0 / self.sample_rate,
             max_voltage=parameters.max_voltage,
             decay="coast" if parameters.value("coast_share") > 0.0 else "brake",
+            quadrature=self.quadrature,
+            gear_ratio=float(self.gear_of(parameters)),
         )
 
 
@@ -55,11 +66,18 @@ class SimulatedBoard:
     def __init__(self, parameters: Parameters, config: BoardConfig) -> None:
         self._p = parameters.vector()
         self._config = config
-        self._disc = make_disc(config.edges_per_revolution, config.slot_irregularity, config.seed)
+        gear = config.gear_of(parameters)
+        self._p[INDEX["gear_ratio"]] = float(gear)
+        if config.quadrature > 1:
+            pulses = config.edges_per_revolution // config.quadrature
+            shape = (pulses, config.quadrature, config.slot_irregularity, config.seed, float(gear), config.lines)
+            self._disc = make_lines_disc(*shape)
+        else:
+            self._disc = make_disc(config.edges_per_revolution, config.slot_irregularity, config.seed, float(gear))
         self._random = np.random.default_rng([config.seed, 1])
         drawn = float(self._random.uniform(0.0, tau))
         self._offset = drawn if config.start_angle is None else config.start_angle
-        self._slot = revolution_share(config.edges_per_revolution)
+        self._slot = edge_angle(config.edges_per_revolution, gear)
         self._state: State = at_rest(0.0)
         self._acting = 0.0  # [V] the effective voltage that brought the motor here
         self._current_sense = make_current_sense(parameters, config.seed)
@@ -67,6 +85,7 @@ class SimulatedBoard:
         self._commands: deque[tuple[float, float]] = deque([(-np.inf, 0.0)])  # [s], [V], as latched
         self._edge_count, self._edge_time, self._edge_period = 0, 0, 0.0
         self._speed_state, self._last_edge_direction = SpeedState(), 0
+        self._latest: deque[int] = deque(maxlen=config.quadrature + 1)  # [ns] edges passed one way
         self._entered, self._undone = 0, False  # two channels: how A's rising edge was passed, 0 while A is low
         self._times, self._directions = np.empty(MOST_EDGES), np.empty(MOST_EDGES, dtype=np.int64)
 
@@ -127,7 +146,7 @@ class SimulatedBoard:
         disc = self._disc
         self._state, count = turn(
             *(self._p, u, self._state, t, dt, disc.forward, disc.backward, self._offset),
-            *(self._times, self._directions, not self._config.single_channel),
+            *(self._times, self._directions, not self._config.single_channel and self._config.quadrature == 1),
         )
         missing = self._p[MISS_RATE] > 0.0
         for time, direction in zip(self._times[:count], self._directions[:count], strict=True):
@@ -148,12 +167,24 @@ class SimulatedBoard:
         stamp = POWER_UP + (round(time // tick * tick * 1e9) if tick > 0.0 else round(time * 1e9))
         known = self._edge_time > 0 and not undoes and not self._undone  # the same flank twice is no travel
         self._edge_period = (stamp - self._edge_time) * 1e-9 if known else 0.0
+        if self._config.quadrature > 1:
+            self._edge_period = self._mean_period(stamp, direction)
         self._edge_time, self._undone = stamp, undoes
         self._edge_count += 1 if self._config.single_channel else direction
         self._last_edge_direction = direction
 
+    def _mean_period(self, stamp: int, direction: int) -> float:
+        """[s] from edge to edge, over the latest period of channel A if the shaft has gone one way for so long."""
+        if direction != self._last_edge_direction:
+            self._latest.clear()
+        self._latest.append(stamp)
+        span = (
+            1 << (len(self._latest) - 1).bit_length() - 1 if len(self._latest) > 1 else 0
+        )  # 1, 2 or 4, as on the board
+        return (stamp - self._latest[-1 - span]) * 1e-9 / span if span else 0.0
+
     def _speed(self, voltage: float, now: int) -> float:
-        magnitude = speed_magnitude(self._slot, now, self._edge_time, self._edge_period)
+        magnitude = speed_magnitude(self._slot, now, self._edge_time, self._edge_period, self._config.quadrature)
         if not self._config.single_channel:
             return self._last_edge_direction * magnitude
         speed, self._speed_state = single_channel_speed(self._speed_state, magnitude, voltage, now)

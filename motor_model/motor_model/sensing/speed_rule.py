@@ -6,7 +6,7 @@ at a standstill (then the voltage decides which way the next motion goes). The v
 """
 
 from dataclasses import dataclass, replace
-from math import copysign, tau
+from math import copysign
 
 STANDSTILL = 100_000_000  # [ns] without an edge is a standstill
 DIP = 0.5  # of the speed at which the voltage turned against the motion: below that the motor may have passed zero
@@ -26,12 +26,16 @@ class SpeedState:
     low: float = 0.0  # [rad/s] smallest speed since then
 
 
-def speed_magnitude(slot: float, now: int, edge_time: int, edge_period: float) -> float:
-    """[rad/s] slot/period of the latest two edges, bounded by slot/(time since the latest edge); 0 at a standstill."""
+def speed_magnitude(slot: float, now: int, edge_time: int, edge_period: float, quadrature: int = 1) -> float:
+    """[rad/s] slot/period of the latest two edges, bounded by slot/(time since the latest edge); 0 at a standstill.
+
+    Counted two- or fourfold, edges of a period of channel A are unevenly apart, and the last may not have been reported
+    yet: the period is the mean over that period of A, and so is the bound.
+    """
     since = now - edge_time
     if edge_period <= 0.0 or edge_time == 0 or since >= STANDSTILL:
         return 0.0
-    return slot / max(edge_period, since * 1e-9)
+    return slot / max(edge_period, since * 1e-9 / max(quadrature, 1))
 
 
 def single_channel_speed(state: SpeedState, magnitude: float, voltage: float, now: int) -> tuple[float, SpeedState]:
@@ -61,8 +65,3 @@ def _against_the_voltage(state: SpeedState, magnitude: float, now: int) -> tuple
     if magnitude > LEAP * low or (magnitude > RISE * low and (low < DIP * state.begun or waited)):
         return -state.direction, replace(state, direction=-state.direction, opposed_since=None)
     return state.direction, replace(state, low=low)
-
-
-def revolution_share(edges_per_revolution: int) -> float:
-    """[rad] angle between two edges of one polarity."""
-    return tau / edges_per_revolution

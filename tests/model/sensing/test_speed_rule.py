@@ -1,17 +1,18 @@
 """The speed that samples report: its size, its bound, its zero, and a sign that does not go wrong when it matters."""
 
+from fractions import Fraction
 from math import tau
 
 import numpy as np
 import pytest
 
+from motor_model.gear import edge_angle
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.sensing.board import POWER_UP, BoardConfig, SimulatedBoard
 from motor_model.sensing.speed_rule import (
     PATIENCE,
     STANDSTILL,
     SpeedState,
-    revolution_share,
     single_channel_speed,
     speed_magnitude,
 )
@@ -23,7 +24,7 @@ NOW = 5_000 * MS
 
 
 def test_a_slot_is_a_turn_over_its_edges() -> None:
-    assert revolution_share(96) == pytest.approx(0.0654498469, rel=1e-9)
+    assert edge_angle(96, Fraction(1)) == pytest.approx(0.0654498469, rel=1e-9)
 
 
 @pytest.mark.parametrize(
