@@ -48,7 +48,7 @@ BAGS = re.compile(r"motor_identification/bag/((mcap|fields)/)?\w+\.py$")
 # Inside a package too: its rooms (folders, or files beside them) from the ground up; each may import those before it.
 ROOMS = {
     "motor_model": (
-        "compiled printable errors gear encoder_count internal_error regular_file yaml_file text_table effect effects "
+        "compiled printable errors gearing internal_error regular_file yaml_file text_table effect effects "
         "sample parameters physical model_file excitation dynamics sensing simulate warm_up"
     ),
     "motor_control": (

@@ -17,7 +17,7 @@ from motor_board.live import LiveBoard
 from motor_board.parameters import FAULTS, PROGRAM, SET_UP
 from motor_board.port import Port
 from motor_board.shaft import EncoderConfig
-from motor_model.encoder_count import read_encoder_count
+from motor_model.gearing.encoder_count import read_encoder_count
 from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 from motor_model.sensing.encoder import Lines

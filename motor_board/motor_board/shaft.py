@@ -12,7 +12,7 @@ from motor_board.chip import FREQUENCY, Line
 from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.state import State, at_rest
 from motor_model.effects import INDEX
-from motor_model.gear import exact_gear
+from motor_model.gearing.gear import exact_gear
 from motor_model.parameters import Parameters
 from motor_model.sensing.encoder import Lines, make_disc, make_lines_disc, next_flank, shown_angle, turn
 

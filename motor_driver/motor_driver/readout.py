@@ -5,7 +5,7 @@ from math import nan
 from motor_driver.clock.board_clock import BoardClock
 from motor_driver.config import Config
 from motor_driver.frames import NOT_MEASURED, Flag, Hello, Telemetry
-from motor_model.gear import edge_angle
+from motor_model.gearing.gear import edge_angle
 from motor_model.sample import Sample
 from motor_model.sensing.speed_rule import SpeedState, single_channel_speed, speed_magnitude
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 from math import nan
 
 from motor_model.errors import MotorError
-from motor_model.gear import MOST, edge_angle, exact_gear
+from motor_model.gearing.gear import MOST, edge_angle, exact_gear
 
 
 class Measurement(str, Enum):

@@ -8,8 +8,8 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 from rclpy.node import Node
 
-from motor_model.encoder_count import DEFAULT_EDGES, MOST_EDGES
 from motor_model.errors import MotorError
+from motor_model.gearing.encoder_count import DEFAULT_EDGES, MOST_EDGES
 
 Value = bool | int | float | str
 KINDS = {bool: "true or false", int: "a whole number", float: "a number", str: "text"}

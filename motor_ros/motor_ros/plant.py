@@ -10,7 +10,7 @@ from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 
-from motor_model.gear import angle_of_count
+from motor_model.gearing.gear import angle_of_count
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from rclpy.node import Node
 
-from motor_model.encoder_count import read_encoder_count
+from motor_model.gearing.encoder_count import read_encoder_count
 from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 from motor_model.sensing.board import BoardConfig, SimulatedBoard

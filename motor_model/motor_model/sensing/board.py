@@ -11,7 +11,7 @@ from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.current import current_at
 from motor_model.dynamics.state import State, at_rest
 from motor_model.effects import INDEX
-from motor_model.gear import edge_angle, exact_gear
+from motor_model.gearing.gear import edge_angle, exact_gear
 from motor_model.parameters import Parameters
 from motor_model.sample import Info, Measurement, Sample
 from motor_model.sensing.current_sense import make_current_sense

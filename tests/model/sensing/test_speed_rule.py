@@ -6,7 +6,7 @@ from math import tau
 import numpy as np
 import pytest
 
-from motor_model.gear import edge_angle
+from motor_model.gearing.gear import edge_angle
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.sensing.board import POWER_UP, BoardConfig, SimulatedBoard
 from motor_model.sensing.speed_rule import (

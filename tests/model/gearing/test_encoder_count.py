@@ -4,8 +4,8 @@ from fractions import Fraction
 
 import pytest
 
-from motor_model.encoder_count import EncoderCount, read_encoder_count
 from motor_model.errors import MotorError
+from motor_model.gearing.encoder_count import EncoderCount, read_encoder_count
 
 DEFAULTS = {
     "edges_per_revolution": 96,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from motor_model.errors import MotorError
-from motor_model.gear import parse_gear_ratio
+from motor_model.gearing.gear import parse_gear_ratio
 
 DEFAULT_EDGES = 96
 MOST_EDGES = 100_000

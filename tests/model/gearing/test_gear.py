@@ -6,7 +6,7 @@ from math import tau
 import pytest
 
 from motor_model.errors import MotorError
-from motor_model.gear import angle_of_count, edge_angle, exact_gear, parse_gear_ratio
+from motor_model.gearing.gear import angle_of_count, edge_angle, exact_gear, parse_gear_ratio
 
 
 @pytest.mark.parametrize(
