@@ -18,6 +18,7 @@ from first_run_bench import EmulatedRun, motor
 from motor_board.build import FirmwareConfig
 from motor_board.faults import Wiring
 from motor_driver.check.settings import DRIVE_TIME, HIGHEST, Settings
+from motor_model.gearing.gear import exact_gear
 from motor_model.parameters import Parameters
 
 RESULTS = Path(__file__).with_name("results")
@@ -39,6 +40,8 @@ class Case:
     supply: float = 1.0  # over the expected one
     edges: float = 1.0  # over what the person says
     board_id: int = 7  # that the person expects
+    gear: float = 0.0  # of a gearmotor with 11 pulses a turn of its own shaft, counted fourfold; 0: none
+    said_gear: float = 0.0  # where the person says another one
     alone: str = ""  # what is said with --no-hand, where that differs
 
 
@@ -56,6 +59,10 @@ CASES = (
     Case("stuck shaft", ("stuck_shaft",), Wiring(shaft_stuck=True), alone="no_motion"),
     Case("bridge stuck on", ("bridge_stuck_on",), Wiring(bridge_stuck=0.6)),
     Case("no pull-ups, hum of 50 Hz", ("hum",), Wiring(hum=50.0)),
+    Case("nothing wrong, 11 pulses × 34.014", gear=34.014),
+    Case("the same, A missing", ("a_missing",), Wiring(a_connected=False), gear=34.014, alone="no_motion"),
+    Case("the same, B missing", ("b_missing",), Wiring(b_connected=False), gear=34.014),
+    Case("the same, 50:1 said", ("wrong_counts",), gear=34.014, said_gear=50.0, alone="nothing"),
     Case("nothing wrong, one channel", channels=1),
     Case("motor's wires exchanged, one channel", ("motor_swapped",), Wiring(motor_swapped=True), 1, alone="nothing"),
     Case("hum of 60 Hz, one channel", ("hum",), Wiring(hum=60.0), 1, alone="edges_at_rest"),
@@ -88,18 +95,20 @@ def drawn(top: float, seed: int) -> tuple[Parameters, int, float]:
 def run(case: Case, top: float, seed: int, hand: bool = True) -> Run:
     """One first run of a case."""
     true, edges, turns = drawn(top, seed)
+    edges = 11 if case.gear else edges
+    said = exact_gear(case.said_gear or case.gear or 1.0)
     board = replace(BOARD, channels=case.channels, supply_full_scale=BOARD.supply_full_scale if case.measured else 0)
-    settings = Settings(true.max_voltage, edges_per_revolution=edges, board_id=case.board_id, hand=hand)
-    bench = EmulatedRun(
-        settings,
-        true,
-        case.wiring,
-        board,
-        round(edges * case.edges),
-        case.supply * true.max_voltage,
-        seed,
-        turns,
+    settings = Settings(
+        true.max_voltage,
+        edges_per_revolution=edges,
+        quadrature=4 if case.gear else 1,
+        gear=said,
+        board_id=case.board_id,
+        hand=hand,
     )
+    supply = case.supply * true.max_voltage
+    counts = round(edges * case.edges)
+    bench = EmulatedRun(settings, true, case.wiring, board, counts, case.gear or 1.0, supply, seed, turns)
     done = bench.run()
     codes = tuple(done.check.record.codes) if done.check else (done.code,)
     measured = done.check.record.measured if done.check else None
@@ -130,13 +139,14 @@ def _times(bench: EmulatedRun) -> tuple[float, float]:
 def rows() -> Iterator[str]:
     """A row a case: named by all motors, and the worst of their times."""
     for case in CASES:
-        runs = [run(case, top, seed) for top in TOPS for seed in range(SEEDS)]
+        tops = [top for top in TOPS if not case.gear or top < 100.0]  # a gearmotor's output
+        runs = [run(case, top, seed) for top in tops for seed in range(SEEDS * len(TOPS) // len(tops))]
         named = sum(one.codes == case.codes for one in runs)
         said = ", ".join(sorted({f"`{code}`" for one in runs for code in one.codes})) or "nothing"
         off, driven = max(one.off for one in runs), max(one.driven for one in runs)
         highest, whole = max(one.highest for one in runs), max(one.whole for one in runs)
         written = sum(one.right for one in runs)
-        alone = run(case, 174.0, 0, hand=False)
+        alone = run(case, 30.0 if case.gear else 174.0, 0, hand=False)
         there = ", ".join(f"`{code}`" for code in alone.codes) or "nothing"
         yield (
             f"| {case.name} | {said} | {named} of {len(runs)} | {written} | {1e3 * off:.0f} ms | {driven:.1f} s | "

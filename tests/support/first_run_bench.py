@@ -17,8 +17,10 @@ from motor_driver.check.first_run import FirstRun
 from motor_driver.check.look import Act, Answer, Look, Prompt
 from motor_driver.check.settings import Settings, config_of
 from motor_driver.frames import BAUD, Hello
+from motor_model.gearing.gear import exact_gear
 from motor_model.parameters import Parameters
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
+from motor_model.sensing.encoder import Lines
 
 HANDS_SPEED = 3.0  # [rad/s]
 GIVES_UP = 2.0  # [s] a hand on a shaft that does not move
@@ -78,7 +80,7 @@ class Person:
 
 def hello(channels: int = 1, edges: int = 0, board_id: int = 0) -> Hello:
     """What a board says of itself."""
-    return Hello(1, 1, 0, 1, board_id, edges, channels, 500, 255, 0, 10_000, 2_000, 100, 1, 1, 1)
+    return Hello(1, 2, 0, 1, board_id, edges, channels, 500, 255, 0, 10_000, 2_000, 100, 1, 1, 1)
 
 
 @dataclass
@@ -90,12 +92,18 @@ class SimulatedRun:
     wiring: Wiring = field(default_factory=Wiring)
     channels: int = 1
     edges: int = 96
+    gear: float = 1.0
     supply: float = float("nan")  # [V] measured
     seed: int = 0
     turns: float = 1.0
 
     def __post_init__(self) -> None:
-        config = BoardConfig(edges_per_revolution=self.edges, single_channel=self.channels == 1, seed=self.seed)
+        config = BoardConfig(
+            edges_per_revolution=self.edges,
+            single_channel=self.channels == 1,
+            seed=self.seed,
+            gear=exact_gear(self.gear),
+        )
         stuck = {"ks": 1e4, "breakaway_voltage": 1e4} if self.wiring.shaft_stuck else {}
         true = replace(self.parameters, values={**self.parameters.values, **stuck}, max_voltage=1e3)
         self.board = SimulatedBoard(true, config)
@@ -148,12 +156,21 @@ class EmulatedRun:
     wiring: Wiring = field(default_factory=Wiring)
     config: FirmwareConfig = field(default_factory=FirmwareConfig)
     edges: int = 96
+    gear: float = 1.0
     supply: float = 12.0  # [V]
     seed: int = 0
     turns: float = 1.0
 
     def __post_init__(self) -> None:
-        encoder = EncoderConfig(self.edges, 0.01, self.seed, channels=self.config.channels)
+        two = self.config.channels == 2
+        encoder = EncoderConfig(
+            self.edges,
+            0.01,
+            self.seed,
+            channels=self.config.channels,
+            lines=Lines(0.45, 0.22) if two else None,
+            gear=exact_gear(self.gear),
+        )
         fed = replace(self.parameters, max_voltage=self.supply)
         self.emulator = Emulator(firmware(self.config), fed, encoder)
         self.emulator.supply(5e3 * self.supply / FULL_SCALE)

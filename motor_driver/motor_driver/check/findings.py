@@ -72,7 +72,7 @@ TABLE: dict[str, tuple[str, str, tuple[str, ...]]] = {
         (),
     ),
     "wrong_counts": (
-        "{turns} by hand gave {counted:d} edges, where {expected:d} are expected (edges_per_revolution {told:d}).",
+        "{turns} by hand gave {counted:d} edges, where {expected:.0f} are expected.",
         "{hint}",
         (),
     ),

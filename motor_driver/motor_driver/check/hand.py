@@ -10,6 +10,11 @@ ALIVE = 4  # edges: more than a push on a shaft that stands on a flank makes
 TO_AND_FRO = 2  # between which counts a dead channel B keeps the count
 BY_HAND = 0.15  # of a turn: what a careful hand is off by, and a quarter of the least that a wrong number is off
 
+GEAR = (
+    "With {edges} edges in a turn of the encoder's shaft that is a gear of about {gear:.3g} to 1: say --gear-ratio, "
+    "exactly, or another --pulses-per-revolution."
+)
+
 
 @dataclass(frozen=True)
 class Turned:
@@ -49,16 +54,17 @@ def turn_by_hand(most: float) -> Steps[Turned]:
     return Turned(look.answer, look.count - first, high - low, edges)
 
 
-def judge_counts(turned: Turned, turns: int, told: int | None) -> Finding | None:
-    """Whether so many edges a turn can be true; None if they can."""
+def judge_counts(turned: Turned, turns: int, edges: int | None, gear: float = 1.0) -> Finding | None:
+    """Whether so many edges of the encoder's shaft, behind a gear, can be true; None if they can."""
     counted = abs(turned.count)
     words = "One turn" if turns == 1 else f"{turns} turns"
-    if told is None:
+    if edges is None:
         return finding("unknown_counts", turns=words, counted=counted)
-    if abs(counted / (told * turns) - 1.0) <= BY_HAND / turns:
+    expected = edges * gear * turns
+    if abs(counted / expected - 1.0) <= BY_HAND / turns:
         return None
-    hint = _hint(counted / turns, told)
-    return finding("wrong_counts", turns=words, counted=counted, told=told, expected=told * turns, hint=hint)
+    hint = _hint(counted / turns, edges) if gear == 1.0 else GEAR.format(edges=edges, gear=counted / turns / edges)
+    return finding("wrong_counts", turns=words, counted=counted, expected=expected, hint=hint)
 
 
 def _hint(counted: float, told: int) -> str:
@@ -66,7 +72,7 @@ def _hint(counted: float, told: int) -> str:
     ratio = Fraction(counted / told).limit_denominator(4)
     about = f"Say --edges-per-revolution with the right number, near {counted:.0f}"
     if counted > 5.0 * told:
-        return f"{about}: a disc on the motor's shaft turns {counted / told:.3g} times as fast as the output."
+        return GEAR.format(edges=told, gear=counted / told)
     if ratio in (Fraction(1, 2), Fraction(1, 4)):
         return f"{about}: only edges of one polarity of one channel count, no flanks and no second channel."
     return f"{about}, and exactly, as the disc has it (10 turns tell more: --turns 10)."

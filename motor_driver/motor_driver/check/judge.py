@@ -1,7 +1,6 @@
 """What the steps of a first run have shown, in words and findings."""
 
 from dataclasses import replace
-from math import tau
 
 from motor_driver.check.drive import Breakaway, Pace
 from motor_driver.check.hand import Turned, judge_counts
@@ -12,6 +11,7 @@ from motor_driver.frames import Hello
 
 FOLLOWS = 1.1  # that the quicker of two paces is over the slower one at least
 WAYS = {Answer.YES: 1, Answer.NO: -1, Answer.DONE: 0}
+MOST_COUNTS = 20_000.0  # [1/s] likewise, two- and fourfold
 MOST_EDGES = {1: 20_000.0, 2: 10_000.0}  # [1/s] that the board counts for certain, by its encoder's channels
 
 
@@ -31,11 +31,12 @@ def judge_hand(settings: Settings, board: Hello, record: Record, turned: Turned)
             record.find(step, "no_counts")
     else:
         record.measured = replace(record.measured, edges_by_hand=abs(turned.count) / settings.turns)
-        wrong = judge_counts(turned, settings.turns, settings.edges(board))
+        wrong = judge_counts(turned, settings.turns, settings.edges(board), float(settings.gear))
         if wrong:
             record.add(step, wrong)
         else:
-            record.say(step, f"{abs(turned.count)} edges by hand, {settings.edges(board)} expected in a turn")
+            expected = f"{settings.edges_of_output(board):.0f} expected in a turn"
+            record.say(step, f"{abs(turned.count)} edges by hand, {expected}")
         if board.channels == 2 and turned.way < 0:
             record.find(step, "channels_swapped")
 
@@ -88,14 +89,13 @@ def judge_paces(settings: Settings, board: Hello, record: Record, ahead: list[Pa
             return
         per_volt.append(abs(fast.rate - slow.rate) / abs(fast.voltage - slow.voltage))
         top.append(abs(fast.rate) + per_volt[-1] * (settings.max_voltage - abs(fast.voltage)))
-    edges, rate = settings.edges(board), sum(per_volt) / 2
+    slot, rate = settings.slot(board), sum(per_volt) / 2
     record.measured = replace(record.measured, edges_per_volt=rate)
     text = f"{_shown(rate)} edges a second more for a volt more"
-    if edges and "wrong_counts" not in record.codes:
-        slot = tau / edges
+    if slot and "wrong_counts" not in record.codes:
         record.measured = replace(record.measured, gain=rate * slot, top_speed=sum(top) / 2 * slot)
         text += f": about {_shown(record.measured.top_speed)} rad/s at {settings.max_voltage:.3g} V"
-    most = MOST_EDGES[board.channels]
+    most = MOST_EDGES[board.channels] if settings.quadrature == 1 else MOST_COUNTS / settings.quadrature
     if sum(top) / 2 > most:
         record.find(step, "too_many_edges", voltage=settings.max_voltage, rate=sum(top) / 2, most=most)
     steady = all(pace.steady for pace in (*ahead, *back))

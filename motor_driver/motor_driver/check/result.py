@@ -8,29 +8,43 @@ from typing import Any
 from motor_driver.check.check import Check
 from motor_driver.check.record import UNKNOWN
 from motor_driver.check.settings import Settings
+from motor_driver.frames import Hello
 
 NODE = "/**/motor_driver"  # in any namespace
 
 
-def parameters_of(check: Check, name: str, port: str, decay: str) -> dict[str, bool | int | float | str]:
+def parameters_of(
+    check: Check, name: str, port: str, decay: str, silent: bool = False
+) -> dict[str, bool | int | float | str]:
     """The driver's parameters that this board and motor need."""
     settings, board = check.settings, check.board
     place = {"board_id": str(board.board_id)} if board.board_id else {"port": port}
     cures = {key: value for found in check.record.findings for key, value in found.parameters.items()}
-    edges = settings.edges(board)
     return {
         **({"name": name} if name else {}),
         **place,
-        **({"edges_per_revolution": edges} if edges else {}),
+        **_encoder_of(settings, board),
         "single_channel": board.channels == 1,
         "max_voltage": float(settings.max_voltage),
         "supply_voltage": float(settings.supply),
         "decay": decay,
+        **({"silent_pwm": True} if silent else {}),
         **cures,
     }
 
 
-def parameter_text(check: Check, name: str, port: str, decay: str) -> str:
+def _encoder_of(settings: Settings, board: Hello) -> dict[str, int | str]:
+    """Edges of one polarity, or pulses counted two- or fourfold, and the gear between encoder and output."""
+    edges = settings.edges(board)
+    if edges is None:
+        return {}
+    gear = {} if settings.gear == 1 else {"gear_ratio": settings.gear_said or str(settings.gear)}
+    if settings.quadrature == 1:
+        return {"edges_per_revolution": edges, **gear}
+    return {"pulses_per_revolution": edges, "quadrature": settings.quadrature, **gear}
+
+
+def parameter_text(check: Check, name: str, port: str, decay: str, silent: bool = False) -> str:
     """The parameter file, with what was measured as comments."""
     lines = [
         "# The driver's parameters, by `ros2 run motor_driver check`. To use them:",
@@ -39,11 +53,11 @@ def parameter_text(check: Check, name: str, port: str, decay: str) -> str:
         f"{NODE}:",
         "  ros__parameters:",
     ]
-    values = parameters_of(check, name, port, decay)
+    values = parameters_of(check, name, port, decay, silent)
     return "\n".join([*lines, *(f"    {key}: {json.dumps(value)}" for key, value in values.items())]) + "\n"
 
 
-def as_json(check: Check, name: str, port: str, decay: str) -> dict[str, Any]:
+def as_json(check: Check, name: str, port: str, decay: str, silent: bool = False) -> dict[str, Any]:
     """The whole result; null where there is no number."""
     record, board = check.record, check.board
     measured = {key: value if isfinite(value) else None for key, value in asdict(record.measured).items()}
@@ -62,7 +76,7 @@ def as_json(check: Check, name: str, port: str, decay: str) -> dict[str, Any]:
         ],
         "not_known": [{"step": row.step, "text": row.text} for row in record.rows if row.mark == UNKNOWN],
         "measured": measured,
-        "parameters": parameters_of(check, name, port, decay) if check.right else None,
+        "parameters": parameters_of(check, name, port, decay, silent) if check.right else None,
     }
 
 

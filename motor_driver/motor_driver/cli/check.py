@@ -15,12 +15,13 @@ from motor_driver.check import result, words
 from motor_driver.check.first_run import FirstRun
 from motor_driver.check.look import Answer, Prompt
 from motor_driver.check.settings import Settings, config_of
-from motor_driver.frames import BAUD, Decay
+from motor_driver.frames import BAUD, Decay, Pwm
 from motor_driver.link import candidates, open_port
 from motor_driver.parameters import MOST_ID
 from motor_driver.ports.port_error import PortError
 from motor_driver.ports.search import the_only
 from motor_model.errors import MotorError
+from motor_model.gearing.gear import parse_gear_ratio
 from motor_model.regular_file import write_text
 from motor_ros.command import CommandParser, between, positive, shell, whole_between
 from motor_ros.output_files import add_force_option, check_outputs
@@ -53,7 +54,16 @@ def parser() -> argparse.ArgumentParser:
         metavar="N",
         help="encoder edges of one polarity per turn (default: as flashed)",
     )
+    add(
+        "--pulses-per-revolution",
+        type=whole_between(1, 65535),
+        metavar="N",
+        help="periods of one channel per turn of the encoder's shaft (the same as edges of one polarity)",
+    )
+    add("--quadrature", type=int, choices=(1, 2, 4), default=1, help="with which the driver is to count (default 1)")
+    add("--gear-ratio", default="1", metavar="R", help="encoder turns per turn of the output: 34.014, 9291/273")
     add("--channels", type=int, choices=(1, 2), help="of the encoder (default: as flashed)")
+    add("--silent-pwm", action="store_true", help="PWM above hearing")
     add("--decay", choices=[decay.name.lower() for decay in Decay], default="brake", help="default brake")
     add("--turns", type=whole_between(1, 100), default=1, metavar="N", help="to turn the shaft by hand (default 1)")
     add("--time-limit", type=positive, default=30.0, metavar="S", help="for an answer (default 30)")
@@ -77,10 +87,16 @@ def main(args: list[str] | None = None) -> int:
 
 def _check(options: argparse.Namespace) -> int:
     check_outputs([path for path in (options.output, options.json) if path], options.force)
+    pulses = options.pulses_per_revolution or options.edges_per_revolution
+    if options.pulses_per_revolution and options.edges_per_revolution not in (None, pulses):
+        raise MotorError("--pulses-per-revolution and --edges-per-revolution are the same thing here: say one of them.")
     settings = Settings(
         max_voltage=options.max_voltage,
         supply_voltage=options.supply_voltage,
-        edges_per_revolution=options.edges_per_revolution,
+        edges_per_revolution=pulses,
+        quadrature=options.quadrature,
+        gear=parse_gear_ratio(options.gear_ratio),
+        gear_said=options.gear_ratio.strip(),
         single_channel=None if options.channels is None else options.channels == 1,
         board_id=options.board_id,
         hand=not options.no_hand and sys.stdin.isatty(),
@@ -124,7 +140,7 @@ def _end(options: argparse.Namespace, settings: Settings, run: FirstRun, port: s
         if options.json:
             _write(options.json, json.dumps(result.refused_json(settings, port, run.code, sentence), indent=1) + "\n")
         raise MotorError(sentence)
-    said = (run.check, options.name, port, options.decay)
+    said = (run.check, options.name, port, options.decay, options.silent_pwm)
     print(words.verdict_of(run.check))
     if options.json:
         _write(options.json, json.dumps(result.as_json(*said), indent=1, ensure_ascii=False) + "\n")
@@ -167,7 +183,7 @@ class _Terminal:
         decay = Decay[options.decay.upper()]
         self._interrupt, self._settings, self._name = interrupt, settings, port
         self._port = open_port(port, options.baud)
-        config = config_of(settings, options.baud, decay)
+        config = config_of(settings, options.baud, decay, Pwm.SILENT if options.silent_pwm else Pwm.STANDARD)
         self._run = FirstRun(settings, config, port, time.monotonic_ns(), roll_call)
         self._shown, self._ended = 0, False
         self._prompt: Prompt | None = None

@@ -1,11 +1,12 @@
 """Driver and check joined, on the real firmware: the pins follow, and are off whenever the run is."""
 
 import re
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
 from emulated_board import need_emulator
-from first_run_bench import EmulatedRun
+from first_run_bench import EmulatedRun, motor
 
 from motor_board.build import FirmwareConfig
 from motor_board.faults import Wiring
@@ -80,3 +81,13 @@ def test_a_line_that_is_silent_for_a_while_with_the_motor_off_is_waited_for_and_
     bench.run_.received = lambda data, now: None  # type: ignore[method-assign]
     run = bench.run(10.0)
     assert run.check is not None and "no telemetry comes from the port any more" in run.check.record.rows[-1].text
+
+
+def test_a_geared_encoder_of_two_channels_is_counted_at_its_output() -> None:
+    need_emulator()
+    said = Settings(edges_per_revolution=11, quadrature=4, gear=Fraction("34.014"))
+    bench = EmulatedRun(said, motor(12.0, 12.0, 0.1), config=BOARD, edges=11, gear=34.014)
+    run = bench.run()
+    assert run.check is not None and run.check.record.codes == []
+    assert run.check.record.measured.top_speed == pytest.approx(12.0, rel=0.03)
+    assert run.check.record.measured.edges_by_hand == pytest.approx(374.2, abs=4.0)

@@ -22,6 +22,13 @@ def test_a_hand_is_off_by_fifteen_per_cent_of_a_turn(counted: int, turns: int, f
     assert (judge_counts(Turned(Answer.DONE, counted, counted, 50), turns, 96) is None) == fits
 
 
+def test_a_gear_multiplies_what_is_expected() -> None:
+    assert judge_counts(Turned(Answer.DONE, 380, 380, 300), 1, 11, 34.014) is None
+    wrong = judge_counts(Turned(Answer.DONE, 374, 374, 300), 1, 11, 50.0)
+    assert wrong is not None and wrong.sentence == "One turn by hand gave 374 edges, where 550 are expected."
+    assert "With 11 edges in a turn of the encoder's shaft that is a gear of about 34 to 1" in wrong.cure
+
+
 def test_ten_turns_tell_more() -> None:
     assert judge_counts(Turned(Answer.DONE, 970, 970, 900), 10, 96) is None
     wrong = judge_counts(Turned(Answer.DONE, 1000, 1000, 900), 10, 96)
@@ -33,7 +40,7 @@ def test_ten_turns_tell_more() -> None:
     [
         (48, 96, "near 48: only edges of one polarity"),
         (24, 96, "near 24: only edges of one polarity"),
-        (374, 11, "34 times as fast as the output"),
+        (374, 11, "a gear of about 34 to 1: say --gear-ratio"),
         (70, 96, "near 70, and exactly, as the disc has it"),
     ],
 )

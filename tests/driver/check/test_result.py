@@ -1,13 +1,16 @@
 """The parameter file is what the driver takes; the JSON holds all that was found."""
 
 import json
+from fractions import Fraction
 
+import pytest
 import yaml
-from first_run_bench import SimulatedRun
+from first_run_bench import SimulatedRun, motor
 
 from motor_board.faults import Wiring
 from motor_driver.check.result import as_json, parameter_text, refused_json
 from motor_driver.check.settings import Settings
+from motor_driver.frames import Pwm
 from motor_driver.parameters import ROWS, config_of
 
 TOLD = Settings(max_voltage=9.0, supply_voltage=12.0, edges_per_revolution=96)
@@ -22,6 +25,17 @@ def test_the_file_has_parameters_of_the_driver_with_the_cures() -> None:
     assert (config.name, config.max_voltage, config.supply_voltage) == ("left: wheel", 9.0, 12.0)
     assert config.reverse_motor and config.reverse_encoder and not config.single_channel
     assert values["port"] == "/dev/ttyUSB0" and values["decay"] == "coast"
+
+
+def test_a_geared_encoder_that_is_counted_fourfold_is_written_as_it_was_said() -> None:
+    said = Settings(edges_per_revolution=11, quadrature=4, gear=Fraction("34.014"), gear_said="34.014")
+    check = SimulatedRun(said, motor(12.0, 12.0, 0.1), channels=2, edges=11, gear=34.014).run()
+    assert check.record.codes == [] and check.record.measured.top_speed == pytest.approx(12.0, rel=0.04)
+    values = yaml.safe_load(parameter_text(check, "", "p", "coast", silent=True))["/**/motor_driver"]["ros__parameters"]
+    config = config_of({row.name: row.default for row in ROWS} | values)
+    assert (config.edges_per_revolution, config.quadrature, config.gear) == (44, 4, Fraction("34.014"))
+    assert values["gear_ratio"] == "34.014" and values["pulses_per_revolution"] == 11
+    assert config.pwm is Pwm.SILENT and not config.single_channel
 
 
 def test_a_board_with_a_number_is_found_by_it_whatever_its_port() -> None:

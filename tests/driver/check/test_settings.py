@@ -21,6 +21,8 @@ def test_what_was_said_and_is_not_so_is_refused() -> None:
     assert "the board without a number" in refusal(Settings(board_id=9))
     assert "flashed for an encoder with 96 edges" in refusal(Settings(edges_per_revolution=48), edges=96)
     assert "reads 1 encoder channel(s)" in refusal(Settings(single_channel=False))
+    assert "quadrature is 4, and the board was flashed for one encoder channel" in refusal(Settings(quadrature=4))
+    assert refusal(Settings(edges_per_revolution=11, quadrature=4), channels=2, edges=11) == ""
 
 
 def test_the_motors_limits_and_the_supply_go_to_the_driver() -> None:

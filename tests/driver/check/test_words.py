@@ -25,7 +25,7 @@ def test_every_prompt_says_what_to_do(prompt: Prompt) -> None:
 
 def test_the_board_and_a_step_are_a_line_each() -> None:
     line = line_of(board_row(hello(2, board_id=7), "/dev/ttyUSB0"))
-    assert line == "board      ok     firmware 1.1.0 on an ATmega328P at /dev/ttyUSB0, board_id 7, two channels"
+    assert line == "board      ok     firmware 1.2.0 on an ATmega328P at /dev/ttyUSB0, board_id 7, two channels"
     assert "no board_id, one channel" in board_row(hello(), "x").text
 
 
