@@ -8,13 +8,18 @@ away, its output switched off, `reference_timeout`, `release`. Then the motor wa
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import isfinite, nan
 
 from motor_control.controller import speed_law as law
-from motor_control.controller.demand import Demand, Kind, Source
-from motor_control.controller.latency import LatencyState, track_latency
-from motor_control.controller.motion import Motion
+from motor_control.controller.demand import NAMES, Kind, Source, drop
+from motor_control.controller.demand import State as State
+from motor_control.controller.demand import command_joint as command_joint
+from motor_control.controller.demand import refer as refer
+from motor_control.controller.demand import release as release
+from motor_control.controller.demand import reset as reset
+from motor_control.controller.demand import stop as stop
+from motor_control.controller.latency import track_latency
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
 from motor_control.controller.plant_watch import PlantWatch, watch_plant
 from motor_control.controller.run import Config, Run, begin
@@ -30,46 +35,15 @@ RESTARTED = "The plant was restarted."
 RETURNED = "The plant was away for more than 1 s."
 WAS_OFF = "The plant's output is off: call motor/enable with data: true."
 SILENT_JOINT = "No command on motor/joint_command for joint_command_timeout ({:g} s)."
-OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call motor/release."
-TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
-BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
 TOLD = 0.5  # [s] for which it is said that a demand was not taken
 TIMED_OUT = "The last reference is older than reference_timeout ({:g} s)."
-RELEASED = "The motor was released."
-CLEARED = "The stop was cleared."
 STALE = "The sample is {:.0f} ms old and latency_limit is {:.0f} ms: give the controller more processor time."
 BAD_REFERENCE = "The reference is {}: publish a finite speed in rad/s on motor/reference."
 BAD_SAMPLE = "A sample on motor/speed says {} = {}: find out what is wrong with the plant."
 NEVER_A_SAMPLE = "No sample has come on motor/speed yet: start motor_sim or motor_driver."
 SILENCE = "No sample on motor/speed for {:.1f} s: see whether motor_sim or motor_driver still runs."
-NAMES = "(names)"  # stands for who publishes motor/speed, which may be known a moment later
 TWO_PLANTS = f"Two plants publish motor/speed {NAMES}: end one of them."
 CALL_RESET = "{} Call motor/reset, then publish a fresh reference, to go on."
-
-
-@dataclass(frozen=True, slots=True)
-class State:
-    """What the controller remembers; the times are [s] on the clock of `now`."""
-
-    since: float = 0.0  # when it began
-    arrival: float | None = None  # when the latest sample came
-    silent: float | None = None  # when silence was last reported; None while samples come
-    run: Run | None = None
-    latched: str = ""  # why the motor stays at 0 V until `reset`
-    reference: float | None = None  # the latest one, as long as it is obeyed: [rad/s], or as `kind` says
-    kind: Kind = Kind.SPEED
-    source: Source = Source.REFERENCE  # of the reference
-    joint_heard: float | None = None  # when the latest joint command came
-    joint_senders: str = ""  # who publishes motor/joint_command, where they are several
-    refused: str = ""  # why a demand was not taken
-    refused_at: float = 0.0
-    referred: float = 0.0  # when it came
-    dropped: str = ""  # why there is none any more
-    drives: bool = False  # the latest voltage was ours, so the next has to be too
-    plant: PlantWatch | None = None
-    latency: LatencyState | None = None
-    motion: Motion | None = None  # what is known of the motor, from run to run
-    speakers: str = ""  # who publishes motor/speed, for the sentence about two plants
 
 
 def update(config: Config, state: State, sample: Sample, reference: float | None, now: float) -> tuple[Output, State]:
@@ -101,77 +75,20 @@ def watch(config: Config, state: State, now: float) -> tuple[Output | None, Stat
     return output, replace(state, run=None, silent=now)
 
 
-def refer(state: State, reference: float, now: float, kind: Kind = Kind.SPEED) -> State:
-    """Take a fresh reference, [rad/s] or as `kind` says; while a stop is latched it is not taken."""
-    return _take(state, Demand(reference, kind), now)
-
-
-def command_joint(config: Config, state: State, demand: Demand | str, now: float) -> State:
-    """Take one command of a stream that is meant for this motor; a text says why it cannot be obeyed: 0 V.
-
-    A stream begins with 0, or after a silence. One that goes on through a stop, or was there before the controller, has
-    not seen it, and nobody knows what it would do.
-    """
-    heard = state.since if state.joint_heard is None else state.joint_heard
-    silent = config.joint_timeout > 0.0 and now - heard > config.joint_timeout
-    drives = state.reference is not None and state.source is Source.JOINT
-    state = replace(state, joint_heard=now)
-    if state.joint_senders:
-        demand = TWO_SENDERS.format(state.joint_senders)
-    if isinstance(demand, str):
-        return replace(_drop(state, demand) if drives else state, refused=demand, refused_at=now)
-    if state.reference is None and not (silent or demand.value == 0.0):
-        return replace(state, refused=BEGIN_JOINT.format(config.joint_timeout), refused_at=now)
-    return _take(state, demand, now)
-
-
-def _take(state: State, demand: Demand, now: float) -> State:
-    """Take a demand, unless a stop is latched or another source drives."""
-    if state.latched:
-        return state
-    if state.reference is not None and state.source is not demand.source:
-        why = OTHER_DRIVES.format(demand.source.value, state.source.value)
-        return replace(state, refused=why, refused_at=now)
-    value, kind, source = demand
-    run = state.run if kind is state.kind else None  # another kind of demand is another run
-    return replace(state, reference=value, kind=kind, source=source, referred=now, dropped="", refused="", run=run)
-
-
-def release(state: State) -> tuple[str, State]:
-    """Let go of the motor: no reference, and after one last 0 V no voltage. What to say stands beside the state."""
-    return RELEASED, _drop(state, RELEASED)
-
-
-def stop(state: State, reason: str) -> State:
-    """Latch 0 V from the next sample on, until `reset`; `reason` is a sentence."""
-    return replace(state, run=None, latched=reason, reference=None, dropped=CLEARED)
-
-
-def reset(state: State) -> tuple[str, State]:
-    """Clear the latched stop; the motor waits for a fresh reference. What to say stands beside the state."""
-    if not state.latched:
-        return "No stop was latched.", state
-    return f"Cleared: {state.latched.replace(NAMES, state.speakers)}", replace(state, latched="")
-
-
-def _drop(state: State, why: str) -> State:
-    return replace(state, run=None, reference=None, dropped=why)
-
-
 def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: float) -> State:
     """Drop a reference that the plant or time has ended."""
     if state.reference is None:
         return state
     if plant.restarted:
-        return _drop(replace(state, motion=None), RESTARTED)
+        return drop(replace(state, motion=None), RESTARTED)
     if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
-        return _drop(state, RETURNED)
+        return drop(state, RETURNED)
     if state.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
-        return _drop(state, SILENT_JOINT.format(config.joint_timeout))
+        return drop(state, SILENT_JOINT.format(config.joint_timeout))
     if config.reference_timeout and now - state.referred > config.reference_timeout:
-        return _drop(state, TIMED_OUT.format(config.reference_timeout))
+        return drop(state, TIMED_OUT.format(config.reference_timeout))
     if state.run is not None and state.run.ignored > OFF and now - state.referred > OFF:
-        return _drop(state, WAS_OFF)
+        return drop(state, WAS_OFF)
     return state
 
 

@@ -1,7 +1,23 @@
-"""What is asked of the motor: a speed, a voltage or an angle, and by whom."""
+"""What is asked of the motor: a speed, a voltage or an angle, by whom, and until when.
 
+One source drives at a time. A stop is latched until `reset`; whoever asks meanwhile is not heard.
+"""
+
+from dataclasses import dataclass, replace
 from enum import Enum
 from typing import NamedTuple
+
+from motor_control.controller.latency import LatencyState
+from motor_control.controller.motion import Motion
+from motor_control.controller.plant_watch import PlantWatch
+from motor_control.controller.run import Config, Run
+
+RELEASED = "The motor was released."
+CLEARED = "The stop was cleared."
+OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call motor/release."
+TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
+BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
+NAMES = "(names)"  # stands for who publishes motor/speed, which may be known a moment later
 
 
 class Kind(str, Enum):
@@ -28,3 +44,86 @@ class Demand(NamedTuple):
 
 
 UNITS = {Kind.SPEED: "rad/s", Kind.VOLTAGE: "V", Kind.POSITION: "rad"}
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """What the controller remembers; the times are [s] on the clock of `now`."""
+
+    since: float = 0.0  # when it began
+    arrival: float | None = None  # when the latest sample came
+    silent: float | None = None  # when silence was last reported; None while samples come
+    run: Run | None = None
+    latched: str = ""  # why the motor stays at 0 V until `reset`
+    reference: float | None = None  # the latest one, as long as it is obeyed: [rad/s], or as `kind` says
+    kind: Kind = Kind.SPEED
+    source: Source = Source.REFERENCE  # of the reference
+    joint_heard: float | None = None  # when the latest joint command came
+    joint_senders: str = ""  # who publishes motor/joint_command, where they are several
+    refused: str = ""  # why a demand was not taken
+    refused_at: float = 0.0
+    referred: float = 0.0  # when it came
+    dropped: str = ""  # why there is none any more
+    drives: bool = False  # the latest voltage was ours, so the next has to be too
+    plant: PlantWatch | None = None
+    latency: LatencyState | None = None
+    motion: Motion | None = None  # what is known of the motor, from run to run
+    speakers: str = ""  # who publishes motor/speed, for the sentence about two plants
+
+
+def refer(state: State, reference: float, now: float, kind: Kind = Kind.SPEED) -> State:
+    """Take a fresh reference, [rad/s] or as `kind` says; while a stop is latched it is not taken."""
+    return _take(state, Demand(reference, kind), now)
+
+
+def command_joint(config: Config, state: State, demand: Demand | str, now: float) -> State:
+    """Take one command of a stream that is meant for this motor; a text says why it cannot be obeyed: 0 V.
+
+    A stream begins with 0, or after a silence. One that goes on through a stop, or was there before the controller, has
+    not seen it, and nobody knows what it would do.
+    """
+    heard = state.since if state.joint_heard is None else state.joint_heard
+    silent = config.joint_timeout > 0.0 and now - heard > config.joint_timeout
+    drives = state.reference is not None and state.source is Source.JOINT
+    state = replace(state, joint_heard=now)
+    if state.joint_senders:
+        demand = TWO_SENDERS.format(state.joint_senders)
+    if isinstance(demand, str):
+        return replace(drop(state, demand) if drives else state, refused=demand, refused_at=now)
+    if state.reference is None and not (silent or demand.value == 0.0):
+        return replace(state, refused=BEGIN_JOINT.format(config.joint_timeout), refused_at=now)
+    return _take(state, demand, now)
+
+
+def _take(state: State, demand: Demand, now: float) -> State:
+    """Take a demand, unless a stop is latched or another source drives."""
+    if state.latched:
+        return state
+    if state.reference is not None and state.source is not demand.source:
+        why = OTHER_DRIVES.format(demand.source.value, state.source.value)
+        return replace(state, refused=why, refused_at=now)
+    value, kind, source = demand
+    run = state.run if kind is state.kind else None  # another kind of demand is another run
+    return replace(state, reference=value, kind=kind, source=source, referred=now, dropped="", refused="", run=run)
+
+
+def release(state: State) -> tuple[str, State]:
+    """Let go of the motor: no reference, and after one last 0 V no voltage. What to say stands beside the state."""
+    return RELEASED, drop(state, RELEASED)
+
+
+def stop(state: State, reason: str) -> State:
+    """Latch 0 V from the next sample on, until `reset`; `reason` is a sentence."""
+    return replace(state, run=None, latched=reason, reference=None, dropped=CLEARED)
+
+
+def reset(state: State) -> tuple[str, State]:
+    """Clear the latched stop; the motor waits for a fresh reference. What to say stands beside the state."""
+    if not state.latched:
+        return "No stop was latched.", state
+    return f"Cleared: {state.latched.replace(NAMES, state.speakers)}", replace(state, latched="")
+
+
+def drop(state: State, why: str) -> State:
+    """End what is asked for, and say why."""
+    return replace(state, run=None, reference=None, dropped=why)
