@@ -1,8 +1,8 @@
 """Follow one wheel's motor: the angle by its counts, and whether it does what it is asked for."""
 
 from dataclasses import dataclass, replace
-from math import tau
 
+from motor_model.gearing.gear import angle_of_count
 from motor_model.sample import Info, Sample
 
 SILENCE = 0.25  # [s] without a sample, or an answer of the controller: longer than any hiccup of a computer at work
@@ -38,9 +38,10 @@ class Wheel:
 
     @property
     def angle(self) -> float:
-        """[rad] that it has turned, forwards, since the first sample."""
-        per_turn = self.info.edges_per_revolution if self.info is not None else 0
-        return self.sign * self.edges * tau / per_turn if per_turn else 0.0
+        """[rad] that the output has turned, forwards, since the first sample; exact over any number of turns."""
+        if self.info is None or not self.info.edges_per_revolution:
+            return 0.0
+        return self.sign * angle_of_count(self.edges, self.info.edges_per_revolution, self.info.gear)
 
     @property
     def speed(self) -> float:

@@ -34,6 +34,11 @@ def test_the_angle_is_that_of_the_counts_since_the_first_sample() -> None:
     assert turned(TWO, [(7, 0.0), (57, 9.0)], sign=-1.0).speed == -9.0
 
 
+def test_the_angle_of_a_geared_motor_is_that_of_its_output() -> None:
+    geared = replace(TWO, gear_ratio=34.014, edges_per_revolution=44)
+    assert turned(geared, [(0, 0.0), (44 * 34014, 9.0)]).angle == pytest.approx(1000.0 * tau, rel=1e-15)
+
+
 def test_a_single_channel_counts_down_where_the_speed_says_so() -> None:
     assert turned(ONE, [(0, 0.0), (50, 9.0), (75, -9.0), (80, 0.0)]).angle == pytest.approx(0.2 * tau)
 
