@@ -65,7 +65,7 @@ def test_every_command_works_as_written(page: str, tmp_path: Path) -> None:
                 nodes.append(subprocess.Popen(command.split(), cwd=tmp_path, env=environment))
                 continue
             done = subprocess.run(
-                ["bash", "-c", command], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=60
+                ["bash", "-c", command], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120.0
             )
             assert done.returncode == 0 and "Traceback" not in done.stderr, f"{command}\n{done.stdout}\n{done.stderr}"
     finally:

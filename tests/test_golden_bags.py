@@ -64,7 +64,7 @@ def test_the_motor_that_made_it_is_found(bag: str) -> None:
 
 
 def test_the_command_that_made_it_makes_it_again(tmp_path: Path) -> None:
-    done = subprocess.run([BAGS / "make.sh", tmp_path, "step"], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([BAGS / "make.sh", tmp_path, "step"], capture_output=True, text=True, timeout=120.0)
     assert done.returncode == 0, done.stderr
     golden, again = read_recording(BAGS / "step"), read_recording(tmp_path / "step")
     assert golden.info == again.info and np.array_equal(golden.voltage, again.voltage)

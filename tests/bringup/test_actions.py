@@ -59,7 +59,7 @@ def started(name: str, folder: Path, *told: str) -> "subprocess.Popen[str]":
 def test_from_a_motor_to_its_model(tmp_path: Path) -> None:
     model = f"model:={BAGS / 'closed_loop.yaml'}"
     process = started("identify", tmp_path, model, "profile:=step", "bag:=bag", "namespace:=left")
-    out, _ = process.communicate(timeout=60.0)
+    out, _ = process.communicate(timeout=120.0)
     assert process.returncode == 0 and "Traceback" not in out, out
     assert read_recording(tmp_path / "bag", "left").info.name == "left"
     assert set(yaml.safe_load((tmp_path / "model.yaml").read_text(encoding="utf-8"))["parameters"]) == {"kv", "ka"}
@@ -68,7 +68,7 @@ def test_from_a_motor_to_its_model(tmp_path: Path) -> None:
 def test_a_step_that_fails_ends_all_and_says_so(tmp_path: Path) -> None:
     (tmp_path / "bag").mkdir()
     process = started("identify", tmp_path, "bag:=bag", "profile:=step")
-    out, _ = process.communicate(timeout=60.0)
+    out, _ = process.communicate(timeout=120.0)
     assert process.returncode == 1 and "experiment ended with exit status 1" in out
     assert not (tmp_path / "model.yaml").exists()
 
@@ -93,5 +93,5 @@ def test_ctrl_c_ends_everything_and_the_bag_is_whole(tmp_path: Path) -> None:
 
 def test_a_word_that_is_no_choice_ends_it(tmp_path: Path) -> None:
     process = started("motor", tmp_path, "plant:=toaster")
-    out, _ = process.communicate(timeout=30.0)
+    out, _ = process.communicate(timeout=120.0)
     assert process.returncode == 1 and "toaster" in out and "emulated" in out

@@ -60,7 +60,7 @@ def make(folder: Path, *words: str, has_security: bool = True) -> "subprocess.Co
     environment = {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}"}
     command = [str(SECURITY / "make_keystore.sh"), *words]
     return subprocess.run(
-        command, cwd=folder, env=environment, capture_output=True, text=True, timeout=30.0, check=False
+        command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120.0, check=False
     )
 
 

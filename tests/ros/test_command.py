@@ -65,7 +65,7 @@ raise SystemExit(shell(work))
 
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
 def test_an_interrupt_while_computing_is_one_sentence(name: str) -> None:
-    done = subprocess.run([sys.executable, "-c", END.format(name)], capture_output=True, text=True, timeout=30.0)
+    done = subprocess.run([sys.executable, "-c", END.format(name)], capture_output=True, text=True, timeout=120.0)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "It was interrupted; nothing was written.\n")
 
 
@@ -96,5 +96,5 @@ PRINTS = "from motor_ros.command import shell\nraise SystemExit(shell(lambda: pr
 )
 def test_output_that_goes_nowhere_is_no_traceback(redirected: str, status: int, said: str) -> None:
     line = f'"{sys.executable}" -c "{PRINTS}" {redirected}'
-    done = subprocess.run(["bash", "-c", line], capture_output=True, text=True, timeout=30.0)
+    done = subprocess.run(["bash", "-c", line], capture_output=True, text=True, timeout=120.0)
     assert (done.returncode, done.stderr) == (status, said)

@@ -88,6 +88,6 @@ def test_a_mapping_that_is_none_ends_the_start_with_a_sentence(start: Start, tmp
     node = start(
         "motor_identification", "motor_identification", "--ros-args", "-p", f"mapping:={tmp_path}/mapping.yaml"
     )
-    _, err = node.communicate(timeout=60)
+    _, err = node.communicate(timeout=120.0)
     assert node.returncode == 1 and "it needs voltage, and one of speed, position or count" in err
     assert "Traceback" not in err

@@ -35,7 +35,7 @@ def test_env_sh_says_the_same(environment: dict[str, str], wanted: str, profile:
     bare = {name: os.environ[name] for name in ("PATH", "HOME") if name in os.environ}
     script = f'source env.sh && echo "${RANGE} ${PROFILE} $SKIP_DEFAULT_XML_FILE"'
     done = subprocess.run(
-        ["bash", "-c", script], env=bare | environment, cwd=ROOT, capture_output=True, text=True, timeout=30.0
+        ["bash", "-c", script], env=bare | environment, cwd=ROOT, capture_output=True, text=True, timeout=120.0
     )
     said = done.stdout.split()
     assert (said[0], Path(said[1]).name, said[2]) == (wanted, profile, "1")

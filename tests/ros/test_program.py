@@ -25,7 +25,7 @@ Start = Callable[..., "subprocess.Popen[str]"]
 
 def run(program: Program, *words: str) -> "subprocess.CompletedProcess[str]":
     command = [workbench.program(program.package, program.name), *words]
-    return subprocess.run(command, env=workbench.ENVIRONMENT, capture_output=True, text=True, timeout=20.0)
+    return subprocess.run(command, env=workbench.ENVIRONMENT, capture_output=True, text=True, timeout=120.0)
 
 
 @pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.name)
@@ -40,14 +40,6 @@ def test_help_says_what_it_is_and_every_parameter_with_its_default(program: Prog
         default = str(row.default).lower() if isinstance(row.default, bool) else repr(row.default)
         assert re.match(rf"  {row.name} +{re.escape(default)} +", line), line
         assert row.description in line and (not row.unit or f"[{row.unit}]" in line)
-
-
-@pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.name)
-def test_the_version_is_that_of_the_package(program: Program) -> None:
-    declared = re.search(r"<version>(.*)</version>", (ROOT / program.package / "package.xml").read_text())
-    assert declared is not None
-    done = run(program, "--version")
-    assert (done.returncode, done.stdout) == (0, f"{program.name} {declared[1]}\n")
 
 
 @pytest.mark.parametrize(

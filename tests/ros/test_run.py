@@ -34,7 +34,7 @@ def test_a_wrong_argument_is_one_sentence(
     arguments = ["--ros-args", *(word.format(tmp_path) for word in words)] if words else []
     command = [workbench.program("motor_sim", "motor_sim"), *arguments]
     done = subprocess.run(
-        command, env=workbench.ENVIRONMENT | environment, capture_output=True, text=True, timeout=20.0, check=False
+        command, env=workbench.ENVIRONMENT | environment, capture_output=True, text=True, timeout=120.0, check=False
     )
     ours = [line for line in done.stderr.splitlines() if not line.startswith(("[ERROR] [", "[WARN] ["))]
     assert done.returncode in (1, 2) and len(ours) == 1 and said in ours[0], done.stderr

@@ -104,7 +104,7 @@ def recorded(bench: Bench, start: Start, directory: Path) -> Path:
     while True:
         bag = directory / f"bag_{stops}"
         process = start("motor_identification", "experiment", "ramps", "--output", bag)
-        _, err = process.communicate(timeout=60.0)
+        _, err = process.communicate(timeout=120.0)
         if process.returncode == 0:
             return bag
         assert "output is off" in err, err

@@ -26,7 +26,7 @@ def identified(start: Start, bag: Path, *arguments: str) -> tuple[dict[str, floa
     """What `identify` finds for kv and ka, and what it printed."""
     fit = bag.parent / "fit.json"
     process = start("motor_identification", "identify", bag, "--json", fit, *arguments)
-    out, err = process.communicate(timeout=60.0)
+    out, err = process.communicate(timeout=120.0)
     assert process.returncode == 0, err
     parameters = json.loads(fit.read_text(encoding="utf-8"))["model"]["parameters"]
     return {name: parameters[name]["value"] for name in ("kv", "ka")}, out + err

@@ -17,7 +17,7 @@ def test_the_model_is_written_wherever_the_words_go(bags: Path, tmp_path: Path, 
     """`identify … --output x | true` wrote no file and ended with 0."""
     words = " ".join([*COMMAND, str(bags / "staircase"), "--output", str(tmp_path / "model.yaml")])
     done = subprocess.run(
-        ["bash", "-c", f"{words} {where}; exit ${{PIPESTATUS[0]}}"], capture_output=True, text=True, timeout=60.0
+        ["bash", "-c", f"{words} {where}; exit ${{PIPESTATUS[0]}}"], capture_output=True, text=True, timeout=120.0
     )
     assert done.returncode == status and "Traceback" not in done.stderr and done.stderr.count("\n") <= status
     assert load(tmp_path / "model.yaml").gain > 0.0
