@@ -30,11 +30,14 @@ class Judged:
     sure: Uncertainty
 
     @property
+    def has_inductance(self) -> bool:
+        """Whether there is any lag of the armature. What cannot be told of it makes the resistance less sure, too."""
+        return LAG in self.fit.problem.unknowns.names and not find_bounds_hit(self.fit.estimate)[LAG]
+
+    @property
     def shows_inductance(self) -> bool:
-        """Whether the lag of the armature is there, and determined."""
-        if LAG not in self.fit.problem.unknowns.names or LAG in self.sure.not_identifiable:
-            return False
-        return not find_bounds_hit(self.fit.estimate)[LAG]
+        """Whether that lag is determined."""
+        return self.has_inductance and LAG not in self.sure.not_identifiable
 
 
 def identify_with_current(motion: WhitenedFit, summarise: Callable[[WhitenedFit], Fit]) -> Fit:
@@ -51,7 +54,7 @@ def identify_with_current(motion: WhitenedFit, summarise: Callable[[WhitenedFit]
     if INDUCTANCE.name not in motion.problem.unknowns.effects:
         tries = [fit_with_current(start, currents) for start in add_inductance(motion)]
         lagging = _judge(min(tries, key=lambda one: one.sum_of_currents))
-        if lagging.shows_inductance:
+        if lagging.has_inductance:
             judged, motion = lagging, fit_whitened(lagging.fit.motion)
     return _complete(summarise(motion), judged)
 
@@ -88,7 +91,7 @@ def _physical(judged: Judged, values: dict[str, float], errors: dict[str, float]
     notes = [samples.note for samples in judged.fit.residuals.currents if samples.note]
     notes += describe_warm_winding(judged.fit)
     if not judged.shows_inductance:
-        open_ones.append(INDUCTANCE_SPEC.name)
+        open_ones = list(dict.fromkeys((*open_ones, INDUCTANCE_SPEC.name)))
         found[INDUCTANCE_SPEC.name], sure[INDUCTANCE_SPEC.name] = nan, nan
         notes.append(NO_INDUCTANCE)
     noise = judged.fit.residuals.sigma
