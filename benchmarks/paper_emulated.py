@@ -3,9 +3,9 @@
 import numpy as np
 from paper_loop import MAX_VOLTAGE, Assumption, Run, law
 
-from motor_board.build import chip_library, firmware
+from motor_board.build import FirmwareConfig, chip_library, firmware
 from motor_board.chip import FREQUENCY
-from motor_board.emulator import Emulator
+from motor_board.emulator import CurrentSensor, Emulator
 from motor_board.shaft import EncoderConfig
 from motor_driver.config import Config
 from motor_driver.frames import Command, Enable, Frame, Hello, Identify, Telemetry
@@ -22,15 +22,21 @@ PATIENCE = 250  # [ms] for what a board does at its start
 class EmulatedBoard:
     """A board in lockstep with its user: nothing happens but what is run."""
 
-    def __init__(self, motor: Parameters, rate: float, irregularity: float, seed: int) -> None:
-        self._emulator = Emulator(firmware(), motor, EncoderConfig(slot_irregularity=irregularity, seed=seed))
+    def __init__(
+        self, motor: Parameters, rate: float, irregularity: float, seed: int, current_gain: float = 0.0
+    ) -> None:
+        """With a `current_gain` [V/A] the board senses the current."""
+        elf = firmware(FirmwareConfig(current_sense=current_gain > 0.0))
+        self._emulator = Emulator(elf, motor, EncoderConfig(slot_irregularity=irregularity, seed=seed))
+        self._emulator.sensor = CurrentSensor(current_gain)
         self._encode, self._decode = Encoder(), Decoder()
-        config = Config(sample_rate=rate, max_voltage=MAX_VOLTAGE)
+        config = Config(sample_rate=rate, max_voltage=MAX_VOLTAGE, current_gain=current_gain)
         self._run(8 * MS)
         self._emulator.chip.feed(b"\0")
         board = self._ask(Identify(), Hello)
         self._ask(config.configure(board), Hello)
         self._readout = Readout(config, board)
+        self.info = config.info(board)
         latest = self._next()
         while not latest.enabled:
             self._send(Enable(1, latest.boot, latest.latch))

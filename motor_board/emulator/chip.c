@@ -51,6 +51,24 @@ static void on_clock_start(avr_t *avr, avr_io_addr_t address, uint8_t value, voi
     }
 }
 
+/* A conversion has begun: whoever knows the current is asked for it. */
+static void on_conversion(avr_irq_t *irq, uint32_t value, void *param)
+{
+    (void)irq;
+    union {
+        uint32_t value;
+        avr_adc_mux_t mux;
+    } what = {.value = value};
+    struct chip *chip = param;
+    if (what.mux.kind == ADC_MUX_SINGLE && what.mux.src == 1) {
+        chip->sensing = chip->avr->cycle;
+        if (!chip->settle) {
+            chip->settle = chip->avr->cycle + 1; /* ends the run; the pins are as they were */
+            traffic_arm(chip);
+        }
+    }
+}
+
 /* A reset wipes all cycle timers, ours too. */
 static void on_reset(avr_io_t *io)
 {
@@ -69,6 +87,8 @@ static void connect(struct chip *chip)
     avr_t *avr = chip->avr;
     uint32_t no_flags = 0;
     chip->supply = avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_ADC0);
+    chip->sense = avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_ADC1);
+    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_OUT_TRIGGER), on_conversion, chip);
     avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &no_flags);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), IOPORT_IRQ_REG_PORT), on_pin, chip);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), IOPORT_IRQ_DIRECTION_ALL), on_pin, chip);
@@ -196,6 +216,9 @@ int chip_run(struct chip *chip, uint64_t until)
         if (chip->settle && avr->cycle >= chip->settle && pins_changed(chip)) {
             return CHIP_OUTPUT_CHANGED;
         }
+        if (chip->sensing && !chip->settle) {
+            break;
+        }
     }
     return CHIP_REACHED;
 }
@@ -236,4 +259,16 @@ void chip_hang(struct chip *chip, int how)
 void chip_supply(struct chip *chip, uint32_t millivolts)
 {
     avr_raise_irq(chip->supply, millivolts);
+}
+
+uint64_t chip_sensing(struct chip *chip)
+{
+    uint64_t cycle = chip->sensing;
+    chip->sensing = 0;
+    return cycle;
+}
+
+void chip_sense(struct chip *chip, uint32_t millivolts)
+{
+    avr_raise_irq(chip->sense, millivolts);
 }

@@ -66,6 +66,11 @@ uint64_t chip_clock_zero(const struct chip *chip);
 /* [mV] at the supply input A0, 0 to 5000. */
 void chip_supply(struct chip *chip, uint32_t millivolts);
 
+/* The cycle at which the program began to convert A1 since the last call, or 0: chip_run has come back for it, and
+ * chip_sense says what is on A1 [mV] before the conversion is over. */
+uint64_t chip_sensing(struct chip *chip);
+void chip_sense(struct chip *chip, uint32_t millivolts);
+
 /* What a fault could do, and only the watchdog ends: an endless loop with interrupts off or on, or a program that runs
  * on without its sample tick. */
 enum { CHIP_HALTED, CHIP_LOOPING, CHIP_TICKLESS };

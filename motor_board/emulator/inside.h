@@ -14,7 +14,7 @@
 struct chip {
     avr_t *avr;
     avr_io_t io; /* to be told of resets */
-    avr_irq_t *edge, *direction, *input, *supply;
+    avr_irq_t *edge, *direction, *input, *supply, *sense;
 
     struct { uint64_t cycle; uint8_t what; } edges[EDGES];
     size_t edge_out, edge_in;
@@ -32,6 +32,8 @@ struct chip {
 
     uint64_t until, settle, written; /* settle: when to look at pins that were written; 0: they were not */
     struct chip_pins pins;
+
+    uint64_t sensing; /* cycle at which A1 began to be converted; 0: it is not, or the caller knows */
 
     uint32_t resets;
     uint64_t clock_zero; /* cycle at which the program last started timer 1 */

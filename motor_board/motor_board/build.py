@@ -29,6 +29,7 @@ class FirmwareConfig:
     edges_per_revolution: int = 0  # of one polarity; 0: the board does not know
     channels: int = 1  # of the encoder
     supply_full_scale: int = 0  # [mV] supply that puts 5 V on A0; 0: not measured
+    current_sense: bool = False  # A1 has a voltage that follows the motor's current
 
     def defines(self) -> tuple[str, ...]:
         """As the compiler takes them.
@@ -46,6 +47,7 @@ class FirmwareConfig:
             "EDGES_PER_REVOLUTION": (self.edges_per_revolution, 65535),
             "CHANNELS": (self.channels, 2),
             "SUPPLY_FULL_SCALE": (self.supply_full_scale, 65534),
+            "CURRENT_SENSE": (int(self.current_sense), 1),
         }
         for name, (value, most) in values.items():
             if not 0 <= value <= most:

@@ -95,6 +95,8 @@ def _library() -> Any:
         "resets": (c_uint32, [c_void_p]),
         "clock_zero": (c_uint64, [c_void_p]),
         "supply": (None, [c_void_p, c_uint32]),
+        "sensing": (c_uint64, [c_void_p]),
+        "sense": (None, [c_void_p, c_uint32]),
         "hang": (None, [c_void_p, c_int]),
         "load": (c_uint64, [c_void_p, POINTER(_Load)]),
     }
@@ -195,6 +197,15 @@ class Chip:
     def supply(self, volts_at_a0: float) -> None:
         """The voltage at A0 [V]."""
         self._library.chip_supply(self._chip, round(volts_at_a0 * 1000))
+
+    @property
+    def sensing(self) -> int:
+        """The cycle at which the program began to convert A1 since the last look, or 0: say now what is there."""
+        return int(self._library.chip_sensing(self._chip))
+
+    def sense(self, volts_at_a1: float) -> None:
+        """The voltage at A1 [V]; the chip's clamps keep it from 0 to 5 V."""
+        self._library.chip_sense(self._chip, round(min(max(volts_at_a1, 0.0), 5.0) * 1000))
 
     def hang(self, how: Hang) -> None:
         """Let the program fail in a way that only its watchdog ends."""

@@ -1,5 +1,6 @@
 """The emulated board: firmware on its chip, motor on its pins, advanced in lockstep; no wall clock, no port."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,16 @@ from motor_board.shaft import NO_EDGES, Edges, EncoderConfig, Shaft
 from motor_model.parameters import Parameters
 
 STEP = FREQUENCY // 1000  # [cycle] the motor is planned ahead by at most
+SENSE_NOISE = 0.005  # [V] RMS on A1, one step of the converter
 AHEAD = 64  # [cycle] more than the chip can run beyond its goal
+
+
+@dataclass(frozen=True)
+class CurrentSensor:
+    """What a Hall sensor, or a shunt with its amplifier, makes of a current: an ACS712-05 by default."""
+
+    gain: float = 0.185  # [V/A]
+    offset: float = 2.5  # [V] at 0 A
 
 
 class Emulator:
@@ -22,6 +32,7 @@ class Emulator:
         self.encoder = encoder or EncoderConfig()
         self.shaft = Shaft(parameters, self.encoder)
         self.encoder_connected = True
+        self.sensor = CurrentSensor()
         self.stray_edges = 0.0  # [1/s] that the line picks up, at random
         self._random = np.random.default_rng([self.encoder.seed, 2])
         self._wiring, self._volts_at_a0 = Wiring(), 0.0
@@ -38,7 +49,10 @@ class Emulator:
             goal = min(until, self.chip.cycle + STEP)
             if self.shaft.planned < goal + AHEAD:
                 self._plan(goal + AHEAD)
-            if self.chip.run(goal):
+            changed, sensing = self.chip.run(goal), self.chip.sensing
+            if sensing:  # before what has changed since
+                self._sense(sensing)
+            if changed:
                 self._drive(self.chip.written)
 
     @property
@@ -58,6 +72,12 @@ class Emulator:
         """What the motor's supply puts on A0 [V], while it is on."""
         self._volts_at_a0 = volts_at_a0
         self.chip.supply(volts_at_a0 if self._wiring.powered else 0.0)
+
+    def _sense(self, cycle: int) -> None:
+        """Put the current at a cycle on A1, as a sensor between bridge and motor makes a voltage of it."""
+        current = self.shaft.current_at(cycle) * (-1.0 if self._wiring.motor_swapped else 1.0)
+        noise = float(self._random.normal(0.0, SENSE_NOISE))
+        self.chip.sense(self.sensor.offset + self.sensor.gain * current + noise)
 
     def _plan(self, until: int) -> None:
         """Tell the chip which edges come up to a cycle, in place of what was void."""

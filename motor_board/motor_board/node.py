@@ -11,7 +11,7 @@ from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
 from motor_board.build import FirmwareConfig, firmware
-from motor_board.emulator import Emulator
+from motor_board.emulator import CurrentSensor, Emulator
 from motor_board.faults import Faults
 from motor_board.live import LiveBoard
 from motor_board.parameters import FAULTS, PROGRAM, SET_UP
@@ -46,6 +46,7 @@ class BoardEmulator(Node):
             edges_per_revolution=pulses,
             channels=channels,
             supply_full_scale=SUPPLY_FULL_SCALE if supply > 0.0 else 0,
+            current_sense=bool(values["current_sense"]),
         )
         encoder = EncoderConfig(
             pulses,
@@ -56,6 +57,7 @@ class BoardEmulator(Node):
             gear=count.gear if count.gear != 1 else None,
         )
         emulator = Emulator(firmware(config), model, encoder)
+        emulator.sensor = CurrentSensor(float(values["current_gain"]), float(values["current_offset"]))
         emulator.supply(5e3 * supply / SUPPLY_FULL_SCALE)
         self._board = LiveBoard(emulator, Port(Path(str(values["link"]))), int(values["seed"]))
         self._board.faults = Faults(**faults)  # type: ignore[arg-type]

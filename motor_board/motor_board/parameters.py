@@ -17,6 +17,9 @@ SET_UP = (
     Row("seed", 0, "of the disc, its starting angle, missed edges and faults", "", 0, 2**31 - 1, read_only=True),
     Row("bridge", "l298n", "bridge that the firmware is built for: l298n, tb6612 or drv8871", read_only=True),
     Row("board_id", 0, "number that the board is flashed with; 0: none", "", 0, 65535, read_only=True),
+    Row("current_sense", False, "the board senses the current, of a model that has a resistance", read_only=True),
+    Row("current_gain", 0.185, "of the sensor on A1", "V/A", -10.0, 10.0, read_only=True),
+    Row("current_offset", 2.5, "of the sensor on A1, without a current", "V", 0.0, 5.0, read_only=True),
     Row(
         "supply_voltage",
         0.0,

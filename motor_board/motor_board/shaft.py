@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from motor_board.chip import FREQUENCY, Line
 from motor_model.dynamics.bridge import effective_voltage
+from motor_model.dynamics.current import current_at
 from motor_model.dynamics.state import State, at_rest
 from motor_model.effects import INDEX
 from motor_model.gearing.gear import exact_gear
@@ -103,6 +104,15 @@ class Shaft:
     def voltage(self) -> float:
         """[V] that the board commands."""
         return self._commands[-1][1]
+
+    def current_at(self, cycle: int) -> float:
+        """[A] through the motor at a cycle of the present plan; 0 where its resistance is unknown."""
+        if self._p[INDEX["resistance"]] == 0.0:
+            return 0.0
+        t, delay = cycle / FREQUENCY, float(self._p[DELAY])
+        acting = next((volts for at, volts in reversed(self._commands) if at + delay < t), 0.0)
+        u = effective_voltage(self._p, acting) + self._hand
+        return float(current_at(self._p, u, self._advance(max(cycle, self._cycle))[0], t))
 
     def hold(self, stuck: bool, hand: float) -> None:
         """From the next plan on, something blocks the shaft, and a hand turns it as if with so many volts more."""

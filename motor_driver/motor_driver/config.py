@@ -32,6 +32,8 @@ class Config:
     decay: Decay = Decay.BRAKE
     pwm: Pwm = Pwm.STANDARD
     baud: int = BAUD
+    current_gain: float = 0.0  # [V/A] of the sensor on the board's A1; 0: none
+    current_offset: float = 2.5  # [V] of it without a current
     board_id: int | None = None  # None: any
     reverse_motor: bool = False  # its two wires are exchanged
     reverse_encoder: bool = False  # its two channels are exchanged

@@ -14,7 +14,7 @@ from motor_model.errors import MotorError
 VERSION = 1
 BAUD = 500_000
 LONGEST_FRAME = 48  # [byte] on the wire, the closing zero included
-NOT_MEASURED = 65535  # supply
+NOT_MEASURED = 65535  # supply, current
 
 
 class ProtocolError(MotorError):
@@ -172,6 +172,15 @@ class Telemetry:
 
 
 @dataclass(frozen=True, slots=True)
+class Sensed(Telemetry):
+    """Board: telemetry of one that senses the motor's current. Since firmware 1.3."""
+
+    TYPE: ClassVar[int] = 0x85
+    BODY: ClassVar[struct.Struct] = struct.Struct("<IhIIIHHBBBBH")
+    current: int  # [5 V/1024] at A1, just before the tick; NOT_MEASURED
+
+
+@dataclass(frozen=True, slots=True)
 class Pong:
     """Board: the time."""
 
@@ -212,8 +221,9 @@ class OtherVersion:
 
 
 FromHost: TypeAlias = Identify | Configure | Setup | Enable | Command | Ping
-FromBoard: TypeAlias = Hello | Telemetry | Pong | Features
+FromBoard: TypeAlias = Hello | Telemetry | Sensed | Pong | Features
 Frame: TypeAlias = FromHost | FromBoard
 FRAMES: dict[int, type[Frame]] = {
-    kind.TYPE: kind for kind in (Identify, Configure, Setup, Enable, Command, Ping, Hello, Telemetry, Pong, Features)
+    kind.TYPE: kind
+    for kind in (Identify, Configure, Setup, Enable, Command, Ping, Hello, Telemetry, Sensed, Pong, Features)
 }

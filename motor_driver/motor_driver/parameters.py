@@ -36,6 +36,8 @@ ROWS = (
         "PWM above hearing: 20 kHz in 100 steps on the bridge's enable, 62.5 kHz in 256 on its inputs; false: 7.8 kHz",
         read_only=True,
     ),
+    Row("current_gain", 0.0, "of the current sensor on the board's A1; 0: none", "V/A", -10.0, 10.0, read_only=True),
+    Row("current_offset", 2.5, "of that sensor without a current", "V", 0.0, 5.0, read_only=True),
     Row("decay", "brake", "what the bridge does in the off part of a PWM period: brake or coast", read_only=True),
 )
 PROGRAM = Program(
@@ -72,6 +74,8 @@ def config_of(values: Mapping[str, Value]) -> Config:
         board_id=_board_id(str(values["board_id"]).strip()),
         reverse_motor=bool(values["reverse_motor"]),
         reverse_encoder=bool(values["reverse_encoder"]),
+        current_gain=float(values["current_gain"]),
+        current_offset=float(values["current_offset"]),
         stall_time=float(values["stall_time"]),
         command_timeout=float(values["command_timeout"]),
         decay=Decay[str(values["decay"]).upper()],

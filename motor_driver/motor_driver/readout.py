@@ -4,13 +4,14 @@ from math import nan
 
 from motor_driver.clock.board_clock import BoardClock
 from motor_driver.config import Config
-from motor_driver.frames import NOT_MEASURED, Flag, Hello, Telemetry
+from motor_driver.frames import NOT_MEASURED, Flag, Hello, Sensed, Telemetry
 from motor_model.gearing.gear import edge_angle
 from motor_model.sample import Sample
 from motor_model.sensing.speed_rule import SpeedState, single_channel_speed, speed_magnitude
 
 HALF, WRAP = 1 << 31, 1 << 32
 NO_SUPPLY = 3.0  # [V] measured below this, the supply is off
+STEP = 5.0 / 1024  # [V] of the board's converter
 MEMORY = 0.5  # [s] over which a measured supply is smoothed: its converter's step is 20 mV
 
 
@@ -58,6 +59,7 @@ class Readout:
             edge_count=self._encoder * self._count,
             edge_time=self._edge_time,
             edge_period=period,
+            current=self._current(frame),
             supply_voltage=nan if frame.supply == NOT_MEASURED else frame.supply * 1e-3,
         )
 
@@ -66,6 +68,13 @@ class Readout:
             return self._encoder * (-magnitude if frame.flags & Flag.REVERSE else magnitude)
         speed, self._speed_state = single_channel_speed(self._speed_state, magnitude, voltage, now)
         return speed
+
+    def _current(self, frame: Telemetry) -> float:
+        """[A] NaN where the board senses none, or nobody said what its sensor makes of one."""
+        gain = self._config.current_gain
+        if not isinstance(frame, Sensed) or frame.current == NOT_MEASURED or gain == 0.0:
+            return nan
+        return (frame.current * STEP - self._config.current_offset) / gain
 
     def _follow_supply(self, millivolts: int) -> None:
         """Take the supply that the board measures for the voltage at full duty."""

@@ -206,6 +206,7 @@ ELECTRICAL = (
     P("resistance", "Ω", 0.0, 0.02, 20.0, logarithmic=True, minimum=1e-6),  # times the voltage per largest current
     P("torque_constant", "N·m/A", 0.0, 0.2, 1.2),  # times kv; 0 is kv
     P("current_offset", "A", 0.0, -0.2, 0.2, minimum=-inf, of_recording=True),  # times the largest current
+    P("current_lag", "s", 0.0, 0.0, 1.0, minimum=-inf),  # sample periods by which a reading is older, beyond whole ones
 )
 VECTOR_NAMES = (*SPEC_BY_NAME, MAX_VOLTAGE, COARSENESS, *(spec.name for spec in ELECTRICAL), GEAR_RATIO)
 INDEX = {name: i for i, name in enumerate(VECTOR_NAMES)}

@@ -31,6 +31,11 @@ class Sample:
     current: float = nan  # [A] NaN if unmeasured
 
 
+# [s] by which a current is older than its sample, by its source: the simulated board reads it at the sample, our board
+# in the middle of a PWM pulse before it (motor_board/firmware/board/sense.h). Of others nobody knows.
+CURRENT_LAG = {"simulation": 0.0, "hardware": 2.7e-4}
+
+
 @dataclass(frozen=True, slots=True)
 class Info:
     """How to read a plant's samples: the fields of `motor_msgs/msg/MotorInfo` without the header."""
@@ -64,6 +69,11 @@ class Info:
     def full_voltage(self) -> float:
         """[V] at full duty: what a bridge that coasts and a supply that sags are judged by."""
         return self.supply_voltage or self.max_voltage
+
+    @property
+    def current_lag(self) -> float:
+        """[s] by which a current is older than its sample; NaN: unknown."""
+        return CURRENT_LAG.get(self.source, nan)
 
 
 # What a plant can be: low and high of each number of Info, in its unit.

@@ -388,4 +388,4 @@ def test_another_board_is_refused_in_a_sentence(make_rig: MakeRig, wanted: int |
 
 
 def test_what_has_begun_to_run_is_said(running: Rig) -> None:
-    assert status.connection(running.driver) == "Connected to the port: firmware 1.2.0, 96 edges per revolution, 12 V."
+    assert status.connection(running.driver) == "Connected to the port: firmware 1.3.0, 96 edges per revolution, 12 V."

@@ -1,6 +1,6 @@
 """Telemetry as samples: counts through wraps, voltages of the supply, speeds with their sign."""
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 from math import isnan, tau
 
 import pytest
@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from motor_driver.config import Config
-from motor_driver.frames import Flag, Telemetry
+from motor_driver.frames import NOT_MEASURED, Flag, Sensed, Telemetry
 from motor_driver.readout import Readout
 from motor_model.sample import Sample
 
@@ -42,6 +42,14 @@ def test_a_measured_supply_prevails() -> None:
     assert isnan(heard(readout(), TELEMETRY).supply_voltage)
     off = heard(readout(), replace(TELEMETRY, duty=128, supply=200))  # switched off: full duty is what was said
     assert off.voltage == 6.0 and off.supply_voltage == 0.2
+
+
+def test_a_current_needs_a_board_that_senses_it_and_a_gain() -> None:
+    sensed = Sensed(**asdict(TELEMETRY), current=612)
+    board = readout(Config(current_gain=0.185, current_offset=2.5))
+    assert heard(board, sensed).current == pytest.approx((612 * 5.0 / 1024 - 2.5) / 0.185)  # 2.64 A
+    assert isnan(heard(board, replace(sensed, time=20_000, current=NOT_MEASURED)).current)
+    assert isnan(heard(readout(), sensed).current) and isnan(heard(readout(), TELEMETRY).current)
 
 
 def test_counts_go_on_through_a_wrap_and_down() -> None:

@@ -27,11 +27,14 @@ NOISE, OFFSET, STEP = 0.015, 0.03, 0.012  # [A] of the ammeter
 FRICTION = ("coulomb_friction",)
 
 
-def measured(values: Values | None = None, seed: int = 1, drive: profiles.Profile | None = None) -> Recording:
+def measured(
+    values: Values | None = None, seed: int = 1, drive: profiles.Profile | None = None, sample_rate: float = 200.0
+) -> Recording:
     """A checked recording with a current of the motor, with other lumped or electric `values` than its own."""
     motor = LUMPED | ELECTRIC | (values or {})
     drive = drive or profiles.joined(profiles.staircase(12.0, 4, 0.3), profiles.random(12.0, 3.0, seed))
-    return check(record(motor, *drive, seed=seed, irregularity=0.01, ammeter=Ammeter(NOISE, OFFSET, STEP))[0])
+    how = {"seed": seed, "irregularity": 0.01, "sample_rate": sample_rate}
+    return check(record(motor, *drive, **how, ammeter=Ammeter(NOISE, OFFSET, STEP))[0])  # type: ignore[arg-type]
 
 
 def fit_motion(recording: Recording, effects: tuple[str, ...] = FRICTION) -> WhitenedFit:

@@ -1,7 +1,6 @@
 #include "bridge.h"
 
 #include <avr/io.h>
-#include <stdbool.h>
 
 #include "config.h"
 #include "wire.h"
@@ -35,6 +34,12 @@
 #endif
 
 static bool backward;
+
+static enum { NO_PULSE, PULSE_ON_0, PULSE_ON_2 } pulse; /* the timer that makes pulses slow enough to hit their middle */
+static uint8_t middle;                                  /* its count there */
+
+#define EARLY 32  /* [0.5 us] the converter holds its input 12 to 20 us after it was started */
+#define WINDOW 32 /* [0.5 us] in which an edge's interrupt may come between */
 
 void bridge_start(void)
 {
@@ -108,9 +113,17 @@ void bridge_write(int16_t duty, uint8_t decay, uint8_t pwm)
     decay_before = decay;
     pwm_before = pwm;
     uint8_t compare = (uint8_t)((duty < 0 ? -duty : duty) - 1);
+    pulse = duty == 0 || pwm == WIRE_PWM_SILENT ? NO_PULSE : PULSES_ENABLE(decay) ? PULSE_ON_2 : PULSE_ON_0;
+    middle = compare / 2;
     if (PULSES_ENABLE(decay)) {
         write_enable(compare, duty == 0, anew, pwm == WIRE_PWM_SILENT);
     } else {
         write_input(compare, duty == 0, anew, pwm == WIRE_PWM_SILENT, OFF_IS_HIGH(decay));
     }
+}
+
+bool bridge_in_middle(void)
+{
+    uint8_t counter = pulse == PULSE_ON_2 ? TCNT2 : TCNT0;
+    return pulse == NO_PULSE || (uint8_t)(counter - middle + EARLY) < WINDOW;
 }

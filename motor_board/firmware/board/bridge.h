@@ -2,6 +2,7 @@
 #ifndef BRIDGE_H
 #define BRIDGE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "config.h"
@@ -24,5 +25,9 @@ void bridge_start(void);
 /* Drives at this duty, of BRIDGE_TOP or what silent PWM has. From 0 and through a reversal it acts at once, otherwise from the next PWM period
  * on (128 us; 50 us or 16 us with silent PWM). */
 void bridge_write(int16_t duty, uint8_t decay, uint8_t pwm);
+
+/* Whether a conversion that is started now holds its input in the middle of a pulse; always, where there is none or it
+ * is too short to be hit (silent PWM). */
+bool bridge_in_middle(void);
 
 #endif

@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <util/atomic.h>
 
+#include "config.h"
 #include "edge_timer.h"
 
 #define CLOCK_TICK_NS 500u
@@ -29,7 +30,7 @@ static inline void clock_start(uint16_t first_compare)
     OCR1A = first_compare;
     TCCR1A = 0;
     clock_capture(true);
-    TIMSK1 = _BV(ICIE1) | _BV(OCIE1A) | _BV(TOIE1);
+    TIMSK1 = _BV(ICIE1) | _BV(OCIE1A) | _BV(TOIE1) | (MOTOR_CURRENT_SENSE ? _BV(OCIE1B) : 0);
 }
 
 /* Whether the counter has overflowed and its interrupt has not run yet. (Nothing here writes TIFR1: the interrupts

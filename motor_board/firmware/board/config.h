@@ -26,4 +26,8 @@
 #define MOTOR_SUPPLY_FULL_SCALE 0 /* [mV] of the motor's supply that put 5 V on A0 through the divider; 0: not measured */
 #endif
 
+#ifndef MOTOR_CURRENT_SENSE
+#define MOTOR_CURRENT_SENSE 0 /* 1: A1 has a voltage that follows the motor's current; the driver knows its gain and zero */
+#endif
+
 #endif

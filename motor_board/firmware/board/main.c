@@ -16,6 +16,7 @@
 #include "device.h"
 #include "frame.h"
 #include "quadrature.h"
+#include "sense.h"
 #include "serial.h"
 #include "supply.h"
 
@@ -38,6 +39,7 @@ static const struct device_config config = {
     .first_timeout = 100,
     .first_decay = WIRE_DECAY_BRAKE,
     .silent_top = BRIDGE_SILENT_TOP,
+    .senses_current = MOTOR_CURRENT_SENSE,
 };
 
 volatile bool main_woken;
@@ -183,6 +185,9 @@ ISR(TIMER1_COMPA_vect)
     bool ticks = device_latch(&device);
     bridge_write(device.output.duty, device.output.decay, device.output.pwm);
     OCR1A = device_next(&device); /* before sei: 16-bit registers share their temporary byte */
+    if (MOTOR_CURRENT_SENSE) {
+        OCR1B = (uint16_t)(device.tick - SENSE_LEAD);
+    }
     ticking = true;
     main_woken = true;
     sei();
@@ -190,10 +195,26 @@ ISR(TIMER1_COMPA_vect)
         struct edge_timer edges;
         while (!clock_is_past((uint16_t)device.latest)) {
         }
+        if (MOTOR_CURRENT_SENSE) {
+            sense_take_current(&device.current);
+        }
         copy_edges(&edges);
         device_sample(&device, &edges);
     }
 }
+
+#if MOTOR_CURRENT_SENSE
+/* Before a tick. Edges come first; the tick itself is further away than this lasts. */
+ISR(TIMER1_COMPB_vect)
+{
+    uint16_t latest = (uint16_t)(OCR1B + SENSE_WAIT);
+    sei();
+    sense_take_supply(&device.supply);
+    while (!bridge_in_middle() && !clock_is_past(latest)) {
+    }
+    sense_start_current();
+}
+#endif
 
 static void receive(void)
 {
@@ -257,6 +278,7 @@ int main(void)
     bridge_write(0, device.output.decay, WIRE_PWM_STANDARD);
     encoder_start();
     supply_start();
+    sense_start();
     serial_start();
     clock_start((uint16_t)device.compare);
     sei();
@@ -265,7 +287,9 @@ int main(void)
         receive();
         follow_quadrature();
         send();
-        supply_read(&device.supply);
+        if (!MOTOR_CURRENT_SENSE) { /* else the converter belongs to the current, which is about a moment */
+            supply_read(&device.supply);
+        }
         feed_watchdog();
         rest();
     }

@@ -5,7 +5,7 @@
 #define UNMEASURED 0xFFFFu
 
 #define FIRMWARE_MAJOR 1
-#define FIRMWARE_MINOR 2
+#define FIRMWARE_MINOR 3
 #define FIRMWARE_PATCH 0
 
 static uint32_t limited(uint32_t value, uint32_t low, uint32_t high)
@@ -31,7 +31,7 @@ void device_start(struct device *device, const struct device_config *config, uin
     *device = (struct device){0};
     device->config = config;
     device->reset_cause = reset_cause;
-    device->supply = UNMEASURED;
+    device->supply = device->current = UNMEASURED;
     device->output.boot = boot;
     device->output.top = (int16_t)config->top;
     device->output.decay = config->first_decay;
@@ -112,6 +112,8 @@ void device_sample(struct device *device, const struct edge_timer *edges)
     sample->errors = edges->errors;
     sample->boot = device->output.boot;
     sample->latch = device->output.latch;
+    device->sampled_current = device->current;
+    device->current = UNMEASURED; /* none is reported twice */
 }
 
 static uint16_t top_of(const struct device *device, uint8_t decay)
@@ -262,6 +264,10 @@ bool device_take(struct device *device, struct device_frame *frame, bool quiet, 
         device->sampled = false;
         frame->type = WIRE_TELEMETRY;
         end = wire_put_telemetry(body, &device->sample);
+        if (device->config->senses_current) {
+            frame->type = WIRE_SENSED; /* the same, and the current after it */
+            end = wire_put_u16(end, device->sampled_current);
+        }
     } else if (device->set_up) {
         device->set_up = false;
         frame->type = WIRE_FEATURES;

@@ -29,6 +29,7 @@ struct device_config {
     uint32_t lead; /* [tick] from the compare interrupt to the pins following it: the sample is at the latter */
     uint16_t first_timeout;                               /* [ms] */
     uint8_t first_decay;
+    bool senses_current;    /* `sensed` frames in place of telemetry */
     uint16_t silent_top[2]; /* by decay: duty of full voltage with silent PWM; 0: it cannot be had */
 };
 
@@ -42,6 +43,7 @@ struct device {
     uint32_t latest;        /* [tick] of the latest sample */
     uint16_t timeout;               /* [ms] */
     uint16_t supply;                /* [mV] */
+    uint16_t current, sampled_current; /* [5 V/1024] since the latest tick, and of that tick's sample */
     struct wire_telemetry sample;   /* what was true at the latest tick */
     uint8_t quadrature;             /* asked for; the pins' interrupts have to follow it by quadrature_start */
     uint8_t pwm;                    /* of the bridge, from the next configure on */

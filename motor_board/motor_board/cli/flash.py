@@ -35,6 +35,9 @@ def parser() -> argparse.ArgumentParser:
         metavar="MV",
         help="motor supply [mV] that puts 5 V on A0 through the divider; default 0: not measured",
     )
+    parser.add_argument(
+        "--current-sense", action="store_true", help="A1 has a voltage that follows the motor's current"
+    )
     parser.add_argument("--build", action="store_true", help="only build, and say where the ELF file is")
     parser.add_argument("--sketch", type=Path, metavar="DIR", help="only write a sketch folder for the Arduino IDE")
     return parser
@@ -44,7 +47,12 @@ def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_board flash`."""
     options = parser().parse_args(args)
     config = FirmwareConfig(
-        options.bridge, options.board_id, options.edges_per_revolution, options.channels, options.supply_full_scale
+        options.bridge,
+        options.board_id,
+        options.edges_per_revolution,
+        options.channels,
+        options.supply_full_scale,
+        options.current_sense,
     )
     try:
         if options.sketch is not None:

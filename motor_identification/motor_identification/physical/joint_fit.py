@@ -1,6 +1,7 @@
 """Fit motion and current together by least squares of white residuals, from a fit of the motion."""
 
 from dataclasses import dataclass, replace
+from math import isnan, nan
 
 import numpy as np
 
@@ -19,6 +20,8 @@ from motor_model.errors import RecordingError
 TURNS = 4  # that fit, encoders and noise of the current are learned from each other
 ITERATIONS = 30  # of each
 LESS_BACK_EMF = 0.8  # of kv: a second torque constant, that shows how the current depends on it
+WHOLE_SAMPLES = (-1, 0, 1, 2, 3, 4, 6, 8, 12)  # by which the current may be late (−1: read after the voltage acted)
+FIRST_LAG = 0.3  # of a sample period beyond that, to begin with
 LAG = "electrical_time_constant"
 (INDUCTANCE,) = (effect for effect in EFFECTS if any(spec.name == LAG for spec in effect.parameters))
 AGAINST = (
@@ -59,12 +62,11 @@ def fit_with_current(fit: WhitenedFit, currents: tuple[CurrentSamples, ...]) -> 
     Raises:
         RecordingError: the current is not this motor's.
     """
-    most = max(float(np.max(np.abs(samples.current))) for samples in currents)
-    unknowns = fit.problem.unknowns
-    electrical = add_electrical_unknowns(unknowns, fit.estimate.parameters.values["kv"], most)
-    problem = replace(fit.problem, unknowns=electrical)
-    theta = _start(fit, problem, electrical, currents)
-    return _fit_in_turns(Estimate(problem, theta, fit.estimate.simulations), fit, currents)
+    whole = WHOLE_SAMPLES if isnan(_known_lag(fit.problem)) else (0,)
+    start = min((_regress(fit, currents, samples) for samples in whole), key=lambda one: one.squares)
+    if not start.conductance > 0.0:
+        raise RecordingError(AGAINST.format(1.0 / start.conductance if start.conductance else np.inf))
+    return _fit_in_turns(Estimate(start.problem, start.theta, fit.estimate.simulations), fit, currents)
 
 
 def add_inductance(fit: WhitenedFit) -> list[WhitenedFit]:
@@ -76,26 +78,44 @@ def add_inductance(fit: WhitenedFit) -> list[WhitenedFit]:
     return [replace(fit, estimate=replace(fit.estimate, problem=problem, theta=theta)) for theta in thetas]
 
 
-def _start(
-    fit: WhitenedFit, problem: Problem, electrical: ElectricalUnknowns, currents: tuple[CurrentSamples, ...]
-) -> Floats:
-    """θ (D,) by regression: the current is a sum of what u, ω and the sensor's zero make of it."""
+@dataclass(frozen=True)
+class Regression:
+    """A start for a fit of motion and current: a problem and θ, the sum of squares [A²] there, and 1/R [1/Ω]."""
+
+    problem: Problem
+    theta: Floats
+    squares: float
+    conductance: float
+
+
+def _regress(fit: WhitenedFit, currents: tuple[CurrentSamples, ...], samples: int) -> Regression:
+    """Regress the current on what u, ω and the sensor's zero make of it, read so many whole samples late or more."""
     kv, unknowns = fit.estimate.parameters.values["kv"], fit.problem.unknowns
-    trial = [np.array([1.0, constant, 0.0]) for constant in (kv, LESS_BACK_EMF * kv)]
-    # Bounds stay out of it: only what the current is proportional to is asked here.
+    most = max(float(np.max(np.abs(one.current))) for one in currents)
+    electrical = add_electrical_unknowns(unknowns, kv, most, _known_lag(fit.problem), samples)
+    problem = replace(fit.problem, unknowns=electrical)
+    lag = (samples + FIRST_LAG) * unknowns.extent.sample
+    # Of the other bounds none is asked here: only what the current is proportional to.
     wide = replace(electrical, low=np.full(len(electrical.low), -np.inf), high=np.full(len(electrical.low), np.inf))
-    thetas = np.array([join_theta(unknowns, fit.theta, wide, values) for values in trial])
+    trials = [np.array([1.0, constant, 0.0, lag]) for constant in (kv, LESS_BACK_EMF * kv)]
+    thetas = np.array([join_theta(unknowns, fit.theta, wide, values) for values in trials])
     all_of_kv, less = simulate_currents(problem, currents, thetas)
     per_constant = (all_of_kv - less) / ((1.0 - LESS_BACK_EMF) * kv)
-    columns = [all_of_kv - kv * per_constant, per_constant]
-    counts = [len(samples.time) for samples in currents]
-    columns += list(np.repeat(np.eye(len(counts)), counts, axis=1))
-    measured = np.concatenate([samples.current for samples in currents])
-    conductance, product, *offsets = np.linalg.lstsq(np.array(columns).T, measured, rcond=None)[0]
-    if not conductance > 0.0:
-        raise RecordingError(AGAINST.format(1.0 / conductance if conductance else np.inf))
-    values = np.array([1.0 / conductance, product / conductance, float(np.mean(offsets))])
-    return join_theta(unknowns, fit.theta, electrical, values)
+    counts = [len(one.time) for one in currents]
+    zeros = np.repeat(np.eye(len(counts)), counts, axis=1)
+    design = np.array([all_of_kv - kv * per_constant, per_constant, *zeros]).T
+    measured = np.concatenate([one.current for one in currents])
+    solution = np.linalg.lstsq(design, measured, rcond=None)[0]
+    conductance, product, *offsets = solution
+    values = np.array([1.0 / max(conductance, 1e-12), product / max(conductance, 1e-12), np.mean(offsets), lag])
+    squares = float(np.sum((design @ solution - measured) ** 2))
+    return Regression(problem, join_theta(unknowns, fit.theta, electrical, values), squares, float(conductance))
+
+
+def _known_lag(problem: Problem) -> float:
+    """[s] by which the currents of all recordings are older than their samples; NaN where that is not known."""
+    lags = {recording.info.current_lag for recording in problem.recordings}
+    return lags.pop() if len(lags) == 1 else nan
 
 
 def _fit_in_turns(estimate: Estimate, fit: WhitenedFit, currents: tuple[CurrentSamples, ...]) -> JointFit:

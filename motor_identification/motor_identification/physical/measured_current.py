@@ -9,6 +9,7 @@ from motor_identification.physical.current_samples import select_current
 from motor_identification.physical.joint_fit import INDUCTANCE, LAG, JointFit, add_inductance, fit_with_current
 from motor_identification.physical.propagation import Values, propagate_errors
 from motor_identification.physical.warm_winding import describe_warm_winding
+from motor_identification.uncertainty.identifiability import PRESENT_SIGMA
 from motor_identification.uncertainty.result import Fit, find_bounds_hit
 from motor_identification.uncertainty.standard_errors import Uncertainty, estimate_uncertainty
 from motor_model.effects import ELECTRICAL, SPEC_BY_NAME
@@ -20,6 +21,9 @@ NO_INDUCTANCE = (
     "The inductance is not identifiable: neither current nor motion shows a lag of L/R. Sample faster, or record the "
     "profile 'prbs'."
 )
+LATE = "current_lag"
+OLDER = "The current is {:.2f} ± {:.2f} ms older than its sample, which is taken into account."
+LATER = "The current is {:.2f} ± {:.2f} ms younger than its sample, which is taken into account."
 
 
 @dataclass(frozen=True)
@@ -90,6 +94,9 @@ def _physical(judged: Judged, values: dict[str, float], errors: dict[str, float]
     open_ones = [name for name, error in sure.items() if error != error]
     notes = [samples.note for samples in judged.fit.residuals.currents if samples.note]
     notes += describe_warm_winding(judged.fit)
+    late, error = values.get(LATE, 0.0), errors.get(LATE, 0.0)
+    if late < 0.0 or late > PRESENT_SIGMA * error:
+        notes.append((LATER if late < 0.0 else OLDER).format(1e3 * abs(late), 1e3 * error))
     if not judged.shows_inductance:
         open_ones = list(dict.fromkeys((*open_ones, INDUCTANCE_SPEC.name)))
         found[INDUCTANCE_SPEC.name], sure[INDUCTANCE_SPEC.name] = nan, nan

@@ -7,6 +7,7 @@ import numpy as np
 from motor_identification.estimation.problem import DERIVATIVE_STEP, Problem
 from motor_identification.estimation.whitened_fit import Beside, WhitenedResiduals
 from motor_identification.physical.current_samples import CurrentSamples
+from motor_identification.physical.unknowns import ElectricalUnknowns
 from motor_identification.recording import Floats
 from motor_model.effects import INDEX
 from motor_model.simulate import NOWHERE, roll_out_with_current
@@ -20,14 +21,17 @@ def simulate_currents(problem: Problem, currents: tuple[CurrentSamples, ...], th
     `problem` has electrical unknowns, see `unknowns.py`.
     """
     problem.raise_if_stopped()
+    unknowns = problem.unknowns
+    assert isinstance(unknowns, ElectricalUnknowns)
+    lags = [unknowns.lag_of(theta) for theta in thetas]
     vectors, starts = problem.unknowns.decode(thetas)
     parts = []
     for r, (samples, (time, voltage)) in enumerate(zip(currents, problem.commands, strict=True)):
-        out = np.append(0.0, samples.time)  # motion starts with the recording
-        anchor = problem.tracks[r].at(out) if problem.tracks else NOWHERE
-        angle, speed, current = (np.empty(len(out)) for _ in range(3))
-        rows = np.empty((len(thetas), len(out) - 1))
+        angle, speed, current = (np.empty(len(samples.time) + 1) for _ in range(3))
+        rows = np.empty((len(thetas), len(samples.time)))
         for s, row in enumerate(rows):
+            out = np.append(0.0, np.maximum(samples.time - lags[s], 0.0))  # motion starts with the recording
+            anchor = problem.tracks[r].at(out) if problem.tracks else NOWHERE
             p, start = vectors[s, r], float(starts[s, r])
             roll_out_with_current(p, start, time, voltage, out, anchor, angle, speed, current)
             row[:] = current[1:] + p[OFFSET]

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from electrical import LUMPED, PHYSICAL, known
+from electrical import LUMPED, PHYSICAL, known, measured
 
 from motor_identification.physical.current_samples import select_current
 from motor_identification.physical.joint_fit import fit_with_current
@@ -43,3 +43,19 @@ def test_a_gain_of_the_ammeter_is_all_in_the_resistance() -> None:
     assert wrong["resistance"] * 1.05 == pytest.approx(right["resistance"], rel=1e-5)
     assert wrong["torque_constant"] == pytest.approx(right["torque_constant"], rel=1e-6)
     assert np.isclose(fits[1].residuals.sigma[0], 1.05 * fits[0].residuals.sigma[0], rtol=1e-4)
+
+
+@pytest.mark.parametrize("late", [-0.5, 1.4])
+def test_how_late_a_foreign_current_is_is_found(late: float) -> None:
+    """[samples] Negative: it was read after the voltage of its row had begun to act."""
+    recording, motion = known()
+    foreign = replace(recording.info, source="import")
+    fine = measured(sample_rate=2000.0)  # the same motion, for the current between the samples
+    wanted = np.clip(recording.time - late * recording.sample_period, 0.0, None)
+    current = fine.current[np.minimum(np.searchsorted(fine.time, wanted), len(fine) - 1)]
+    moved = replace(recording, info=foreign, current=current)
+    other = replace(motion, estimate=replace(motion.estimate, problem=replace(motion.problem, recordings=(moved,))))
+    fit = fit_with_current(other, (select_current(moved),))
+    values = fit.electrical.values(fit.theta)
+    assert abs(values["current_lag"] / recording.sample_period - late) < 0.15
+    assert values["resistance"] == pytest.approx(2.3, rel=0.01)

@@ -15,7 +15,7 @@ def test_theta_goes_through_with_two_recordings_and_phases_of_their_own() -> Non
     bare = make_unknowns([recording, recording], (ripple,))
     unknowns = add_electrical_unknowns(bare, LUMPED["kv"], 5.0)
     theta = np.array([np.log(0.066), np.log(0.005), 0.2, 7.0, 0.5, 1.5])  # the last: the second recording's phase
-    joined = join_theta(bare, theta, unknowns, np.array([2.3, 0.065, 0.03]))
+    joined = join_theta(bare, theta, unknowns, np.array([2.3, 0.065, 0.03, 0.002]))
     vectors, _ = unknowns.decode(joined[None])
     assert vectors[0, :, INDEX["ripple_phase"]].tolist() == [0.5, 1.5]
     assert vectors[0, :, INDEX["current_offset"]].tolist() == [0.03, 0.03]

@@ -1,0 +1,83 @@
+"""The real firmware on the emulated chip senses the motor's current: in every frame, in the middle of a pulse."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from electrical import ELECTRIC, LUMPED
+from emulated_board import MS, TICK, Bench
+
+from motor_board.build import FirmwareConfig
+from motor_board.emulator import SENSE_NOISE
+from motor_driver.frames import NOT_MEASURED, Command, Sensed, Telemetry
+from motor_model.parameters import Parameters
+from motor_model.sample import CURRENT_LAG
+
+MakeBench = Callable[..., Bench]
+SENSING = FirmwareConfig(current_sense=True, supply_full_scale=20_000)
+MOTOR = Parameters(LUMPED, ("coulomb_friction",), **ELECTRIC)
+PULSE = 128 * MS // 1000  # [cycle] of a PWM period
+GAIN, ZERO, STEP = 0.185, 2.5, 5.0 / 1024
+
+
+def watch(bench: Bench) -> list[tuple[int, float]]:
+    """Cycle and true current of every conversion from now on."""
+    seen: list[tuple[int, float]] = []
+    inner = bench.emulator._sense
+
+    def sense(cycle: int) -> None:
+        seen.append((cycle, bench.emulator.shaft.current_at(cycle)))
+        inner(cycle)
+
+    bench.emulator._sense = sense  # type: ignore[method-assign]
+    return seen
+
+
+@pytest.mark.parametrize(("decay", "period"), [(0, 10_000), (1, 2_000)])
+def test_every_frame_has_the_current_before_its_tick(make_bench: MakeBench, decay: int, period: int) -> None:
+    bench = make_bench(parameters=MOTOR, config=SENSING)
+    bench.emulator.supply(3.0)
+    bench.start(period, decay=decay)
+    seen = watch(bench)
+    bench.drive(128, 60)
+    turned = len(seen)
+    bench.drive(-192, 60)
+    frames = bench.all(Telemetry)
+    assert all(isinstance(frame, Sensed) and frame.current != NOT_MEASURED for frame in frames)
+    assert {frame.supply for frame in frames[5:]} <= set(range(11_960, 12_001))  # the converter serves both
+    times = np.array([frame.time for frame in frames]) * TICK + bench.chip.clock_zero
+    starts = np.array([cycle for cycle, _ in seen])
+    before = times[:, None] - starts[None, :]
+    latest = np.argmin(np.where(before > 0, before, 1 << 40), axis=1)
+    lead = before[np.arange(len(times)), latest][3:-3]
+    assert np.all((lead > 1_600) & (lead < 6_000))  # [cycle] the conversion takes 104 µs, and 375 µs is the most
+    assert abs(np.mean(lead) / 16e6 - 16e-6 - CURRENT_LAG["hardware"]) < 4e-5  # the input is held 12 to 20 µs later
+    true = np.array([current for _, current in seen])[latest]
+    read = np.array([frame.current for frame in frames if isinstance(frame, Sensed)]) * STEP - ZERO
+    error = (read / GAIN - true)[3:-3]
+    assert np.max(np.abs(error)) < 5.0 * np.hypot(SENSE_NOISE, STEP) / GAIN
+    assert np.ptp(true) > 4.0 and turned > 10
+
+
+def test_it_is_the_middle_of_the_pulse(make_bench: MakeBench) -> None:
+    """Pulses of 64 and 192 counts have middles 64 counts apart, 512 cycles."""
+    bench = make_bench(parameters=MOTOR, config=SENSING)
+    bench.start(2_000)
+    phases = []
+    for duty in (64, 192):
+        bench.drive(duty, 20)
+        seen = watch(bench)
+        bench.drive(duty, 100)
+        phases.append(np.array([cycle % PULSE for cycle, _ in seen]))
+    spread = [float(np.ptp((phase - phase[0] + PULSE // 2) % PULSE)) for phase in phases]
+    assert max(spread) < 0.2 * PULSE  # [cycle] a window of 16 µs, and the interrupts of edges
+    apart = (np.median(phases[1]) - np.median(phases[0])) % PULSE
+    assert 400 < apart < 620
+
+
+def test_a_board_without_a_sensor_sends_what_it_always_did(make_bench: MakeBench) -> None:
+    bench = make_bench()
+    bench.start()
+    bench.send(Command(50))
+    bench.run(20)
+    assert {type(frame) for frame in bench.all(Telemetry)} == {Telemetry}
