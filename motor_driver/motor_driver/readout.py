@@ -74,7 +74,7 @@ class Readout:
         gain = self._config.current_gain
         if not isinstance(frame, Sensed) or frame.current == NOT_MEASURED or gain == 0.0:
             return nan
-        return (frame.current * STEP - self._config.current_offset) / gain
+        return self._motor * (frame.current * STEP - self._config.current_offset) / gain
 
     def _follow_supply(self, millivolts: int) -> None:
         """Take the supply that the board measures for the voltage at full duty."""

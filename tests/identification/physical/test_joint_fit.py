@@ -56,6 +56,8 @@ def test_how_late_a_foreign_current_is_is_found(late: float) -> None:
     moved = replace(recording, info=foreign, current=current)
     other = replace(motion, estimate=replace(motion.estimate, problem=replace(motion.problem, recordings=(moved,))))
     fit = fit_with_current(other, (select_current(moved),))
-    values = fit.electrical.values(fit.theta)
-    assert abs(values["current_lag"] / recording.sample_period - late) < 0.15
-    assert values["resistance"] == pytest.approx(2.3, rel=0.01)
+    sure = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta))
+    values, errors = fit.electrical.values(fit.theta), fit.electrical.value_errors(fit.theta, sure.errors)
+    lag, error = (of["current_lag"] / recording.sample_period for of in (values, errors))
+    assert abs(lag - late) < 3.5 * error and error < 0.3
+    assert abs(values["resistance"] - 2.3) < 3.5 * errors["resistance"] < 0.1
