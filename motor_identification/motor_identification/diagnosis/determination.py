@@ -1,6 +1,7 @@
 """Drop what is not determined: an effect of which nothing can be said but that something like it is missing."""
 
 from dataclasses import replace
+from math import inf
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward, replace_step
@@ -8,12 +9,13 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.effect_test import likelihood_threshold, sort_by_table, try_effects
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
+from motor_identification.uncertainty.result import find_bounds_hit
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
-from motor_model.effects import EFFECT_BY_NAME
+from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 
 
 def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple[Selection, tuple[str, ...]]:
-    """Drop the findings whose one parameter the training data do not determine; and name them.
+    """Drop the findings whose one parameter the training data do not determine; and name them with their rivals.
 
     First the one whose absence costs least likelihood: of effects that do each other's work, what is left is then
     determined. One that has a rival which is determined gives way to that. What is not needed any more goes, too.
@@ -27,11 +29,11 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
         if rival is not None:
             selection = rival
             continue
-        dropped.append(step.found.effect)
+        dropped += [step.found.effect, *step.rivals]
         selection = eliminate_backward(smaller, reporter) if smaller.steps else smaller
         if any(one.found.effect in dropped for one in selection.steps):  # back in the place of another: no circles
             selection = smaller
-    return selection, sort_by_table(dropped)
+    return selection, sort_by_table(set(dropped) - set(selection.model.effects))
 
 
 def _replace_by_rival(selection: Selection, step: SelectionStep, without: Model) -> Selection | None:
@@ -58,9 +60,21 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
 
 
 def _find_unknown(model: Model) -> tuple[str, ...]:
-    """Find the parameters that the training data do not determine."""
+    """Find the parameters that the training data do not determine, or that ended at a limit of the search alone."""
     fit = model.whitened
-    return estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).not_identifiable
+    unknown = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).not_identifiable
+    return (*unknown, *find_limits_hit(model))
+
+
+def find_limits_hit(model: Model) -> tuple[str, ...]:
+    """Find the parameters that ended at a limit of the search that is none of physics."""
+    return tuple(name for name, hit in find_bounds_hit(model.estimate).items() if hit and not _is_physical(name))
+
+
+def _is_physical(name: str) -> bool:
+    """Whether a parameter's largest value is one that physics sets, such as a bridge that coasts all the time."""
+    spec = SPEC_BY_NAME.get(name)
+    return spec is not None and spec.maximum < inf
 
 
 def is_undetermined(effect: str, not_identifiable: tuple[str, ...]) -> bool:

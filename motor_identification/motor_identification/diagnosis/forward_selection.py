@@ -25,6 +25,7 @@ from motor_identification.diagnosis.effect_test import (
     find_rivals,
     likelihood_threshold,
     list_candidates,
+    sort_by_table,
     try_effects,
 )
 from motor_identification.estimation.direction_correction import correct_directions
@@ -225,12 +226,19 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
         start = begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
         other = select_forward(start, reporter, pairs=False)
         if other.model.held.gap < selection.model.held.gap:
-            selection = other
+            selection = other if other.model.likelihood > selection.model.likelihood else _add_rival(other, selection)
         else:
             head, *tail = selection.steps
             rest = tuple(name for name in head.rivals if name != test.effect)
             selection = replace(selection, steps=(replace(head, rivals=rest), *tail))
     return selection
+
+
+def _add_rival(selection: Selection, likelier: Selection) -> Selection:
+    """Add the first finding of a likelier selection to the rivals of the first: gap and likelihood disagree."""
+    head, *tail = selection.steps
+    rivals = sort_by_table({*head.rivals, likelier.steps[0].found.effect} - {head.found.effect})
+    return replace(selection, steps=(replace(head, rivals=rivals), *tail))
 
 
 def list_other_firsts(first: SelectionStep) -> list[CandidateTest]:

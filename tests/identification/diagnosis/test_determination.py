@@ -1,6 +1,8 @@
 """What a recording determines nothing of is no finding."""
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -10,7 +12,12 @@ from plant import profiles, record
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis import determination
 from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
-from motor_identification.diagnosis.determination import drop_undetermined, find_undetermined, is_undetermined
+from motor_identification.diagnosis.determination import (
+    drop_undetermined,
+    find_limits_hit,
+    find_undetermined,
+    is_undetermined,
+)
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.diagnosis.result import Verdict
 from motor_identification.estimation.estimate import Estimate
@@ -18,6 +25,7 @@ from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check
+from motor_model.effects import EFFECT_BY_NAME
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
@@ -80,7 +88,19 @@ def test_a_rival_that_is_determined_takes_the_place(monkeypatch: pytest.MonkeyPa
     assert (step.found.effect, step.rivals) == ("coulomb_friction", ("dead_zone",))
     monkeypatch.setattr(determination, "_find_unknown", lambda model: ("dead_zone_voltage", "ks"))
     left, names = drop_undetermined(selection, SILENT)
-    assert names == ("dead_zone",) and left.steps == ()
+    assert names == ("coulomb_friction", "dead_zone") and left.steps == ()
+
+
+@pytest.mark.parametrize(("effect", "at_limit"), [("transport_delay", True), ("coast_drive", False)])
+def test_a_limit_of_the_search_is_no_value_but_one_of_physics_is(effect: str, at_limit: bool) -> None:
+    estimate, _ = fitted(ks=0.4)
+    more = estimate.problem.with_effects((effect,))
+    name = EFFECT_BY_NAME[effect].parameters[0].name
+    place = more.unknowns.names.index(name)
+    theta = map_theta(estimate.problem.unknowns, estimate.theta, more.unknowns, {name: np.array(1e-3)})
+    theta[place] = more.unknowns.high[place]
+    model = cast(Model, SimpleNamespace(estimate=Estimate(more, theta), effects=(effect,)))
+    assert find_limits_hit(model) == ((name,) if at_limit else ())
 
 
 def test_of_two_that_do_each_others_work_the_needless_one_goes(monkeypatch: pytest.MonkeyPatch) -> None:
