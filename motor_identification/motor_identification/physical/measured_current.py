@@ -21,6 +21,10 @@ NO_INDUCTANCE = (
     "The inductance is not identifiable: neither current nor motion shows a lag of L/R. Sample faster, or record the "
     "profile 'prbs'."
 )
+AT_LIMIT = (
+    "The {} is at the limit of its search range: do not trust the quantities; check that voltage, current and speed "
+    "are of the same motor, and their units."
+)
 LATE = "current_lag"
 OLDER = "The current is {:.2f} ± {:.2f} ms older than its sample, which is taken into account."
 LATER = "The current is {:.2f} ± {:.2f} ms younger than its sample, which is taken into account."
@@ -78,7 +82,7 @@ def _complete(fit: Fit, judged: Judged) -> Fit:
         parameters=judged.fit.estimate.parameters,
         standard_errors=lumped,
         correlations=sure.correlations_of(unknowns.names),
-        on_bound=find_bounds_hit(judged.fit.estimate),
+        on_bound={name: hit for name, hit in find_bounds_hit(judged.fit.estimate).items() if name in SPEC_BY_NAME},
         not_identifiable=open_ones,
         evaluations=judged.fit.estimate.simulations,
         physical=_physical(judged, values, errors),
@@ -94,6 +98,8 @@ def _physical(judged: Judged, values: dict[str, float], errors: dict[str, float]
     open_ones = [name for name, error in sure.items() if error != error]
     notes = [samples.note for samples in judged.fit.residuals.currents if samples.note]
     notes += describe_warm_winding(judged.fit)
+    hit = find_bounds_hit(judged.fit.estimate)
+    notes += [AT_LIMIT.format(name.replace("_", " ")) for name in (RESISTANCE.name, CONSTANT.name) if hit[name]]
     late, error = values.get(LATE, 0.0), errors.get(LATE, 0.0)
     if late < 0.0 or late > PRESENT_SIGMA * error:
         notes.append((LATER if late < 0.0 else OLDER).format(1e3 * abs(late), 1e3 * error))

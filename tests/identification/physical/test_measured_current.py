@@ -12,6 +12,7 @@ from motor_identification.estimation.request import PhysicalRequest, Request, Se
 from motor_identification.identify import identify
 from motor_identification.reporting.fit_json import fit_to_json
 from motor_identification.reporting.fit_model_file import save_model
+from motor_identification.reporting.fit_text import list_cautions
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import RecordingError
 from motor_model.model_file import load
@@ -60,3 +61,13 @@ def test_without_a_current_it_says_what_to_do() -> None:
     recording = replace(known()[0], current=np.full(len(known()[0]), np.nan))
     with pytest.raises(RecordingError, match="or give the armature's resistance with --resistance"):
         identify([recording], REQUEST)
+
+
+def test_a_current_of_another_quantity_is_told_by_the_limit_of_the_range() -> None:
+    """A current that grows with the speed, as no motor's does at a given voltage."""
+    recording = known()[0]
+    wrong = replace(recording, current=0.1 * recording.voltage + 0.01 * recording.speed)
+    fit = identify([wrong], REQUEST)
+    assert fit.physical is not None
+    assert any("torque constant is at the limit of its search range" in one for one in fit.physical.notes)
+    assert set(fit.on_bound) <= set(fit.parameters.values) and list_cautions(fit) is not None
