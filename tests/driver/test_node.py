@@ -125,5 +125,5 @@ def test_a_number_that_two_boards_have_or_none_is_a_sentence_and_nothing_runs(
     node = make(f"port:={tmp_path}/*", f"board_id:={wanted}")
     work(node, lambda: re.match(says, node._driver.trouble) is not None)
     assert not node._driver.runs and node._driver.board is None
-    assert "retrying" in node._driver.refusal()
+    assert "retrying" in node._driver.trouble
     node._link.close()
