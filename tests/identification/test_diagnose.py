@@ -133,7 +133,7 @@ def test_missed_edges_are_counted() -> None:
 
 
 def test_what_is_not_in_the_table_stays_unexplained() -> None:
-    found = diagnosed({"slew_rate": 150.0})  # the bridge follows the command at so many V/s
+    found = diagnosed({"speed_wave": 0.5, "speed_wave_scale": 12.0})  # a load that goes up and down with the speed
     assert found.verdict is Verdict.UNEXPLAINED and found.findings == ()
     assert found.gap_after > 1.3 * found.noise_floor
 

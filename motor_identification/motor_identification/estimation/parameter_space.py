@@ -16,6 +16,7 @@ from motor_model.parameters import Parameters, neutral
 from motor_model.sample import Measurement
 
 SLOW_SPEED = 0.03  # of the largest speed: slower, a ripple holds the shaft or turns it back
+FEW_COUNTS = 4.0  # a mean speed over so many is wrong by a quarter at most; boxes allow four times as much
 TURNING_SPEED = 0.1  # of the largest speed: as slow as a motor turns for long enough to show a ripple
 
 
@@ -96,9 +97,23 @@ def map_theta(old: Unknowns, theta: Floats, new: Unknowns, values: Mapping[str, 
 
 
 def _reach(speed: Floats) -> float:
-    """[rad/s] largest speed that two samples in a row report, so that one false edge does not move the search box."""
+    """[rad/s] largest speed that two samples in a row report, so that one false edge does not move the search box.
+
+    Where a sample is hardly longer than a count, its speed is none or several times too high (one count of 96 in a
+    millisecond is 65 rad/s): then it is the largest mean over so many samples that a few counts are in it.
+    """
     size = np.abs(speed)
-    return float(np.minimum(size[1:], size[:-1]).max()) or float(size.max())
+    in_a_row = float(np.minimum(size[1:], size[:-1]).max())
+    count = float(size[size > 0.0].min(initial=inf))  # the smallest speed, which is a count a sample where they are so
+    if in_a_row >= 2.0 * count or count == inf:
+        return in_a_row
+    travel, rows = np.concatenate(([0.0], np.cumsum(speed))), 4
+    while rows < len(travel):
+        most = float(np.abs(travel[rows:] - travel[:-rows]).max())
+        if most >= FEW_COUNTS * count:
+            return most / rows
+        rows *= 2
+    return in_a_row or float(size.max())
 
 
 def _turning_speeds(recordings: Sequence[Recording]) -> Floats:

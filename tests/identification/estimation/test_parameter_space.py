@@ -26,6 +26,18 @@ def test_a_ripple_is_as_fine_as_disc_and_samples_show(edges: int, rate: float, c
     assert extent.cycles == pytest.approx(expected)
 
 
+@pytest.mark.parametrize("top", [3.0, 14.0, 30.0, 100.0, 500.0])
+def test_the_largest_speed_is_no_single_count(top: float) -> None:
+    """96 counts a turn, read every millisecond: a count is 65 rad/s, however slowly the motor turns."""
+    speed = top * np.clip(np.sin(np.linspace(0.0, 6.0, 8000)) * 1.2, -1.0, 1.0)
+    count = 2.0 * np.pi / 96
+    seen = np.diff(np.floor(np.cumsum(speed * 1e-3) / count), prepend=0.0) * count / 1e-3
+    recording = replace(small_recording().at_rows(np.zeros(8000, dtype=np.int64)), speed=seen)
+    assert 0.9 * top < measure_extent([recording]).speed < 2.0 * top
+    false = replace(recording, speed=np.where(np.arange(8000) == 4000, 1e5, seen))
+    assert measure_extent([false]).speed < 2.0 * top or top < 65.0  # where no two samples in a row have a count
+
+
 def test_the_box_is_scaled_by_voltage_speed_and_duration() -> None:
     recording = small_recording()
     unknowns = make_unknowns([recording], ("coulomb_friction", "load_step"))
