@@ -87,7 +87,9 @@ def _tune(options: argparse.Namespace) -> int:
 
     check_outputs([path for path in (options.output, options.figure) if path], options.force)
     parameters = model_file.load(options.model)
-    encoder = Encoder(options.edges_per_revolution, options.slot_irregularity, options.edge_resolution)
+    encoder = Encoder(
+        options.edges_per_revolution, options.slot_irregularity, options.edge_resolution, parameters.gear_ratio
+    )
     wish = Wish(
         sample_period=1.0 / options.sample_rate,
         lowest_speed=options.lowest_speed,

@@ -83,7 +83,9 @@ class Observer:
         for name in ("ripple_voltage", "eccentricity", "step_voltage"):
             vector[INDEX[name]] = 0.0
         supply = float(vector[INDEX["max_voltage"]])
-        flank = sqrt((self.slot_irregularity * slot) ** 2 + 0.5 * off_centre**2 + (1e-4 * slot) ** 2)
+        flank = sqrt(
+            (self.slot_irregularity * slot) ** 2 + 0.5 * (off_centre / float(self.info.gear)) ** 2 + (1e-4 * slot) ** 2
+        )
         object.__setattr__(self, "vector", vector)
         noise = Noise(
             slot=slot,
@@ -145,7 +147,8 @@ class Observer:
             return NO_EDGE, NO_EDGE
         at = (sample.edge_time - state.sample_time) * 1e-9 + 0.5 * self.noise.tick
         before = at - sample.edge_period
-        if abs(steps) < 2 or sample.edge_period <= 0.0 or before < 0.0:
+        mean = self.info.quadrature > 1  # the period is over several edges, and tells no time of another one
+        if abs(steps) < 2 or sample.edge_period <= 0.0 or before < 0.0 or mean:
             return NO_EDGE, Edge(at, float(steps), sample.edge_period == 0.0 and abs(steps) == 1)
         one = copysign(1.0, steps)
         return Edge(before, steps - one, False), Edge(at, one, False)

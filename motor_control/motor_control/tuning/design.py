@@ -109,6 +109,7 @@ def sight_of(parameters: Parameters, encoder: Encoder, wish: Wish) -> Sight:
         edges_per_revolution=encoder.edges_per_revolution,
         edge_resolution=encoder.edge_resolution,
         sample_period=wish.sample_period,
+        gear_ratio=encoder.gear_ratio,
     )
     noise = Observer(parameters, info, encoder.slot_irregularity).noise
     return Observed(encoder, noise.walk, noise.shake)

@@ -24,6 +24,7 @@ class Encoder:
     edges_per_revolution: int = 96
     slot_irregularity: float = 0.01  # standard deviation of an edge's place, as a share of a slot
     edge_resolution: float = 4e-6  # [s]
+    gear_ratio: float = 1.0  # encoder turns per turn of the output, which speeds are of
 
     def __post_init__(self) -> None:
         at_least(0.0, slot_irregularity=self.slot_irregularity, edge_resolution=self.edge_resolution)
@@ -32,8 +33,8 @@ class Encoder:
 
     @property
     def slot(self) -> float:
-        """[rad] between two edges."""
-        return tau / self.edges_per_revolution
+        """[rad] of the output between two edges."""
+        return tau / (self.edges_per_revolution * self.gear_ratio)
 
     def edge_noise(self, speed: float) -> float:
         """[rad] standard deviation of the angle that an edge stands for, at a speed [rad/s]."""

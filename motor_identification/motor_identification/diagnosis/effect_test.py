@@ -100,7 +100,7 @@ def _exceeds_chance_harmonic(test: CandidateTest) -> bool:
         return True
     estimate = test.model.estimate
     size = float(estimate.theta[estimate.problem.unknowns.names.index(effect.parameters[0].name)])
-    slot = max(data.slot for data in estimate.problem.intervals)
+    slot = max(data.slot * data.gear for data in estimate.problem.intervals)  # of the encoder's shaft, as it is
     share = test.model.noise.share if test.model.learned is None else test.model.learned.share
     return is_beyond_chance(size, slot, share)
 

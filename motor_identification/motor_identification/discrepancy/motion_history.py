@@ -25,7 +25,7 @@ class MotionHistory:
     speed: Floats  # [rad/s] signed
     voltage: Floats  # [V] the command that acts, a known delay later
     drive: Floats  # [V] voltage − kv·speed
-    angle: Floats  # [rad]
+    angle: Floats  # [rad] of the encoder's shaft
     since: Floats  # [s] since the motion began or turned round
     travel: Floats  # [rad] since then
     past: Floats  # (S, LAGS) [V] how the command has changed at each of the latest samples
@@ -63,7 +63,7 @@ def make_history(recording: Recording, data: Intervals, angle: Floats, kv: float
     at_begin = track.at(np.maximum(begin, 0.0))
     return MotionHistory(
         time=middle, duration=duration, still=still, speed=speed, voltage=voltage, drive=voltage - kv * speed,
-        angle=where, since=middle - begin, travel=np.abs(where - at_begin), past=past,
+        angle=data.gear * where, since=middle - begin, travel=np.abs(where - at_begin), past=past,
         at_start=np.searchsorted(edges, start), at_end=np.searchsorted(edges, end),
     )  # fmt: skip
 

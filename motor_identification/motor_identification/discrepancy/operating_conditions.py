@@ -27,7 +27,7 @@ class OperatingConditions:
     since: Floats  # [s] since motion last began or turned round; 0 at a standstill, infinite where it never did
     time: Floats  # [s] within the recording, at the interval's middle
     voltage: Floats  # [V] the command that holds there
-    angle: Floats  # [rad] of the shaft since the recording's start
+    angle: Floats  # [rad] of the encoder's shaft since the recording's start
     duration: Floats  # [s]
     recording: Integers  # number of the recording
     run: Integers  # of the angle, numbered through all recordings: between two of them it may slip
@@ -61,7 +61,7 @@ def _of_one(number: int, recording: Recording, data: Intervals, angle: Floats) -
         since=since,
         time=middle,
         voltage=recording.voltage[latest],
-        angle=track.at(middle),
+        angle=data.gear * track.at(middle),
         duration=data.duration,
         recording=np.full(len(middle), number),
         run=track.run_at(middle) + RUNS_PER_RECORDING * number,

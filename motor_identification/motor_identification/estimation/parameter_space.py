@@ -35,6 +35,7 @@ class Unknowns:
     extent: Extent
     max_voltage: float
     turning: NDArray[np.bool_]  # (R,) which recordings start on a moving motor
+    gear: float = 1.0  # encoder turns per turn of the output
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -60,7 +61,7 @@ class Unknowns:
     def decode(self, thetas: Floats) -> tuple[Floats, Floats]:
         """Decode θ (S, D) → parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
         values = np.where(self.logarithmic, np.exp(np.where(self.logarithmic, thetas, 0.0)), thetas)
-        vectors = np.tile(neutral(self.max_voltage), (len(thetas), len(self.turning), 1))
+        vectors = np.tile(neutral(self.max_voltage, gear_ratio=self.gear), (len(thetas), len(self.turning), 1))
         vectors[:, :, [INDEX[name] for name in self.names]] = values[:, self.columns]
         for spec in self.specs:
             if spec.at_least is not None:
@@ -74,7 +75,7 @@ class Unknowns:
         """The motor at θ (D,), as the first recording has it."""
         vector = self.decode(theta[None])[0][0, 0]
         values = {spec: float(vector[INDEX[spec]]) for spec in self.names}
-        return Parameters(values, self.effects, self.max_voltage, name)
+        return Parameters(values, self.effects, self.max_voltage, name, gear_ratio=self.gear)
 
     def value_errors(self, theta: Floats, theta_errors: Floats) -> dict[str, float]:
         """Standard errors of the parameters from those of θ: a logarithm's is a relative one."""
@@ -134,10 +135,11 @@ def measure_extent(recordings: Sequence[Recording]) -> Extent:
 
 
 def _finest_cycles(recording: Recording, speed: float) -> float:
-    """[1/rev] of the finest ripple: two slots to a cycle, and two stamps where the motor turns slowly but surely."""
+    """[1/rev of the encoder's shaft] of the finest ripple: two slots a cycle, two stamps at a slow but sure speed."""
     edges = recording.info.edges_per_revolution
     stamps = 2.0 if recording.info.measurement is Measurement.EDGES else 1.0  # a sample has at most
-    seen = stamps * pi / (TURNING_SPEED * speed * recording.sample_period) if speed > 0.0 else inf
+    turning = TURNING_SPEED * speed * float(recording.info.gear)
+    seen = stamps * pi / (turning * recording.sample_period) if speed > 0.0 else inf
     return min(0.5 * edges, seen) if edges else seen
 
 
@@ -166,4 +168,5 @@ def make_unknowns(recordings: Sequence[Recording], effects: tuple[str, ...]) -> 
         low.append(float(start - margin))
         high.append(float(start + margin))
     most = max(extent.voltage, *(recording.info.full_voltage for recording in recordings))
-    return Unknowns(normalised(effects), specs, np.array(low), np.array(high), extent, most, starts != 0.0)
+    gear = float(recordings[0].info.gear)
+    return Unknowns(normalised(effects), specs, np.array(low), np.array(high), extent, most, starts != 0.0, gear)

@@ -31,6 +31,7 @@ from motor_identification.recording import Bools, Floats
 from motor_model.effects import EFFECT_BY_NAME
 
 LEAST_IRREGULARITY = 1e-4  # of a slot: to begin with at least
+UNEVEN_IRREGULARITY = 0.1  # the same of both channels' flanks, whose pattern the first guess takes for drift
 MOST_IRREGULARITY = 0.05  # of a slot: more irregular than this is no disc (real ones: around 1 %)
 EM_ROUNDS = 40  # of expectation maximisation
 MOST_TURNS = 4  # that table, slots and drift are learned from each other
@@ -81,11 +82,14 @@ def _learn_one(data: Intervals, increments: Floats, angle: Floats, first_harmoni
     index = index_slots(data, angle)
     # Slots and drift at once to begin with: a table learnt first would take an error of the model for its slots.
     guess = estimate_noise([(data, increments)])
-    variance, drift = (max(guess.share, LEAST_IRREGULARITY) * data.slot) ** 2, guess.drift
+    least = UNEVEN_IRREGULARITY if data.unevenness > 1.0 else LEAST_IRREGULARITY
+    variance, drift = (max(guess.share, least) * data.slot) ** 2, guess.drift
     table = SlotTable(make_whitening(noise, drift), index, first_harmonic)
     for turn in range(1, MOST_TURNS + 1):
         white = whiten(table.whitening, increments)
-        variance = estimate_slot_variance(table, white, variance, (MOST_IRREGULARITY * data.slot) ** 2, EM_ROUNDS)
+        variance = estimate_slot_variance(
+            table, white, variance, (data.unevenness * MOST_IRREGULARITY * data.slot) ** 2, EM_ROUNDS
+        )
         offsets = Projection(table, variance).best(white)
         index = align_slots(table, white, offsets)
         moved = index is not table.index

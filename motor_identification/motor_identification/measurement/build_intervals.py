@@ -21,6 +21,9 @@ from motor_identification.sensor.speed_sensor import find_speed_sensor
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
 
+# Of both channels' flanks, against those of one: duty cycle and phase of cheap sensors are off by a third of a slot.
+UNEVENNESS = 7.0
+
 
 def make_intervals(recording: Recording) -> Intervals:
     """Make the intervals of a recording: what it says about the motion.
@@ -65,6 +68,8 @@ def make_edge_intervals(recording: Recording, edges: Edges) -> Intervals:
         edge=np.column_stack([first.count, last.count]),
         slot=slot,
         left_out=int(np.count_nonzero(~good)),
+        gear=float(recording.info.gear),
+        unevenness=UNEVENNESS if recording.info.quadrature > 1 else 1.0,
     )
     return append_standstills(moving, find_standstills_at_edges(recording, edges, ~good), slot)
 
@@ -84,7 +89,9 @@ def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
     # An interval's end is the next one's start; where a run begins, both ends have the larger blur.
     fresh = np.diff(begin, prepend=-2) != 1
     blur = slot * np.where(fresh, np.maximum(fixes.blur[begin], fixes.blur[end]), fixes.blur[end])
-    moving = index_intervals(start, stop, speed, blur, left_out=int(np.count_nonzero(~good)))
+    moving = index_intervals(
+        start, stop, speed, blur, left_out=int(np.count_nonzero(~good)), gear=float(recording.info.gear)
+    )
     return append_standstills(moving, find_standstills_at_reversals(recording, changes), slot)
 
 
@@ -92,7 +99,9 @@ def _from_noisy_angles(recording: Recording, noise: float) -> Intervals:
     """Make intervals from sample to sample, where the angle is known to within `noise` [counts] at each."""
     slot, time = recording.info.edge_angle, recording.time
     speed = np.diff(recording.edge_count) * slot / np.diff(time)
-    return index_intervals(time[:-1], time[1:], speed, np.full(len(speed), noise * slot))
+    return index_intervals(
+        time[:-1], time[1:], speed, np.full(len(speed), noise * slot), gear=float(recording.info.gear)
+    )
 
 
 def _from_speed(recording: Recording) -> Intervals:
@@ -110,6 +119,7 @@ def _from_speed(recording: Recording) -> Intervals:
         speed=recording.speed[sensor.row[inside]],
         blur=np.full(len(start), blur),
         independent=sensor.sigma > 0.0,
+        gear=float(recording.info.gear),
     )
 
 

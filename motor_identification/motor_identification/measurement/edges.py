@@ -36,7 +36,8 @@ def extract_edges(recording: Recording) -> Edges:
     """Extract all edges since the first sample that a recording reports, but for those whose stamps are wrong.
 
     A stamp is the timer's last tick before the edge, so that half a tick is added. Of two edges in a sample that are
-    hardly further apart than the timer ticks, the latest one says it all.
+    hardly further apart than the timer ticks, the latest one says it all. Counted two- or fourfold the period is a
+    mean over a period of channel A, and tells no other edge.
     """
     info, count, stamp = recording.info, recording.edge_count, recording.edge_time
     fresh = np.flatnonzero(np.diff(count, prepend=count[0]) != 0)
@@ -48,7 +49,13 @@ def extract_edges(recording: Recording) -> Edges:
         direction = open_returns(direction, period)
     right = mark_possible(recording, fresh, latest)
     right[right] = mark_smooth(latest[right], _passed(count[fresh][right] - count[0]))
-    second = right & (np.abs(steps) >= 2) & (period > LEAST_TICKS * info.edge_resolution) & (latest - period > 0.0)
+    second = (
+        right
+        & (info.quadrature <= 1)
+        & (np.abs(steps) >= 2)
+        & (period > LEAST_TICKS * info.edge_resolution)
+        & (latest - period > 0.0)
+    )
     second[second] = mark_possible(recording, fresh[second], (latest - period)[second])
     time = np.concatenate([(latest - period)[second], latest[right]])
     numbers = np.concatenate([(count[fresh] - np.sign(steps))[second], count[fresh][right]]) - count[0]

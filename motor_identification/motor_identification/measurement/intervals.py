@@ -33,6 +33,8 @@ class Intervals:
     slot: float  # [rad] 0 where nothing is known of the slots
     left_out: int  # intervals that contain a reversal, or whose direction is open
     independent: bool = False  # whether each interval has an error of its own at either end
+    gear: float = 1.0  # turns of the encoder's shaft, with which slots and ripples repeat, per turn of the output
+    unevenness: float = 1.0  # times as irregular as the flanks of one channel its slots may be
 
     @property
     def duration(self) -> Floats:
@@ -72,6 +74,8 @@ def index_intervals(
     slot: float = 0.0,
     left_out: int = 0,
     independent: bool = False,
+    gear: float = 1.0,
+    unevenness: float = 1.0,
 ) -> Intervals:
     """Index intervals over one ascending list of times that starts with the recording."""
     count = len(start)
@@ -87,6 +91,8 @@ def index_intervals(
         slot=slot,
         left_out=left_out,
         independent=independent,
+        gear=gear,
+        unevenness=unevenness,
     )
 
 
@@ -103,6 +109,8 @@ def append_standstills(moving: Intervals, still: tuple[Floats, Floats], slack: f
         edge=np.concatenate([moving.edge, np.full((len(blank), 2), -1)]),
         slot=moving.slot,
         left_out=moving.left_out,
+        gear=moving.gear,
+        unevenness=moving.unevenness,
     )
 
 
@@ -147,6 +155,8 @@ def join_intervals(intervals: Intervals, duration: float) -> Intervals:
         slot=intervals.slot,
         left_out=intervals.left_out,
         independent=intervals.independent,
+        gear=intervals.gear,
+        unevenness=intervals.unevenness,
     )
 
 

@@ -62,7 +62,7 @@ def estimate_noise(rows: Sequence[tuple[Intervals, Floats]]) -> Noise:
 
         return max(shares, key=score)
 
-    shares = IRREGULARITIES if rows[0][0].slot > 0.0 else (0.0,)
+    shares = tuple(rows[0][0].unevenness * share for share in IRREGULARITIES) if rows[0][0].slot > 0.0 else (0.0,)
     share, drift = shares[-1], 0.0
     for _ in range(ROUNDS):
         drift = estimate_drift(noises(share), increments, drifts, OUTLIER_CLIP)

@@ -43,7 +43,7 @@ class SlotIndex:
 
 def index_slots(intervals: Intervals, angle: Floats) -> SlotIndex:
     """Index the slots at every interval's ends; where runs are broken, the simulated angle [rad] bridges the gap."""
-    n = round(2.0 * np.pi / intervals.slot)
+    n = round(2.0 * np.pi / intervals.slot / intervals.gear)  # of the encoder's shaft, behind whatever gear
     known = intervals.edge[:, 0] >= 0
     direction = np.sign(intervals.speed).astype(np.int64)
     turns = angle / intervals.slot

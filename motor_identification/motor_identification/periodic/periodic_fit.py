@@ -61,7 +61,7 @@ def add_periodic_effect(bare: Estimate, effect: str, least: float = 0.0, freely:
     promise, spent = least, bare.simulations
     for _ in range(PERIODIC_ROUNDS):
         start = _STARTS[effect](bare, tracks, promise)
-        if start is None or abs(start.cycles - cycles_before) * _turned(start.tracks) < 1.0:  # or the same line again
+        if start is None or abs(start.cycles - cycles_before) * _turned(bare, start) < 1.0:  # or the same line again
             break
         cycles_before, promise = start.cycles, 0.0
         begin = _begin(replace(bare, simulations=spent), effects, start)
@@ -90,7 +90,7 @@ def _fit_freely(bare: Estimate, begin: Estimate, held: Estimate, effect: str, st
     mended = map_theta(without, map_theta(unknowns, held.theta, without, {}), unknowns, start.values)
     directed = correct_directions(held)
     free = directed.on(replace(directed.problem, tracks=()))
-    return [directed, fit_on_simulated_angle(free, effect, (begin.theta, mended), _turned(start.tracks))]
+    return [directed, fit_on_simulated_angle(free, effect, (begin.theta, mended), _turned(bare, start))]
 
 
 def _without_effect(bare: Estimate, best: Estimate) -> Estimate:
@@ -110,9 +110,9 @@ def measure_angles(estimate: Estimate, effects: tuple[str, ...]) -> Tracks:
     return estimate.problem.on_measured_angle(estimate.theta, effects).tracks
 
 
-def _turned(tracks: Tracks) -> float:
-    """[rad] how far the shaft turned."""
-    return max(float(np.ptp(track.angle)) for track in tracks)
+def _turned(bare: Estimate, start: Start) -> float:
+    """[rad] how far the encoder's shaft turned."""
+    return bare.problem.unknowns.gear * max(float(np.ptp(track.angle)) for track in start.tracks)
 
 
 def estimate_phases(bare: Estimate, effect: str, cycles: float, tracks: Tracks = ()) -> Start:
@@ -132,13 +132,13 @@ def _start_eccentricity(bare: Estimate, tracks: Tracks, _least: float) -> Start:
     """Fit the first harmonic of what an estimate leaves over the angle, by least squares."""
     waves = []
     for data, track, increments in zip(bare.problem.intervals, tracks, bare.increments, strict=True):
-        angle, root = track.at(data.time), 1.0 / np.sqrt(data.duration)
+        angle, root = data.gear * track.at(data.time), 1.0 / np.sqrt(data.duration)
         sine, cosine = (
             np.diff(shape(angle)[np.stack([data.first, data.last])], axis=0)[0] for shape in (np.sin, np.cos)
         )
         moving = data.slack == 0.0
         design = (np.column_stack([sine, cosine]) * root[:, None])[moving]
-        waves.append(complex(*np.linalg.lstsq(design, -(increments * root)[moving], rcond=None)[0]))
+        waves.append(data.gear * complex(*np.linalg.lstsq(design, -(increments * root)[moving], rcond=None)[0]))
     size = np.full(len(waves), np.mean(np.abs(waves)))
     return Start(tracks, {"eccentricity": size, "eccentricity_phase": np.asarray(np.angle(waves), dtype=np.float64)})
 

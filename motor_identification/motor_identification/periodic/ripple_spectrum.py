@@ -74,7 +74,7 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     likely = [rough[peak] + around for peak in _peaks(spectrum, ROUGH_PEAKS)]
     counted = [run.course.run for run in runs]
     likely.sort(key=lambda fine: -_spectrum(runs, fine, counted, problem.raise_if_stopped).max())
-    found, slots = [], [data.slot for data in problem.intervals]
+    found, slots = [], [(data.slot, data.gear) for data in problem.intervals]
     for fine in likely[:FINE_CANDIDATES]:
         problem.raise_if_stopped()
         lines = [_fit_line(runs, tracks, cycles, slots) for cycles in fine]
@@ -108,15 +108,17 @@ def _powers(run: _Run, cycles: Floats, block: Integers, go_on: Callable[[], None
 
 def fit_ripple(estimate: Estimate, tracks: Sequence[Track], cycles: float) -> Ripple:
     """Fit the most likely ripple of so many cycles a turn."""
-    slots = [data.slot for data in estimate.problem.intervals]
+    slots = [(data.slot, data.gear) for data in estimate.problem.intervals]
     return _fit_line(_make_runs(estimate, tracks), tracks, cycles, slots)
 
 
-def _fit_line(runs: Sequence[_Run], tracks: Sequence[Track], cycles: float, slots: Sequence[float]) -> Ripple:
-    """Fit a ripple of so many cycles, with every recording's slips; `slots` [rad] of every recording's disc."""
+def _fit_line(
+    runs: Sequence[_Run], tracks: Sequence[Track], cycles: float, slots: Sequence[tuple[float, float]]
+) -> Ripple:
+    """Fit a ripple of so many cycles, with every recording's slips; `slots` [rad] and gear of every recording."""
     weights, straightened, explained = [], [], 0.0
-    for run, track, slot in zip(runs, tracks, slots, strict=True):
-        aligned = align_runs(_sums(run, cycles, run.course.run), cycles * slot)
+    for run, track, (slot, gear) in zip(runs, tracks, slots, strict=True):
+        aligned = align_runs(_sums(run, cycles, run.course.run), cycles * slot * gear)
         weights.append(aligned.weight)
         explained += aligned.explained
         straightened.append(track.slipped(np.asarray(aligned.slips * slot)))
@@ -131,7 +133,7 @@ def _make_runs(estimate: Estimate, tracks: Sequence[Track]) -> list[_Run]:
     runs = []
     rows = zip(estimate.problem.intervals, tracks, estimate.increments, learn_encoders(estimate), strict=True)
     for data, track, increments, encoder in rows:
-        angle, begun = track.at(data.time), data.time[data.first]
+        angle, begun = data.gear * track.at(data.time), data.time[data.first]  # of the encoder's (the motor's) shaft
         course = Course(
             np.argsort(begun, kind="stable"), track.run_at(begun), angle[data.first], angle[data.last], data.duration,
             data.slack == 0.0, *estimate.lag,

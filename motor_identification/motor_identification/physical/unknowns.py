@@ -31,7 +31,7 @@ class ElectricalUnknowns(Unknowns):
         values = self.values(theta)
         lumped = {name: value for name, value in values.items() if name in SPEC_BY_NAME}
         physical = {name: values[name] for name in ("resistance", "torque_constant")}
-        return Parameters(lumped, self.effects, self.max_voltage, name, **physical)
+        return Parameters(lumped, self.effects, self.max_voltage, name, gear_ratio=self.gear, **physical)
 
     def lag_of(self, theta: Floats) -> float:
         """[s] by which readings are older than their stamps, at θ (D,)."""
@@ -70,6 +70,7 @@ def add_electrical_unknowns(
         unknowns.extent,
         unknowns.max_voltage,
         unknowns.turning,
+        unknowns.gear,
         known_lag,
     )
 

@@ -71,6 +71,7 @@ def _allowance(fit: WhitenedFit, effects: tuple[str, ...]) -> float:
     lines = 1.0
     if any(spec.of_encoder for name in effects for spec in EFFECT_BY_NAME[name].parameters):
         low, high = SPEC_BY_NAME["ripple_cycles"].box(fit.problem.unknowns.extent)
-        lines = max(np.ptp(angle) for angle in fit.estimate.angles) / tau * (high - low)
+        turns = max(np.ptp(angle) for angle in fit.estimate.angles) / tau * fit.problem.unknowns.gear
+        lines = turns * (high - low)
     count = sum(len(EFFECT_BY_NAME[name].parameters) for name in effects)
     return float(chdtri(count, CHANCE)) + 2.0 * log(max(lines, 1.0))
