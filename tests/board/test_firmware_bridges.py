@@ -1,0 +1,46 @@
+"""What the firmware's pins do for bridges without an enable, and with PWM above hearing."""
+
+from collections.abc import Callable
+
+import pytest
+from emulated_board import Bench
+
+from motor_board.build import FirmwareConfig
+from motor_driver.frames import Configure, Features, Hello, Setup, Telemetry
+
+MakeBench = Callable[..., Bench]
+
+
+@pytest.mark.parametrize("decay", [0, 1], ids=["brake", "coast"])
+def test_a_bridge_without_an_enable_brakes_and_coasts_by_its_inputs(make_bench: MakeBench, decay: int) -> None:
+    """To brake both inputs are high in the off part, and at 0 V; to coast both are low."""
+    bench = make_bench(config=FirmwareConfig("drv8871"))
+    bench.start(2_000, decay=decay)
+    for duty in (256, 100, 1, 0, -1, -100, -256, 0):
+        bench.drive(duty, 4, 1)
+        pins, rest = bench.chip.pins, 0 if decay else 256
+        assert pins.share == duty / 256 and pins.enable == 256
+        assert (pins.forward, pins.reverse) == (
+            (max(duty, 0), max(-duty, 0)) if decay else (256 - max(-duty, 0), 256 - max(duty, 0))
+        )
+        assert duty or (pins.forward, pins.reverse) == (rest, rest)
+
+
+@pytest.mark.parametrize(
+    ("bridge", "decay", "top"),
+    [("l298n", 1, 100), ("l298n", 0, 256), ("tb6612", 0, 100), ("tb6612", 1, 256), ("drv8871", 0, 256)],
+)
+def test_silent_pwm_has_so_many_steps(make_bench: MakeBench, bridge: str, decay: int, top: int) -> None:
+    """Every step is one of its own, up to all; an L298N, too slow for it on its inputs, is driven as before there."""
+    bench = make_bench(config=FirmwareConfig(bridge))
+    bench.start(2_000, decay=decay)
+    bench.send(Setup(1, 1))
+    bench.run(4)
+    assert bench.last(Features) == Features(1, 1, {"l298n": 2, "tb6612": 3, "drv8871": 3}[bridge])
+    bench.send(Configure(2_000, 100, decay))
+    bench.run(6)
+    assert bench.last(Hello).pwm_top == top and bench.last(Telemetry).duty == 0
+    bench.enable()
+    for duty in (1, 2, top // 2, top - 1, top, -top, -1):
+        bench.drive(duty, 3, 1)
+        assert bench.chip.pins.share == pytest.approx(duty / top, abs=0.51 / 256)
