@@ -28,6 +28,7 @@ def parameters_of(
         "max_voltage": float(settings.max_voltage),
         "supply_voltage": float(settings.supply),
         "decay": decay,
+        **_sensor_of(settings),
         **({"silent_pwm": True} if silent else {}),
         **cures,
     }
@@ -42,6 +43,13 @@ def _encoder_of(settings: Settings, board: Hello) -> dict[str, int | str]:
     if settings.quadrature == 1:
         return {"edges_per_revolution": edges, **gear}
     return {"pulses_per_revolution": edges, "quadrature": settings.quadrature, **gear}
+
+
+def _sensor_of(settings: Settings) -> dict[str, float]:
+    """The current sensor, if there is one."""
+    if settings.current_gain == 0.0:
+        return {}
+    return {"current_gain": settings.current_gain, "current_offset": settings.current_offset}
 
 
 def parameter_text(check: Check, name: str, port: str, decay: str, silent: bool = False) -> str:

@@ -88,8 +88,11 @@ def _break_away(settings: Settings, record: Record, way: int) -> Steps[Breakaway
     else:
         record.measured = replace(record.measured, breakaway_backward=volts)
     if found.voltage and found.current > 0.0:
-        stall = found.current / found.voltage * settings.max_voltage
+        stall, before = found.current / found.voltage * settings.max_voltage, record.measured.stall_current
+        stall = stall if isnan(before) else 0.5 * (stall + before)
         record.measured = replace(record.measured, stall_current=stall)
+        if way < 0:
+            record.say("current", f"about {stall:.2g} A if the motor were blocked at {settings.max_voltage:.3g} V")
     return found
 
 

@@ -25,6 +25,8 @@ class Settings:
     gear_said: str = ""  # as somebody has written it
     single_channel: bool | None = None  # None: as the board was flashed
     board_id: int | None = None  # None: any
+    current_gain: float = 0.0  # [V/A] of a sensor of the motor's current; 0: none
+    current_offset: float = 2.5  # [V]
     hand: bool = True  # somebody is there to turn the shaft, and to say what it does
     turns: int = 1  # by hand
     hand_time: float = 30.0  # [s] that a person may take for an answer
@@ -86,6 +88,8 @@ def config_of(settings: Settings, baud: int, decay: int, pwm: Pwm = Pwm.STANDARD
         pwm=pwm,
         baud=baud,
         board_id=settings.board_id,
+        current_gain=settings.current_gain,
+        current_offset=settings.current_offset,
         known_edges=settings.edges_per_revolution is not None,
         known_channels=settings.single_channel is not None,
         wanted_quadrature=settings.quadrature,

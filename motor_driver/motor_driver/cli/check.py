@@ -65,6 +65,8 @@ def parser() -> argparse.ArgumentParser:
     add("--channels", type=int, choices=(1, 2), help="of the encoder (default: as flashed)")
     add("--silent-pwm", action="store_true", help="PWM above hearing")
     add("--decay", choices=[decay.name.lower() for decay in Decay], default="brake", help="default brake")
+    add("--current-gain", type=between(-10.0, 10.0), default=0.0, metavar="V/A", help="of a current sensor on A1")
+    add("--current-offset", type=between(0.0, 5.0), default=2.5, metavar="V", help="of it (default 2.5)")
     add("--turns", type=whole_between(1, 100), default=1, metavar="N", help="to turn the shaft by hand (default 1)")
     add("--time-limit", type=positive, default=30.0, metavar="S", help="for an answer (default 30)")
     add("--no-hand", action="store_true", help="nobody is there to turn the shaft or to answer")
@@ -99,6 +101,8 @@ def _check(options: argparse.Namespace) -> int:
         gear_said=options.gear_ratio.strip(),
         single_channel=None if options.channels is None else options.channels == 1,
         board_id=options.board_id,
+        current_gain=options.current_gain,
+        current_offset=options.current_offset,
         hand=not options.no_hand and sys.stdin.isatty(),
         turns=options.turns,
         hand_time=options.time_limit,

@@ -131,6 +131,7 @@ def test_a_current_that_is_measured_gives_the_stall_current() -> None:
         act = check.see(Look(time, 0, edge, act.voltage, act.on, current=0.5 * act.voltage, answer=Answer.DONE))
         time += 0.005
     assert check.record.measured.stall_current == pytest.approx(6.0, rel=0.02)  # 12 V over 2 ohm
+    assert "about 6 A if the motor were blocked at 12 V" in [row.text for row in check.record.rows]
 
 
 @given(st.integers(0, 2**32 - 1), st.sampled_from([1, 2]), st.booleans())

@@ -1,6 +1,7 @@
 """Driver and check joined, on the real firmware: the pins follow, and are off whenever the run is."""
 
 import re
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -91,3 +92,13 @@ def test_a_geared_encoder_of_two_channels_is_counted_at_its_output() -> None:
     assert run.check is not None and run.check.record.codes == []
     assert run.check.record.measured.top_speed == pytest.approx(12.0, rel=0.03)
     assert run.check.record.measured.edges_by_hand == pytest.approx(374.2, abs=4.0)
+
+
+def test_a_current_sensor_tells_the_stall_current_before_anything_stalls() -> None:
+    need_emulator()
+    true = replace(motor(friction=0.08), resistance=2.0)
+    said = Settings(edges_per_revolution=96, current_gain=0.185)
+    bench = EmulatedRun(said, true, config=replace(BOARD, current_sense=True), seed=1)
+    run = bench.run()
+    assert run.check is not None and run.check.record.codes == []
+    assert run.check.record.measured.stall_current == pytest.approx(6.0, rel=0.1)  # 12 V over 2 ohm; a step is 26 mA
