@@ -143,7 +143,7 @@ def main() -> int:
         "",
         "## Diagnosed, with nothing said",
         "",
-        f"Named: {named}. Verdict: {found.verdict.value}. Gap {found.before.gap:.3g}, then {found.after.gap:.3g} rad/s.",
+        f"Named: {named}. Verdict: {found.verdict.value}. Gap {found.before.gap:.3g}, now {found.after.gap:.3g} rad/s.",
         "",
         "## Held",
         "",
