@@ -27,7 +27,7 @@ position: {from: '/joint_states:position[right_wheel]'}
 """
 
 
-LATE = 0.05  # [s] between commands and what a recorder says of when they came: more, and the motor looks slow
+LATE = 0.02  # [s] between commands and what a recorder says of when they came: more, and the motor looks slow
 
 
 def held_up(bag: Path, topic: str) -> bool:

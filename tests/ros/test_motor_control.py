@@ -178,7 +178,7 @@ def test_observer_and_feedforward_in_a_running_loop(plant: FakePlant, model: str
     accepted, reason = plant.assign("model", "nowhere.yaml")
     assert not accepted and "cannot read the model file nowhere.yaml" in reason
     assert plant.assign("model", model) == (True, "")
-    plant.wait(lambda: not isnan(plant.answer(50.0).speed_sigma), "an observer", 60.0)
+    plant.wait(lambda: not isnan(plant.answer(50.0).speed_sigma), "an observer")
     assert plant.answer(50.0).reason == "" and not isnan(plant.states[-1].innovation)
     assert plant.assign("feedforward", True) == (True, "")
     state = plant.answer(50.0)

@@ -72,8 +72,9 @@ class User:
         return next(sample for sample in self.samples[begin:] if condition(sample))
 
     def switch_on(self) -> None:
-        """Call motor/enable."""
-        self.bench.call(SetBool, "motor/enable", SetBool.Request(data=True))
+        """Call motor/enable, until it succeeds: a board that was held up sends no telemetry for a moment."""
+        on = SetBool.Request(data=True)
+        self.bench.wait(lambda: self.bench.call(SetBool, "motor/enable", on).success, "motor/enable to succeed")
 
     def until_moving(self, reference: Any, what: str, enable: bool = True) -> None:
         """Publish 60 rad/s on `reference`, again after each stop, until the motor turns with 50."""

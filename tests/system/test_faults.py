@@ -68,7 +68,7 @@ def test_a_killed_driver_and_its_successor(driver: "Popen[str]", live: LiveBoard
         lambda: bool(status) and any(words in status[-1].status[0].message for words in said), "what it waits for"
     )
     assert live.truth().voltage == 0.0 and {sample.voltage for sample in user.more(60)} == {0.0}
-    assert user.bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.switch_on()
     user.until_on(lambda sample: sample.speed > 50.0, "motion by the next driver")
 
 
@@ -91,7 +91,7 @@ def test_a_latched_stop_does_not_end_by_starting_the_driver_again(
     start("motor_driver", "motor_driver", "--ros-args", "-p", f"port:={live._port._link}")
     user.bench.wait(lambda: len(user.samples) > count + 400, "samples of the next driver")
     assert {sample.voltage for sample in user.samples[count:]} == {0.0} and live.truth().voltage == 0.0
-    assert user.bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.switch_on()
     user.until_moving(reference, "motion after an enable and a fresh reference")
 
 
@@ -120,7 +120,7 @@ def test_unplugged_and_plugged_in_again(bench: Bench, driver: "Popen[str]", live
     assert seconds(live) - begin < 1.0
     assert {sample.voltage for sample in user.more(60)} == {0.0} and live.truth().voltage == 0.0
     bench.wait(lambda: "call motor/enable" in status[-1].status[0].message, "what to do")
-    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.switch_on()
     user.until_on(lambda sample: sample.voltage == 6.0, "the output on")
     times = [sample.sample_time for sample in user.samples]
     assert times == sorted(set(times))
@@ -142,6 +142,6 @@ def test_damaged_bytes_are_counted_in_the_diagnostics(bench: Bench, driver: "Pop
         if status[-1].status[0].level == b"\x01":  # a warning and no more
             break
         count_stop(stops, status[-1].status[0].message)
-        assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+        bench.wait(lambda: bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success, "the output on")
         seen = len(status)
         bench.wait(lambda: len(status) > seen + 1, "the next diagnostics")  # noqa: B023
