@@ -11,6 +11,7 @@ from dataclasses import replace
 from time import perf_counter
 
 from motor_identification.diagnosis.backward_elimination import (
+    drop_stand_ins,
     drop_stand_ins_of_either,
     eliminate_backward,
     keep_confirmed,
@@ -23,7 +24,7 @@ from motor_identification.diagnosis.forward_selection import (
     retry_with_another_first,
     select_forward,
 )
-from motor_identification.diagnosis.result import Diagnosis
+from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.verdict import conclude
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.multistart import SearchReport
@@ -31,7 +32,7 @@ from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import Request
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
-from motor_identification.progress import ProgressReporter, Stage, Stopped
+from motor_identification.progress import ProgressReporter, Stage, Stopped, TimeLimit
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
 from motor_identification.validation.hold_out import HoldOut, make_hold_out
@@ -52,7 +53,8 @@ def diagnose(
 ) -> Diagnosis:
     """Diagnose checked recordings of one motor; without `validation` a quarter of them is kept out of every fit.
 
-    The effects of `request` are in the model already, when the diagnosis begins.
+    The effects of `request` are in the model already, when the diagnosis begins. Where its time limit ends the search,
+    the best model so far is the result, and undecided.
 
     Raises:
         ModelError: a known effect is not in the table, or no fit of these recordings can have it.
@@ -64,10 +66,32 @@ def diagnose(
         raise RecordingError("there is no recording to diagnose: name at least one bag.")
     check_effects(recordings, request.effects)
     recordings, validation = note_sensors(recordings), note_sensors(validation)
-    reporter = ProgressReporter(progress or (lambda stage: None), stopped or (lambda: False))
+    limit = TimeLimit(request.time_limit, stopped or (lambda: False), _has_smaller_gap)
+    reporter = ProgressReporter(progress or (lambda stage: None), limit.over, limit.keep)
     reporter.report("first fit", 0.0, "", float("nan"))
     hold_out = make_hold_out(recordings, validation, reporter.stopped)
     start, search = _fit_known(recordings, request, hold_out)
+    try:
+        selection, undetermined = _select(start, reporter)
+        unfinished = 0.0
+    except Stopped:
+        if not limit.reached or limit.best is None:
+            raise
+        limit.done, unfinished = True, limit.seconds
+        selection, undetermined = drop_stand_ins(limit.best), ()
+    limit.done = True  # what is left is to say it
+    found = conclude(
+        start.model, selection, recordings, validation, search, lambda: perf_counter() - begun, undetermined
+    )
+    return replace(found, verdict=Verdict.UNDECIDED, time_limit=unfinished) if unfinished else found
+
+
+def _has_smaller_gap(one: Selection, other: Selection) -> bool:
+    return one.model.held.gap < other.model.held.gap
+
+
+def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tuple[str, ...]]:
+    """Select forward and eliminate backward, beside a random torque where there is one; and what is undetermined."""
     first = select_forward(start, reporter)
     selection = retry_with_another_first(first, reporter)
     reporter.report("checking", 0.9, "", selection.model.held.gap)
@@ -78,10 +102,7 @@ def diagnose(
         selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
     else:
         selection = beside
-    selection, undetermined = drop_undetermined(selection, reporter)
-    return conclude(
-        start.model, selection, recordings, validation, search, lambda: perf_counter() - begun, undetermined
-    )
+    return drop_undetermined(selection, reporter)
 
 
 def _select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:

@@ -3,8 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from time import monotonic
+from typing import Any, Generic, TypeVar
 
 from motor_model.errors import MotorError
+
+R = TypeVar("R")
 
 TELL_EVERY = 0.1  # [s]
 HALF = 1000  # simulations: a fit of friction takes 200 after its search, one of backlash and ripple some thousands
@@ -30,6 +33,7 @@ class ProgressReporter:
 
     progress: Callable[[Stage], None]
     stopped: Callable[[], bool]
+    keep: Callable[[Any], None] = lambda result: None  # told of every result on the way
 
     def report(self, text: str, share: float, best_effect: str, gap: float) -> None:
         """Report how far it is.
@@ -40,6 +44,36 @@ class ProgressReporter:
         if self.stopped():
             raise Stopped("the diagnosis was stopped.")
         self.progress(Stage(text, share, best_effect, gap))
+
+
+@dataclass
+class TimeLimit(Generic[R]):
+    """A limit in time that counts once there is a result to return: keeps the best so far, and says when to stop."""
+
+    seconds: float
+    stopped: Callable[[], bool]  # the caller's own wish, which is no limit
+    is_better: Callable[[R, R], bool]  # the first result than the second one
+    clock: Callable[[], float] = monotonic
+    best: R | None = None
+    done: bool = False  # nothing is stopped any more: what is left is to say the result
+    _begun: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._begun = self.clock()
+
+    def keep(self, result: R) -> None:
+        """Keep a result if it is the best so far."""
+        if self.best is None or self.is_better(result, self.best):
+            self.best = result
+
+    @property
+    def reached(self) -> bool:
+        """Whether the time is used up, and there is a result."""
+        return self.best is not None and not self.done and self.clock() - self._begun > self.seconds
+
+    def over(self) -> bool:
+        """Whether to stop, for either reason."""
+        return self.stopped() or self.reached
 
 
 @dataclass

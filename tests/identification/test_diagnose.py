@@ -17,9 +17,10 @@ from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.noise.likelihood import Noise, estimate_noise, log_likelihood
 from motor_identification.recording import Recording, check, recording_of
+from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 from motor_identification.validation.hold_out import make_hold_out
 from motor_model.effects import EFFECTS
-from motor_model.errors import ModelError, RecordingError
+from motor_model.errors import ModelError, MotorError, RecordingError
 from motor_model.excitation import profile
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.sensing.board import BoardConfig
@@ -182,6 +183,12 @@ def test_progress_stop_and_refusals() -> None:
     assert any(stage.best_effect == "coulomb_friction" for stage in heard)
     with pytest.raises(Stopped, match="stopped"):
         diagnose([recording], stopped=lambda: True)
+    hurried = diagnose([recording], request=Request(time_limit=1e-9))  # the first fit is always made
+    assert hurried.verdict is Verdict.UNDECIDED and hurried.time_limit == 1e-9 and hurried.findings == ()
+    assert summarize_diagnosis(hurried).startswith("The time limit of 1e-09 s ended the search: ")
+    assert hurried.gap_after == hurried.gap_before and np.isfinite(hurried.model.parameters.value("kv"))
+    with pytest.raises(MotorError, match="positive number of seconds"):
+        Request(time_limit=0.0)
     with pytest.raises(ModelError, match="not an effect"):
         diagnose([recording], request=Request(("gremlins",)))
     with pytest.raises(RecordingError, match="no recording"):

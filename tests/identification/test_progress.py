@@ -3,7 +3,7 @@
 import pytest
 
 from motor_identification import progress
-from motor_identification.progress import HALF, Heartbeat, ProgressReporter, Stage, Stopped
+from motor_identification.progress import HALF, Heartbeat, ProgressReporter, Stage, Stopped, TimeLimit
 
 
 def test_a_stage_of_unknown_length_goes_on_as_long_as_something_is_done(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -37,3 +37,23 @@ def test_a_diagnosis_that_is_stopped_says_so() -> None:
     with pytest.raises(Stopped, match=r"^the diagnosis was stopped\.$"):
         ProgressReporter(stages.append, lambda: True).report("step 2", 0.4, "", 0.5)
     assert len(stages) == 1
+
+
+def test_a_time_limit_counts_once_there_is_a_result_and_keeps_the_best() -> None:
+    now = [0.0]
+    limit = TimeLimit[float](10.0, lambda: False, lambda one, other: one < other, lambda: now[0])
+    now[0] = 10.1
+    assert not limit.over()  # nothing to return yet
+    for result in (3.0, 1.0, 2.0):
+        limit.keep(result)
+    assert limit.best == 1.0 and limit.reached and limit.over()
+    now[0] = 9.9
+    assert not limit.reached and not limit.over()
+    now[0], limit.done = 10.1, True
+    assert not limit.over()
+
+
+def test_a_callers_wish_is_no_time_limit() -> None:
+    limit = TimeLimit[float](10.0, lambda: True, lambda one, other: one < other, lambda: 0.0)
+    limit.keep(1.0)
+    assert limit.over() and not limit.reached

@@ -3,6 +3,7 @@
 import argparse
 import os
 import sys
+from math import inf
 
 from motor_identification.cli._mapping_options import add_mapping_options, make_source
 from motor_identification.cli.identify import add_effects_option
@@ -31,6 +32,9 @@ def parser() -> argparse.ArgumentParser:
     add_mapping_options(parser)
     parser.add_argument("--start", type=float, default=0.0, metavar="S", help="from here [s], not of --validate")
     parser.add_argument("--stop", type=float, default=0.0, metavar="S", help="to here [s], not of --validate")
+    parser.add_argument(
+        "--budget", type=float, default=inf, metavar="S", help="seconds after which it says the best it has so far"
+    )
     parser.add_argument("--output", metavar="FILE", help="write the model here (YAML)")
     parser.add_argument("--json", metavar="FILE", help="write everything that was found here")
     parser.add_argument("--report", metavar="DIR", help="write report.html, the model and the JSON into this directory")
@@ -54,7 +58,7 @@ def _diagnose(options: argparse.Namespace) -> int:
     job = DiagnosisJob(
         source=make_source(options),
         validation=tuple(options.validate),
-        request=Request(named(options.known_effects), workers=os.cpu_count() or 1),
+        request=Request(named(options.known_effects), workers=os.cpu_count() or 1, time_limit=options.budget),
     )
     diagnosed(job, files, "The diagnosis was interrupted; nothing was written.")
     return 0

@@ -111,6 +111,7 @@ def may_be_miscounted(robust: Estimate, floor: float) -> bool:
 def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool = True) -> Selection:
     """Add effects as long as one is found; where none is and a gap is left, two at once if `pairs` are allowed."""
     while True:
+        reporter.keep(selection)
         selection, tests = verify_findings(selection, _try_all_effects(selection, reporter))
         best = choose_finding(tests)
         if len(selection.steps) >= thresholds.MOST_FINDINGS:

@@ -69,3 +69,4 @@ class Diagnosis:
     trace: Floats  # [rad/s] the gap after each step, the first entry before any
     duration: float  # [s]
     undetermined: tuple[str, ...] = ()  # effects that would explain more, of which this recording determines nothing
+    time_limit: float = 0.0  # [s] that ended the search before everything was tried; 0 where none did

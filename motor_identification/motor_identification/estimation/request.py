@@ -50,9 +50,18 @@ class PhysicalRequest:
 
 @dataclass(frozen=True)
 class Request:
-    """What to fit beyond kv and ka (of a diagnosis: what is known), how hard to search, and on how many cores."""
+    """What to fit beyond kv and ka (of a diagnosis: what is known), how hard to search, and on how many cores.
+
+    Raises:
+        MotorError: a time limit that is none.
+    """
 
     effects: tuple[str, ...] = ()
     search: SearchConfig = SearchConfig()
     workers: int = 1
     physical: PhysicalRequest | None = None  # None: armature voltages only
+    time_limit: float = inf  # [s] after which a diagnosis tries nothing more, and says the best it has
+
+    def __post_init__(self) -> None:
+        if not self.time_limit > 0.0:
+            raise MotorError(f"the time limit must be a positive number of seconds: {self.time_limit:g} is none.")

@@ -26,6 +26,7 @@ def diagnosis_to_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "not_testable": list(diagnosis.undetectable),
         "undetermined": list(diagnosis.undetermined),
         "suggested_experiment": diagnosis.suggested_experiment or None,
+        "time_limit": diagnosis.time_limit or None,
         "baseline": to_model(diagnosis.baseline),
         "findings": [_finding_to_json(one) for one in diagnosis.findings],
         "model": to_model(diagnosis.model),

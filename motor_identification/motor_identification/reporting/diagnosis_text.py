@@ -11,6 +11,7 @@ from motor_model.text_table import align_columns
 
 GAP = "validation RMS error (gap)"
 TOO_SHORT = "The recording is too short to keep a part of it for validation: record more motion."
+OUT_OF_TIME = "The time limit of {:g} s ended the search: what follows is the best so far; allow more with --budget."
 UNDETERMINED = "this recording determines nothing of it."
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
 
@@ -125,10 +126,14 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts = [_describe_findings(diagnosis), f"{capitalize(describe_gap_reduction(diagnosis))}."]
     elif not diagnosis.after.counted.any():
         parts = [TOO_SHORT]
+    elif diagnosis.time_limit:
+        parts = [f"No effect was found until then: {_describe_gap(diagnosis)}."]
     elif diagnosis.undetermined:
         parts = [f"Something is missing that this recording does not determine: {_describe_gap(diagnosis)}."]
     else:
         parts = [f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."]
+    if diagnosis.time_limit:
+        parts.insert(0, OUT_OF_TIME.format(diagnosis.time_limit))
     if diagnosis.undetermined:
         parts.append(f"{capitalize(join_effects(diagnosis.undetermined))} may be missing: {UNDETERMINED}")
     if diagnosis.undetectable and not any(one.ambiguous_with for one in diagnosis.findings):
