@@ -17,7 +17,7 @@ from motor_identification.noise.error_filter import GAINS, fill_white, run_filte
 from motor_identification.recording import Bools, Floats
 
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
-SHARES = (1e-4, 0.05)  # of a slot: how irregular a disc may be
+SHARES = (1e-4, 0.2)  # of a slot: how irregular a disc may be, or the four flanks of two channels
 TIMES = (0.3, 30.0)  # of the median interval, and of the motor's time constant: correlation times that are looked for
 PRICE = 6.0  # [nat] that a disturbance has to be worth, so that a perfect encoder's residual is called just that
 
@@ -200,7 +200,7 @@ def _learn_share(rows: Sequence[ErrorData], rate: float, ka: float) -> tuple[Err
     def value(share: float) -> float:
         return log_likelihood(rows, ErrorModel(share, 0.0, 0.0, 1.0), rate, ka)
 
-    grid = [0.0, *np.geomspace(*SHARES, 10)]
+    grid = [0.0, *np.geomspace(*SHARES, 12)]
     best = max(grid, key=value)
     if best > 0.0:
         for step in (1.35, 1.1, 1.03):
