@@ -96,7 +96,7 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     better = next((test for test in tests if is_better(test, effect, current)), None)
     if better is not None:
         return replace_step(selection, step, replace(step, found=better, rivals=()), better.model)
-    alike = [test.effect for test in tests if test.model.likelihood > current.likelihood - thresholds.RIVAL_MARGIN]
+    alike = [test.effect for test in tests if find_loss(test, effect, current) < thresholds.RIVAL_MARGIN]
     rivals = sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
     return replace_step(selection, step, replace(step, rivals=rivals), current)
 
@@ -116,11 +116,18 @@ def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
 
     Beside a random torque the simpler one may be less likely in a few moments.
     """
-    loss = current.likelihood - test.model.likelihood
     if count_parameters(test.effect) >= count_parameters(effect):
-        return loss < -thresholds.RIVAL_MARGIN
-    steady = CandidateTest(effect, test.model, current).steadiness if current.beside_torque else loss
-    return min(loss, steady) < thresholds.RIVAL_MARGIN
+        return current.likelihood - test.model.likelihood < -thresholds.RIVAL_MARGIN
+    return find_loss(test, effect, current) < thresholds.RIVAL_MARGIN
+
+
+def find_loss(test: CandidateTest, effect: str, current: Model) -> float:
+    """Find what a test's model loses of log likelihood beside the current one, which has an effect instead.
+
+    Beside a random torque not counting the few moments that speak most against it.
+    """
+    loss = current.likelihood - test.model.likelihood
+    return min(loss, CandidateTest(effect, test.model, current).steadiness) if current.beside_torque else loss
 
 
 def drop_step(selection: Selection, step: SelectionStep) -> Selection:
