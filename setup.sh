@@ -44,6 +44,7 @@ fingerprint() {
   { echo "$kind $root"
     cat setup.sh requirements/*.lock motor_*/package.xml motor_*/setup.* motor_msgs/*/*.* \
       motor_msgs/CMakeLists.txt
+    printf '%s\n' motor_bringup/{config,launch,layouts,ros2_control,security}/* # installed by name, as links
   } | sha256sum | cut -d' ' -f1
 }
 stamp=$venv/setup.stamp
