@@ -110,7 +110,7 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
 
     From what was found without it, and where that leads nowhere from the beginning.
     """
-    if not plain.model.above_floor:
+    if not (plain.model.above_floor or plain.model.lasts):
         return None
     for begin in (plain, start) if plain.steps else (start,):
         reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)

@@ -86,16 +86,16 @@ class Model:
     @property
     def at_floor(self) -> bool:
         """Whether nothing is left to explain."""
-        return self.held.gap <= thresholds.EXPLAINED_GAP * self.floor and not self.lasts
+        return self.held.gap <= thresholds.EXPLAINED_GAP * self.floor
 
     @property
     def above_floor(self) -> bool:
         """Whether the sensor leaves less; neither where there is nothing to judge by, and the gap no number."""
-        return self.held.gap > thresholds.EXPLAINED_GAP * self.floor or self.lasts
+        return self.held.gap > thresholds.EXPLAINED_GAP * self.floor
 
     @cached_property
     def lasts(self) -> bool:
-        """Whether it leaves what lasts, though fast samples of a coarse sensor may hide it in the gap."""
+        """Whether it leaves what lasts: a torque that fast samples of a coarse sensor may hide in the gap."""
         return self.lasting.gap > thresholds.LASTING_GAP * self.lasting.floor(self.noise.share)
 
     @cached_property

@@ -15,8 +15,8 @@ LASTING_INTERVAL = 0.1
 # intervals: the ratio is unsure), so that this only spares time where the ratio is low by chance.
 QUIET_GAP = 1.05
 
-# Times the floor in lasting intervals; above it something is left to explain, however coarse the sensor is from sample
-# to sample. Complete models, as above, leave up to 1.5.
+# Times the floor in lasting intervals; above it findings have to hold beside a random torque, however coarse the sensor
+# is from sample to sample. Complete models, as above, leave up to 1.5.
 LASTING_GAP = 2.0
 
 # Is an effect likely?
