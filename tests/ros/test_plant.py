@@ -1,8 +1,10 @@
 """The shell that both plants share: what motor/enable answers, and joint states that are the angle."""
 
 from collections.abc import Iterator
+from types import SimpleNamespace
 
 import pytest
+from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 from workbench import Bench
 
@@ -52,7 +54,9 @@ def test_what_keeps_the_output_off_is_said(quiet: Bench) -> None:
 def test_joint_states_are_the_angle_that_was_counted(quiet: Bench, single: bool, angle: float) -> None:
     """Three slots on, two back: two channels count down, and one knows the direction by the speed's sign alone."""
     plant = Plant(quiet.node, Info(single_channel=single, edges_per_revolution=4), Gate(True, 0.1))
+    joints: list[JointState] = []
+    plant._joint = SimpleNamespace(publish=joints.append)
     down = -1 if not single else 1
     for count, speed in ((3, 5.0), (3 + 2 * down, 5.0)):
         plant.publish(Sample(0, speed, 0.0, edge_count=count), time_message(0))
-    assert plant._angle == pytest.approx(angle * 6.283185307 / 4)
+    assert joints[-1].position[0] == pytest.approx(angle * 6.283185307 / 4)
