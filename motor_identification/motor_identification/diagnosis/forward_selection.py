@@ -133,11 +133,12 @@ def verify_findings(selection: Selection, tests: list[CandidateTest]) -> tuple[S
     """Fit the model again from where a finding leads, but without it: as good a chance as the candidate had.
 
     Beside a random torque a likelihood has many summits (one restart more or less that is met), and whatever is tried
-    may lead to a higher one. Only there: else least squares of speeds are smooth enough.
+    may lead to a higher one. At the sensor's floor the last digit of a friction does the same. Only there: else least
+    squares of speeds are smooth enough.
     """
     for _ in range(thresholds.VERIFICATIONS):
         best = choose_finding(tests)
-        if best is None or not best.model.beside_torque:
+        if best is None or not (best.model.beside_torque or selection.model.at_floor):
             break
         again = refit_without(best.model, best.effect, selection.hold_out)
         if again.likelihood <= selection.model.likelihood:
