@@ -36,7 +36,7 @@ from motor_identification.progress import ProgressReporter, Stage, Stopped, Time
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
 from motor_identification.validation.hold_out import HoldOut, make_hold_out
-from motor_model.effects import normalised
+from motor_model.effects import EFFECT_BY_NAME, normalised
 from motor_model.errors import RecordingError
 
 __all__ = ["Request", "Stage", "Stopped", "diagnose"]
@@ -110,7 +110,8 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
 
     From what was found without it, and where that leads nowhere from the beginning.
     """
-    if not (plain.model.above_floor or plain.model.lasts):
+    line = any(EFFECT_BY_NAME[step.found.effect].periodic for step in plain.steps)  # its own evidence
+    if not (plain.model.above_floor or (plain.model.lasts and not line)):
         return None
     for begin in (plain, start) if plain.steps else (start,):
         reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
