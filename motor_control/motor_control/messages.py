@@ -4,9 +4,9 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
-from motor_control.controller.demand import Demand
-from motor_control.controller.joint_command import Unreadable, read_joint_command
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output
+from motor_control.controller.reference.demand import Demand
+from motor_control.controller.reference.joint_command import Unreadable, read_joint_command
 from motor_control.controller.run import Config
 from motor_msgs.msg import ControlState
 

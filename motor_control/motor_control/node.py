@@ -17,8 +17,8 @@ from std_srvs.srv import Trigger
 
 from motor_control.announcements import Told, announce, describe_start
 from motor_control.controller import controller
-from motor_control.controller.demand import Kind
 from motor_control.controller.output import Output
+from motor_control.controller.reference.demand import Kind
 from motor_control.messages import control_state_message, diagnostics_message, joint_demand_of
 from motor_control.parameters import PROGRAM, ROWS
 from motor_control.settings import Settings
@@ -102,7 +102,8 @@ class MotorControl(Node):
         self._output = output
         self._control_state.publish(control_state_message(output, self._header))
         say, config = self.get_logger(), self._settings.config
-        speed = self._state.reference if self._state.kind is Kind.SPEED else None
+        demand = self._state.demand
+        speed = demand.value if demand is not None and demand.kind is Kind.SPEED else None
         lines, self._told = announce(self._told, output, speed, config, time.monotonic())
         for line in lines:
             say.warning(line.text) if line.severe else say.info(line.text)

@@ -4,9 +4,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 from math import isfinite
 
-from motor_control.controller import pi, position_law
+from motor_control.controller import pi
 from motor_control.controller.faults.evidence import SPARE, SPARE_SINGLE
 from motor_control.controller.faults.evidence import Config as FaultConfig
+from motor_control.controller.reference import position_law
 from motor_control.controller.run import Config
 from motor_model.errors import MotorError
 from motor_model.model_file import load

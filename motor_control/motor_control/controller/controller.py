@@ -12,18 +12,15 @@ from dataclasses import replace
 from math import isfinite, nan
 
 from motor_control.controller import speed_law as law
-from motor_control.controller.demand import NAMES, Kind, Source, drop
-from motor_control.controller.demand import State as State
-from motor_control.controller.demand import command_joint as command_joint
-from motor_control.controller.demand import refer as refer
-from motor_control.controller.demand import release as release
-from motor_control.controller.demand import reset as reset
-from motor_control.controller.demand import stop as stop
 from motor_control.controller.latency import track_latency
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
 from motor_control.controller.plant_watch import PlantWatch, watch_plant
+from motor_control.controller.reference.demand import Kind, Source
 from motor_control.controller.run import Config, Run, begin
+from motor_control.controller.state import NAMES, State, command_joint, drop, refer, release, reset, stop
 from motor_model.sample import Sample
+
+__all__ = ["Config", "State", "command_joint", "refer", "release", "reset", "stop", "update", "watch"]
 
 REPEAT_SILENCE = 0.2  # [s] how often it is said again that no samples come
 AWAY = 1.0  # [s] of silence after which a plant that comes back is not driven on by an old reference
@@ -56,8 +53,8 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     if reference is not None:
         state = refer(state, reference, now)
     output, after = _answer(config, state, sample, age)
-    ours = after.reference is not None or bool(after.latched) and state.drives
-    drives = state.drives or after.reference is not None
+    ours = after.demand is not None or bool(after.latched) and state.drives
+    drives = state.drives or after.demand is not None
     begins = ours and (not state.drives or state.silent is not None) or _is_unheard(state.run, after, now)
     if after.refused and now - after.refused_at <= TOLD and (output.state == DISABLED or not output.reason):
         output = replace(output, reason=after.refused, warning=True)
@@ -77,13 +74,13 @@ def watch(config: Config, state: State, now: float) -> tuple[Output | None, Stat
 
 def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: float) -> State:
     """Drop a reference that the plant or time has ended."""
-    if state.reference is None:
+    if state.demand is None:
         return state
     if plant.restarted:
         return drop(replace(state, motion=None), RESTARTED)
     if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
         return drop(state, RETURNED)
-    if state.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
+    if state.demand.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
         return drop(state, SILENT_JOINT.format(config.joint_timeout))
     if config.reference_timeout and now - state.referred > config.reference_timeout:
         return drop(state, TIMED_OUT.format(config.reference_timeout))
@@ -104,13 +101,13 @@ def _is_unheard(before: Run | None, after: State, now: float) -> bool:
 
 def _answer(config: Config, state: State, sample: Sample, age: float) -> tuple[Output, State]:
     """Answer a sample of an age [s] with the reference in force."""
-    reference = state.reference
+    demand = state.demand
     name, reason = _find_obstacle(config, state, sample)
-    shown = nan if reference is None or state.kind is not Kind.SPEED else reference
-    if reference is None or name != RUNNING:
+    shown = demand.value if demand is not None and demand.kind is Kind.SPEED else nan
+    if demand is None or name != RUNNING:
         return replace(halt(name, reason, shown, sample.speed), warning=bool(state.dropped)), replace(state, run=None)
     late = age > config.latency_limit
-    output, run = law.step(config, _continue_run(config, state, sample), sample, reference, late, state.kind)
+    output, run = law.step(config, _continue_run(config, state, sample), sample, demand, late)
     if output.fault:
         stopped = halt(STOPPED, CALL_RESET.format(output.fault), output.reference, output.speed)
         return replace(stopped, fault=output.fault), stop(replace(state, motion=run.motion), output.fault)
@@ -131,11 +128,12 @@ def _find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, s
     for name, value in (("speed", sample.speed), ("voltage", sample.voltage), ("edge_period", sample.edge_period)):
         if not isfinite(value):
             return STOPPED, BAD_SAMPLE.format(name, value)
-    if state.reference is None:
+    demand = state.demand
+    if demand is None:
         return DISABLED, FRESH.format(state.dropped) if state.dropped else NO_REFERENCE
-    if not isfinite(state.reference - sample.speed):
-        return STOPPED, BAD_REFERENCE.format(state.reference)
-    if state.kind is Kind.POSITION and config.position is None:
+    if not isfinite(demand.value - sample.speed):
+        return STOPPED, BAD_REFERENCE.format(demand.value)
+    if demand.kind is Kind.POSITION and config.position is None:
         return STOPPED, config.no_position
     return RUNNING, ""
 

@@ -7,10 +7,11 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from motor_control.checks import at_least
-from motor_control.controller import pi, position_law
+from motor_control.controller import pi
 from motor_control.controller.faults import detection
 from motor_control.controller.faults.evidence import Config as FaultConfig
 from motor_control.controller.motion import Motion
+from motor_control.controller.reference import position_law
 from motor_model.sample import Sample
 
 if TYPE_CHECKING:  # they compile; who has no model does not wait for that

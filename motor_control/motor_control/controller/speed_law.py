@@ -12,14 +12,15 @@ from dataclasses import replace
 from math import exp, inf, isfinite, isnan, nan
 from typing import TYPE_CHECKING
 
-from motor_control.controller import pi, position_law
+from motor_control.controller import pi
 from motor_control.controller import voltage_range as span
-from motor_control.controller.demand import Kind
 from motor_control.controller.faults import detection
 from motor_control.controller.faults.evidence import Seen
 from motor_control.controller.motion import Motion, follow_motion
 from motor_control.controller.output import RUNNING, STOPPED, Output, halt
-from motor_control.controller.reference_ramp import Target, approach
+from motor_control.controller.reference import position_law
+from motor_control.controller.reference.demand import Demand, Kind
+from motor_control.controller.reference.ramp import Target, approach
 from motor_control.controller.run import Config, Run, begin
 from motor_model.sample import Sample
 
@@ -38,23 +39,21 @@ REVERSAL_SHARE = (
 REVERSAL_EDGES = 150.0  # [edges/s], where the top speed is not known
 
 
-def step(
-    config: Config, run: Run, sample: Sample, wanted: float, pauses: bool = False, kind: Kind = Kind.SPEED
-) -> tuple[Output, Run]:
-    """Answer a sample, towards what is wanted, by default a speed [rad/s]. pauses: 0 V will be sent all the same.
+def step(config: Config, run: Run, sample: Sample, demand: Demand, pauses: bool = False) -> tuple[Output, Run]:
+    """Answer a sample, towards what is asked for. pauses: 0 V will be sent all the same.
 
     Where the settings have changed since the last sample, the integral takes up what would make the voltage jump, as
     far as its own bound lets it.
     """
     if run.config is config:
-        return _apply_law(config, run, sample, wanted, kind, hold=pauses or run.paused)
-    before, _ = _apply_law(run.config, run, sample, wanted, kind)
+        return _apply_law(config, run, sample, demand, hold=pauses or run.paused)
+    before, _ = _apply_law(run.config, run, sample, demand)
     run = replace(run, config=config, watched=_hand_over(run, config, sample))
-    terms = _apply_law(config, run, sample, wanted, kind, hold=True)[0].terms
+    terms = _apply_law(config, run, sample, demand, hold=True)[0].terms
     jump = terms.proportional + terms.integral + terms.feedforward - before.terms.voltage
     if isfinite(jump):
         run = replace(run, law=pi.State(run.law.integral - jump))
-    return _apply_law(config, run, sample, wanted, kind, hold=True)
+    return _apply_law(config, run, sample, demand, hold=True)
 
 
 def reversal_speed_of(config: Config, motion: Motion) -> float:
@@ -77,9 +76,7 @@ def _hand_over(run: Run, config: Config, sample: Sample) -> Watched | None:
     return run.watched if same else config.observer.adopt(run.watched)
 
 
-def _apply_law(
-    config: Config, run: Run, sample: Sample, wanted: float, kind: Kind, hold: bool = False
-) -> tuple[Output, Run]:
+def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: bool = False) -> tuple[Output, Run]:
     """Apply the law under one configuration; its time step is the plant's. hold: the integral stays."""
     dt = (sample.sample_time - run.sample_time) * 1e-9
     seen: Estimate | None = None
@@ -89,33 +86,18 @@ def _apply_law(
     speed = sample.speed if seen is None else seen.speed
     if not isfinite(speed):
         return halt(STOPPED, NOT_FINITE.format(speed), run.reference, speed), begin(config, sample, run.motion)
-    aim, place = _aim(config, run, sample, wanted, kind, speed)
-    target = _approach(config, run, aim.speed, kind, dt)
-    asked_much = abs(run.asked) > IGNORED_SHARE * config.voltage_limit
-    ignored = run.ignored + min(dt, IGNORED_STEP) if sample.voltage == 0.0 and asked_much else 0.0
+    aim, place = _aim(config, run, sample, demand, speed)
+    target = _approach(config, run, aim.speed, demand.kind, dt)
+    ignored = _count_ignored(config, run, sample, dt)
     motion = follow_motion(run.motion, sample, config.faults.slot, dt, config.voltage_limit, run.faults.periods.regular)
     allowed = _allow(config, run, target, speed, motion)
     step_time = 0.0 if hold or ignored > IGNORED_TIME else dt
-    if kind is Kind.VOLTAGE or aim.rests:
-        terms, law = pi.apply_voltage(0.0 if aim.rests else wanted, allowed.low, allowed.high), pi.State()
+    if demand.kind is Kind.VOLTAGE or aim.rests:
+        terms, law = pi.apply_voltage(0.0 if aim.rests else demand.value, allowed.low, allowed.high), pi.State()
     else:
         terms, law = _compute_terms(config, run, seen, target, speed, step_time, allowed)
     look = Seen(sample, speed, motion, target.reference, dt, config.voltage_limit)
     fault, trouble = detection.find_fault(config.faults, run.faults, look)
-    reason = BRAKING.format(reversal_speed_of(config, motion)) if allowed.braking else aim.note or config.note
-    if ignored > IGNORED_TIME:
-        reason = IGNORED.format(run.asked)
-    output = Output(
-        RUNNING,
-        reason,
-        target.reference,
-        speed,
-        terms,
-        nan if seen is None else seen.sigma,
-        nan if seen is None else seen.innovation,
-        warning=ignored > IGNORED_TIME or bool(config.note or aim.note),
-        fault=fault,
-    )
     after = Run(
         config,
         sample.sample_time,
@@ -129,15 +111,19 @@ def _apply_law(
         faults=trouble,
         place=place,
     )
-    return output, after
+    reason = _explain(config, run, after, allowed, aim.note)
+    sigma, innovation = (nan, nan) if seen is None else (seen.sigma, seen.innovation)
+    warning = ignored > IGNORED_TIME or bool(config.note or aim.note)
+    return Output(RUNNING, reason, target.reference, speed, terms, sigma, innovation, warning, fault), after
 
 
 def _aim(
-    config: Config, run: Run, sample: Sample, wanted: float, kind: Kind, speed: float
+    config: Config, run: Run, sample: Sample, demand: Demand, speed: float
 ) -> tuple[position_law.Aim, position_law.State | None]:
     """Find the speed [rad/s] that is wanted: as asked for, none for a voltage, or by the angle that is missing."""
-    if kind is not Kind.POSITION or config.position is None:
-        return position_law.Aim(wanted if kind is Kind.SPEED else nan), None
+    wanted = demand.value
+    if demand.kind is not Kind.POSITION or config.position is None:
+        return position_law.Aim(wanted if demand.kind is Kind.SPEED else nan), None
     place = run.place or position_law.begin(config.position, wanted)
     return position_law.approach(config.position, place, wanted, sample.edge_count, 0.0 in (speed, sample.speed))
 
@@ -148,6 +134,21 @@ def _approach(config: Config, run: Run, wanted: float, kind: Kind, dt: float) ->
         return Target(nan, 0.0)
     since = config.sample_period if run.begins else dt
     return approach(wanted, run.reference, config.reference_rate_limit, since, config.gentle)
+
+
+def _count_ignored(config: Config, run: Run, sample: Sample, dt: float) -> float:
+    """Count the time [s] for which the plant has applied nothing of what was asked."""
+    asked_much = abs(run.asked) > IGNORED_SHARE * config.voltage_limit
+    return run.ignored + min(dt, IGNORED_STEP) if sample.voltage == 0.0 and asked_much else 0.0
+
+
+def _explain(config: Config, before: Run, after: Run, allowed: span.Span, note: str) -> str:
+    """Explain what keeps the motor from what is asked for, as a sentence; "" where nothing does."""
+    if after.ignored > IGNORED_TIME:
+        return IGNORED.format(before.asked)
+    if allowed.braking:
+        return BRAKING.format(reversal_speed_of(config, after.motion))
+    return note or config.note
 
 
 def _allow(config: Config, run: Run, target: Target, speed: float, motion: Motion) -> span.Span:

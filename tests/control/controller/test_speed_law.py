@@ -7,6 +7,7 @@ import pytest
 from bench_board import DEFAULTS
 
 from motor_control.controller.motion import Motion
+from motor_control.controller.reference.demand import Demand
 from motor_control.controller.run import begin
 from motor_control.controller.speed_law import reversal_speed_of, step
 from motor_control.parameters import config_of
@@ -40,7 +41,7 @@ def test_voltage_and_back_emf_stay_within_the_plug_limit(limit: float, least: fl
         {**DEFAULTS, "plug_limit": limit, "reference_rate_limit": 0.0}, Info(single_channel=False), paper_motor()
     )
     run = begin(config, Sample(0, 150.0, 12.0))
-    output, _ = step(config, run, Sample(5_000_000, 150.0, 12.0, 11, 4_900_000, 4e-4), -150.0)
+    output, _ = step(config, run, Sample(5_000_000, 150.0, 12.0, 11, 4_900_000, 4e-4), Demand(-150.0))
     assert output.terms.voltage == pytest.approx(max(least, -12.0), abs=0.05)
 
 
@@ -48,5 +49,5 @@ def test_before_anything_is_known_of_the_motor_it_is_not_braked_at_speed() -> No
     config = config_of(DEFAULTS, Info(single_channel=False))
     for speed, braked in ((100.0, False), (5.0, True)):
         run = begin(config, Sample(0, speed, 0.0))
-        output, _ = step(config, run, Sample(5_000_000, speed, 0.0, 7, 4_900_000, 6e-4), -100.0)
+        output, _ = step(config, run, Sample(5_000_000, speed, 0.0, 7, 4_900_000, 6e-4), Demand(-100.0))
         assert (output.terms.voltage < -1.0) == braked

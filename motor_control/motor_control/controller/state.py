@@ -1,15 +1,14 @@
-"""What is asked of the motor: a speed, a voltage or an angle, by whom, and until when.
+"""What the controller remembers, and how those who ask for a motion, a stop or a reset change it.
 
 One source drives at a time. A stop is latched until `reset`; whoever asks meanwhile is not heard.
 """
 
 from dataclasses import dataclass, replace
-from enum import Enum
-from typing import NamedTuple
 
 from motor_control.controller.latency import LatencyState
 from motor_control.controller.motion import Motion
 from motor_control.controller.plant_watch import PlantWatch
+from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.run import Config, Run
 
 RELEASED = "The motor was released."
@@ -18,32 +17,6 @@ OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call mo
 TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
 BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
 NAMES = "(names)"  # stands for who publishes motor/speed, which may be known a moment later
-
-
-class Kind(str, Enum):
-    """What a demand's number is."""
-
-    SPEED = "speed"  # [rad/s]
-    VOLTAGE = "voltage"  # [V] as it is, within the limits
-    POSITION = "position"  # [rad] of edges since the plant's start
-
-
-class Source(str, Enum):
-    """Which topic a demand comes by; one at a time drives."""
-
-    REFERENCE = "motor/reference"  # and motor/position_reference: single messages that hold
-    JOINT = "motor/joint_command"  # a stream
-
-
-class Demand(NamedTuple):
-    """What is asked for."""
-
-    value: float
-    kind: Kind = Kind.SPEED
-    source: Source = Source.REFERENCE
-
-
-UNITS = {Kind.SPEED: "rad/s", Kind.VOLTAGE: "V", Kind.POSITION: "rad"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,9 +28,7 @@ class State:
     silent: float | None = None  # when silence was last reported; None while samples come
     run: Run | None = None
     latched: str = ""  # why the motor stays at 0 V until `reset`
-    reference: float | None = None  # the latest one, as long as it is obeyed: [rad/s], or as `kind` says
-    kind: Kind = Kind.SPEED
-    source: Source = Source.REFERENCE  # of the reference
+    demand: Demand | None = None  # the latest one, as long as it is obeyed
     joint_heard: float | None = None  # when the latest joint command came
     joint_senders: str = ""  # who publishes motor/joint_command, where they are several
     refused: str = ""  # why a demand was not taken
@@ -84,13 +55,13 @@ def command_joint(config: Config, state: State, demand: Demand | str, now: float
     """
     heard = state.since if state.joint_heard is None else state.joint_heard
     silent = config.joint_timeout > 0.0 and now - heard > config.joint_timeout
-    drives = state.reference is not None and state.source is Source.JOINT
+    drives = state.demand is not None and state.demand.source is Source.JOINT
     state = replace(state, joint_heard=now)
     if state.joint_senders:
         demand = TWO_SENDERS.format(state.joint_senders)
     if isinstance(demand, str):
         return replace(drop(state, demand) if drives else state, refused=demand, refused_at=now)
-    if state.reference is None and not (silent or demand.value == 0.0):
+    if state.demand is None and not (silent or demand.value == 0.0):
         return replace(state, refused=BEGIN_JOINT.format(config.joint_timeout), refused_at=now)
     return _take(state, demand, now)
 
@@ -99,12 +70,12 @@ def _take(state: State, demand: Demand, now: float) -> State:
     """Take a demand, unless a stop is latched or another source drives."""
     if state.latched:
         return state
-    if state.reference is not None and state.source is not demand.source:
-        why = OTHER_DRIVES.format(demand.source.value, state.source.value)
+    before = state.demand
+    if before is not None and before.source is not demand.source:
+        why = OTHER_DRIVES.format(demand.source.value, before.source.value)
         return replace(state, refused=why, refused_at=now)
-    value, kind, source = demand
-    run = state.run if kind is state.kind else None  # another kind of demand is another run
-    return replace(state, reference=value, kind=kind, source=source, referred=now, dropped="", refused="", run=run)
+    same = before is not None and before.kind is demand.kind  # another kind of demand is another run
+    return replace(state, demand=demand, referred=now, dropped="", refused="", run=state.run if same else None)
 
 
 def release(state: State) -> tuple[str, State]:
@@ -114,7 +85,7 @@ def release(state: State) -> tuple[str, State]:
 
 def stop(state: State, reason: str) -> State:
     """Latch 0 V from the next sample on, until `reset`; `reason` is a sentence."""
-    return replace(state, run=None, latched=reason, reference=None, dropped=CLEARED)
+    return replace(state, run=None, latched=reason, demand=None, dropped=CLEARED)
 
 
 def reset(state: State) -> tuple[str, State]:
@@ -126,4 +97,4 @@ def reset(state: State) -> tuple[str, State]:
 
 def drop(state: State, why: str) -> State:
     """End what is asked for, and say why."""
-    return replace(state, run=None, reference=None, dropped=why)
+    return replace(state, run=None, demand=None, dropped=why)

@@ -7,8 +7,8 @@ import pytest
 from bench_board import DEFAULTS
 
 from motor_control.controller import controller
-from motor_control.controller.demand import Demand, Kind, Source
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
+from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.parameters import config_of
 from motor_model.sample import Info, Sample
 

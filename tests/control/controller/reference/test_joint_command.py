@@ -4,8 +4,8 @@ from math import inf, nan
 
 import pytest
 
-from motor_control.controller.demand import Demand, Kind, Source
-from motor_control.controller.joint_command import Unreadable, read_joint_command
+from motor_control.controller.reference.demand import Demand, Kind, Source
+from motor_control.controller.reference.joint_command import Unreadable, read_joint_command
 
 BOTH = ["left", "right"]
 

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from bench_board import motor, settings
 
-from motor_control.controller import controller, position_law
-from motor_control.controller.demand import Kind
+from motor_control.controller import controller
 from motor_control.controller.output import Output
+from motor_control.controller.reference import position_law
+from motor_control.controller.reference.demand import Kind
 from motor_model.parameters import Parameters
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 

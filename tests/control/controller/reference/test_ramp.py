@@ -2,7 +2,7 @@
 
 import pytest
 
-from motor_control.controller.reference_ramp import approach
+from motor_control.controller.reference.ramp import approach
 
 
 def test_the_rate_limit_lets_through_what_it_lets() -> None:

@@ -8,7 +8,7 @@ tell whose a value is.
 from collections.abc import Sequence
 from math import isfinite
 
-from motor_control.controller.demand import UNITS, Demand, Kind, Source
+from motor_control.controller.reference.demand import UNITS, Demand, Kind, Source
 
 TWICE = "motor/joint_command names the joint {} {} times: give every joint a name of its own."
 UNCLEAR = (
