@@ -141,6 +141,11 @@ class Hello:
     boot: int
     latch: int
 
+    @property
+    def firmware(self) -> str:
+        """Its version."""
+        return f"{self.firmware_major}.{self.firmware_minor}.{self.firmware_patch}"
+
 
 @dataclass(frozen=True, slots=True)
 class Telemetry:
@@ -163,12 +168,12 @@ class Telemetry:
     @property
     def enabled(self) -> bool:
         """Whether the output follows commands."""
-        return bool(self.flags & 1)
+        return bool(self.flags & Flag.ENABLED)
 
     @property
     def edge_valid(self) -> bool:
         """Whether `edge_time` is that of an edge less than 2^31 ticks ago."""
-        return bool(self.flags & 4)
+        return bool(self.flags & Flag.EDGE_VALID)
 
 
 @dataclass(frozen=True, slots=True)

@@ -56,7 +56,7 @@ def connection(driver: Driver) -> str:
         return ""
     number = f", board_id {board.board_id}" if board.board_id else ""
     return (
-        f"Connected to {driver.session.port}: firmware {_version(board)}{number}, {config.edges_per_revolution} edges "
+        f"Connected to {driver.session.port}: firmware {board.firmware}{number}, {config.edges_per_revolution} edges "
         f"per revolution, {driver.info.max_voltage:g} V."
     )
 
@@ -122,11 +122,7 @@ def capital(sentence: str) -> str:
 def _board(board: Hello | None) -> dict[str, object]:
     if board is None:
         return {}
-    return {"firmware": _version(board), "board id": board.board_id}
-
-
-def _version(board: Hello) -> str:
-    return f"{board.firmware_major}.{board.firmware_minor}.{board.firmware_patch}"
+    return {"firmware": board.firmware, "board id": board.board_id}
 
 
 def _clock(exchange: Exchange | None) -> dict[str, object]:

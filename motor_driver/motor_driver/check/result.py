@@ -1,7 +1,7 @@
 """The result of a first run as JSON, and as the driver's parameter file."""
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from math import isfinite
 from typing import Any
 
@@ -13,23 +13,31 @@ from motor_driver.frames import Hello
 NODE = "/**/motor_driver"  # in any namespace
 
 
-def parameters_of(
-    check: Check, name: str, port: str, decay: str, silent: bool = False
-) -> dict[str, bool | int | float | str]:
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """What a person has chosen, and no run can find out."""
+
+    port: str
+    name: str = ""  # of the motor; empty: left out
+    decay: str = "brake"
+    silent_pwm: bool = False
+
+
+def parameters_of(check: Check, chosen: Chosen) -> dict[str, bool | int | float | str]:
     """The driver's parameters that this board and motor need."""
     settings, board = check.settings, check.board
-    place = {"board_id": str(board.board_id)} if board.board_id else {"port": port}
+    place = {"board_id": str(board.board_id)} if board.board_id else {"port": chosen.port}
     cures = {key: value for found in check.record.findings for key, value in found.parameters.items()}
     return {
-        **({"name": name} if name else {}),
+        **({"name": chosen.name} if chosen.name else {}),
         **place,
         **_encoder_of(settings, board),
         "single_channel": board.channels == 1,
         "max_voltage": float(settings.max_voltage),
         "supply_voltage": float(settings.supply),
-        "decay": decay,
+        "decay": chosen.decay,
         **_sensor_of(settings),
-        **({"silent_pwm": True} if silent else {}),
+        **({"silent_pwm": True} if chosen.silent_pwm else {}),
         **cures,
     }
 
@@ -52,7 +60,7 @@ def _sensor_of(settings: Settings) -> dict[str, float]:
     return {"current_gain": settings.current_gain, "current_offset": settings.current_offset}
 
 
-def parameter_text(check: Check, name: str, port: str, decay: str, silent: bool = False) -> str:
+def parameter_text(check: Check, chosen: Chosen) -> str:
     """The parameter file, with what was measured as comments."""
     lines = [
         "# The driver's parameters, by `ros2 run motor_driver check`. To use them:",
@@ -61,20 +69,20 @@ def parameter_text(check: Check, name: str, port: str, decay: str, silent: bool 
         f"{NODE}:",
         "  ros__parameters:",
     ]
-    values = parameters_of(check, name, port, decay, silent)
+    values = parameters_of(check, chosen)
     return "\n".join([*lines, *(f"    {key}: {json.dumps(value)}" for key, value in values.items())]) + "\n"
 
 
-def as_json(check: Check, name: str, port: str, decay: str, silent: bool = False) -> dict[str, Any]:
+def as_json(check: Check, chosen: Chosen) -> dict[str, Any]:
     """The whole result; null where there is no number."""
     record, board = check.record, check.board
     measured = {key: value if isfinite(value) else None for key, value in asdict(record.measured).items()}
     return {
         "right": check.right,
         "board": {
-            "port": port,
+            "port": chosen.port,
             "board_id": board.board_id,
-            "firmware": f"{board.firmware_major}.{board.firmware_minor}.{board.firmware_patch}",
+            "firmware": board.firmware,
             "channels": board.channels,
             "edges_per_revolution": board.edges_per_revolution or None,
         },
@@ -84,7 +92,7 @@ def as_json(check: Check, name: str, port: str, decay: str, silent: bool = False
         ],
         "not_known": [{"step": row.step, "text": row.text} for row in record.rows if row.mark == UNKNOWN],
         "measured": measured,
-        "parameters": parameters_of(check, name, port, decay, silent) if check.right else None,
+        "parameters": parameters_of(check, chosen) if check.right else None,
     }
 
 

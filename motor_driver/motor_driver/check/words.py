@@ -32,9 +32,8 @@ def prompt_of(prompt: Prompt, settings: Settings) -> str:
 def board_row(board: Hello, port: str) -> Row:
     """Which board was found."""
     number = f"board_id {board.board_id}" if board.board_id else "no board_id"
-    version = f"{board.firmware_major}.{board.firmware_minor}.{board.firmware_patch}"
     channels = "one channel" if board.channels == 1 else "two channels"
-    return Row("board", OK, f"firmware {version} on an ATmega328P at {port}, {number}, {channels}")
+    return Row("board", OK, f"firmware {board.firmware} on an ATmega328P at {port}, {number}, {channels}")
 
 
 def line_of(row: Row) -> str:

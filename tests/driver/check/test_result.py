@@ -8,7 +8,7 @@ import yaml
 from first_run_bench import SimulatedRun, motor
 
 from motor_board.faults import Wiring
-from motor_driver.check.result import as_json, parameter_text, refused_json
+from motor_driver.check.result import Chosen, as_json, parameter_text, refused_json
 from motor_driver.check.settings import Settings
 from motor_driver.frames import Pwm
 from motor_driver.parameters import ROWS, config_of
@@ -19,7 +19,7 @@ TOLD = Settings(max_voltage=9.0, supply_voltage=12.0, edges_per_revolution=96)
 def test_the_file_has_parameters_of_the_driver_with_the_cures() -> None:
     wiring = Wiring(motor_swapped=True, channels_swapped=True)
     check = SimulatedRun(TOLD, channels=2, wiring=wiring).run()
-    text = parameter_text(check, "left: wheel", "/dev/ttyUSB0", "coast")
+    text = parameter_text(check, Chosen("/dev/ttyUSB0", "left: wheel", "coast"))
     values = yaml.safe_load(text)["/**/motor_driver"]["ros__parameters"]
     config = config_of({row.name: row.default for row in ROWS} | values)
     assert (config.name, config.max_voltage, config.supply_voltage) == ("left: wheel", 9.0, 12.0)
@@ -31,7 +31,8 @@ def test_a_geared_encoder_that_is_counted_fourfold_is_written_as_it_was_said() -
     said = Settings(edges_per_revolution=11, quadrature=4, gear=Fraction("34.014"), gear_said="34.014")
     check = SimulatedRun(said, motor(12.0, 12.0, 0.1), channels=2, edges=11, gear=34.014).run()
     assert check.record.codes == [] and check.record.measured.top_speed == pytest.approx(12.0, rel=0.04)
-    values = yaml.safe_load(parameter_text(check, "", "p", "coast", silent=True))["/**/motor_driver"]["ros__parameters"]
+    text = parameter_text(check, Chosen("p", decay="coast", silent_pwm=True))
+    values = yaml.safe_load(text)["/**/motor_driver"]["ros__parameters"]
     config = config_of({row.name: row.default for row in ROWS} | values)
     assert (config.edges_per_revolution, config.quadrature, config.gear) == (44, 4, Fraction("34.014"))
     assert values["gear_ratio"] == "34.014" and values["pulses_per_revolution"] == 11
@@ -42,17 +43,17 @@ def test_a_board_with_a_number_is_found_by_it_whatever_its_port() -> None:
     run = SimulatedRun(TOLD)
     run.run()
     object.__setattr__(run.check.board, "board_id", 7)
-    values = yaml.safe_load(parameter_text(run.check, "motor", "/dev/ttyUSB0", "brake"))
+    values = yaml.safe_load(parameter_text(run.check, Chosen("/dev/ttyUSB0", "motor")))
     values = values["/**/motor_driver"]["ros__parameters"]
     assert values["board_id"] == "7" and "port" not in values
     assert config_of({row.name: row.default for row in ROWS} | values).board_id == 7
 
 
 def test_the_json_has_no_parameters_where_something_is_wrong_and_null_where_there_is_no_number() -> None:
-    right = json.loads(json.dumps(as_json(SimulatedRun(TOLD).run(), "motor", "p", "brake"), allow_nan=False))
+    right = json.loads(json.dumps(as_json(SimulatedRun(TOLD).run(), Chosen("p")), allow_nan=False))
     assert right["right"] and right["parameters"]["edges_per_revolution"] == 96
     assert right["measured"]["supply"] is None and 10.0 < right["measured"]["gain"] < 20.0
-    wrong = as_json(SimulatedRun(TOLD, channels=2, wiring=Wiring(b_connected=False)).run(), "motor", "p", "brake")
+    wrong = as_json(SimulatedRun(TOLD, channels=2, wiring=Wiring(b_connected=False)).run(), Chosen("p"))
     assert not wrong["right"] and wrong["parameters"] is None
     assert [found["code"] for found in wrong["findings"]] == ["b_missing"]
 

@@ -1,0 +1,133 @@
+"""The terminal of `check`: bytes between port and run, keys to it, its words to the screen."""
+
+import argparse
+import os
+import select
+import signal
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from motor_driver.check import words
+from motor_driver.check.first_run import FirstRun
+from motor_driver.check.look import Answer, Prompt
+from motor_driver.check.settings import Settings, config_of
+from motor_driver.frames import Decay, Pwm
+from motor_driver.link import open_port
+from motor_ros.run import Interrupt
+
+LOOK_EVERY = 0.004  # [s]
+MOST_READ = 4096
+OFF_TIME = 0.3  # [s] in which the board says that its output is off
+ANSWERS = {"": Answer.DONE, "y": Answer.YES, "n": Answer.NO}
+
+
+def run_on(options: argparse.Namespace, settings: Settings, port: str, roll_call: bool = False) -> FirstRun:
+    """Run on a port to the end, with the output off; at a roll call its board only says who it is.
+
+    Raises:
+        PortError: it cannot be opened.
+        KeyboardInterrupt: somebody pressed Ctrl-C; the motor is off.
+    """
+    with _interruptible() as interrupt:
+        return _Terminal(options, settings, port, interrupt, roll_call).run()
+
+
+@contextmanager
+def _interruptible() -> Iterator[Interrupt]:
+    """Within, Ctrl-C is noted, and the motor is switched off in order."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+    try:
+        yield Interrupt()
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+class _Terminal:
+    """Passes bytes between port and run, keys to it, and its words to the screen."""
+
+    def __init__(
+        self,
+        options: argparse.Namespace,
+        settings: Settings,
+        port: str,
+        interrupt: Interrupt,
+        roll_call: bool = False,
+    ) -> None:
+        decay = Decay[options.decay.upper()]
+        self._interrupt, self._settings, self._name = interrupt, settings, port
+        self._port = open_port(port, options.baud)
+        config = config_of(settings, options.baud, decay, Pwm.SILENT if options.silent_pwm else Pwm.STANDARD)
+        self._run = FirstRun(settings, config, port, time.monotonic_ns(), roll_call)
+        self._shown, self._ended = 0, False
+        self._prompt: Prompt | None = None
+
+    def run(self) -> FirstRun:
+        """Until it has come to its end, with the output off."""
+        try:
+            while not self._run.done and not self._run.driver.unsuitable(time.monotonic_ns()):
+                self._step()
+                self._show()
+                if self._interrupt:
+                    self._run.abort("Ctrl-C")
+                    break
+        finally:
+            self._leave()
+        self._show()
+        if self._interrupt:
+            raise KeyboardInterrupt
+        return self._run
+
+    def _leave(self) -> None:
+        """Switch off, and see that the board has."""
+        self._run.abort("the check has failed")
+        end = time.monotonic() + OFF_TIME
+        while not self._ended and time.monotonic() < end:
+            self._step()
+            if self._run.off:
+                break
+        self._port.close()
+
+    def _step(self) -> None:
+        """Take what has come, then send what is due."""
+        keys = [sys.stdin] if self._settings.hand and not self._ended else []
+        try:
+            ready, _, _ = select.select([self._port, *keys], [], [], LOOK_EVERY)
+            data = os.read(self._port.fileno(), MOST_READ) if self._port in ready else None
+            if data == b"":
+                raise OSError
+            if keys and sys.stdin in ready:
+                self._hear_keys(sys.stdin.readline())
+            now = time.monotonic_ns()
+            if data:
+                self._run.received(data, now)
+            os.write(self._port.fileno(), self._run.step(now))
+        except BlockingIOError:
+            return
+        except OSError:
+            self._ended = True
+            self._run.driver.closed(f"The serial port {self._name} is gone: plug the board in again.")
+            self._run.abort(f"the serial port {self._name} is gone")
+
+    def _hear_keys(self, line: str) -> None:
+        answer = ANSWERS.get(line.strip().lower()[:1])
+        if answer is not None:
+            self._run.answer(answer)
+
+    def _show(self) -> None:
+        """Say what is new."""
+        check = self._run.check
+        if check is None:
+            return
+        if self._shown == 0:
+            print(words.plan_of(self._settings))
+        rows = [words.board_row(check.board, self._name), *check.record.rows]
+        for row in rows[self._shown :]:
+            print(words.line_of(row), flush=True)
+        self._shown = len(rows)
+        prompt = self._run.prompt
+        if prompt is not None and prompt is not self._prompt and self._settings.hand:
+            print(words.prompt_of(prompt, self._settings), flush=True)
+        self._prompt = prompt
