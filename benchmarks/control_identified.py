@@ -16,8 +16,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"
 from plant import profiles, record
 from plant.loop import close_loop
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
-from motor_control.parameters import ROWS, config_of
+from motor_control.parameters import ROWS
 from motor_identification.estimation.request import Request
 from motor_identification.identify import identify
 from motor_identification.recording import check

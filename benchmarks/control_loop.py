@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from paper_loop import COUNT, PAIRS
 
-from motor_control.parameters import ROWS, config_of
+from motor_control.configuration import config_of
+from motor_control.parameters import ROWS
 from motor_control.tuning.simulated_loop import Rehearsal, rehearse
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.sensing.board import BoardConfig

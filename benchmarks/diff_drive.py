@@ -15,9 +15,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matric
 
 from machine import machine
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.run import Config as ControlConfig
-from motor_control.parameters import ROWS, config_of
+from motor_control.parameters import ROWS
 from motor_examples.diff_drive import drive
 from motor_examples.diff_drive.kinematics import STILL, Geometry, Limits, Twist
 from motor_examples.diff_drive.odometry import Pose, advance_pose

@@ -12,8 +12,8 @@ from motor_board.build import FirmwareConfig, firmware
 from motor_board.chip import FREQUENCY
 from motor_board.emulator import Emulator
 from motor_board.shaft import EncoderConfig
+from motor_control.configuration import config_of
 from motor_control.controller import controller
-from motor_control.parameters import config_of
 from motor_driver.config import Config
 from motor_driver.driver import Driver
 from motor_ros.gate import Gate

@@ -9,8 +9,9 @@ from dataclasses import dataclass, field, replace
 
 from faults_motor import Motor
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
-from motor_control.parameters import ROWS, config_of
+from motor_control.parameters import ROWS
 from motor_model.sample import Sample
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_model.sensing.motion_check import MotionCheck

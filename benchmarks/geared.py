@@ -21,8 +21,9 @@ from plant import profiles
 
 from motor_board.build import FirmwareConfig
 from motor_board.shaft import EncoderConfig
+from motor_control.configuration import config_of
 from motor_control.controller import controller
-from motor_control.parameters import ROWS, config_of
+from motor_control.parameters import ROWS
 from motor_control.tuning.design import Tuning, Wish, tune
 from motor_control.tuning.speed_feedback import Encoder
 from motor_driver.config import Config

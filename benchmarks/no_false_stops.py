@@ -20,8 +20,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matric
 import numpy as np
 from machine import commit, machine
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
-from motor_control.parameters import ROWS, config_of
+from motor_control.parameters import ROWS
 from motor_model.parameters import Parameters
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 

@@ -41,6 +41,7 @@ SPECIAL = {
     "diagnosis/verdict.py": "missed edges are counted in what a complete model leaves, not fitted",
     "live/speed_probe.py": "the model of the short ramp: as little as predicts a speed",
     "motor_control/parameters.py": "a parameter of the node with the same name",
+    "motor_control/configuration.py": "the same parameter",
 }
 BAGS = re.compile(r"motor_identification/bag/((mcap|fields)/)?\w+\.py$")
 
@@ -52,7 +53,8 @@ ROOMS = {
         "sample parameters physical model_file excitation dynamics sensing simulate warm_up"
     ),
     "motor_control": (
-        "checks filter controller announcements tuning parameters warm_up preparation settings messages node cli"
+        "checks filter controller announcements tuning configuration parameters warm_up preparation settings "
+        "messages node cli"
     ),
     "motor_identification": (
         "recording progress experiment bag sensor measurement noise estimation periodic uncertainty physical "

@@ -1,28 +1,14 @@
-"""Tabulate the controller's parameters, and make a configuration of them with what the plant says of itself."""
+"""Tabulate the controller's parameters."""
 
-from collections.abc import Mapping
-from dataclasses import replace
-from math import isfinite
-
-from motor_control.controller import pi
-from motor_control.controller.faults.evidence import SPARE, SPARE_SINGLE
-from motor_control.controller.faults.evidence import Config as FaultConfig
-from motor_control.controller.reference import position_law
-from motor_control.controller.run import Config
-from motor_model.errors import MotorError
-from motor_model.model_file import load
-from motor_model.parameters import Parameters
-from motor_model.sample import Info, Measurement
-from motor_ros.parameters import Row, Value
+from motor_control.configuration import MEASURED, OBSERVER
+from motor_ros.parameters import Row
 from motor_ros.program import Program
-
-MEASURED, OBSERVER = "measured", "observer"
 
 # ki / kp = kv/ka of the paper's motor: the zero of the law cancels its pole. Simulated at 200 Hz with 0.4 V of
 # friction, 0 -> 100, 100 -> 40 and 0 -> 3 rad/s settle within 3 % in 0.21, 0.24 and 0.30 s, and a load of 1 V at 100
 # rad/s costs 3.3 rad/s. Half the gains let it cost 4.8; twice the gains keep 3 rad/s swinging by 3 rad/s, because below
 # 5 rad/s the encoder is later than such a loop is fast.
-NUMBERS = (
+ROWS = (
     Row("kp", 0.2, "proportional gain", "V/(rad/s)", 0.0, 1000.0),
     Row("ki", 2.5, "integral gain", "V/rad", 0.0, 10_000.0),
     Row("voltage_limit", 12.0, "largest voltage to ask for, if max_voltage is not less", "V", 0.0, 100.0),
@@ -54,9 +40,6 @@ NUMBERS = (
     Row(
         "joint_command_timeout", 0.5, "silence on motor/joint_command that stops the motor; 0: it holds", "s", 0.0, 60.0
     ),
-)
-ROWS = (
-    *NUMBERS,
     Row("speed_source", MEASURED, f"speed that the law uses: {MEASURED} (by the plant) or {OBSERVER} (by the model)"),
     Row("model", "", "model file (YAML) for observer and feed-forward, as identify writes it; empty: none"),
     Row("feedforward", False, "add the voltage that the model needs for the reference"),
@@ -77,133 +60,3 @@ PROGRAM = Program(
     subscribes=("motor/speed", "motor/info", "motor/reference", "motor/position_reference", "motor/joint_command"),
     services=("motor/reset", "motor/release"),
 )
-
-NO_MODEL = "No model is loaded, so {}: set the parameter model to a file that identify wrote."
-NO_OBSERVER, NO_FEEDFORWARD = "the speed is the measured one", "there is no feed-forward"
-NO_INFO = "The observer waits for motor/info to say what the encoder is like; the speed is the measured one until then."
-NO_EDGES = "The plant does not stamp its edges, which the observer needs: the speed is the measured one."
-NO_DIRECTION = "An angle cannot be approached: a single channel does not measure the direction; use two channels."
-NO_POSITION = "An angle cannot be approached without the observer: set model, and speed_source to observer."
-NOT_READY = "Observer and feed-forward are being prepared; the speed is the measured one until then."
-BAD_INFO = "motor/info says {} = {:g}, which cannot be: correct it in the plant. The motor gets 0 V until then."
-
-
-def model_of(path: str) -> Parameters | None:
-    """Load the model in a file; None where no file is named.
-
-    Raises:
-        MotorError: there is no such model.
-    """
-    return load(path) if path else None
-
-
-def config_of(
-    values: Mapping[str, Value], info: Info | None, motor: Parameters | None = None, ready: bool = True
-) -> Config:
-    """Make the controller's configuration; without `info` the encoder counts as a single channel, which is always safe.
-
-    motor: the model in the file that `values` name, read if it is not given. ready: whether what compiles is loaded.
-
-    Raises:
-        MotorError: a value does not work.
-    """
-    motor = motor or model_of(str(values["model"]))
-    unusable = info_problem(info) if info else ""
-    info = None if unusable else info
-    kp, ki, limit, timeout, rate_limit, reversal_speed, stall_time, _, plug_limit, latency_limit, *timeouts = (
-        float(values[row.name]) for row in NUMBERS
-    )
-    if info is not None:
-        limit, timeout = min(limit, info.max_voltage), max(timeout, 2.0 * info.sample_period)
-    single = info is None or info.single_channel
-    config = Config(
-        gains=pi.Config(kp, ki, limit),
-        voltage_limit=limit,
-        sample_timeout=timeout,
-        reference_rate_limit=max(rate_limit, 0.0),
-        reversal_speed=reversal_speed,
-        single_channel=single,
-        faults=FaultConfig(stall_time, slot=slot_of(info), spare=SPARE_SINGLE if single else SPARE),
-        note=_lack(values, info, motor, ready),
-        plug_limit=plug_limit,
-        latency_limit=max(latency_limit, 2.0 * info.sample_period if info else 0.0),
-        reference_timeout=timeouts[0],
-        joint_timeout=timeouts[1],
-        joint=str(values["joint"]) or (info.name if info is not None else ""),
-        effort_as_voltage=bool(values["effort_as_voltage"]),
-        no_position=NO_DIRECTION if single else NO_POSITION,
-        sample_period=info.sample_period if info else 0.0,
-        unusable=unusable,
-    )
-    return config if motor is None or not ready else _add_model(config, values, info, motor)
-
-
-def slot_of(info: Info | None) -> float:
-    """Find the angle [rad] between edges that are counted; 0: none are, or nothing is known."""
-    counted = info is not None and info.measurement is not Measurement.SPEED
-    return info.edge_angle if info is not None and counted else 0.0
-
-
-def info_problem(info: Info) -> str:
-    """Find what a plant says of itself and cannot be, as a sentence; "" if nothing."""
-    positive = {"sample_period": info.sample_period, "max_voltage": info.max_voltage}
-    if info.measurement is not Measurement.SPEED:
-        positive["edges_per_revolution"] = float(info.edges_per_revolution)
-    for name, value in positive.items():
-        if not (isfinite(value) and value > 0.0):
-            return BAD_INFO.format(name, value)
-    if not (isfinite(info.edge_resolution) and info.edge_resolution >= 0.0):
-        return BAD_INFO.format("edge_resolution", info.edge_resolution)
-    return ""
-
-
-def _lack(values: Mapping[str, Value], info: Info | None, motor: Parameters | None, ready: bool) -> str:
-    """Find what is asked for and cannot be had, as a sentence; "" if nothing."""
-    source, feedforward = values["speed_source"], values["feedforward"]
-    if source not in (MEASURED, OBSERVER):
-        raise MotorError(f"speed_source = '{source}' does not work: give {MEASURED} or {OBSERVER}.")
-    lacks = [NO_OBSERVER] * (source == OBSERVER) + [NO_FEEDFORWARD] * bool(feedforward)
-    if not lacks:
-        return ""
-    if motor is None:
-        return NO_MODEL.format(" and ".join(lacks))
-    if not ready:
-        return NOT_READY
-    if source == OBSERVER and info is None:
-        return NO_INFO
-    return NO_EDGES if source == OBSERVER and info and info.measurement is not Measurement.EDGES else ""
-
-
-def _add_model(config: Config, values: Mapping[str, Value], info: Info | None, motor: Parameters) -> Config:
-    """Add what a model makes possible; imported here, because it compiles."""
-    from motor_control.controller.feedforward import FeedForward
-    from motor_control.controller.observer import Observer
-
-    if info is not None:
-        motor = replace(motor, max_voltage=info.max_voltage)
-    forward, watcher, place = FeedForward(motor), None, None
-    if values["speed_source"] == OBSERVER and info is not None and info.measurement is Measurement.EDGES:
-        watcher = Observer(motor, info, float(values["slot_irregularity"]))
-    rate_limit, limit, gentle = config.reference_rate_limit, config.voltage_limit, 0.0
-    if float(values["reference_rate_limit"]) < 0.0:
-        rate_limit, gentle = 2.0 * limit / motor.value("ka"), 0.5 * motor.value("ka") / max(config.gains.kp, 1e-9)
-    friction = forward.breakaway
-    kv = max(limit - friction, 0.1 * limit) / max(forward.top_speed(limit), 1e-9)
-    if watcher is not None and not config.single_channel:
-        place = position_law.design(slot_of(info), config.gains.kp, motor.value("ka"), limit, forward.top_speed(limit))
-    lag = motor.value("delay") + motor.value("electrical_time_constant")
-    return replace(
-        config,
-        reference_rate_limit=rate_limit,
-        gentle=gentle,
-        observer=watcher,
-        position=place,
-        feedforward=forward if values["feedforward"] else None,
-        faults=replace(
-            config.faults,
-            fastest=forward.fastest,
-            kv=kv,
-            time_constant=motor.value("ka") / motor.value("kv") + lag,
-            friction=friction,
-        ),
-    )

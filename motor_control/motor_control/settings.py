@@ -3,12 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
+from motor_control.configuration import Value, config_of, model_of
 from motor_control.controller.run import Config
-from motor_control.parameters import config_of, model_of
 from motor_control.preparation import Preparation
 from motor_model.sample import Info
-
-Value = bool | int | float | str
 
 
 class Settings:

@@ -5,9 +5,9 @@ from dataclasses import replace
 from bench_board import DEFAULTS, drive, motor, settings
 
 from motor_control.announcements import Line, Told, announce, describe_start, top_speed_of
+from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
-from motor_control.parameters import config_of
 from motor_model.sample import Info
 
 CONFIG = config_of(DEFAULTS, Info())

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.controller import Config, State
 from motor_control.controller.output import Output
-from motor_control.parameters import ROWS, config_of
+from motor_control.parameters import ROWS
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.sample import Info
 from motor_model.sensing.board import BoardConfig, SimulatedBoard

@@ -6,8 +6,8 @@ from math import copysign, tau
 import numpy as np
 from bench_board import DEFAULTS, settings
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
-from motor_control.parameters import config_of
 from motor_model.parameters import Parameters
 from motor_model.sample import Sample
 from motor_model.sensing.board import BoardConfig, SimulatedBoard

@@ -112,7 +112,8 @@ def _tune(options: argparse.Namespace) -> int:
 
 def _draw(options: argparse.Namespace, tuning: Tuning, parameters: Parameters) -> None:
     """Rehearse the large step with the controller as its node would be set up, and draw it."""
-    from motor_control.parameters import ROWS, config_of
+    from motor_control.configuration import config_of
+    from motor_control.parameters import ROWS
     from motor_control.tuning.figure import draw_tuning
     from motor_control.tuning.simulated_loop import rehearse
     from motor_model.sensing.board import BoardConfig

@@ -6,7 +6,8 @@ import pytest
 import yaml
 
 from motor_control.cli.tune import main
-from motor_control.parameters import ROWS, config_of
+from motor_control.configuration import config_of
+from motor_control.parameters import ROWS
 from motor_model.model_file import load, save
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters, paper_motor
 from motor_model.sample import Info

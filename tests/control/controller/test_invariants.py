@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.controller import State
 from motor_control.controller.output import RUNNING, STOPPED
-from motor_control.parameters import config_of
 from motor_model.sample import Info, Sample
 
 CONFIGS = (

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from bench_board import DEFAULTS, motor
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.latency import DRIFT, LatencyState, track_latency
-from motor_control.parameters import config_of
 from motor_model.sample import Sample
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 

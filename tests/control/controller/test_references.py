@@ -5,10 +5,10 @@ from dataclasses import replace
 import pytest
 from bench_board import DEFAULTS
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.controller import Config, State
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
-from motor_control.parameters import config_of
 from motor_model.sample import Info, Sample
 
 CONFIG = config_of(DEFAULTS, Info())

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from bench_board import DEFAULTS
 
-from motor_control.parameters import config_of
+from motor_control.configuration import config_of
 from motor_control.tuning.simulated_loop import Rehearsal, rehearse
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.sensing.board import BoardConfig

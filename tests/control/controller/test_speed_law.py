@@ -6,11 +6,11 @@ from math import tau
 import pytest
 from bench_board import DEFAULTS
 
+from motor_control.configuration import config_of
 from motor_control.controller.motion import Motion
 from motor_control.controller.reference.demand import Demand
 from motor_control.controller.run import begin
 from motor_control.controller.speed_law import reversal_speed_of, step
-from motor_control.parameters import config_of
 from motor_model.parameters import PAPER_KV, paper_motor
 from motor_model.sample import Info, Sample
 

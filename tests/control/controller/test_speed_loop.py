@@ -5,10 +5,11 @@ from statistics import fmean
 import pytest
 from bench_motor import SLOT, Plant, Trace, close_loop
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller import voltage_range as span
 from motor_control.controller.controller import Config, State
-from motor_control.parameters import ROWS, config_of
+from motor_control.parameters import ROWS
 from motor_model.sample import Info, Sample
 
 SEEDS = range(4)

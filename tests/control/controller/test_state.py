@@ -6,10 +6,10 @@ from math import nan
 import pytest
 from bench_board import DEFAULTS
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
 from motor_control.controller.reference.demand import Demand, Kind, Source
-from motor_control.parameters import config_of
 from motor_model.sample import Info, Sample
 
 INFO = Info(single_channel=False)

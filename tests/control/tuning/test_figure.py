@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 from tuning_bench import RUBBING, tuning
 
-from motor_control.parameters import ROWS, config_of
+from motor_control.configuration import config_of
+from motor_control.parameters import ROWS
 from motor_control.tuning.figure import draw_tuning
 from motor_control.tuning.simulated_loop import rehearse
 from motor_model.errors import MotorError

@@ -7,8 +7,9 @@ from functools import cache
 import numpy as np
 import pytest
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
-from motor_control.parameters import ROWS, config_of
+from motor_control.parameters import ROWS
 from motor_control.tuning.design import Tuning, Wish, tune
 from motor_control.tuning.linear_loop import plant_of
 from motor_control.tuning.margins import Margins, margins_of

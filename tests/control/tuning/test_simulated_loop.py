@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from tuning_bench import RUBBING
 
-from motor_control.parameters import ROWS, config_of
+from motor_control.configuration import config_of
+from motor_control.parameters import ROWS
 from motor_control.tuning.simulated_loop import rehearse
 from motor_model.parameters import paper_motor
 from motor_model.sensing.board import BoardConfig

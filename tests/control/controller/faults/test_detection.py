@@ -7,10 +7,10 @@ import pytest
 from bench_board import DEFAULTS, drive, motor
 from bench_motor import Plant, close_loop
 
+from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.controller import State
 from motor_control.controller.output import Output
-from motor_control.parameters import config_of
 from motor_model.sample import Info, Sample
 
 
