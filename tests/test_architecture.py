@@ -33,7 +33,7 @@ ROS |= {"builtin_interfaces", "geometry_msgs", "nav_msgs"}
 # Where ROS may be imported: node files, command files, the modules that turn messages into plain values, and the one
 # that looks up what is installed.
 SHELLS = re.compile(
-    r"(/node\.py|/messages\.py|/diagnose_action\.py|/cli/\w+\.py|/live/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(board|control|driver)/parameters\.py|/diff_drive/(motor|parameters)\.py|/service/parameters\.py|/bag/definition\.py)$"
+    r"(/node\.py|/messages\.py|/answers\.py|/diagnose_action\.py|/cli/\w+\.py|/live/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(board|control|driver)/parameters\.py|/diff_drive/(motor|parameters)\.py|/service/parameters\.py|/bag/definition\.py)$"
 )
 # Effects are rows of a table, and nothing else knows one of them by name; but for:
 SPECIAL = {
@@ -54,7 +54,7 @@ ROOMS = {
     ),
     "motor_control": (
         "checks filter controller announcements tuning configuration parameters warm_up preparation settings "
-        "messages node cli"
+        "messages answers node cli"
     ),
     "motor_identification": (
         "recording progress experiment bag sensor measurement noise estimation periodic uncertainty physical "

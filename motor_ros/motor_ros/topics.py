@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 from motor_ros import qos
@@ -67,3 +68,9 @@ SERVICES = (
     Service("motor/cancel", "std_srvs/srv/Trigger", "end the fits that are computed or wait", "identification"),
     Service("motor/diagnose", "motor_msgs/action/Diagnose", "find what the model lacks", "identification"),
 )  # fmt: skip
+
+
+def publishers_of(node: Node, topic: str) -> list[str]:
+    """Name the nodes that publish a topic, in alphabetical order; one with two publishers stands there twice."""
+    found = node.get_publishers_info_by_topic(topic)
+    return sorted(f"{one.node_namespace.rstrip('/')}/{one.node_name}" for one in found)

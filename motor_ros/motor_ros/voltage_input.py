@@ -7,6 +7,7 @@ from rclpy.node import Node
 
 from motor_msgs.msg import MotorVoltage
 from motor_ros import qos
+from motor_ros.topics import publishers_of
 
 Take = Callable[[float, str, int | None], None]
 NOT_COUNTED = 2**63  # numbers from here on: the middleware does not count (rmw says 2^64 - 1)
@@ -37,5 +38,4 @@ class VoltageInput:
 
     def senders(self, node: Node) -> str:
         """The nodes that can send, in words."""
-        found = node.get_publishers_info_by_topic(self._subscription.topic_name)
-        return ", ".join(sorted(f"{one.node_namespace.rstrip('/')}/{one.node_name}" for one in found))
+        return ", ".join(publishers_of(node, self._subscription.topic_name))

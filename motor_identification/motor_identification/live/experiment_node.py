@@ -14,6 +14,7 @@ from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import info_of, sample_of, voltage_message
+from motor_ros.topics import publishers_of
 
 SILENCE = 1.0  # [s] without samples after which the plant is gone
 DEAF = 0.5  # [s] without any voltage, while there should be one, after which the output is off
@@ -21,6 +22,7 @@ LEAST = 0.02  # of max_voltage: a command that any bridge can follow
 TOO_FAST = 2  # samples in a row: a single one may be a flank that came early
 ARRIVAL = 0.5  # [s] for the last command to arrive
 OUTPUT_OFF = "The plant's output is off: call motor/enable with data: true"
+JUST_DISCOVERED = "/_NODE_NAME_UNKNOWN"  # begins the name of a node that has not told it yet
 OURS = "experiment"  # frame_id of the voltages this command sends
 
 
@@ -111,9 +113,7 @@ class Driver(Node):
 
     def _on_voltage(self, message: MotorVoltage) -> None:
         if self._following and message.header.frame_id != OURS and not self.problem:
-            infos = self.get_publishers_info_by_topic(self._voltage.topic_name)
-            known = [info for info in infos if not info.node_name.startswith("_NODE_NAME_UNKNOWN")]  # just discovered
-            names = {f"{info.node_namespace.rstrip('/')}/{info.node_name}" for info in known}
+            names = {name for name in publishers_of(self, self._voltage.topic_name) if JUST_DISCOVERED not in name}
             others = ", ".join(sorted(names - {self.get_fully_qualified_name()})) or "its name is not known yet"
             self.problem = f"Another node publishes motor/voltage: {others}. End it, and start anew."
 
