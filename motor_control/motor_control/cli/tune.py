@@ -36,6 +36,14 @@ def parser() -> argparse.ArgumentParser:
         help="write the gains here (ROS 2 parameter file)",
     )
     parser.add_argument("--figure", type=Path, metavar="FILE", help="draw the predicted step here (PNG, PDF or SVG)")
+    _add_wish(parser)
+    add_force_option(parser)
+    _add_encoder(parser)
+    return parser
+
+
+def _add_wish(parser: argparse.ArgumentParser) -> None:
+    """What the loop is to be like."""
     parser.add_argument(
         "--time-constant",
         type=positive,
@@ -62,9 +70,6 @@ def parser() -> argparse.ArgumentParser:
         metavar="SHARE",
         help="speed ripple, peak to peak, that an irregular disc may cause (default 0.02)",
     )
-    add_force_option(parser)
-    _add_encoder(parser)
-    return parser
 
 
 def _add_encoder(parser: argparse.ArgumentParser) -> None:
