@@ -41,6 +41,9 @@ def _add_columns(parser: argparse.ArgumentParser) -> None:
         metavar="NAME:COL,COL",
         help="a motor with its columns of voltage and motion, and a bag BAG_NAME; once for each",
     )
+    group.add_argument(
+        "--direction", metavar="COL", help="column that says which way a duty without a sign goes; -: none"
+    )
     group.add_argument("--supply", metavar="COL", help="column of the supply's voltage, for duties")
     group.add_argument(
         "--split",
@@ -64,6 +67,11 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
         "controller logs what it did before it reads the encoder",
     )
     add("--max-voltage", type=positive, metavar="V", help="voltage at full duty (default: the largest in the log)")
+    add(
+        "--increments",
+        action=argparse.BooleanOptionalAction,
+        help="the counts of a row are those since the row before (default: by name and numbers)",
+    )
     edges = whole_between(1, MOST_EDGES)
     add("--edges-per-revolution", type=edges, metavar="N", help="counts of a turn of the shaft that the log is about")
     add("--count-quantum", type=positive, metavar="Q", help="size of one count in --unit (default: a turn / N)")

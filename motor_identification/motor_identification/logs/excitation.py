@@ -57,6 +57,11 @@ def describe_excitation(log: Log) -> list[str]:
     lines = [about]
     if found.forward + found.backward < FEW:
         return [*lines, "The motor hardly moves: nothing can be identified from this."]
+    if found.low >= 0.0 and ways == "both ways":
+        lines.append(
+            "Caution: the voltage has no sign, and the motor runs both ways: a column with the direction is missing "
+            "(--direction COL), or something else drives it."
+        )
     missing = []
     if ways == "one way only":
         missing.append("friction, a constant load and a dead zone look alike (it runs one way only)")

@@ -56,12 +56,15 @@ class CsvForm:
     current_scale: float = 1.0  # A per unit of it
     units_per_revolution: float | None = None  # metres (or whatever) of a turn, for unit m and m/s
     wrap: float | None = None  # a position begins again at 0 after this much of its unit
+    direction: str | None = None  # column that says which way a drive without a sign goes
+    backward: tuple[str, ...] = ()  # its values that mean backward
+    increments: bool = False  # a row's counts are those since the row before
     label: str = ""  # of this motor, where a file has several
 
     @property
     def columns(self) -> list[str]:
         """The columns that are read."""
-        named = (self.time, self.voltage, self.motion, self.split, self.supply, self.current)
+        named = (self.time, self.voltage, self.motion, self.split, self.supply, self.current, self.direction)
         return [name for name in named if name]
 
     @property

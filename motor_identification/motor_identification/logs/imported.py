@@ -5,6 +5,7 @@ from pathlib import Path
 
 from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.said import Said
+from motor_identification.logs.csv.mending import mend_table
 from motor_identification.logs.excitation import describe_excitation
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
@@ -42,7 +43,7 @@ def import_source(source: Source, said: Said) -> Imported:
     Raises:
         RecordingError: as above.
     """
-    table = source.table
+    table = mend_table(source.table)
     guess = guess_forms(table, source.with_said(said))
     motors = []
     for form in guess.forms:

@@ -8,7 +8,7 @@ import numpy as np
 
 from motor_identification.logs.csv.reader import read_table
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.form import CsvForm
+from motor_identification.logs.form import TIME_UNITS, CsvForm
 from motor_identification.logs.motion import Motion, read_motion
 from motor_identification.logs.rows.parts import (
     check_rest,
@@ -18,7 +18,7 @@ from motor_identification.logs.rows.parts import (
     split_at_restarts,
     split_by_column,
 )
-from motor_identification.logs.rows.stamps import separate_stamps
+from motor_identification.logs.rows.stamps import separate_stamps, unwrap_clock
 from motor_identification.logs.signals import Floats, Integers, Signals, read_signals
 from motor_identification.logs.steady import read_steady
 from motor_model.errors import RecordingError
@@ -91,11 +91,12 @@ def _check_ranges(path: Path, info: Info) -> None:
 def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log:
     """Rows with a time of their own."""
     said: list[str] = []
+    signals, full = unwrap_clock(signals, TIME_UNITS[form.time_unit])
     signals, restarts = split_at_restarts(signals, form)
     signals, stamps = separate_stamps(signals)
     signals, first = drop_first_rows(signals)
     signals, gaps = split_at_gaps(signals)
-    said += [*restarts, *stamps, *first, *gaps]
+    said += [*full, *restarts, *stamps, *first, *gaps]
     check_rest(signals, table, form)
     check_steps(signals)
     info = replace(info, sample_period=float(np.median(signals.steps())) * 1e-9)

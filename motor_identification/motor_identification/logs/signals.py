@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.direction import is_backward
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import TIME_UNITS, CsvForm
 from motor_model.errors import RecordingError
@@ -83,6 +84,8 @@ def read_signals(table: Table, form: CsvForm, runs: dict[str, slice]) -> Signals
     with np.errstate(over="ignore"):  # refused below
         drive = table.numbers(form.voltage) * form.voltage_scale
         voltage = drive * supply if form.supply else drive
+    if form.direction:
+        voltage = np.where(is_backward(table, form.direction, form.backward), -voltage, voltage)
     wrong = ~(np.abs(voltage) <= LARGEST_VOLTAGE)
     if wrong.any():
         row = int(np.argmax(wrong))
@@ -91,6 +94,7 @@ def read_signals(table: Table, form: CsvForm, runs: dict[str, slice]) -> Signals
             "has: check the column and --voltage-scale."
         )
     motion = table.numbers(form.motion)
+    motion = np.cumsum(motion) if form.increments else motion
     far = np.abs(motion) > LARGEST_MOTION
     if far.any():
         row = int(np.argmax(far))

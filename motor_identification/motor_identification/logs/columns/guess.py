@@ -7,7 +7,8 @@ import numpy as np
 
 from motor_identification.logs.columns.clock import SLOWEST, guess_time_unit, row_period
 from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.motor_form import Notes, Rows, make_form
+from motor_identification.logs.columns.motor_form import Rows, make_form
+from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles import Roles, find_roles
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.table import Table

@@ -6,9 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.clock import row_period
+from motor_identification.logs.columns.direction import guess_direction
 from motor_identification.logs.columns.drive import Drive, duty_drive, supply_scale, voltage_drive
 from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.increments import count_anew
 from motor_identification.logs.columns.movement import ASKED, Unit, guess_kind, guess_position_unit, guess_speed_unit
+from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
@@ -20,14 +23,6 @@ Floats = NDArray[np.float64]
 FIRST_ROWS = 6.0  # sample periods after 0, within which a run's clock began with its voltage
 _KINDS = {Quantity.SPEED: Kind.SPEED, Quantity.POSITION: Kind.POSITION, Quantity.COUNT: Kind.COUNT}
 _ORDER = (Kind.SPEED, Kind.COUNT, Kind.POSITION)  # `count` is a count before it is a position
-
-
-@dataclass
-class Notes:
-    """Lines for the user, and what he has to be asked: the column, and the question behind its name."""
-
-    findings: list[str]
-    questions: list[tuple[str, str]]
 
 
 @dataclass(frozen=True)
@@ -49,6 +44,8 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     kind, unit = _motion(table, pair, said, rows.period if rows.time else 0.0, notes)
     why = f" ({unit.why})" if unit.why else ""
     notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}.")
+    increments = kind is Kind.COUNT and count_anew(table, pair, said, notes)
+    direction = guess_direction(table, pair, said, increments or kind is Kind.SPEED, notes)
     milliamperes = roles.current is not None and read_heading(roles.current).unit == "mA"
     same = ("edges_per_revolution", "count_quantum", "units_per_revolution", "wrap", "speed_window", "speed_lag")
     return CsvForm(
@@ -69,6 +66,9 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
         current=roles.current,
         current_scale=1e-3 if milliamperes else 1.0,
         label=pair.label,
+        direction=direction.column if direction else None,
+        backward=direction.backward if direction else (),
+        increments=increments,
         **{name: getattr(said, name) for name in same},
     )
 

@@ -1,7 +1,7 @@
 """Which column is which: those that were named by the user, then by their names, then by how their numbers behave."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -36,12 +36,21 @@ def find_roles(table: Table, said: Said) -> Roles:
     time = said.time or (None if said.steady else _time_of(table, headings))
     if said.time:
         table.column(said.time)
-    free = [heading for heading in headings if heading.name not in (time, said.supply)]
+    free = _of_a_loop([heading for heading in headings if heading.name not in (time, said.supply)])
     pairs = said.motors or _pairs(table, free, said)
     supply = said.supply or _supply_of(table, free, pairs)
     named = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs} | {supply}
     currents = [one.name for one in free if one.quantity is Quantity.CURRENT and one.name not in named]
     return Roles(time, pairs, supply, currents[0] if len(currents) == 1 and len(pairs) == 1 else None)
+
+
+def _of_a_loop(headings: list[Heading]) -> list[Heading]:
+    """Input and output side by side: of a controller where a set point stands there too, else of the motor."""
+    words = [one.words for one in headings]
+    if ("input",) not in words or ("output",) not in words:
+        return headings
+    moves = ("input",) if any(one.quantity is Quantity.REFERENCE for one in headings) else ("output",)
+    return [replace(one, quantity=None) if one.words == moves else one for one in headings]
 
 
 def _is_numeric(table: Table, name: str) -> bool:

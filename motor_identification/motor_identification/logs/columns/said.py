@@ -34,6 +34,8 @@ class Said:
     wrap: float | None = None
     speed_window: float | None = None
     speed_lag: float | None = None
+    direction: str | None = None  # column; NONE where a guessed one is none
+    increments: bool | None = None  # whether counts are those of one row; None: as name and numbers say
     split: str | None = None
     rest_until: float | None = None
     voltage_before: bool = False

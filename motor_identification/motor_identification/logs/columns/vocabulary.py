@@ -19,15 +19,19 @@ class Quantity(str, Enum):
     OTHER = "other"
 
 
-def _row(words: str) -> frozenset[str]:
+def words_of(words: str) -> frozenset[str]:
+    """The words of a line."""
     return frozenset(words.split())
+
+
+_row = words_of
 
 
 # Earlier rows win: a target speed is no speed, a battery's voltage is not the motor's, a speed command is a reference.
 WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.OTHER: _row(
         "error err kp ki kd integral gyro temp temperature accel acceleration acc derivative id index loop state mode "
-        "enabled fault torque heading yaw pitch roll rate"
+        "enabled fault torque heading dir direction drehrichtung richtung yaw pitch roll rate"
     ),
     Quantity.REFERENCE: _row("target setpoint set sp ref reference desired goal soll consigna r wanted demand profile"),
     Quantity.SUPPLY: _row("supply battery batt bat vbat vbatt vbus bus akku bateria batería batterie vcc vdd vin"),

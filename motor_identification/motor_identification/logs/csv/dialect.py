@@ -3,19 +3,22 @@
 import csv
 import re
 import stat
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 
+from motor_identification.logs.csv.cells import is_number
 from motor_model.errors import RecordingError
 
 LARGEST = 2**30  # [bytes] of a text table: 10 hours at 1 kHz; more does not fit an ordinary machine's memory as cells
 LOOKED_AT = 100  # lines at the beginning, in which the rows of numbers have to begin
+FEW_ROWS = 4  # fewer are a short table rather than a block of settings
 SPACES = " "  # stands for any run of blanks
 DELIMITERS = (",", ";", "\t", "|", SPACES)
-_COMMENT = re.compile(r"^\s*(#|%|//)\s*")
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$")
-_CLOCK = re.compile(r"(\d{4}-\d\d-\d\d[T ])?\d\d:\d\d:\d\d(\.\d+)?Z?$")
+_NOTHING = " ,;\t|"  # all that is in a line without cells
+COMMENT = re.compile(r"^\s*(#|%|//)\s*")
 _NO_VALUE = ("", "nan", "NaN", "NAN", "null", "None", "-")
 _UNIT_ROW = re.compile(r"[\[(]?[A-Za-zµμ°%/²\d.^_-]{1,10}[\])]?$")
 
@@ -86,7 +89,7 @@ def find_dialect(lines: Sequence[str]) -> Dialect | None:
 
     The rows begin where the first of some lines in sequence have equally many cells, most of them numbers.
     """
-    begin = [(index, line) for index, line in enumerate(lines[: 2 * LOOKED_AT]) if line.strip()][:LOOKED_AT]
+    begin = [(index, line) for index, line in enumerate(lines[: 2 * LOOKED_AT]) if line.strip(_NOTHING)][:LOOKED_AT]
     best: tuple[int, int, str, bool] | None = None
     for delimiter in DELIMITERS:
         for comma in (False, True) if delimiter != "," else (False,):
@@ -96,8 +99,9 @@ def find_dialect(lines: Sequence[str]) -> Dialect | None:
     if best is None:
         return None
     _, place, delimiter, comma = best
-    width = len(split_line(begin[place][1], delimiter))
-    header = _header([line for _, line in begin[:place]], delimiter, comma, width)
+    rows = [split_line(line, delimiter) for _, line in begin[place:]]
+    width, most = _width(rows), Counter(map(len, rows)).most_common(1)[0][0]
+    header = _header([line for _, line in begin[:place]], delimiter, comma, width, most)
     names = header or tuple(f"column {k + 1}" for k in range(width))
     return Dialect(delimiter, comma, names, begin[place][0], named=bool(header))
 
@@ -108,9 +112,11 @@ def _first_row(begin: Sequence[tuple[int, str]], delimiter: str, comma: bool) ->
     for k, row in enumerate(rows):
         following = rows[k : k + 5]
         numbers = sum(is_number(cell, comma) for cell in row)
-        if numbers < 1 or len(row) < 2 or _COMMENT.match(begin[k][1]):
+        if numbers < 1 or len(row) < 2 or COMMENT.match(begin[k][1]):
             continue
         if len(following) > 1 and any(len(other) != len(row) for other in following[1:]) and not _ragged(following):
+            continue
+        if not _alike(following, comma):
             continue
         rest = [cell for other in rows[k:] for cell in other]
         read = sum(is_number(cell, comma) for cell in rest)
@@ -119,23 +125,43 @@ def _first_row(begin: Sequence[tuple[int, str]], delimiter: str, comma: bool) ->
     return None
 
 
+def _alike(rows: Sequence[Sequence[str]], comma: bool) -> bool:
+    """Whether columns that are numbers in the first row mostly are below: a block of settings is no row."""
+    places = [k for k, cell in enumerate(rows[0]) if is_number(cell, comma)]
+    below = [is_number(row[k], comma) for row in rows[1:] for k in places if k < len(row)]
+    return 2 * sum(below) > len(below) or len(rows) < FEW_ROWS
+
+
 def _ragged(rows: Sequence[Sequence[str]]) -> bool:
     """Whether only the last of the rows is shorter, as in a file that was cut off."""
     return all(len(row) == len(rows[0]) for row in rows[:-1]) and len(rows[-1]) < len(rows[0]) and len(rows) < 5
 
 
-def _header(before: Sequence[str], delimiter: str, comma: bool, width: int) -> tuple[str, ...]:
-    """Names of columns out of the lines before the first row: the last that has as many cells."""
-    cells = [split_line(_COMMENT.sub("", line), delimiter) for line in before]
-    fitting = [row for row in cells if len(row) == width and any(row) and not any(is_number(one, comma) for one in row)]
+def _width(rows: Sequence[Sequence[str]]) -> int:
+    """How many cells most rows have, without those behind the last separator where nothing is."""
+    widths = Counter(max((place for place, cell in enumerate(row, start=1) if cell), default=0) for row in rows)
+    return max(widths, key=lambda width: (widths[width], width))
+
+
+def _header(before: Sequence[str], delimiter: str, comma: bool, width: int, most: int) -> tuple[str, ...]:
+    """Names of columns out of the lines before the first row: the last that has as many cells as the rows."""
+    cells = [_without_empty_end(split_line(COMMENT.sub("", line), delimiter)) for line in before]
+    fitting = [row for row in cells if width <= len(row) <= most and not any(is_number(one, comma) for one in row)]
     if not fitting:
         return ()
     names = fitting[-1]
     if len(fitting) > 1 and all(_UNIT_ROW.match(cell) for cell in names) and cells[-1] == names:
         above = fitting[-2]
         if cells[-2] == above and any("[" in cell or "/" in cell or cell in ("s", "ms", "V") for cell in names):
-            names = [f"{name} [{unit.strip('[]()')}]" for name, unit in zip(above, names, strict=True)]
+            units = (unit.strip("[]()") for unit in names)
+            names = [f"{name} [{unit}]" for name, unit in zip_longest(above, units, fillvalue="")]
     return tuple(names)
+
+
+def _without_empty_end(cells: list[str]) -> list[str]:
+    while cells and not cells[-1]:
+        cells = cells[:-1]
+    return cells
 
 
 def split_line(line: str, delimiter: str) -> list[str]:
@@ -143,9 +169,3 @@ def split_line(line: str, delimiter: str) -> list[str]:
     if delimiter == SPACES:
         return line.split()
     return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])]
-
-
-def is_number(cell: str, comma: bool) -> bool:
-    """Whether a cell is a number or a time of day, with a decimal comma or without."""
-    text = cell.replace(",", ".", 1) if comma else cell
-    return bool(_NUMBER.match(text) or _CLOCK.match(cell))

@@ -1,7 +1,8 @@
 """Reads a text table: all of its columns, chunk by chunk, with the line of each row."""
 
 import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -9,8 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.csv.dialect import SPACES, Dialect, find_dialect, read_text, split_line
-from motor_identification.logs.csv.table import Table
+from motor_identification.logs.csv.cells import is_number
+from motor_identification.logs.csv.dialect import COMMENT, SPACES, Dialect, find_dialect, read_text, split_line
+from motor_identification.logs.csv.monitor import RECEIVED, Lines, take_apart
+from motor_identification.logs.csv.table import GARBLED, Table
 from motor_model.errors import RecordingError
 
 _CHUNK = 50_000  # rows: lists of texts take ten times the memory of arrays
@@ -27,12 +30,14 @@ def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
         RecordingError: no such file, not text, empty, a column is missing or there twice, or fewer than 2 rows.
     """
     text, encoding = read_text(path)
-    lines = text.splitlines()
-    if not any(line.strip() for line in lines):
+    if not text.strip():
         raise RecordingError(f"{path} is empty: it needs a line of column names and a row for each sample.")
+    taken = take_apart(text.splitlines())
+    lines = taken.lines
     dialect = find_dialect(lines)
     if dialect is None:
         raise RecordingError(_no_rows(path, lines))
+    dialect = _named_by_lines(dialect, taken)
     for column in wanted:
         _check_column(path, dialect.header, column)
     notes = [f"The file is read as {encoding}, as it is not UTF-8."] if encoding else []
@@ -40,6 +45,15 @@ def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
     if len(numbers) < 2:
         raise RecordingError(f"{path} has {len(numbers)} rows below its column names: at least 2 samples are needed.")
     return Table(path, numbers, columns, dialect.decimal_comma, tuple(notes))
+
+
+def _named_by_lines(dialect: Dialect, taken: Lines) -> Dialect:
+    """The dialect with the names of columns that a serial monitor's lines themselves tell."""
+    if taken.names:
+        return replace(dialect, header=taken.names, named=True)
+    if taken.stamped and not dialect.named:
+        return replace(dialect, header=(*dialect.header[:-1], RECEIVED))
+    return dialect
 
 
 def _no_rows(path: Path, lines: Sequence[str]) -> str:
@@ -54,14 +68,18 @@ def _columns(
 ) -> tuple[NDArray[np.int64], dict[str, NDArray[Any]]]:
     """Line numbers and cells of all rows, chunk by chunk; a last line that was cut off is left out."""
     width, numbers, parts = len(dialect.header), [], []
-    rows = _rows(path, lines, dialect)
+    left_out: list[int] = []
+    garbled: list[int] = []
+    rows = _rows_of_numbers(_rows(path, lines, dialect), dialect.decimal_comma, left_out)
     while chunk := list(islice(rows, _CHUNK)):
-        if any(cell for _, row in chunk for cell in row[width:]):
-            line = next(line for line, row in chunk if any(row[width:]))
+        longer = [line for line, row in chunk if any(row[width:])]
+        if len(longer) > GARBLED * len(chunk):
             raise RecordingError(
-                f"{path}, line {line} has more cells than columns are named ({width}): name them all, or separate "
+                f"{path}, line {longer[0]} has more cells than columns are named ({width}): name them all, or separate "
                 "columns by semicolons where commas are decimal signs."
             )
+        garbled += longer
+        chunk = [(line, row) for line, row in chunk if not any(row[width:])] if longer else chunk
         last = chunk[-1]
         numbers.append([line for line, _ in chunk])
         padded = [row if len(row) == width else (row + [""] * width)[:width] for _, row in chunk]
@@ -71,9 +89,30 @@ def _columns(
         notes.append(f"Line {numbers[-1][-1]}, the last, is cut off and left out.")
         numbers[-1].pop()
         parts[-1] = [column[:-1] for column in parts[-1]]
+    if garbled:
+        notes.append(f"Left out: {_lines(garbled)} with more cells than columns are named ({width}).")
+    if left_out:
+        notes.append(f"Left out: {_lines(left_out)} without a number (comments, names of columns).")
     names = _unique(dialect.header)
     columns = {name: np.concatenate([part[k] for part in parts]) for k, name in enumerate(names)}
     return np.array([line for chunk_lines in numbers for line in chunk_lines], np.int64), columns
+
+
+def _rows_of_numbers(
+    rows: Iterable[tuple[int, list[str]]], comma: bool, left_out: list[int]
+) -> Iterator[tuple[int, list[str]]]:
+    """The rows with a number in them; the lines of the others are added to `left_out`."""
+    for line, row in rows:
+        if COMMENT.match(row[0]) or not any(is_number(cell, comma) for cell in row):
+            left_out.append(line)
+        else:
+            yield line, row
+
+
+def _lines(numbers: Sequence[int]) -> str:
+    if len(numbers) == 1:
+        return f"line {numbers[0]}"
+    return f"{len(numbers)} lines (the first is {numbers[0]})"
 
 
 def _rows(path: Path, lines: Sequence[str], dialect: Dialect) -> Iterable[tuple[int, list[str]]]:

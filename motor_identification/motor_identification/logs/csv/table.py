@@ -1,8 +1,7 @@
 """A table as columns of numbers, with the line of every complaint."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from datetime import datetime
+from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from pathlib import Path
 from typing import Any
@@ -10,10 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.csv.cells import clock_nanoseconds, is_number, with_point
 from motor_model.errors import RecordingError
 
 Cells = Sequence[str] | NDArray[Any]
 
+GARBLED = 0.01  # of the rows: a serial line loses a character now and then; more is another kind of table
 _LARGEST_TIME = 2**63 - 1  # [ns]
 _ROUNDED_BELOW = 2**50  # [ns] 13 days: below, a float64 of seconds is right to a quarter of a nanosecond
 
@@ -67,6 +68,19 @@ class Table:
             raise self._complaint(column, int(np.argmax(bad)))
         return values
 
+    def readable(self, column: str) -> NDArray[np.bool_]:
+        """Which cells of a column are finite numbers or a clock's times, shape (K,)."""
+        cells = self.column(column)
+        try:
+            return np.isfinite(self._floats(cells))
+        except ValueError:
+            return np.array([is_number(_as_text(cell), self.decimal_comma) for cell in cells], np.bool_)
+
+    def rows(self, which: NDArray[np.bool_] | NDArray[np.int64], note: str) -> "Table":
+        """The rows of a mask or of these places, and a note that says so."""
+        cells = {name: np.asarray(column)[which] for name, column in self.cells.items()}
+        return replace(self, lines=np.asarray(self.lines)[which], cells=cells, notes=(*self.notes, note))
+
     def nanoseconds(self, column: str, unit: int = 10**9) -> NDArray[np.int64]:
         """A column of times as whole nanoseconds, shape (K,); exact, which a float64 of seconds since 1970 is not.
 
@@ -110,8 +124,7 @@ class Table:
             return float("nan")
 
     def _with_point(self, cell: object) -> str:
-        text = _as_text(cell)
-        return text.replace(",", ".") if self.decimal_comma else text
+        return with_point(_as_text(cell), self.decimal_comma)
 
     def _complaint(self, column: str, row: int) -> RecordingError:
         cell = self.text(column, row)
@@ -129,16 +142,8 @@ def _as_text(cell: object) -> str:
 
 def _exact_nanoseconds(cell: str, unit: int) -> int:
     if ":" in cell:
-        return _time_of_day(cell)
+        return clock_nanoseconds(cell)
     time = Decimal(cell) * unit
     if not time.is_finite() or abs(time) > _LARGEST_TIME:
         raise ValueError(cell)
     return int(time.to_integral_value())
-
-
-def _time_of_day(cell: str) -> int:
-    """[ns] of 12:34:56.789 since midnight, of 2026-05-01T12:34:56.789 since 1970."""
-    before, _, fraction = cell.removesuffix("Z").partition(".")
-    dated = before if "-" in before else f"1970-01-01T{before}"
-    whole = datetime.fromisoformat(f"{dated}+00:00")
-    return round(whole.timestamp()) * 10**9 + int((fraction + "000000000")[:9])

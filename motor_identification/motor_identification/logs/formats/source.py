@@ -8,11 +8,13 @@ from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.dialect import check_file
 from motor_identification.logs.csv.reader import read_table
 from motor_identification.logs.csv.table import Table
+from motor_identification.logs.formats.json_lines import are_json_lines, read_json_lines
 from motor_identification.logs.formats.matlab import read_matlab
 from motor_identification.logs.formats.sysid import read_sysid
 from motor_model.errors import RecordingError
 
 HEAD = 512  # bytes at the beginning that tell the format
+_LONGEST_LINE = 10_000  # characters of a first line of JSON
 _HDF5, _WPILOG, _ZIP, _PARQUET, _MCAP = b"\x89HDF\r\n\x1a\n", b"WPILOG", b"PK\x03\x04", b"PAR1", b"\x89MCAP"
 
 
@@ -48,6 +50,9 @@ def read_source(path: Path) -> Source:
     if head.startswith(b"MATLAB 5.0"):
         return Source(read_matlab(path), "MATLAB 5 file")
     if head.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"{"):
+        with path.open(encoding="utf-8-sig", errors="replace") as file:
+            if are_json_lines(file.read(_LONGEST_LINE)):
+                return Source(read_json_lines(path), "JSON file of a line for each sample")
         table, units_per_revolution = read_sysid(path)
         return Source(table, "SysId JSON", Said(split="test", units_per_revolution=units_per_revolution))
     return Source(read_table(path), "text table")

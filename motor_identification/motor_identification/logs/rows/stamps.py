@@ -8,7 +8,34 @@ from motor_identification.logs.signals import Floats, Integers, Signals
 
 COARSE = 0.02  # of a sample period: a finer resolution of the stamps is no matter
 REGULAR = 1.0  # resolutions by which stamps may lie beside regular rows: rounding and truncation are within
+LACKING = 0.05  # of the rows: more gaps of a regular log than this are its rhythm
+CONTINUES = 3.0  # usual steps, within which a clock that was full goes on
+_REGISTERS = (2**32 * 10**3, 2**32 * 10**6, 24 * 3600 * 10**9)  # [ns] 32 bits of µs and of ms; the time of day
 _RESOLUTIONS = [10**power for power in range(9, 2, -1)]  # [ns] 1 s to 1 µs
+
+
+def unwrap_clock(signals: Signals, unit: int) -> tuple[Signals, list[str]]:
+    """Take back what a clock lost where its register was full: 32 bits of µs or ms, 16 bits, or midnight.
+
+    Args:
+        signals: rows in the order of their lines.
+        unit: [ns] of the column of times.
+    """
+    time = signals.time.copy()
+    found: list[int] = []
+    for run in signals.runs.values():
+        steps = np.diff(time[run])
+        forward = steps[steps > 0]
+        usual = CONTINUES * float(np.median(forward)) if len(forward) else 0.0
+        for place in np.flatnonzero(steps < 0):
+            full = next((size for size in (*_REGISTERS, 2**16 * unit) if 0 < steps[place] + size <= usual), 0)
+            time[run.start + place + 1 : run.stop] += full
+            found += [full] if full else []
+    if not found:
+        return signals, []
+    times = "once" if len(found) == 1 else f"{len(found)} times"
+    said = f"The clock begins again after {found[0] * 1e-9:.6g} s, where its register is full ({times}): it goes on."
+    return replace(signals, time=time), [said]
 
 
 def stamp_resolution(time: Integers) -> int:
@@ -23,7 +50,7 @@ def separate_stamps(signals: Signals) -> tuple[Signals, list[str]]:
     period = float(np.mean(steps)) if len(steps) else 0.0
     coarse = stamp_resolution(signals.time)
     shared = bool(np.any(steps == 0))
-    if not shared and coarse <= COARSE * period:
+    if not shared and (coarse <= COARSE * period or _lacks_rows(steps)):
         return signals, said
     time = signals.time.copy()
     regular = 0
@@ -60,6 +87,19 @@ def _drop_repeats(signals: Signals) -> tuple[Signals, list[str]]:
     if not alike.any() or np.mean(steps == 0) > 0.25:
         return signals, []
     return signals.only(~alike), [f"Left out: {int(alike.sum())} rows that repeat the one before."]
+
+
+def _lacks_rows(steps: Integers) -> bool:
+    """Whether longer steps are rows that are missing: the stamps of rows that are there are then right.
+
+    Where regular rows were rounded to the next stamp, the longer steps come at even distances.
+    """
+    usual = np.median(steps)
+    longer = np.flatnonzero(steps != usual)
+    if len(longer) > LACKING * len(steps) or np.any(steps % usual) or np.any(steps < usual):
+        return False
+    between = np.diff(longer)
+    return len(between) < 2 or bool(np.ptp(between) > max(2.0, 0.1 * float(np.median(between))))
 
 
 def _even_times(time: Integers) -> Floats | None:

@@ -1,0 +1,65 @@
+"""What one cell says: a number with a decimal point or comma, or the time of a clock, as many programs write them."""
+
+import re
+from datetime import datetime, timezone
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$")
+_THOUSANDS = {  # 1.234,5 and 1,234.5: only with both signs it is sure which of them is the decimal one
+    True: re.compile(r"[+-]?\d{1,3}(\.\d{3})+,\d*$"),
+    False: re.compile(r"[+-]?\d{1,3}(,\d{3})+\.\d*$"),
+}
+_CLOCK = re.compile(
+    r"((?P<date>\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4})[T ,] {0,3})?"
+    r"(?P<hour>\d{1,2}):(?P<minute>\d\d):(?P<second>\d\d)([.,:](?P<fraction>\d{1,9}))?"
+    r" {0,3}(?P<half>[AaPp])?(?(half)[Mm]) {0,3}(?P<zone>Z|UTC|[+-]\d\d:?\d\d)?$"
+)
+
+
+def is_number(cell: str, comma: bool) -> bool:
+    """Whether a cell is a number or a clock's time, with a decimal comma or without."""
+    return bool(_NUMBER.match(with_point(cell, comma)) or _CLOCK.match(cell))
+
+
+def with_point(cell: str, comma: bool) -> str:
+    """A number with a decimal point and without marks of thousands; other texts as they are."""
+    if _THOUSANDS[comma].match(cell):
+        cell = cell.replace("." if comma else ",", "")
+    return cell.replace(",", ".", 1) if comma else cell
+
+
+def clock_nanoseconds(cell: str) -> int:
+    """[ns] of 12:34:56.789 since midnight; of 2026-05-01T12:34:56.789+02:00 since 1970.
+
+    Dates are year-month-day, day.month.year, or month/day/year where that is a date, as their writers mostly mean.
+
+    Raises:
+        ValueError: it is no time.
+    """
+    found = _CLOCK.match(cell)
+    if found is None:
+        raise ValueError(cell)
+    year, month, day = _date(found["date"]) if found["date"] else (1970, 1, 1)
+    hour = int(found["hour"])
+    if found["half"]:
+        hour = hour % 12 + (12 if found["half"] in "Pp" else 0)
+    whole = datetime(year, month, day, hour, int(found["minute"]), int(found["second"]), tzinfo=timezone.utc)
+    seconds = round(whole.timestamp()) - _offset(found["zone"] or "Z")
+    return seconds * 10**9 + int(((found["fraction"] or "") + "000000000")[:9])
+
+
+def _date(text: str) -> tuple[int, int, int]:
+    first, second, third = (int(part) for part in re.split(r"[-/.]", text))
+    if first > 31:
+        return first, second, third
+    year = third if third > 99 else 2000 + third
+    if "/" in text and first <= 12:
+        return year, first, second
+    return year, second, first
+
+
+def _offset(zone: str) -> int:
+    """[s] that a zone's clocks are before those of Greenwich."""
+    if zone in ("Z", "UTC"):
+        return 0
+    digits = zone[1:].replace(":", "")
+    return (-1 if zone[0] == "-" else 1) * (3600 * int(digits[:2]) + 60 * int(digits[2:]))

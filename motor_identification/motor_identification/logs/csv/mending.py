@@ -1,0 +1,54 @@
+"""Mends a table as loggers leave it: a few garbled rows are left out, rows that come newest first are turned round."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.columns.clock import runs_forward
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.vocabulary import Quantity
+from motor_identification.logs.csv.table import GARBLED, Table
+
+_LOOKED_AT = 200  # cells that tell whether a column holds numbers at all
+
+
+def mend_table(table: Table) -> Table:
+    """Leave out garbled rows, where they are few, and put the rows in the order of their times."""
+    return _turn_round(_leave_out_garbled(table))
+
+
+def _leave_out_garbled(table: Table) -> Table:
+    good = np.ones(len(table), np.bool_)
+    first: tuple[int, str] | None = None
+    for name in filter(lambda one: _holds_numbers(table, one), table.names):
+        readable = table.readable(name)
+        if not 0 < int((~readable).sum()) <= GARBLED * len(table):
+            continue
+        good &= readable
+        row = int(np.argmin(readable))
+        first = min(first or (row, name), (row, name))
+    lost = int((~good).sum())
+    if first is None or lost > GARBLED * len(table):
+        return table
+    row, name = first
+    where = f"line {table.lines[row]}, column {name}: '{table.text(name, row)[:20]}'"
+    rows = f"1 row with a cell that is no number ({where})"
+    if lost > 1:
+        rows = f"{lost} rows with a cell that is no number (the first is {where})"
+    return table.rows(good, f"Left out: {rows}.")
+
+
+def _holds_numbers(table: Table, name: str) -> bool:
+    if read_heading(name).quantity is Quantity.OTHER:
+        return False
+    begin = table.rows(np.arange(min(len(table), _LOOKED_AT)), "")
+    return bool(np.mean(begin.readable(name)) > 0.5)
+
+
+def _turn_round(table: Table) -> Table:
+    for name in table.names:
+        if read_heading(name).quantity is not Quantity.TIME or not table.readable(name).all():
+            continue
+        times: NDArray[np.float64] = table.nanoseconds(name).astype(np.float64)
+        if runs_forward(times[::-1]) and times[0] > times[-1]:
+            return table.rows(np.arange(len(table))[::-1], f"The rows come newest first ({name}): turned round.")
+    return table

@@ -1,0 +1,82 @@
+"""Takes apart the lines of serial monitors: a stamp before each line, and cells that carry their names."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+RECEIVED = "received time"  # the column of a monitor's stamps: the last, so that a board's own clock goes before
+MOSTLY = 0.8  # of the first lines: others are the program's greetings
+_LOOKED_AT = 100  # lines
+_STAMP = re.compile(r"\s{0,8}\[?(\d{1,2}:\d\d:\d\d[.,]\d{1,6})\]?\s{0,8}(?:->|>)\s*(.*)$")
+_CELL = (
+    r"\s{0,8}(?P<name>[^\W\d][\w /%°\[\]()]{0,40}?)\s{0,8}[:=]"
+    r"\s{0,8}(?P<value>[+-]?(?:\d+(?:[.,]\d+|\.)?|\.\d+)(?:[eE][+-]?\d+)?)\s{0,8}"
+)
+_NAMED_CELL = re.compile(_CELL + r"(?:[,;|\t ]|$)")
+
+
+@dataclass(frozen=True)
+class Lines:
+    """The lines of a table, as many as before; `names` of its columns where every cell carried its own."""
+
+    lines: Sequence[str]
+    names: tuple[str, ...] = ()
+    stamped: bool = False
+
+
+def take_apart(lines: Sequence[str]) -> Lines:
+    """Move the stamps of a serial monitor behind its lines, and the names of cells before all of them."""
+    delimiter = ""
+    begin = [line for line in lines[: 2 * _LOOKED_AT] if line.strip()][:_LOOKED_AT]
+    stamped = _mostly(begin, [bool(_STAMP.match(line)) for line in begin])
+    if stamped:
+        delimiter = _delimiter([match[2] for match in map(_STAMP.match, begin) if match])
+        lines = [_stamp_last(line, delimiter) for line in lines]
+        begin = [line.rpartition(delimiter)[0] for line in lines[:_LOOKED_AT] if line.strip()]
+    named = [_named_cells(line) for line in begin]
+    names = max((tuple(row) for row in named), key=len, default=())
+    if len(names) < 2 or not _mostly(begin, [tuple(row) == names for row in named]):
+        return Lines(lines, stamped=stamped)
+    rows = [_values(line, names, delimiter if stamped else "") for line in lines]
+    return Lines(rows, (*names, RECEIVED) if stamped else names, stamped)
+
+
+def _mostly(lines: Sequence[str], which: Sequence[bool]) -> bool:
+    return len(lines) > 1 and sum(which) >= MOSTLY * len(lines)
+
+
+def _delimiter(lines: Sequence[str]) -> str:
+    """What separates the cells behind the stamps."""
+    return next((sign for sign in "\t;,|" if sum(sign in line for line in lines) >= MOSTLY * len(lines)), " ")
+
+
+def _stamp_last(line: str, delimiter: str) -> str:
+    match = _STAMP.match(line)
+    if match is None:
+        return line
+    rest = match[2].rstrip()
+    if not any(sign.isdigit() for sign in rest):
+        return f"{rest}{delimiter}{RECEIVED.replace(' ', '_')}"  # column names
+    return f"{rest}{delimiter}{match[1].replace(',', '.')}"
+
+
+def _named_cells(line: str) -> dict[str, str]:
+    """Values by name; none where something else is in the line."""
+    found: dict[str, str] = {}
+    place = 0
+    while place < len(line):
+        match = _NAMED_CELL.match(line, place)
+        if match is None or match["name"] in found:
+            return {}
+        found[match["name"]] = match["value"]
+        place = match.end()
+    return found
+
+
+def _values(line: str, names: Sequence[str], before_stamp: str) -> str:
+    """The cells of a line without their names, by semicolons; a line of other names as it is."""
+    text, _, stamp = line.rpartition(before_stamp) if before_stamp else (line, "", "")
+    found = _named_cells(text.rstrip(",;| \t"))
+    if list(found) != list(names):
+        return line
+    return ";".join([*found.values(), *([stamp] if before_stamp else [])])

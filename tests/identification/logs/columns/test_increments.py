@@ -1,0 +1,45 @@
+"""Counts of one row, and counts that go on."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.increments import count_anew
+from motor_identification.logs.columns.notes import Notes
+from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.csv.table import Table
+
+RANDOM = np.random.default_rng(5)
+DRIVE = np.repeat(RANDOM.integers(-9, 10, 25), 20)
+FAST = np.rint(np.convolve(DRIVE, np.exp(-np.arange(20) / 3.0))[: len(DRIVE)]).astype(int)
+RATE = np.rint(np.convolve(DRIVE, np.exp(-np.arange(60) / 9.0) / 3.0)[: len(DRIVE)]).astype(int)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "said", "anew"),
+    [
+        ("ticks", FAST, None, True),
+        ("ticks", np.cumsum(RATE), None, False),
+        ("delta_ticks", np.cumsum(RATE), None, True),
+        ("ticks", RATE, False, False),
+        ("ticks", np.cumsum(RATE), True, True),
+        ("ticks", 0 * RATE, None, False),
+    ],
+)
+def test_which_counts_begin_anew(name: str, values: np.ndarray, said: bool | None, anew: bool) -> None:
+    cells = {"u": DRIVE.astype(np.str_), name: values.astype(np.str_)}
+    table, notes = Table(Path("log.csv"), np.arange(len(DRIVE)), cells), Notes([], [])
+    assert count_anew(table, Pair("", "u", name), Said(increments=said), notes) is anew
+    assert len(notes.findings) == (anew and said is None)
+    assert not notes.questions
+
+
+def test_counts_of_a_slow_motor_are_asked_about() -> None:
+    """Its speed is not far from an integral of the drive."""
+    drive = DRIVE[::5]
+    rate = np.rint(np.convolve(drive, 3.0 * np.exp(-np.arange(60) / 9.0))[: len(drive)]).astype(int)
+    cells = {"u": drive.astype(np.str_), "ticks": rate.astype(np.str_)}
+    table, notes = Table(Path("log.csv"), np.arange(len(drive)), cells), Notes([], [])
+    assert not count_anew(table, Pair("", "u", "ticks"), Said(), notes)
+    assert [column for column, _ in notes.questions] == ["ticks"]

@@ -1,0 +1,38 @@
+"""Garbled rows and the order of rows; what they do to an import: test_odd_logs.py."""
+
+from pathlib import Path
+
+import numpy as np
+
+from motor_identification.logs.csv.mending import mend_table
+from motor_identification.logs.csv.table import Table
+
+
+def made(**columns: list[str]) -> Table:
+    rows = len(next(iter(columns.values())))
+    return Table(Path("log.csv"), np.arange(2, rows + 2), {name: np.array(one) for name, one in columns.items()})
+
+
+def test_one_row_of_a_hundred_may_be_garbled_and_two_may_not() -> None:
+    good = [str(k) for k in range(200)]
+    for bad, left in ((2, 198), (3, 200)):
+        cells = [*good]
+        cells[10 : 10 + bad] = ["", "x", "nan"][:bad]
+        mended = mend_table(made(t=good, u=cells))
+        assert len(mended) == left
+        assert len(mended.notes) == (left < 200)
+
+
+def test_columns_of_words_and_of_other_things_cost_no_row() -> None:
+    good = [str(k) for k in range(200)]
+    mended = mend_table(made(t=good, mode=["run"] * 199 + [""], error=["0"] * 199 + ["x"], text=["a"] * 200))
+    assert len(mended) == 200 and not mended.notes
+
+
+def test_rows_are_turned_round_where_all_of_them_come_backwards() -> None:
+    back = [str(k) for k in range(99, -1, -1)]
+    assert mend_table(made(t=back, u=back)).numbers("t").tolist() == list(range(100))
+    clock = [f"12:00:{k:02d}" for k in range(59, -1, -1)]
+    assert mend_table(made(time=clock, u=back[:60])).text("time", 0) == "12:00:00"
+    restarts = [str(k % 10) for k in range(100)]
+    assert not mend_table(made(t=restarts, u=back)).notes

@@ -1,0 +1,28 @@
+"""Stamps and names that serial monitors put into their lines."""
+
+from motor_identification.logs.csv.monitor import take_apart
+
+
+def test_stamps_go_behind_the_cells() -> None:
+    for rest, moved in (
+        ("5,1.5", "5,1.5,12:00:00.100"),
+        ("5\t1,5", "5\t1,5\t12:00:00.100"),
+        ("5 2", "5 2 12:00:00.100"),
+    ):
+        taken = take_apart([f"12:00:00.100 -> {rest}"] * 5)
+        assert taken.stamped and not taken.names and list(taken.lines) == [moved] * 5
+    assert list(take_apart(["12:00:00.1 -> a,b", *["12:00:00.1 -> 1,2"] * 5]).lines)[0] == "a,b,received_time"
+
+
+def test_names_go_before_all_rows_and_lines_keep_their_numbers() -> None:
+    taken = take_apart(["Ready", *["pwm:5 rpm:-1.5"] * 9, "rpm:1"])
+    assert taken.names == ("pwm", "rpm")
+    assert list(taken.lines) == ["Ready", *["5;-1.5"] * 9, "rpm:1"]
+    both = take_apart(["12:00:00.100 -> pwm:5, rpm:2"] * 5)
+    assert both.names == ("pwm", "rpm", "received time") and both.lines[0] == "5;2;12:00:00.100"
+
+
+def test_other_tables_are_left_alone() -> None:
+    for line in ("0,1,2", "12:00:00.5,1,2", "a:1", "a:1 b", "a=1;a=2", "x: " * 50_000):
+        taken = take_apart([line] * 10)
+        assert list(taken.lines) == [line] * 10 and not taken.names and not taken.stamped
