@@ -11,7 +11,7 @@ from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
 
-from motor_identification.cli._log_options import add_log_options, read_log_options
+from motor_identification.cli.options.log import add_log_options, read_log_options
 from motor_identification.logs.imported import Imported, import_log
 
 RESULTS = Path(__file__).with_name("results")

@@ -18,7 +18,6 @@ setup(
     entry_points={
         "console_scripts": [
             "diff_drive = motor_examples.diff_drive.node:main",
-            "compare = motor_examples.cli.compare:main",
         ],
     },
 )

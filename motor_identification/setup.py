@@ -34,6 +34,7 @@ setup(
             "identify = motor_identification.cli.identify:main",
             "diagnose = motor_identification.cli.diagnose:main",
             "explore = motor_identification.cli.explore:main",
+            "compare = motor_identification.cli.compare:main",
             "experiment = motor_identification.cli.experiment:main",
             "record = motor_identification.cli.record:main",
             "play = motor_identification.cli.play:main",

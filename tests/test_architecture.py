@@ -25,7 +25,7 @@ BELOW = {
     "motor_driver": {"motor_model", "motor_ros"},
     "motor_control": {"motor_model", "motor_msgs", "motor_ros"},
     "motor_identification": {"motor_model", "motor_msgs", "motor_ros"},
-    "motor_examples": {"motor_model", "motor_msgs", "motor_ros", "motor_identification"},
+    "motor_examples": {"motor_model", "motor_msgs", "motor_ros"},
     "motor_bringup": {"motor_model", "motor_identification"},
 }
 ROS = {"rclpy", "motor_msgs", "motor_ros", "std_msgs", "std_srvs", "sensor_msgs", "diagnostic_msgs", "rcl_interfaces"}
@@ -33,7 +33,7 @@ ROS |= {"builtin_interfaces", "geometry_msgs", "nav_msgs"}
 # Where ROS may be imported: node files, command files, the modules that turn messages into plain values, and the one
 # that looks up what is installed.
 SHELLS = re.compile(
-    r"(/node\.py|/messages\.py|/answers\.py|/diagnose_action\.py|/cli/\w+\.py|/live/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(board|control|driver)/parameters\.py|/diff_drive/(motor|parameters)\.py|/service/parameters\.py|/bag/definition\.py)$"
+    r"(/node\.py|/messages\.py|/answers\.py|/diagnose_action\.py|/cli/(options/)?\w+\.py|/live/\w+\.py|motor_ros/motor_ros/\w+\.py|motor_(board|control|driver)/parameters\.py|/diff_drive/(motor|parameters)\.py|/service/parameters\.py|/bag/definition\.py)$"
 )
 # Effects are rows of a table, and nothing else knows one of them by name; but for:
 SPECIAL = {

@@ -5,8 +5,8 @@ import os
 import sys
 from math import inf
 
-from motor_identification.cli._mapping_options import add_mapping_options, make_source
 from motor_identification.cli.identify import add_effects_option
+from motor_identification.cli.options.mapping import add_mapping_options, make_source
 from motor_model.effects import EFFECTS
 from motor_ros.command import CommandParser, shell
 from motor_ros.output_files import add_force_option

@@ -6,7 +6,7 @@ import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._plant_options import add_plant_options
+from motor_identification.cli.options.plant import add_plant_options
 from motor_model.excitation import PROFILES, profile
 from motor_model.parameters import paper_motor
 from motor_ros.command import CommandParser, shell

@@ -7,9 +7,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._plant_options import add_plant_options, passed_on
 from motor_identification.cli.diagnose import named
 from motor_identification.cli.identify import add_effects_option
+from motor_identification.cli.options.plant import add_plant_options, passed_on
 from motor_model.excitation import PROFILES
 from motor_ros.command import CommandParser, shell
 

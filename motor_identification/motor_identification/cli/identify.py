@@ -8,8 +8,8 @@ from datetime import datetime, timezone
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._mapping_options import add_mapping_options, make_source
-from motor_identification.cli._physical_options import add_physical_options, read_physical
+from motor_identification.cli.options.mapping import add_mapping_options, make_source
+from motor_identification.cli.options.physical import add_physical_options, read_physical
 from motor_identification.estimation.request import Request, SearchConfig
 from motor_model.effects import EFFECT_BY_NAME, EFFECTS
 from motor_model.errors import MotorError

@@ -4,8 +4,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._log_options import add_log_options
 from motor_identification.cli.import_log import run
+from motor_identification.cli.options.log import add_log_options
 from motor_ros.command import CommandParser
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.cli._log_options import add_log_options, read_log_options
+from motor_identification.cli.options.log import add_log_options, read_log_options
 from motor_ros.command import CommandParser, shell
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Compares identified motors: `compare LEFT.yaml RIGHT.yaml`."""
+"""Compare identified motors: `compare LEFT.yaml RIGHT.yaml`."""
 
 import argparse
 from pathlib import Path
@@ -20,7 +20,7 @@ def main(args: list[str] | None = None) -> int:
 def parser() -> argparse.ArgumentParser:
     """The command line."""
     made = CommandParser(
-        "motor_examples",
+        "motor_identification",
         "compare",
         "Show the parameters of identified motors side by side, and say which differ by more than their errors.",
         EXAMPLES,

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from motor_examples.cli.compare import main
+from motor_identification.cli.compare import main
 from motor_model.model_file import load_errors, save
 from motor_model.parameters import Parameters
 
