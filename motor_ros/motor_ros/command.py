@@ -5,7 +5,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from math import inf, nan
 from shutil import get_terminal_size
 from types import FrameType
@@ -130,7 +130,8 @@ def ended_by_interrupt(sentence: str) -> Iterator[None]:
     """
 
     def end(number: int, frame: FrameType | None) -> None:
-        sys.stdout.flush()
+        with suppress(RuntimeError, OSError, MotorError):  # the signal may have come amidst a write: it ends here, too
+            sys.stdout.flush()
         os.write(sys.stderr.fileno(), f"{_CLEAR if sys.stderr.isatty() else ''}{sentence}\n".encode())
         os._exit(INTERRUPTED)
 

@@ -51,22 +51,35 @@ def test_a_table_keeps_its_lines_and_a_paragraph_is_filled() -> None:
 
 
 END = """
-import os, signal
+import io, os, signal, sys
 from motor_ros.command import ended_by_interrupt, shell
+
+class Interrupted(io.FileIO):
+    def write(self, data):
+        written = super().write(data)
+        interrupt()
+        return written
+
+def interrupt():
+    os.kill(os.getpid(), signal.{})
+
+def amidst_a_line():
+    sys.stdout = io.TextIOWrapper(io.BufferedWriter(Interrupted(1, "w")))
+    print("half", flush=True)
 
 def work():
     with ended_by_interrupt("It was interrupted; nothing was written."):
-        os.kill(os.getpid(), signal.{})
+        {}()
     return 0
 
 raise SystemExit(shell(work))
 """
 
 
-@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
-def test_an_interrupt_while_computing_is_one_sentence(name: str) -> None:
-    done = subprocess.run([sys.executable, "-c", END.format(name)], capture_output=True, text=True, timeout=120.0)
-    assert (done.returncode, done.stdout, done.stderr) == (130, "", "It was interrupted; nothing was written.\n")
+@pytest.mark.parametrize(("name", "when", "said"), [("SIGINT", "interrupt", ""), ("SIGTERM", "amidst_a_line", "half\n")])
+def test_an_interrupt_while_computing_is_one_sentence(name: str, when: str, said: str) -> None:
+    done = subprocess.run([sys.executable, "-c", END.format(name, when)], capture_output=True, text=True, timeout=120.0)
+    assert (done.returncode, done.stdout, done.stderr) == (130, said, "It was interrupted; nothing was written.\n")
 
 
 def test_a_mistake_of_ours_says_so_and_keeps_its_log(
