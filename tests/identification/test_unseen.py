@@ -47,7 +47,7 @@ def list_fits(train: Recording, hold_out: HoldOut) -> tuple[list[Any], int]:
     beside = begin_beside_torque(start.model, start.hold_out, 1)
     fits: list[Any] = [start.model.noise, beside.model.learned]
     for model in (start.model, beside.model, *(test.model for test in sorted(tests, key=lambda test: test.effect))):
-        fits += [model.estimate.theta, model.whitened.theta, start.hold_out.apply(model.estimate).theta]
+        fits += [model.estimate.theta, model.whitened.theta, hold_out.apply(model.estimate).theta]
     return fits, start.model.held.miscounted
 
 

@@ -76,7 +76,9 @@ raise SystemExit(shell(work))
 """
 
 
-@pytest.mark.parametrize(("name", "when", "said"), [("SIGINT", "interrupt", ""), ("SIGTERM", "amidst_a_line", "half\n")])
+@pytest.mark.parametrize(
+    ("name", "when", "said"), [("SIGINT", "interrupt", ""), ("SIGTERM", "amidst_a_line", "half\n")]
+)
 def test_an_interrupt_while_computing_is_one_sentence(name: str, when: str, said: str) -> None:
     done = subprocess.run([sys.executable, "-c", END.format(name, when)], capture_output=True, text=True, timeout=120.0)
     assert (done.returncode, done.stdout, done.stderr) == (130, said, "It was interrupted; nothing was written.\n")
