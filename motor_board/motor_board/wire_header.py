@@ -51,6 +51,11 @@ def _frame(row: FrameRow) -> Iterator[str]:
     yield f"\n/* From the {row.sender}: {row.about}. */"
     yield f"#define WIRE_{name.upper()} 0x{row.type:02X}u"
     yield f"#define WIRE_{name.upper()}_SIZE {sum(field.size for field in row.fields)}u /* byte of body */"
+    if row.extends:
+        yield f"/* The body of {row.extends.name}, then:"
+        yield from (f"   {CTYPES[field.type]} {field.name} {field.about}" for field in row.own)
+        yield "*/"
+        return
     if not row.fields:
         return
     yield f"struct wire_{name} {{"

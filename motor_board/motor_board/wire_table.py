@@ -34,7 +34,13 @@ class FrameRow:
     type: int
     sender: str  # host | board
     about: str
-    fields: tuple[Field, ...]
+    own: tuple[Field, ...]
+    extends: "FrameRow | None" = None  # the kind whose fields come before its own
+
+    @property
+    def fields(self) -> tuple[Field, ...]:
+        """Of the body."""
+        return (*self.extends.fields, *self.own) if self.extends else self.own
 
     @property
     def layout(self) -> str:
@@ -72,11 +78,12 @@ def _field(row: Mapping[str, Any]) -> Field:
 def load_table(path: Path | None = None) -> WireTable:
     """Read wire.yaml."""
     raw = yaml_file.read(path or share() / "protocol" / "wire.yaml")
-    rows = [
-        FrameRow(name, row["type"], row["from"], row["about"], tuple(map(_field, row["fields"])))
-        for name, row in raw["frames"].items()
-    ]
-    return WireTable(raw["version"], raw["baud"], raw["longest_frame"], tuple(rows), raw["values"], raw["bits"])
+    rows: dict[str, FrameRow] = {}
+    for name, row in raw["frames"].items():
+        own, before = tuple(map(_field, row["fields"])), rows.get(row.get("extends", ""))
+        rows[name] = FrameRow(name, row["type"], row["from"], row["about"], own, before)
+    frames = tuple(rows.values())
+    return WireTable(raw["version"], raw["baud"], raw["longest_frame"], frames, raw["values"], raw["bits"])
 
 
 def seal(data: bytes) -> bytes:

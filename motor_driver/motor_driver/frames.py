@@ -181,7 +181,7 @@ class Sensed(Telemetry):
     """Board: telemetry of one that senses the motor's current. Since firmware 1.3."""
 
     TYPE: ClassVar[int] = 0x85
-    BODY: ClassVar[struct.Struct] = struct.Struct("<IhIIIHHBBBBH")
+    BODY: ClassVar[struct.Struct] = struct.Struct(Telemetry.BODY.format + "H")
     current: int  # [5 V/1024] at A1, just before the tick; NOT_MEASURED
 
 

@@ -186,36 +186,9 @@ static inline uint8_t *wire_put_telemetry(uint8_t *at, const struct wire_telemet
 /* From the board: telemetry of a board that was flashed to sense the motor's current, in place of it; since firmware 1.3. */
 #define WIRE_SENSED 0x85u
 #define WIRE_SENSED_SIZE 28u /* byte of body */
-struct wire_sensed {
-    uint32_t time; /* [tick] as in telemetry */
-    int16_t duty; /* [1/pwm_top] */
-    uint32_t edge_count;
-    uint32_t edge_time; /* [tick] */
-    uint32_t edge_period; /* [tick] */
-    uint16_t supply; /* [mV] */
-    uint16_t command;
-    uint8_t flags; /* flag */
-    uint8_t errors;
-    uint8_t boot;
-    uint8_t latch;
-    uint16_t current; /* [5 V/1024] at A1 in the middle of a PWM pulse, at most 350 us before the tick, while the duty before this one still acts; 65535: none yet */
-};
-static inline uint8_t *wire_put_sensed(uint8_t *at, const struct wire_sensed *frame)
-{
-    at = wire_put_u32(at, frame->time);
-    at = wire_put_i16(at, frame->duty);
-    at = wire_put_u32(at, frame->edge_count);
-    at = wire_put_u32(at, frame->edge_time);
-    at = wire_put_u32(at, frame->edge_period);
-    at = wire_put_u16(at, frame->supply);
-    at = wire_put_u16(at, frame->command);
-    at = wire_put_u8(at, frame->flags);
-    at = wire_put_u8(at, frame->errors);
-    at = wire_put_u8(at, frame->boot);
-    at = wire_put_u8(at, frame->latch);
-    at = wire_put_u16(at, frame->current);
-    return at;
-}
+/* The body of telemetry, then:
+   uint16_t current [5 V/1024] at A1 in the middle of a PWM pulse, at most 350 us before the tick, while the duty before this one still acts; 65535: none yet
+*/
 
 /* From the board: the time, as the answer to a ping. */
 #define WIRE_PONG 0x83u
