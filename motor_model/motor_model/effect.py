@@ -12,7 +12,7 @@ class Extent:
     speed: float  # [rad/s] the largest
     duration: float  # [s] the longest
     sample: float = 0.005  # [s] the shortest sample period
-    cycles: float = 48.0  # [1/rev] of the finest ripple that can be told from its mirror image
+    cycles: float = 48.0  # [1/rev of the encoder's shaft] of the finest ripple that can be told from its mirror image
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class Scale:
 
 
 ABSOLUTE = Scale()
-MOST_CERTAIN_CYCLES = 2.0  # [1/rev] that any disc shows
+MOST_CERTAIN_CYCLES = 2.0  # [1/rev of the encoder's shaft] that any disc shows
 
 
 @dataclass(frozen=True, slots=True)

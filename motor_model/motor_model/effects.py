@@ -7,6 +7,9 @@ The equation they belong to, in armature voltages throughout (see `motor.py`, wh
 An effect is its row here and its term in `dynamics/` (or `sensing/`): whatever else the workbench does with effects, it
 reads in the row (`effect.py` says what the columns mean). What is most common comes first: of two effects that explain
 a recording equally well, a diagnosis names the first.
+
+Speed and angle are those of the output. What turns with the encoder (on the motor, before a gear) is of the encoder's
+shaft: `ripple_cycles` counts its turns, `eccentricity` and both phases are angles of it. Without a gear these are one.
 """
 
 from math import inf, pi

@@ -42,7 +42,7 @@ def warmth(p: Floats, t: float) -> float:
 
 @compiled
 def loads_at(p: Floats, angle: float, t: float) -> float:
-    """All loads at an angle [rad] and a time [s], in V, cold."""
+    """All loads at an angle [rad] of the output and a time [s], in V, cold; ripple has cycles of the encoder's turn."""
     load = p[BIAS]
     if p[STEP] != 0.0 and t >= p[STEP_TIME]:
         load += p[STEP]
@@ -53,7 +53,7 @@ def loads_at(p: Floats, angle: float, t: float) -> float:
 
 @compiled
 def load_slope_at(p: Floats, angle: float) -> float:
-    """The slope of the loads over the angle [rad], in V/rad, cold."""
+    """The slope of the loads over the angle [rad] of the output, in V/rad, cold."""
     if p[RIPPLE] == 0.0:
         return 0.0
     cycles = p[CYCLES] * p[GEAR]

@@ -69,7 +69,7 @@ def make_lines_disc(
 
 @compiled
 def shown_angle(p: Floats, angle: float) -> float:
-    """What an eccentric disc shows of a shaft angle [rad]."""
+    """What an eccentric disc shows of an angle [rad] of the output; `eccentricity` is an angle of the disc itself."""
     if p[ECCENTRICITY] == 0.0:
         return angle
     return angle + p[ECCENTRICITY] / p[GEAR] * sin(p[GEAR] * angle + p[ECCENTRICITY_PHASE])
@@ -77,7 +77,7 @@ def shown_angle(p: Floats, angle: float) -> float:
 
 @compiled
 def shaft_angle_at(p: Floats, shown: float) -> float:
-    """The shaft's travel [rad] when the disc has shown this travel since the shaft was at 0; within e³."""
+    """The output's travel [rad] when the disc has shown this travel since the output was at 0; within e³."""
     e, phase, gear = p[ECCENTRICITY], p[ECCENTRICITY_PHASE], p[GEAR]
     if e == 0.0:
         return shown
@@ -87,7 +87,7 @@ def shaft_angle_at(p: Floats, shown: float) -> float:
 
 @compiled
 def show(p: Floats, angles: Floats, anchor: Floats) -> None:
-    """Replace shaft angles [rad] by what an eccentric disc shows of them; at `anchor` [rad], if that is not empty."""
+    """Replace the output's angles [rad] by what an eccentric disc shows of them; at `anchor` [rad], if not empty."""
     if p[ECCENTRICITY] != 0.0:
         for k in range(len(angles)):
             at = shaft_angle_at(p, anchor[k]) if len(anchor) > 0 else angles[k]
@@ -96,7 +96,7 @@ def show(p: Floats, angles: Floats, anchor: Floats) -> None:
 
 @compiled
 def _shaft_angle(p: Floats, shown: float) -> float:
-    """The shaft angle [rad] at which an eccentric disc shows this angle; the inverse of `shown_angle`."""
+    """The output's angle [rad] at which an eccentric disc shows this angle; the inverse of `shown_angle`."""
     e, gear = p[ECCENTRICITY] / p[GEAR], p[GEAR]
     if e == 0.0:
         return shown
