@@ -10,7 +10,8 @@ cd -P "$(dirname "${BASH_SOURCE[0]}")"
 root=$PWD venv=$PWD/.venv log=$PWD/log/setup.log
 
 say() { printf '[setup] %s\n' "$*"; }
-stop() { printf '[setup] %s\n' "$*" >&2; exit 1; }
+compiling= # a process beside this one
+stop() { [ -z "$compiling" ] || kill "$compiling" || true; printf '[setup] %s\n' "$*" >&2; exit 1; }
 quietly() { # what it is, then the command: run with the output in the log; show its end if it fails
   "${@:2}" >>"$log" 2>&1 || { tail -n 25 "$log" >&2; stop "$1 failed; see above, or the whole output in log/setup.log."; }
 }
@@ -134,7 +135,7 @@ rm -f "$stamp"
 if [ "$(cat "$venv/setup.lock" 2>/dev/null)" != "$(sha256sum <$lock)" ]; then
   say "installing $(grep -c '==' $lock) pinned packages (about a minute; log/setup.log has the details)"
   quietly "installing the pinned packages (needs the network)" \
-    "$venv/bin/python" -m pip install --disable-pip-version-check --no-input --no-deps --require-hashes -r $lock
+    "$venv/bin/python" -m pip install --disable-pip-version-check --no-input --no-deps --no-compile --require-hashes -r $lock
   sha256sum <$lock >"$venv/setup.lock"
 fi
 echo "$wanted" >"$venv/setup.kind"
@@ -150,19 +151,23 @@ if from_pypi; then
 fi
 
 # ---------------------------------------------------------------- the workspace
-say "building the packages with colcon"
 export PATH=$venv/bin:$PATH
+# Machine code needs the sources alone: it is made beside colcon's work, which keeps one core busy.
+say "building the packages with colcon, and compiling the motor (Numba caches)"
+sources=$(printf '%s:' "$root"/motor_{model,identification,control,ros})
+PYTHONPATH=$sources${PYTHONPATH:-} "$venv/bin/python" -c "
+from motor_control.warm_up import main as compile_the_observer
+from motor_identification.service.warm_up import main as compile_the_motor
+compile_the_motor()
+compile_the_observer()" >"$log.compiling" 2>&1 &
+compiling=$!
 quietly "building the packages" "$venv/bin/python" -m colcon --log-base log build --symlink-install \
   --base-paths motor_* --event-handlers console_direct- \
   --cmake-args -DBUILD_TESTING=OFF "-DPython3_EXECUTABLE=$venv/bin/python" --no-warn-unused-cli
 if from_pypi; then ln -sf "$root/ros2_stand_in/ros2" "$venv/bin/ros2"; fi
-
-say "compiling the motor (Numba caches)"
-set +u
-source env.sh
-set -u
-quietly "compiling the motor" "$venv/bin/python" -m motor_identification.service.warm_up
-quietly "compiling the observer" "$venv/bin/python" -m motor_control.warm_up
+"$venv/bin/python" -m compileall -q "$venv"/lib/python3*/site-packages >>"$log" 2>&1 || true # some hold templates, which are no Python
+compiled() { local status=0; wait "$compiling" || status=$?; compiling=; cat "$log.compiling"; rm -f "$log.compiling"; return $status; }
+quietly "compiling the motor" compiled
 
 fingerprint >"$stamp"
 say "done. Next: ./demo.sh, or 'source env.sh' and 'ros2 run motor_sim motor_sim'."

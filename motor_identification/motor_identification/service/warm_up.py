@@ -1,5 +1,10 @@
 """Compile everything a fit needs ahead of time: `python -m motor_identification.service.warm_up`."""
 
+from dataclasses import replace
+
+import numpy as np
+
+from motor_identification.diagnose import diagnose
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import recording_of
@@ -13,7 +18,7 @@ PERIODIC = tuple(effect.name for effect in EFFECTS if effect.periodic)
 
 
 def main() -> None:
-    """Fit a simulated step, as small as it gets; with what a diagnosis looks for in a spectrum too."""
+    """Fit a simulated step, as small as it gets; with what a diagnosis looks for in a spectrum and in what is left."""
     warm_up.main()
     motor, config = paper_motor(), BoardConfig()
     plan = make_plan(profile("step"), 10.0, motor.max_voltage, 1.0 / config.sample_rate)
@@ -21,6 +26,9 @@ def main() -> None:
     recordings = [recording_of(samples, config.info(motor), "warm-up")]
     for effects in ((), PERIODIC):
         identify(recordings, Request(effects, SearchConfig(4, 1)))
+    (recording,) = recordings
+    disturbed = recording.voltage + np.random.default_rng(0).normal(0.0, 0.5, len(recording))
+    diagnose([replace(recording, voltage=disturbed)], request=Request((), SearchConfig(4, 1), time_limit=20.0))
 
 
 if __name__ == "__main__":
