@@ -35,8 +35,7 @@ def compiled(function: F) -> F:
     folder = cache_of(module.__name__)
     _IN_USE.add(folder)
     # Numba files machine code under the path that a module was imported by, which may be a link to its source.
-    source = str(_source(module.__name__))
-    function.__code__ = function.__code__.replace(co_filename=source)  # type: ignore[attr-defined]
+    function.__code__ = function.__code__.replace(co_filename=str(_source(module.__name__)))
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = str(folder)
     try:
