@@ -9,7 +9,7 @@ from motor_driver.parameters import ROWS as DRIVER
 from motor_examples.diff_drive.parameters import ROWS as DIFF_DRIVE
 from motor_identification.service.parameters import PARAMETERS as IDENTIFICATION
 from motor_ros.parameters import SHARED_PARAMETERS, Row, max_voltage_row
-from motor_sim.node import PARAMETERS as SIM
+from motor_sim.parameters import PARAMETERS as SIM
 
 FOLDER = Path(__file__).resolve().parents[1] / "motor_bringup" / "config"
 SHARED = (*SHARED_PARAMETERS, max_voltage_row())

@@ -15,7 +15,7 @@ from motor_examples.diff_drive.parameters import PROGRAM as DIFF_DRIVE
 from motor_identification.service.parameters import PROGRAM as IDENTIFICATION
 from motor_ros.program import Program
 from motor_ros.topics import SERVICES, TOPICS
-from motor_sim.node import PROGRAM as SIM
+from motor_sim.parameters import PROGRAM as SIM
 
 FILE = Path(__file__).resolve().parents[1] / "motor_bringup" / "security" / "policy.xml"
 ALL = tuple(topic.name for topic in TOPICS)

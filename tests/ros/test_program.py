@@ -16,7 +16,7 @@ from motor_driver.parameters import PROGRAM as DRIVER
 from motor_examples.diff_drive.parameters import PROGRAM as DIFF_DRIVE
 from motor_identification.service.parameters import PROGRAM as IDENTIFICATION
 from motor_ros.program import Program
-from motor_sim.node import PROGRAM as SIM
+from motor_sim.parameters import PROGRAM as SIM
 
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = [SIM, DRIVER, CONTROL, IDENTIFICATION, EMULATOR, DIFF_DRIVE]

@@ -11,7 +11,7 @@ from motor_driver.parameters import ROWS as DRIVER
 from motor_examples.diff_drive.parameters import ROWS as DIFF_DRIVE
 from motor_identification.service.node import PARAMETERS as IDENTIFICATION
 from motor_ros.parameters import SHARED_PARAMETERS, max_voltage_row
-from motor_sim.node import PARAMETERS as SIM
+from motor_sim.parameters import PARAMETERS as SIM
 
 ROOT = Path(__file__).resolve().parents[2]
 # node: the parameter file, and the parameters it declares

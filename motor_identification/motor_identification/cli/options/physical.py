@@ -1,10 +1,10 @@
 """Options that ask for a motor in ohms and newton-metres."""
 
 import argparse
-from math import isfinite
 
 from motor_identification.estimation.request import PhysicalRequest
 from motor_model.errors import MotorError
+from motor_ros.command import positive
 
 
 def add_physical_options(parser: argparse.ArgumentParser) -> None:
@@ -21,7 +21,7 @@ def add_physical_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--torque-constant",
-        type=_positive,
+        type=positive,
         default=0.0,
         metavar="K",
         help="with --resistance: of the data sheet [N·m/A]; the rest of kv is then viscous friction",
@@ -41,17 +41,7 @@ def read_physical(options: argparse.Namespace) -> PhysicalRequest | None:
     return PhysicalRequest(*options.resistance, options.torque_constant)
 
 
-def _positive(text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = 0.0
-    if not (isfinite(number) and number > 0.0):
-        raise argparse.ArgumentTypeError(f"'{text}' is not a positive number.")
-    return number
-
-
 def _measured(text: str) -> tuple[float, float]:
     """Read 2.1, 2.1±0.1 or 2.1+-0.1."""
     value, _, error = text.replace("+/-", "±").replace("+-", "±").partition("±")
-    return _positive(value), _positive(error) if error else 0.0
+    return positive(value), positive(error) if error else 0.0
