@@ -2,19 +2,13 @@
 
 import argparse
 import sys
-import time
-from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from motor_ros.command import CommandParser, in_place, not_negative, positive, shell
 
-ANNOUNCED_GAP = 10.0  # [s] who sees nothing happen that long asks why
-LONGEST_GAP = 30 * 86400.0  # [s] no bag of a motor pauses for a month; garbled log times lie centuries off
-
 if TYPE_CHECKING:
     from motor_identification.bag import Contents
     from motor_identification.live.playback_schedule import Schedule
-    from motor_identification.live.publishers import Publishers
 
 _EXAMPLE = """\
 a recording beside a motor, by eye: let the motor (motor_sim with the model that identify found, or the real one) run
@@ -74,6 +68,7 @@ def _play(options: argparse.Namespace) -> int:
     import rclpy
 
     from motor_identification.bag import absolute_name, named_topic
+    from motor_identification.live.playback import Playback
     from motor_identification.live.playback_schedule import Schedule
     from motor_identification.live.publishers import Publishers
     from motor_ros.run import Interrupt, start_ros
@@ -92,7 +87,8 @@ def _play(options: argparse.Namespace) -> int:
         publishers.warn_of_others()
         print(f"Playing {publishers} from {options.bag}; Ctrl-C ends it.", flush=True)
         try:
-            _publish(options, bag, publishers, schedule, lambda: bool(interrupt))
+            playback = Playback(options.bag, bag, publishers, schedule, options.start_offset)
+            playback.run(lambda: bool(interrupt), options.loop)
         finally:
             publishers.close()
         node.destroy_node()
@@ -121,83 +117,6 @@ def _opened(uri: str, offset: float) -> "Contents":
     except RecordingError as error:  # it can be played all the same
         print(error, file=sys.stderr)
     return bag
-
-
-def _publish(
-    options: argparse.Namespace,
-    bag: "Contents",
-    publishers: "Publishers",
-    schedule: "Schedule",
-    interrupted: Callable[[], bool],
-) -> None:
-    start = (bag.span.first if bag.span else 0) + round(options.start_offset * 1e9)
-    for topic, data in _latched_before(start, options, bag, publishers):
-        publishers.publish(topic, data)
-    shown = time.monotonic()
-    damage: set[str] = set()
-    going = True
-    while going:
-        begun = False
-        for topic, log_time, data in _from(start, options.bag, publishers, damage):
-            if not begun:
-                schedule.begin(log_time)
-                begun = True
-            _check_gap(options.bag, schedule.gap(log_time))
-            if not schedule.wait(log_time, interrupted):
-                return
-            publishers.publish(topic, data)
-            if time.monotonic() - shown >= 1.0:
-                shown = time.monotonic()
-                in_place(f"{schedule.elapsed(log_time):.0f} of {bag.duration:.0f} s, {schedule.played} messages")
-        going = options.loop and begun
-
-
-def _check_gap(uri: str, gap: float) -> None:
-    """Announce a long pause [s], and refuse one that no recording has.
-
-    Raises:
-        RecordingError: a garbled log time, which would have us wait for ever.
-    """
-    from motor_model.errors import RecordingError
-
-    if gap > LONGEST_GAP:
-        days = gap / 86400.0
-        raise RecordingError(f"{uri}: the next message is {days:.0f} days later, so its log time is damaged: end here.")
-    if gap > ANNOUNCED_GAP:
-        in_place("")
-        print(f"{uri}: the next message comes {gap:.0f} s later.", file=sys.stderr)
-
-
-def _from(start: int, uri: str, wanted: "Publishers", damage: set[str]) -> Iterator[tuple[str, int, bytes]]:
-    """Topic, log time and data of the wanted messages from a log time on, in the order of time; damage is said once."""
-    from motor_identification.bag import in_time_order, messages
-
-    def tell(sentence: str) -> None:
-        if sentence not in damage:
-            in_place("")
-            print(sentence, file=sys.stderr)
-        damage.add(sentence)
-
-    for topic, _, log_time, data in in_time_order(messages(uri, wanted, tell), uri):
-        if log_time >= start:
-            yield topic, log_time, data
-
-
-def _latched_before(
-    start: int, options: argparse.Namespace, bag: "Contents", wanted: "Publishers"
-) -> Iterator[tuple[str, bytes]]:
-    """The latest message before a log time on each topic whose publisher kept it for those who came later."""
-    from motor_identification.bag import messages
-
-    if options.start_offset == 0.0:
-        return
-    latched = {
-        topic.name
-        for topic in bag.topics
-        if topic.name in wanted and any(profile.durability == "transient_local" for profile in topic.qos)
-    }
-    before = {topic: data for topic, _, log_time, data in messages(options.bag, latched) if log_time < start}
-    yield from before.items()
 
 
 def _summary(uri: str, schedule: "Schedule") -> str:
