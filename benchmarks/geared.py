@@ -31,6 +31,7 @@ from motor_identification.diagnose import diagnose
 from motor_identification.estimation.request import Request
 from motor_identification.identify import identify
 from motor_identification.recording import Recording, check, recording_of
+from motor_identification.uncertainty.result import Fit
 from motor_model.parameters import Parameters
 from motor_model.sensing.encoder import Lines
 
@@ -109,26 +110,37 @@ def hold(model: Parameters, tuning: Tuning, irregularity: float, reference: floa
     return np.array(speeds)
 
 
-def main() -> int:
-    """Write results/geared.md."""
-    recording = record(1)
-    fit = identify([recording], Request(TRUTH.effects))
+def tabulate_fit(fit: Fit) -> list[str]:
+    """Found values beside the truth."""
     rows = ["| | truth | found | error, in its standard errors |", "|---|---:|---:|---:|"]
     for name, value in TRUTH.values.items():
         found, error = fit.parameters.values[name], fit.standard_errors[name]
         rows.append(f"| `{name}` | {value:g} | {found:.5g} ± {error:.2g} | {(found - value) / error:+.1f} |")
     print("\n".join(rows), flush=True)
-    share = fit.slot_irregularity[0]
-    wish = Wish(lowest_speed=1.0, source="observer", oscillation=0.05)
-    tuning = tune(fit.parameters, Encoder(44, share, CONFIG.info(None).edge_resolution, float(GEAR)), wish)
+    return rows
+
+
+def tabulate_speeds(model: Parameters, tuning: Tuning, share: float) -> list[str]:
+    """What is held of each reference."""
     held = ["| reference | mean of the true speed | its RMS error | largest error |", "|---:|---:|---:|---:|"]
     for reference in SPEEDS:
-        error = hold(fit.parameters, tuning, share, reference) - reference
+        error = hold(model, tuning, share, reference) - reference
         held.append(
             f"| {reference:g} rad/s | {reference + error.mean():.4f} rad/s | {np.sqrt(np.mean(error**2)):.4f} rad/s "
             f"| {np.abs(error).max():.4f} rad/s |"
         )
         print(held[-1], flush=True)
+    return held
+
+
+def main() -> int:
+    """Write results/geared.md."""
+    recording = record(1)
+    fit = identify([recording], Request(TRUTH.effects))
+    rows, share = tabulate_fit(fit), fit.slot_irregularity[0]
+    wish = Wish(lowest_speed=1.0, source="observer", oscillation=0.05)
+    tuning = tune(fit.parameters, Encoder(44, share, CONFIG.info(None).edge_resolution, float(GEAR)), wish)
+    held = tabulate_speeds(fit.parameters, tuning, share)
     found = diagnose([recording])
     named = ", ".join(f"`{finding.effect}`" for finding in found.findings) or "nothing"
     lines = [
