@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"
 
 import numpy as np
 from exported_logs import Case, draw_case, write_case
-from machine import machine
+from machine import commit, machine
 
 from motor_identification.identify import Request, identify
 from motor_identification.logs.columns.guess import guess_forms
@@ -119,7 +119,7 @@ def main() -> None:
     troubles = Counter(bool(one.trouble) for one in results)[True]
     page = f"""# Round trip: our motors as other people's logs
 
-`python benchmarks/round_trip.py --cases {cases} --first {first}` ({machine()}).
+`python benchmarks/round_trip.py --cases {cases} --first {first}` (commit {commit()}; {machine()}).
 {__doc__.splitlines()[0]}
 Rates of 10 Hz to 1 kHz; speeds, positions, counts; 48 to 4096 counts a turn; values held for up to 4 rows, rows that
 jitter, whole milliseconds, semicolons and decimal commas, duties with a battery in mV, positions that wrap. 28 s of the
