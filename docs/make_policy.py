@@ -4,7 +4,7 @@ An enclave for each role, in the form that ROS 2's own `ros2 security generate_a
 denied. Who may publish motor/voltage and call motor/enable stands in one place, here.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
@@ -64,7 +64,10 @@ ROLES = (
     of_program("/motor/plant", BOARD),
     of_program("/motor/control", CONTROL),
     of_program("/motor/identification", IDENTIFICATION),
-    of_program("/motor/robot", DIFF_DRIVE),
+    replace(
+        of_program("/motor/robot", DIFF_DRIVE),
+        requests=(*DIFF_DRIVE.requests, *(f"{side}/motor_control/get_parameters" for side in ("left", "right"))),
+    ),
     Role(
         "/motor/experiment",
         "experiment",

@@ -8,6 +8,8 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
 from workbench import Bench, end
@@ -45,6 +47,11 @@ class Driver:
         self._publisher.publish(twist)
 
 
+def held(timeout: float) -> SetParameters.Request:
+    value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=timeout)
+    return SetParameters.Request(parameters=[Parameter(name="reference_timeout", value=value)])
+
+
 @pytest.mark.long
 def test_a_robot_is_driven_and_stops_where_one_wheel_does(bench: Bench, start: Start) -> None:
     for side in SIDES:
@@ -77,6 +84,11 @@ def test_a_robot_is_driven_and_stops_where_one_wheel_does(bench: Bench, start: S
     assert bench.call(SetBool, "left/motor/enable", SetBool.Request(data=True)).success
     driver.begins_again, before = True, joints["right"][-1].position[0]
     bench.wait(lambda: joints["right"][-1].position[0] < before - 1.0, "motion again")
+    assert bench.call(SetParameters, "right/motor_control/set_parameters", held(0.0)).results[0].successful
+    bench.wait(lambda: "right wheel would go on" in driver.reason, "a controller that holds for ever")
+    bench.wait(lambda: all(joints[side][-1].velocity[0] == 0.0 for side in SIDES), "a standstill")
+    assert bench.call(SetParameters, "right/motor_control/set_parameters", held(2.0)).results[0].successful
+    bench.wait(lambda: "would go on" not in driver.reason, "a controller that does not")
     end(drive)
     assert drive.returncode == 0
     bench.wait(lambda: all(states[side][-1].state == "disabled" for side in SIDES), "both motors let go")

@@ -144,18 +144,25 @@ def test_a_listener_that_tells_of_itself_as_seldom_as_ros_2_does_hears_all_of_it
 
 
 @pytest.mark.parametrize("last", [4.0, 0.0])
-def test_no_motor_is_left_under_a_voltage(bench: Bench, start: Start, tmp_path: Path, last: float) -> None:
+def test_no_motor_is_left_under_a_voltage_or_at_a_speed(
+    bench: Bench, start: Start, tmp_path: Path, last: float
+) -> None:
     with BagWriter(tmp_path / "bag") as writer:
         channel = writer.topic("/motor/voltage", "motor_msgs/msg/MotorVoltage", offered(qos.VOLTAGE))
+        reference = writer.topic("/motor/reference", "std_msgs/msg/Float64", offered(qos.REFERENCE))
         for k, volts in enumerate((1.0, 2.0, last)):
             stamp = time_message(k)
             writer.write(channel, 10**18 + k * PERIOD, serialize_message(voltage_message(volts, stamp, "us")))
+            writer.write(reference, 10**18 + k * PERIOD + 1, serialize_message(Float64(data=volts)))
     voltages = bench.hear(MotorVoltage, "motor/voltage", DEEP)
+    references = bench.hear(Float64, "motor/reference", DEEP)
     play = start("motor_identification", "play", tmp_path / "bag")
     bench.wait(lambda: play.poll() is not None, "the end of the bag")
     bench.wait(lambda: len(voltages) >= 3 and voltages[-1].voltage == 0.0, "0 V")
     expected = [1.0, 2.0, 4.0, 0.0] if last else [1.0, 2.0, 0.0]
     assert [message.voltage for message in voltages] == expected
+    bench.wait(lambda: len(references) >= len(expected), "a reference of 0")
+    assert [message.data for message in references] == expected
 
 
 def test_a_cut_bag_is_played_and_gets_its_metadata(start: Start, tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ from motor_control.controller.latency import track_latency
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
 from motor_control.controller.plant_watch import PlantWatch, watch_plant
 from motor_control.controller.reference.demand import Kind, Source
+from motor_control.controller.reference.position_law import FARTHEST
 from motor_control.controller.run import Config, Run, begin
 from motor_control.controller.state import NAMES, State, command_joint, drop, refer, release, reset, stop
 from motor_model.sample import Sample
@@ -36,6 +37,7 @@ TOLD = 0.5  # [s] for which it is said that a demand was not taken
 TIMED_OUT = "The last reference is older than reference_timeout ({:g} s)."
 STALE = "The sample is {:.0f} ms old and latency_limit is {:.0f} ms: give the controller more processor time."
 BAD_REFERENCE = "The reference is {}: publish a finite speed in rad/s on motor/reference."
+TOO_FAR = "The angle {:.3g} rad is farther than any motor turns: publish one in rad on motor/position_reference."
 BAD_SAMPLE = "A sample on motor/speed says {} = {}: find out what is wrong with the plant."
 NEVER_A_SAMPLE = "No sample has come on motor/speed yet: start motor_sim or motor_driver."
 SILENCE = "No sample on motor/speed for {:.1f} s: see whether motor_sim or motor_driver still runs."
@@ -135,6 +137,8 @@ def _find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, s
         return STOPPED, BAD_REFERENCE.format(demand.value)
     if demand.kind is Kind.POSITION and config.position is None:
         return STOPPED, config.no_position
+    if demand.kind is Kind.POSITION and config.position and abs(demand.value / config.position.slot) > FARTHEST:
+        return STOPPED, TOO_FAR.format(demand.value)
     return RUNNING, ""
 
 

@@ -61,6 +61,11 @@ TABLE: dict[str, tuple[str, str, tuple[str, ...]]] = {
         "not, the encoder's line lacks a pull-up (4.7 kΩ to 5 V) or its ground.",
         (),
     ),
+    "nobody_answered": (
+        "Nobody has said that the turn by hand is done: a hand may be on the shaft, and the motor is not driven.",
+        "Run it again and press Enter after the turn; where nobody is there, say --no-hand.",
+        (),
+    ),
     "a_missing": (
         "The shaft was turned by hand, and no edge came: channel A does not reach D8.",
         "See the encoder's signal A on D8, its supply and its ground.",

@@ -24,9 +24,10 @@ def judge_hand(settings: Settings, board: Hello, record: Record, turned: Turned)
         record.find(step, "a_missing")
     elif turned.said is Answer.NO:
         record.say(step, "the shaft cannot be turned by hand", UNKNOWN)
+    elif turned.said is None and settings.hand:
+        record.find(step, "nobody_answered")
     elif turned.said is None:
-        text = f"{turned.span} edges, but nobody has said when the turn was done" if turned.alive else "not tried"
-        record.say(step, f"{text}; a turn by hand would tell edges per revolution and direction", UNKNOWN)
+        record.say(step, "not tried; a turn by hand would tell edges per revolution and direction", UNKNOWN)
         if settings.edges(board) is None:
             record.find(step, "no_counts")
     else:

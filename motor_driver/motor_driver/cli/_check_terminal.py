@@ -112,6 +112,8 @@ class _Terminal:
             self._run.abort(f"the serial port {self._name} is gone")
 
     def _hear_keys(self, line: str) -> None:
+        if not line:  # its end: who might have answered is gone
+            self._run.abort("the terminal was closed")
         answer = ANSWERS.get(line.strip().lower()[:1])
         if answer is not None:
             self._run.answer(answer)

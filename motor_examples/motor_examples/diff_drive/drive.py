@@ -4,6 +4,7 @@ Whatever is in doubt, the robot stands:
 
     cmd_vel is older than its timeout    slow down to 0 within the limits, then let go of both motors
     cmd_vel is not a number              the same
+    cmd_vel has an old stamp             the same
     one wheel is in trouble              0 for both at once, then let go; a robot on one wheel turns in circles
 
 While it moves, the wheels are kept to what they should have turned by now: `travel_gain` times what a wheel is behind
@@ -15,7 +16,7 @@ through it has not seen it.
 """
 
 from dataclasses import dataclass, replace
-from math import isfinite
+from math import inf, isfinite
 
 from motor_examples.diff_drive.kinematics import (
     STILL,
@@ -37,6 +38,10 @@ PATIENCE = 2.0  # [s] at 0 rad/s after which they are let go whatever is reporte
 IDLE = "No velocity on cmd_vel; both motors are left alone."
 DRIVING = "Driving."
 STALE = "The last cmd_vel is older than cmd_vel_timeout ({:g} s)."
+OLD = (
+    "The stamp of cmd_vel is older than cmd_vel_timeout ({:g} s), or ahead by more: send it sooner, or set both "
+    "computers' clocks."
+)
 NOT_A_NUMBER = "cmd_vel is not a number: send a finite velocity."
 BEGIN = "{} Both wheels stop. Then send a cmd_vel of 0, or pause, before the next velocity."
 
@@ -77,12 +82,14 @@ class Decision:
     healthy: bool = True
 
 
-def take_command(config: Config, state: State, twist: Twist, now: float) -> State:
-    """Take a velocity that comes at `now` [s]; one that is not a number is a stop."""
+def take_command(config: Config, state: State, twist: Twist, now: float, age: float = 0.0) -> State:
+    """Take a velocity that comes at `now` [s]; one that is not a number, or old by its stamp (age [s]), is a stop."""
     silence = state.commanded is None or now - state.commanded > config.cmd_vel_timeout > 0.0
     state = replace(state, commanded=now)
     if not (isfinite(twist.linear) and isfinite(twist.angular)):
         return replace(state, command=None, trouble=NOT_A_NUMBER)
+    if not abs(age) <= (config.cmd_vel_timeout or inf):
+        return replace(state, command=None, trouble=OLD.format(config.cmd_vel_timeout))
     if state.trouble and not (silence or twist == STILL):
         return state
     return replace(state, command=twist, trouble="")

@@ -18,6 +18,12 @@ def quaternion_of(heading: float) -> Quaternion:
     return Quaternion(z=sin(0.5 * heading), w=cos(0.5 * heading))
 
 
+def stamp_age(stamp: Time, now: int) -> float:
+    """Compute how old [s] a stamp is at `now` [ns] of ROS time; 0 for one that was left empty."""
+    then = stamp.sec * 10**9 + stamp.nanosec
+    return (now - then) * 1e-9 if then else 0.0
+
+
 def odometry_message(pose: Pose, twist: Twist, stamp: Time, frames: tuple[str, str]) -> Odometry:
     """Make the message for `odom`; frames: the pose's, the robot's."""
     message = Odometry(child_frame_id=frames[1])

@@ -3,7 +3,11 @@
 import time
 from dataclasses import replace
 
+from rcl_interfaces.msg import ParameterType
+from rcl_interfaces.srv import GetParameters
+from rclpy.client import Client
 from rclpy.node import Node
+from rclpy.task import Future
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
@@ -25,7 +29,9 @@ class Motor:
         node.create_subscription(MotorSpeed, f"{name}/motor/speed", self._on_speed, qos.newest(qos.SPEED))
         node.create_subscription(MotorInfo, f"{name}/motor/info", self._on_info, qos.INFO)
         state = qos.newest(qos.CONTROL_STATE)
-        node.create_subscription(ControlState, f"{name}/motor/control_state", self._on_control_state, state)
+        heard = node.create_subscription(ControlState, f"{name}/motor/control_state", self._on_control_state, state)
+        self._controls = heard.topic_name
+        self._asked: Client | None = None  # for the parameters of who publishes there
 
     def refer(self, speed: float) -> None:
         """Ask for a speed [rad/s], forwards."""
@@ -35,6 +41,25 @@ class Motor:
         """Let go of the motor."""
         if self._release.service_is_ready():
             self._release.call_async(Trigger.Request())
+
+    def ask_controller(self) -> None:
+        """Ask the wheel's controller how long it holds a reference."""
+        infos = self._node.get_publishers_info_by_topic(self._controls)
+        if len(infos) != 1:
+            return
+        name = f"{infos[0].node_namespace.rstrip('/')}/{infos[0].node_name}/get_parameters"
+        if self._asked is None or self._asked.srv_name != name:
+            if self._asked is not None:
+                self._node.destroy_client(self._asked)
+            self._asked = self._node.create_client(GetParameters, name)
+        elif self._asked.service_is_ready():
+            request = GetParameters.Request(names=["reference_timeout"])
+            self._asked.call_async(request).add_done_callback(self._on_answer)
+
+    def _on_answer(self, future: Future) -> None:
+        response = future.result()
+        known = response is not None and response.values and response.values[0].type == ParameterType.PARAMETER_DOUBLE
+        self.wheel = replace(self.wheel, reference_timeout=response.values[0].double_value if known else None)
 
     def _on_speed(self, message: MotorSpeed) -> None:
         self.wheel = follow_sample(self.wheel, sample_of(message), time.monotonic())

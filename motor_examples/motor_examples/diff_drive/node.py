@@ -13,7 +13,7 @@ from rclpy.parameter import Parameter
 
 from motor_examples.diff_drive import drive
 from motor_examples.diff_drive.kinematics import Twist, Wheels, body_twist
-from motor_examples.diff_drive.messages import diagnostics_message, odometry_message, transform_message
+from motor_examples.diff_drive.messages import diagnostics_message, odometry_message, stamp_age, transform_message
 from motor_examples.diff_drive.motor import Motor
 from motor_examples.diff_drive.odometry import Pose, advance_pose
 from motor_examples.diff_drive.parameters import PROGRAM, ROWS, config_of
@@ -62,9 +62,11 @@ class DiffDrive(Node):
             return None
 
     def _on_cmd_vel(self, message: Any) -> None:
-        told = message.twist if isinstance(message, TwistStamped) else message
+        told, age = message, 0.0
+        if isinstance(message, TwistStamped):
+            told, age = message.twist, stamp_age(message.header.stamp, self.get_clock().now().nanoseconds)
         twist = Twist(told.linear.x, told.angular.z)
-        self._state = drive.take_command(self._config, self._state, twist, time.monotonic())
+        self._state = drive.take_command(self._config, self._state, twist, time.monotonic(), age)
 
     def _on_timer(self) -> None:
         wheels = (self._left.wheel, self._right.wheel)
@@ -95,6 +97,8 @@ class DiffDrive(Node):
             self._tf.publish(self._tf_type(transforms=[transform_message(self._pose, stamp, self._frames)]))
 
     def _on_second(self) -> None:
+        self._left.ask_controller()
+        self._right.ask_controller()
         name, stamp = self.get_fully_qualified_name(), self.get_clock().now().to_msg()
         wheels = (self._left.wheel, self._right.wheel)
         self._diagnostics.publish(diagnostics_message(self._decision, self._pose, wheels, name, stamp))

@@ -15,6 +15,10 @@ FAILED = ("stopped", "no_samples")
 NO_PLANT = "The {0} wheel has no motor: start its plant in the namespace {0}."
 NO_SAMPLES = "No sample of the {} wheel for {:.1f} s: see whether its plant still runs."
 NO_CONTROLLER = "The {0} wheel has no controller: start motor_control in the namespace {0}."
+HOLDS = (
+    "The controller of the {0} wheel would go on if this drive died: set its reference_timeout, "
+    "ros2 param set /{0}/motor_control reference_timeout 0.5."
+)
 NOT_RUNNING = "The {} wheel does not run: {}"
 OUTPUT_OFF = "The output of the {0} wheel is off: see why in /diagnostics, then call {0}/motor/enable."
 
@@ -34,6 +38,7 @@ class Wheel:
     reason: str = ""
     asked: float = 0.0  # [V] by its controller
     answered: float | None = None  # when its controller was last heard
+    reference_timeout: float | None = None  # [s] of its controller; 0: it holds a reference for ever; None: not known
     off_since: float | None = None  # since when the plant applies nothing of what is asked for
 
     @property
@@ -81,6 +86,8 @@ def find_trouble(wheel: Wheel, now: float, driven: float) -> str:
         return NO_SAMPLES.format(wheel.name, now - wheel.heard)
     if wheel.answered is None or now - wheel.answered > SILENCE:
         return NO_CONTROLLER.format(wheel.name)
+    if wheel.reference_timeout == 0.0:
+        return HOLDS.format(wheel.name)
     if wheel.state in FAILED or (driven > OBEYED and wheel.state != RUNNING):
         return NOT_RUNNING.format(wheel.name, wheel.reason or wheel.state)
     if wheel.off_since is not None and now - wheel.off_since > UNAPPLIED:

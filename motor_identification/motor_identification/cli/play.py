@@ -26,7 +26,8 @@ def parser() -> argparse.ArgumentParser:
         "motor_identification",
         "play",
         "Publish the messages of a bag again, with their original spacing and QoS, as they were "
-        "serialised. A plant that listens to motor/voltage will move its motor; at the end it gets 0 V.",
+        "serialised. A plant that listens to motor/voltage will move its motor; at the end it gets 0 V, and a "
+        "controller a reference of 0.",
         _EXAMPLE,
     )
     parser.add_argument("bag", metavar="BAG", help="a rosbag2 directory or a .mcap or .db3 file")

@@ -10,6 +10,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.serialization import deserialize_message
+from std_msgs.msg import Float64
 
 from motor_identification.bag import Contents, Topic
 from motor_identification.live.qos_profiles import to_play
@@ -44,6 +45,7 @@ class Publishers:
         self._node = node
         self._names = {name: names.get(name, name) for name in chosen or there}
         self.garbled = 0  # messages that were not sent, because they are not of their type
+        self._speeds: set[str] = set()  # topics of references [rad/s], the last of which was not 0
         self._last_voltage: dict[str, MotorVoltage] = {}
         self._by_topic: dict[str, Publisher] = {}  # by the name in the bag
         for name in self._names:
@@ -71,6 +73,8 @@ class Publishers:
         publisher.publish(data)
         if publisher.msg_type is MotorVoltage:
             self._last_voltage[topic] = message
+        elif publisher.msg_type is Float64 and self._names[topic].endswith("/motor/reference"):
+            (self._speeds.add if message.data else self._speeds.discard)(topic)
 
     def wait_for_subscribers(self, interrupted: Callable[[], bool]) -> None:
         """Let those connect who listen already, so that they get the first message too; finding them takes a while."""
@@ -99,7 +103,9 @@ class Publishers:
                 )
 
     def close(self) -> None:
-        """Leave no motor under a voltage, and wait until the last messages have arrived."""
+        """Leave no motor under a voltage or at a speed, and wait until the last messages have arrived."""
+        for topic in self._speeds:  # a controller holds its last reference
+            self._by_topic[topic].publish(Float64())
         for topic, last in self._last_voltage.items():
             if last.voltage != 0.0:
                 last.voltage = 0.0

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from motor_board.faults import Wiring
 from motor_driver.check.check import Check
-from motor_driver.check.look import OFF, Act, Answer, Look
+from motor_driver.check.look import OFF, Act, Answer, Look, Prompt
 from motor_driver.check.settings import Settings
 
 TOLD = Settings(edges_per_revolution=96)
@@ -120,6 +120,18 @@ def test_nobody_who_answers_is_waited_for_no_longer_than_was_said() -> None:
         check.see(Look(time, 0, 0.0))
         time += 0.005
     assert 4.9 < time - begun < 5.1
+
+
+@pytest.mark.parametrize("turning", [False, True])
+def test_a_shaft_that_may_be_in_a_hand_is_not_driven(turning: bool) -> None:
+    """Nobody has said that the turn is done: whoever turns it still does, or has gone."""
+    check, time, count = Check(Settings(edges_per_revolution=96, hand_time=5.0), hello()), 0.0, 0
+    while not check.done and time < 30.0:
+        count += turning and check.act.prompt is Prompt.TURN
+        act = check.see(Look(time, count, 0.01 * count))
+        assert act.voltage == 0.0 and not act.on
+        time += 0.005
+    assert check.record.codes == ["nobody_answered"] and not check.right
 
 
 def test_a_current_that_is_measured_gives_the_stall_current() -> None:

@@ -28,8 +28,8 @@ class Robot:
         self.edges = [0.0, 0.0]
         self.decisions: list[drive.Decision] = []
 
-    def send(self, twist: Twist) -> None:
-        self.state = drive.take_command(self.config, self.state, twist, self.now)
+    def send(self, twist: Twist, age: float = 0.0) -> None:
+        self.state = drive.take_command(self.config, self.state, twist, self.now, age)
 
     def wheel(self, side: int, name: str) -> Wheel:
         sample = Sample(round(self.now * 1e9), self.speeds[side], 1.0, round(self.edges[side]))
@@ -122,6 +122,19 @@ def test_what_is_not_a_number_is_a_stop(twist: Twist) -> None:
     assert decision.references == Wheels(0.0, 0.0) and "not a number" in decision.reason
     robot.run(0.2, SPEED)
     assert robot.run(DT, SPEED).references in (None, Wheels(0.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("age", "timeout", "obeyed"), [(0.4, 0.5, True), (0.6, 0.5, False), (-0.6, 0.5, False), (9.0, 0.0, True)]
+)
+def test_a_velocity_with_an_old_stamp_is_a_stop(age: float, timeout: float, obeyed: bool) -> None:
+    """So is one from the future: of two clocks that differ nobody can tell how old it is."""
+    robot = Robot(timeout=timeout)
+    robot.run(1.0, SPEED)
+    robot.send(SPEED, age)
+    decision = robot.run(DT)
+    assert (decision.references == Wheels(0.0, 0.0)) != obeyed
+    assert ("The stamp of cmd_vel is older" in decision.reason) != obeyed
 
 
 def test_a_wheel_that_stays_behind_makes_up_for_it_and_no_more_than_a_little() -> None:

@@ -75,6 +75,13 @@ def test_every_trouble_is_said_and_nothing_else() -> None:
         assert words in said and bool(words) == bool(said)
 
 
+def test_a_controller_that_would_go_on_alone_is_not_relied_on() -> None:
+    well = follow_controller(turned(TWO, [(0, 0.0)]), "running", "", 3.0, 0.0)
+    for timeout, words in ((None, ""), (0.5, ""), (0.0, "would go on if this drive died")):
+        said = find_trouble(replace(well, reference_timeout=timeout), 0.0, 9.0)
+        assert words in said and bool(words) == bool(said)
+
+
 def test_an_output_that_is_off_is_said_after_a_moment() -> None:
     wheel = follow_controller(turned(TWO, [(0, 0.0)]), "running", "", 3.0, 0.0)
     wheel = follow_sample(wheel, Sample(20_000_000, 0.0, 0.0), 0.0)

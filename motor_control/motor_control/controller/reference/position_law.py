@@ -18,6 +18,7 @@ TRIES = 4
 BRAKE_SHARE, FAST_SHARE = 0.25, 0.9  # of what the motor can
 SLOTS_PER_SECOND = 25.0  # the slowest approach: the observer has an edge every 40 ms to go by
 PUSHES = 10
+FARTHEST = 2.0**31  # [slots] from the plant's start: days of any motor's motion, and so a mistake
 PUSHED = (
     "The motor was pushed out of the angle that it had reached {} times: friction does not hold the load. It gets 0 V; "
     "ask for an angle again."

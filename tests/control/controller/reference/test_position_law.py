@@ -81,6 +81,17 @@ def test_an_angle_that_cannot_be_had_is_refused_with_a_sentence(single: bool, so
     assert output.terms.voltage == 0.0 and output.state == "stopped" and words in output.reason
 
 
+@pytest.mark.parametrize(("angle", "runs"), [(1.3e8, True), (1.5e8, False), (-1e308, False)])
+def test_an_angle_beyond_all_motion_is_refused(angle: float, runs: bool) -> None:
+    """2^31 slots of 96 a turn are 1.4e8 rad; 1e308 rad ended the node with an OverflowError."""
+    board = BoardConfig(single_channel=False)
+    config = settings(motor(), board.info(motor()), speed_source="observer")
+    state = controller.refer(controller.State(), angle, 0.0, Kind.POSITION)
+    output, _ = controller.update(config, state, SimulatedBoard(motor(), board).sample(0.0), None, 0.0)
+    assert (output.state == "running") == runs
+    assert runs or (output.terms.voltage == 0.0 and "farther than any motor turns" in output.reason)
+
+
 def test_the_approach_slows_down_and_is_never_too_slow_for_friction() -> None:
     state = position_law.begin(LAW, 100.0)
     aims = [position_law.approach(LAW, state, 100.0, count, False)[0].speed for count in range(1001)]
