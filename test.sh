@@ -13,7 +13,8 @@ if [ $# -gt 0 ]; then
   exit
 fi
 status=0
-run() { pytest "$@" || { local code=$?; [ $code -eq 1 ] || exit $code; status=1; }; } # 1: some test failed
+# Assertions are not rewritten to say more, which takes every worker of a fresh clone 6 s: what fails is run again.
+run() { pytest --assert=plain "$@" || { local code=$?; [ $code -eq 1 ] || exit $code; status=1; }; } # 1: some test failed
 cores=$(nproc)
 workers=$((cores < 4 ? cores + 1 : 4)) # one more than cores, for many tests wait; each has ROS domains of its own
 run --cache-clear -n "$workers" --dist worksteal -m "not on_time"
@@ -22,6 +23,8 @@ failed=$(grep -sc '": true' .pytest_cache/v/cache/lastfailed || true) # in both 
 if ((status == 1 && failed > 0 && failed <= 5)); then
   echo "[test] $failed failed, and are run once more, alone: on a busy machine a live test may fail, a mistake fails twice."
   status=0
-  run --last-failed
+  run --assert=rewrite --last-failed
+elif ((status == 1)); then
+  echo "[test] './test.sh --last-failed' runs what failed once more, and says what was compared."
 fi
 exit $status

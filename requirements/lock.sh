@@ -12,6 +12,9 @@ for set in everything beside_ros; do
   drop "sys_platform == 'win32'" <"$set.lock" >"$set.new"
   mv "$set.new" "$set.lock"
 done
+# What colcon asks for to run tests with, and nobody does: Numba imports coverage where it is, 60 ms of every start.
+drop '^(coverage|pytest-cov|pytest-repeat|pytest-rerunfailures)==' <everything.lock >everything.new
+mv everything.new everything.lock
 # The distribution's own packages stay, with what they need: only what it lacks is pinned there.
 drop '^(numpy|scipy|matplotlib|pyyaml|tqdm|contourpy|cycler|fonttools|kiwisolver|pillow|pyparsing|python-dateutil|six|tzdata)==' \
   <beside_ros.lock >beside_ros.new

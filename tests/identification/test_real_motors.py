@@ -215,13 +215,17 @@ def test_the_same_names_where_nobody_says_what_a_count_is() -> None:
 
 
 def test_diagnosis_of_a_coasting_bridge_predicts_its_static_curve() -> None:
-    """Two effects that only together explain anything; the same kv as years later with a braking bridge."""
-    found, named = found_in(coasting())
-    assert found.verdict is Verdict.UNEXPLAINED  # a rest of twice the floor is nothing that is in the table
-    assert named == {"coulomb_friction": ("load_bias", "dead_zone"), "coast_drive": ()}
-    assert 0.41 < found.gap_before < 0.42 and 1.8 < found.gap_after / found.noise_floor < 2.1
+    """Two effects that only together explain anything; the same kv as years later with a braking bridge.
+
+    Of either day the first 15 s; benchmarks/real_motors.py diagnoses all of it, at five times the time.
+    """
+    found, named = found_in([recording.between(0.0, 15.0) for recording in coasting()])
+    assert found.verdict is Verdict.UNDECIDED
+    lag = {"transport_delay": ("armature_inductance",)}
+    assert named == {"coulomb_friction": ("load_bias", "dead_zone"), "coast_drive": (), **lag}
+    assert 0.38 < found.gap_before < 0.41 and 0.95 < found.gap_after / found.noise_floor < 1.15
     values = found.model.parameters.values
-    assert 0.98 < values["coast_share"] <= 1.0 and 0.354 < values["kv"] < 0.362 and 0.30 < values["ks"] < 0.325
+    assert 0.97 < values["coast_share"] <= 1.0 and 0.348 < values["kv"] < 0.358 and 0.295 < values["ks"] < 0.315
     table = np.genfromtxt(DATA / "undc/static_coast_2024-08-05.csv", delimiter=",", names=True)
     for fit, low, high in ((found.baseline, 8.0, 8.7), (found.model, 0.2, 0.4)):
         errors = []

@@ -33,7 +33,7 @@ def test_a_file_that_cannot_be_written_costs_neither_the_fit_nor_the_others(
     assert said.err == "cannot write the model file /dev/full: No space left on device.\n"
 
 
-@pytest.mark.parametrize("name", [r"$\frac{", "a$b$c", "\x1b[2J", "<script>"])
+@pytest.mark.parametrize("name", [r"$\frac{a$b$c", "\x1b[2J<script>"])
 def test_a_name_with_odd_characters_is_drawn_as_it_is(
     bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
 ) -> None:
