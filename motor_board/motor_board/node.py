@@ -4,7 +4,7 @@ import time
 from dataclasses import fields, replace
 from pathlib import Path
 
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -22,6 +22,7 @@ from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 from motor_model.sensing.encoder import Lines
 from motor_ros import qos
+from motor_ros.messages import diagnostic_message
 from motor_ros.parameters import declare
 from motor_ros.plant import steady_timer
 from motor_ros.run import run
@@ -89,14 +90,14 @@ class BoardEmulator(Node):
             raise self._board.error
         truth = self._board.truth()
         values = truth.named(time.time_ns() - time.monotonic_ns())
-        status = DiagnosticStatus(
-            name=f"{self.get_fully_qualified_name()}: truth",
-            message=HELD_UP.format(truth.held_up) if truth.held_up else "",
-            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
+        told = diagnostic_message(
+            f"{self.get_fully_qualified_name()}: truth",
+            DiagnosticStatus.OK,
+            HELD_UP.format(truth.held_up) if truth.held_up else "",
+            {key: str(value) for key, value in values.items()},
+            self.get_clock().now().to_msg(),
         )
-        array = DiagnosticArray(status=[status])
-        array.header.stamp = self.get_clock().now().to_msg()
-        self._diagnostics.publish(array)
+        self._diagnostics.publish(told)
 
     def destroy_node(self) -> None:
         """Take the port away, then the node."""

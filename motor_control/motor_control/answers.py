@@ -48,9 +48,8 @@ class Answers:
         """Publish the diagnostic of the second that is over."""
         name = f"{self._node.get_fully_qualified_name()}: {self._header.frame_id or 'no motor yet'}"
         rivals = self._node.count_publishers("motor/voltage")
-        message = diagnostics_message(self._output, config, self._answered, self._worst, rivals, name)
-        message.header.stamp = self._now()
-        self._diagnostics.publish(message)
+        told = diagnostics_message(self._output, config, self._answered, self._worst, rivals, name, self._now())
+        self._diagnostics.publish(told)
         self._answered, self._worst = 0, 0.0
 
     def close(self) -> None:

@@ -1,6 +1,7 @@
 """Turn what the controller says into messages."""
 
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 
@@ -9,6 +10,7 @@ from motor_control.controller.reference.demand import Demand
 from motor_control.controller.reference.joint_command import Unreadable, read_joint_command
 from motor_control.controller.run import Config
 from motor_msgs.msg import ControlState
+from motor_ros.messages import diagnostic_message
 
 LEVELS = {
     RUNNING: DiagnosticStatus.OK,
@@ -51,7 +53,7 @@ def joint_demand_of(message: JointState, config: Config) -> Demand | str | None:
 
 
 def diagnostics_message(
-    output: Output, config: Config, answered: int, worst: float, publishers: int, name: str
+    output: Output, config: Config, answered: int, worst: float, publishers: int, name: str, stamp: Time
 ) -> DiagnosticArray:
     """Make one status: state, samples `answered` in the last second, their `worst` latency [s], publishers."""
     problem = RIVALS if publishers > 1 else ""
@@ -65,10 +67,5 @@ def diagnostics_message(
         "speed source": "measured" if config.observer is None else "observer",
         "feedforward": str(config.feedforward is not None).lower(),
     }
-    status = DiagnosticStatus(
-        level=max(LEVELS[output.state], DiagnosticStatus.WARN if problem or output.warning else DiagnosticStatus.OK),
-        name=name,
-        message=problem or output.reason or output.state,
-        values=[KeyValue(key=key, value=value) for key, value in values.items()],
-    )
-    return DiagnosticArray(status=[status])
+    level = max(LEVELS[output.state], DiagnosticStatus.WARN if problem or output.warning else DiagnosticStatus.OK)
+    return diagnostic_message(name, level, problem or output.reason or output.state, values, stamp)

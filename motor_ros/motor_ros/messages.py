@@ -1,8 +1,10 @@
 """Our messages and the plain values they carry, both ways."""
 
+from collections.abc import Mapping
 from dataclasses import fields
 
 from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from motor_model.errors import MotorError
 from motor_model.printable import escape
@@ -71,6 +73,17 @@ def voltage_message(voltage: float, stamp: Time, name: str) -> MotorVoltage:
     message = MotorVoltage(voltage=voltage)
     message.header.stamp = stamp
     message.header.frame_id = name
+    return message
+
+
+def diagnostic_message(
+    name: str, level: bytes, sentence: str, values: Mapping[str, str], stamp: Time, hardware: str = ""
+) -> DiagnosticArray:
+    """One status for `/diagnostics`; level: one of DiagnosticStatus, hardware: the motor that it is of."""
+    pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
+    status = DiagnosticStatus(name=name, level=level, message=sentence, hardware_id=hardware, values=pairs)
+    message = DiagnosticArray(status=[status])
+    message.header.stamp = stamp
     return message
 
 

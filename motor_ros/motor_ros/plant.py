@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 
 from builtin_interfaces.msg import Time
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
@@ -15,7 +15,7 @@ from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.gate import OFF, STOPPED, Gate
-from motor_ros.messages import info_message, speed_message
+from motor_ros.messages import diagnostic_message, info_message, speed_message
 from motor_ros.voltage_input import VoltageInput
 
 STEADY = Clock(clock_type=ClockType.STEADY_TIME)
@@ -95,16 +95,15 @@ class Plant:
         message = " ".join(filter(None, (problem, self.gate.problem(now, self._input.senders(self._node)))))
         level = DiagnosticStatus.WARN if message else DiagnosticStatus.OK
         sender = self.gate.sender.name if self.gate.sender and self.gate.fresh(now) else ""
-        status = DiagnosticStatus(
-            level=DiagnosticStatus.ERROR if self.gate.stopped else level,
-            name=f"{self._node.get_fully_qualified_name()}: {self.info.name}",
-            hardware_id=self.info.name,
-            message=message or self.gate.state(now),
-            values=[KeyValue(key=key, value=value) for key, value in {**values, "voltage sender": sender}.items()],
+        told = diagnostic_message(
+            f"{self._node.get_fully_qualified_name()}: {self.info.name}",
+            DiagnosticStatus.ERROR if self.gate.stopped else level,
+            message or self.gate.state(now),
+            {**values, "voltage sender": sender},
+            self._node.get_clock().now().to_msg(),
+            self.info.name,
         )
-        array = DiagnosticArray(status=[status])
-        array.header.stamp = self._node.get_clock().now().to_msg()
-        self._diagnostics.publish(array)
+        self._diagnostics.publish(told)
 
     def _on_voltage(self, voltage: float, sender: str, number: int | None) -> None:
         now, before = time.monotonic_ns(), self.gate

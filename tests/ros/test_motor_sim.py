@@ -1,14 +1,12 @@
-"""The simulated motor as a process: what it reports is the motor it was told to be, and it stops when it should."""
+"""The simulated motor as a process; what it has in common with the real one is in tests/system/test_plants.py."""
 
 from collections.abc import Callable
-from math import tau
 from pathlib import Path
 from subprocess import Popen
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from plant_user import User
-from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from workbench import PATIENCE, Bench, end
@@ -27,51 +25,6 @@ LATER = 6_000_000_000  # [ns] on a plant's clock, which begins at 1 s: the next 
 @pytest.fixture
 def user(bench: Bench) -> User:
     return User(bench)
-
-
-@pytest.mark.on_time
-def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, start: Start, user: User) -> None:
-    process = start("motor_sim", "motor_sim", *PATIENT, "-p", "name:=wheel", "-p", "max_voltage:=6.0")
-    info = bench.hear(MotorInfo, "motor/info", qos.INFO)
-    joints = bench.hear(JointState, "joint_states", qos.JOINT_STATES)
-    user.voltage = 8.0  # more than there is
-    user.until(lambda sample: sample.speed > 0.99 * 6.0 / PAPER_KV, "full speed")
-    user.until(lambda sample: len(user.samples) > 300, "more samples")
-    assert (info[0].name, info[0].source, info[0].measurement) == ("wheel", "simulation", "edges")
-    assert (info[0].edges_per_revolution, info[0].max_voltage, info[0].sample_period) == (96, 6.0, 0.005)
-
-    steady = user.samples[-100:]
-    assert {sample.voltage for sample in steady} == {6.0}
-    assert {sample.header.frame_id for sample in steady} == {"wheel"}
-    assert {b.sample_time - a.sample_time for a, b in zip(steady, steady[1:], strict=False)} == {5_000_000}
-    assert all((sample.edge_time - 1_000_000_000) % 4000 == 0 for sample in steady)  # the tick, from power-up
-    first, last = steady[0], steady[-1]
-    turned = (last.edge_count - first.edge_count) * tau / 96
-    assert turned / ((last.edge_time - first.edge_time) * 1e-9) == pytest.approx(6.0 / PAPER_KV, rel=1e-4)
-    assert last.speed == pytest.approx(6.0 / PAPER_KV, rel=0.01)
-    bench.wait(lambda: len(joints) > 10, "joint states")
-    assert joints[-1].name == ["wheel"] and joints[-1].position[0] > joints[-5].position[0]
-    end(process)
-    assert process.returncode == 0
-
-
-@pytest.mark.on_time
-def test_stops_without_commands_and_while_disabled(bench: Bench, start: Start, user: User) -> None:
-    start("motor_sim", "motor_sim")
-    user.voltage = 5.0
-    user.until(lambda sample: sample.speed > 30.0, "motion")
-    user.sending = False
-    silent = user.until(lambda sample: sample.voltage == 0.0, "0 V after the time-out")
-    last = max(sample.sample_time for sample in user.samples if sample.voltage == 5.0)
-    assert 0.0 < (silent.sample_time - last) * 1e-9 < 0.15
-    user.sending = True
-    user.until(lambda sample: sample.voltage == 5.0, "commands again")
-    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=False)).success
-    user.until(lambda sample: sample.voltage == 0.0, "the output off")
-    user.until(lambda sample: sample.speed == 0.0, "a true zero")
-    assert all(sample.voltage == 0.0 for sample in user.samples[-50:])
-    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
-    user.until(lambda sample: sample.voltage == 5.0, "the output on")
 
 
 @pytest.mark.parametrize("number", [float("nan"), float("inf")])
@@ -96,7 +49,7 @@ def test_loads_a_model_and_says_what_it_simulates(bench: Bench, start: Start, us
     user.voltage = 5.0
     fast = user.until(lambda sample: sample.speed > 39.0, "motion")
     assert fast.speed < 41.5  # (5 V − 1 V)/0.1, the disc is regular
-    assert info[0].max_voltage == 9.0
+    assert (info[0].source, info[0].max_voltage) == ("simulation", 9.0)
     bench.wait(lambda: bool(status) and status[-1].status[0].level == b"\x00", "diagnostics without a complaint")
     assert "motor_sim" in status[-1].status[0].name
     _, err = end(process)

@@ -20,6 +20,7 @@ START = 1_760_000_000_123_456_789  # [ns] log time of the first sample
 PERIOD = 5_000_000  # [ns]
 COLUMNS = ("sample_time", "speed", "voltage", "edge_count", "edge_time", "edge_period", "supply_voltage", "current")
 INFO = Info(name="wheel", max_voltage=9.0)
+SPEED = "motor_msgs/msg/MotorSpeed"
 
 
 def assert_is(recording: Recording, samples: list[Sample]) -> None:
@@ -86,6 +87,18 @@ def write_bag(
             if chunk and k % chunk == chunk - 1:
                 writer.flush()
     return path
+
+
+def fill(writer: BagWriter) -> int:
+    """Write samples, flushing now and then as a recorder does; returns how many had been flushed at the refusal."""
+    channel, flushed = writer.topic("/motor/speed", SPEED), 0
+    for k, one in enumerate(SAMPLES):
+        data = serialize_message(speed_message(one, time_message(START + k * PERIOD), "wheel"))
+        writer.write(channel, START + k * PERIOD, data)
+        if k % 100 == 99:
+            writer.flush()
+            flushed = k + 1
+    return flushed
 
 
 def refusal(uri: Path, namespace: str = "") -> str:

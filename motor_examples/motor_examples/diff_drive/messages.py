@@ -3,7 +3,7 @@
 from math import cos, sin
 
 from builtin_interfaces.msg import Time
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Quaternion, TransformStamped
 from nav_msgs.msg import Odometry
 
@@ -11,6 +11,7 @@ from motor_examples.diff_drive.drive import Decision
 from motor_examples.diff_drive.kinematics import Twist
 from motor_examples.diff_drive.odometry import Pose
 from motor_examples.diff_drive.wheel import Wheel
+from motor_ros.messages import diagnostic_message
 
 
 def quaternion_of(heading: float) -> Quaternion:
@@ -50,12 +51,5 @@ def diagnostics_message(
     values = {f"{wheel.name} wheel": wheel.state or "not heard" for wheel in wheels}
     values |= {f"{wheel.name} angle [rad]": f"{wheel.angle:.3f}" for wheel in wheels}
     values |= {"x [m]": f"{pose.x:.4f}", "y [m]": f"{pose.y:.4f}", "heading [rad]": f"{pose.heading:.4f}"}
-    status = DiagnosticStatus(
-        level=DiagnosticStatus.OK if decision.healthy else DiagnosticStatus.ERROR,
-        name=name,
-        message=decision.reason,
-        values=[KeyValue(key=key, value=value) for key, value in values.items()],
-    )
-    message = DiagnosticArray(status=[status])
-    message.header.stamp = stamp
-    return message
+    level = DiagnosticStatus.OK if decision.healthy else DiagnosticStatus.ERROR
+    return diagnostic_message(name, level, decision.reason, values, stamp)

@@ -8,6 +8,7 @@ import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.multistart import SearchReport
+from motor_identification.estimation.problem import Problem
 from motor_identification.estimation.whitened_fit import WhitenedFit
 from motor_identification.uncertainty.absence import find_absent_effects
 from motor_identification.uncertainty.identifiability import find_confusable_effects, suggest_profile
@@ -61,8 +62,7 @@ def summarise_fit(
     elapsed: [s] since the identification began, asked once everything else is known. asked: effects that the fit was
     asked for; what nothing spoke for is not in it.
     """
-    problem, theta = fit.problem, fit.theta
-    unknowns, weight, speed = problem.unknowns, problem.weight, problem.speed
+    unknowns, theta = fit.problem.unknowns, fit.theta
     jacobian = fit.residuals.jacobian(theta)
     sure = estimate_uncertainty(fit, jacobian)
     alike = find_confusable_effects(fit, jacobian, sure.errors, sure.not_identifiable)
@@ -74,7 +74,6 @@ def summarise_fit(
     alike = {effect: rivals for effect, rivals in alike.items() if effect not in absent}
     errors = unknowns.value_errors(theta, sure.errors)
     cost = fit.estimate.cost
-    variance = float(np.sum(weight * (speed - np.sum(weight * speed)) ** 2))
     return Fit(
         parameters=fit.estimate.parameters,
         standard_errors={name: nan if name in noise else error for name, error in errors.items()},
@@ -86,20 +85,29 @@ def summarise_fit(
         suggested_experiment=_suggest_experiment(open_ones, alike),
         residual_rms=float(np.sqrt(cost)),
         noise_floor=fit.residuals.noise_floor,
-        r_squared=1.0 - cost / variance if variance > NO_VARIANCE * float(np.max(speed**2)) else float("nan"),
+        r_squared=compute_r_squared(fit.problem, cost),
         whiteness=sure.whiteness,
         slot_irregularity=tuple(encoder.irregularity for encoder in fit.residuals.encoders),
         start_speeds=tuple(float(v) for v in unknowns.decode(theta[None])[1][0]),
         search=search,
         evaluations=fit.estimate.simulations,
-        uris=tuple(recording.uri for recording in problem.recordings),
-        notes=(
-            *(note for recording in problem.recordings for note in recording.notes),
-            *(describe_dissent(one) for one in compare_recordings(fit) if one.disagrees),
-            *notes,
-        ),
+        uris=tuple(recording.uri for recording in fit.problem.recordings),
+        notes=(*_list_own_notes(fit), *notes),
         duration=elapsed(),
     )
+
+
+def compute_r_squared(problem: Problem, cost: float) -> float:
+    """Compute the share of the measured speed's variance that a fit of this cost explains; NaN where there is none."""
+    weight, speed = problem.weight, problem.speed
+    variance = float(np.sum(weight * (speed - np.sum(weight * speed)) ** 2))
+    return 1.0 - cost / variance if variance > NO_VARIANCE * float(np.max(speed**2)) else nan
+
+
+def _list_own_notes(fit: WhitenedFit) -> list[str]:
+    """List what the recordings say of themselves, and where they disagree."""
+    notes = [note for recording in fit.problem.recordings for note in recording.notes]
+    return notes + [describe_dissent(one) for one in compare_recordings(fit) if one.disagrees]
 
 
 def _own(effect: str) -> tuple[ParameterSpec, ...]:

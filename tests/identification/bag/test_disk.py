@@ -8,14 +8,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from motor_bags import PERIOD, SAMPLES, START, assert_is, write_bag
-from rclpy.serialization import serialize_message
+from motor_bags import SAMPLES, START, assert_is, fill, write_bag
 
 from motor_identification.bag import BagWriter, contents, read_recording, repair
 from motor_model.errors import RecordingError
-from motor_ros.messages import speed_message, time_message
 
-SPEED = "motor_msgs/msg/MotorSpeed"
 NOBODY = 65534
 
 
@@ -28,18 +25,6 @@ def files_up_to(size: int) -> Iterator[None]:
         yield
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
-
-
-def fill(writer: BagWriter) -> int:
-    """Write samples, flushing now and then as a recorder does; returns how many had been flushed at the refusal."""
-    channel, flushed = writer.topic("/motor/speed", SPEED), 0
-    for k, one in enumerate(SAMPLES):
-        data = serialize_message(speed_message(one, time_message(START + k * PERIOD), "wheel"))
-        writer.write(channel, START + k * PERIOD, data)
-        if k % 100 == 99:
-            writer.flush()
-            flushed = k + 1
-    return flushed
 
 
 @pytest.mark.parametrize("size", [20_000, 20_100, 37_777])

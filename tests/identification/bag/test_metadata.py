@@ -4,28 +4,12 @@ from pathlib import Path
 
 import yaml
 from mcap.reader import make_reader
-from motor_bags import PERIOD, SAMPLES, START
-from rclpy.serialization import serialize_message
+from motor_bags import SPEED, START, fill
 
 from motor_identification.bag import BagWriter, contents
 from motor_identification.bag.contents import Contents, Span
 from motor_identification.bag.metadata import bag_metadata, read_metadata, write_metadata
 from motor_identification.bag.topic import Topic
-from motor_ros.messages import speed_message, time_message
-
-SPEED = "motor_msgs/msg/MotorSpeed"
-
-
-def fill(writer: BagWriter) -> int:
-    """Write samples, flushing now and then as a recorder does; returns how many had been flushed at the refusal."""
-    channel, flushed = writer.topic("/motor/speed", SPEED), 0
-    for k, one in enumerate(SAMPLES):
-        data = serialize_message(speed_message(one, time_message(START + k * PERIOD), "wheel"))
-        writer.write(channel, START + k * PERIOD, data)
-        if k % 100 == 99:
-            writer.flush()
-            flushed = k + 1
-    return flushed
 
 
 def test_what_was_noted_stands_in_file_and_metadata_and_survives_a_crash(tmp_path: Path) -> None:

@@ -4,26 +4,10 @@ from pathlib import Path
 
 import pytest
 import yaml
-from motor_bags import PERIOD, SAMPLES, START, rewritten, write_bag
-from rclpy.serialization import serialize_message
+from motor_bags import SAMPLES, fill, rewritten, write_bag
 from rosbags.rosbag2 import CompressionMode, Reader, StoragePlugin
 
 from motor_identification.bag import BagWriter, repair
-from motor_ros.messages import speed_message, time_message
-
-SPEED = "motor_msgs/msg/MotorSpeed"
-
-
-def fill(writer: BagWriter) -> int:
-    """Write samples, flushing now and then as a recorder does; returns how many had been flushed at the refusal."""
-    channel, flushed = writer.topic("/motor/speed", SPEED), 0
-    for k, one in enumerate(SAMPLES):
-        data = serialize_message(speed_message(one, time_message(START + k * PERIOD), "wheel"))
-        writer.write(channel, START + k * PERIOD, data)
-        if k % 100 == 99:
-            writer.flush()
-            flushed = k + 1
-    return flushed
 
 
 def test_the_metadata_of_a_whole_bag_is_written_as_it_was(tmp_path: Path) -> None:
