@@ -15,6 +15,7 @@
 #include "config.h"
 #include "device.h"
 #include "frame.h"
+#include "lines.h"
 #include "quadrature.h"
 #include "sense.h"
 #include "serial.h"
@@ -66,24 +67,14 @@ uint32_t main_now(void)
 }
 
 #if MOTOR_CHANNELS == 2
-static inline bool b_is_high(void)
-{
-    return PIND & _BV(PD7); /* D7 */
-}
-
-static inline uint8_t read_lines(void)
-{
-    return (uint8_t)((PINB & _BV(PB0) ? QUADRATURE_A : 0u) | (b_is_high() ? QUADRATURE_B : 0u));
-}
-
 /* The capture unit is set to A's next flank. One that came before that has the time of its being noticed. */
 static inline void see_a(uint16_t counter)
 {
     for (;;) {
-        uint8_t lines = read_lines();
+        uint8_t lines = lines_read();
         quadrature_see_a(&device.edges, counter, clock_overflow_pending(), lines);
         clock_capture(!(lines & QUADRATURE_A));
-        if (!((read_lines() ^ lines) & QUADRATURE_A)) {
+        if (!((lines_read() ^ lines) & QUADRATURE_A)) {
             return;
         }
         counter = TCNT1;
@@ -92,24 +83,12 @@ static inline void see_a(uint16_t counter)
 
 static inline void see_fall(void)
 {
-    if (!(PINB & _BV(PB0))) { /* D8 */
+    if (!lines_a_is_high()) {
         uint16_t counter = TCNT1;
-        device_fall(&device, counter, clock_overflow_pending(), b_is_high());
+        device_fall(&device, counter, clock_overflow_pending(), lines_b_is_high());
     }
 }
 #endif
-
-/* Pull-ups: a line that nobody drives (an open collector, a cable that came off) is high and counts nothing. */
-static void encoder_start(void)
-{
-    PORTB |= _BV(PB0);
-    PORTD |= _BV(PD7);
-#if MOTOR_CHANNELS == 2
-    PCMSK0 = _BV(PCINT0);
-    PCMSK2 = _BV(PCINT23);
-    PCICR = _BV(PCIE0);
-#endif
-}
 
 /* Counts as the driver has asked to. */
 static void follow_quadrature(void)
@@ -117,10 +96,10 @@ static void follow_quadrature(void)
 #if MOTOR_CHANNELS == 2
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
     {
-        uint8_t fold = device.quadrature, lines = read_lines();
+        uint8_t fold = device.quadrature, lines = lines_read();
         if (fold != device.edges.fold) {
             quadrature_start(&device.edges, fold, lines);
-            PCICR = fold == 1 ? _BV(PCIE0) : fold == 4 ? _BV(PCIE2) : 0;
+            lines_interrupt(fold);
             clock_capture(fold == 1 || !(lines & QUADRATURE_A));
         }
     }
@@ -137,7 +116,7 @@ ISR(TIMER1_CAPT_vect)
         see_a(counter);
         return;
     }
-    device_rise(&device, counter, clock_overflow_pending(), b_is_high());
+    device_rise(&device, counter, clock_overflow_pending(), lines_b_is_high());
     see_fall(); /* a pulse that is over already: its interrupt came before this one, and knew of no rising edge */
 #endif
 }
@@ -154,7 +133,7 @@ ISR(PCINT2_vect)
 {
     uint16_t counter = TCNT1;
     bool pending = clock_overflow_pending();
-    uint8_t lines = read_lines();
+    uint8_t lines = lines_read();
     quadrature_see_b(&device.edges, counter, pending, lines, B_LATE);
     if (!((device.edges.lines ^ lines) & QUADRATURE_A)) { /* also after an error: A's flank has been taken note of */
         clock_capture(!(lines & QUADRATURE_A));
@@ -276,7 +255,7 @@ int main(void)
     wdt_enable(WDTO_60MS);
     device_start(&device, &config, ++boot, reset_cause);
     bridge_write(0, device.output.decay, WIRE_PWM_STANDARD);
-    encoder_start();
+    lines_start();
     supply_start();
     sense_start();
     serial_start();

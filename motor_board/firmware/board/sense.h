@@ -13,14 +13,13 @@
 #define SENSE_LEAD 700u /* [tick] 350 us before the tick: SENSE_WAIT, and a conversion (112 us) with room for edges */
 #define SENSE_WAIT 400u /* [tick] 200 us at most for the middle of a pulse: one comes every 128 us */
 
-#define SENSE_AGAINST_5V _BV(REFS0)
-#define SENSE_A1 _BV(MUX0)
+#define SENSE_A1 _BV(MUX0) /* beside SUPPLY_A0 */
 
 static inline void sense_start(void)
 {
     if (MOTOR_CURRENT_SENSE) {
-        ADMUX = SENSE_AGAINST_5V | SENSE_A1;
-        ADCSRA = _BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0); /* 125 kHz */
+        ADMUX = SUPPLY_A0 | SENSE_A1;
+        ADCSRA = SUPPLY_CONVERTER;
     }
 }
 
@@ -34,7 +33,7 @@ static inline void sense_take_current(uint16_t *steps)
 {
     if (sense_is_done() && (ADMUX & SENSE_A1)) {
         *steps = ADC;
-        ADMUX = SENSE_AGAINST_5V;
+        ADMUX = SUPPLY_A0;
         if (MOTOR_SUPPLY_FULL_SCALE > 0) {
             ADCSRA |= _BV(ADSC);
         }
@@ -45,9 +44,9 @@ static inline void sense_take_current(uint16_t *steps)
 static inline void sense_take_supply(uint16_t *millivolts)
 {
     if (MOTOR_SUPPLY_FULL_SCALE > 0 && sense_is_done() && !(ADMUX & SENSE_A1)) {
-        *millivolts = (uint16_t)((uint32_t)ADC * MOTOR_SUPPLY_FULL_SCALE >> 10);
+        *millivolts = supply_converted();
     }
-    ADMUX = SENSE_AGAINST_5V | SENSE_A1;
+    ADMUX = SUPPLY_A0 | SENSE_A1;
 }
 
 static inline void sense_start_current(void)

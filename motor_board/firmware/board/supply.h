@@ -8,19 +8,28 @@
 
 #include "config.h"
 
+#define SUPPLY_A0 _BV(REFS0)                                                 /* against the 5 V supply */
+#define SUPPLY_CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0)) /* 125 kHz */
+
 static inline void supply_start(void)
 {
     if (MOTOR_SUPPLY_FULL_SCALE > 0) {
-        ADMUX = _BV(REFS0);                                          /* against the 5 V supply, channel A0 */
-        ADCSRA = _BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0) | _BV(ADSC); /* 125 kHz */
+        ADMUX = SUPPLY_A0;
+        ADCSRA = SUPPLY_CONVERTER | _BV(ADSC);
     }
+}
+
+/* [mV] of the conversion that is done. */
+static inline uint16_t supply_converted(void)
+{
+    return (uint16_t)((uint32_t)ADC * MOTOR_SUPPLY_FULL_SCALE >> 10);
 }
 
 /* Once a conversion is done, takes it [mV] and starts the next. */
 static inline void supply_read(uint16_t *millivolts)
 {
     if (MOTOR_SUPPLY_FULL_SCALE > 0 && !(ADCSRA & _BV(ADSC))) {
-        uint16_t value = (uint16_t)((uint32_t)ADC * MOTOR_SUPPLY_FULL_SCALE >> 10);
+        uint16_t value = supply_converted();
         ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { *millivolts = value; }
         ADCSRA |= _BV(ADSC);
     }
