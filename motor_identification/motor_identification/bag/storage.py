@@ -1,20 +1,22 @@
 """A bag as its files: which there are, in which order, and how each is opened."""
 
 import re
-import shutil
 from collections import Counter
 from collections.abc import Callable, Container, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import BinaryIO, Protocol
+from typing import Protocol
 
-import zstandard
-
+from motor_identification.bag.compression import (
+    COMPRESSED,
+    decompress_file,
+    decompress_message,
+    is_compressed,
+    plain_name,
+)
 from motor_identification.bag.contents import Contents, Span
-from motor_identification.bag.mcap.file import LARGEST_BAG, McapFile
-from motor_identification.bag.mcap.records import LARGEST_RATIO, LARGEST_RECORD, SMALL, unpack_zstd
+from motor_identification.bag.mcap.file import McapFile
 from motor_identification.bag.metadata import read_metadata
 from motor_identification.bag.sqlite_file import SqliteFile
 from motor_identification.bag.topic import Topic
@@ -23,9 +25,6 @@ from motor_model.printable import escape
 from motor_model.regular_file import Unfit, check_regular
 
 Stored = tuple[Topic, int, bytes]  # topic, log time [ns], serialised message
-
-_COMPRESSED = ".zstd"  # what ros2 bag record --compression-mode file appends
-_ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"  # of a compressed message; CDR starts with a zero byte
 
 
 class _File(Protocol):
@@ -68,7 +67,7 @@ class Bag:
         for path in self.files:
             with _opened(path) as file:
                 for topic, log_time, data in file.messages(wanted):
-                    yield topic, log_time, _decompressed(data) if data[:4] == _ZSTD_MAGIC else data
+                    yield topic, log_time, decompress_message(data) if is_compressed(data) else data
                 self.cut |= file.cut
                 self.damaged += file.damaged
                 self.lost += file.lost
@@ -90,12 +89,12 @@ class Bag:
     @property
     def compressed(self) -> bool:
         """Whether its files or its messages are; chunks compressed inside a file do not count."""
-        if any(path.suffix == _COMPRESSED for path in self.files):
+        if any(path.suffix == COMPRESSED for path in self.files):
             return True
         for path in self.files:
             with _opened(path) as file:
                 for _, _, data in file.messages():
-                    return data[:4] == _ZSTD_MAGIC
+                    return is_compressed(data)
         return False
 
 
@@ -115,8 +114,8 @@ def _files(path: Path) -> list[Path]:
             check_regular(path)
         candidates = list(path.iterdir()) if path.is_dir() else [path]
     # Where a crash left a file beside the beginning of its compressed copy, the file itself comes later, and stays.
-    compressed_first = sorted(filter(_is_storage, candidates), key=lambda file: file.suffix != _COMPRESSED)
-    found = {_plain_name(file): file for file in compressed_first}
+    compressed_first = sorted(filter(_is_storage, candidates), key=lambda file: file.suffix != COMPRESSED)
+    found = {plain_name(file): file for file in compressed_first}
     if not found:
         inside = (
             "has no .mcap or .db3 file in it" if path.is_dir() else "is neither a directory nor a .mcap or .db3 file"
@@ -126,11 +125,7 @@ def _files(path: Path) -> list[Path]:
 
 
 def _is_storage(path: Path) -> bool:
-    return path.is_file() and Path(_plain_name(path)).suffix in _FORMATS
-
-
-def _plain_name(path: Path) -> str:
-    return path.name.removesuffix(_COMPRESSED)
+    return path.is_file() and Path(plain_name(path)).suffix in _FORMATS
 
 
 def _by_number(name: str) -> list[tuple[int, str]]:
@@ -141,9 +136,9 @@ def _by_number(name: str) -> list[tuple[int, str]]:
 def _missing(path: Path, files: list[Path]) -> list[str]:
     """Files that metadata.yaml lists and that are not there; the listing itself may be missing or damaged."""
     listed = read_metadata(path).get("relative_file_paths")
-    there = {_plain_name(file) for file in files}
+    there = {plain_name(file) for file in files}
     names = [Path(str(name)).name for name in (listed if isinstance(listed, list) else [])]
-    return [name for name in names if name.removesuffix(_COMPRESSED) not in there]
+    return [name for name in names if name.removesuffix(COMPRESSED) not in there]
 
 
 @contextmanager
@@ -160,43 +155,8 @@ def _readable(path: Path) -> Iterator[None]:
 
 @contextmanager
 def _opened(path: Path) -> Iterator[_File]:
-    with _readable(path), _plain(path) as file:
-        yield file
-
-
-@contextmanager
-def _plain(path: Path) -> Iterator[_File]:
-    """The file, decompressed where it has to be."""
-    if path.suffix != _COMPRESSED:
-        yield _FORMATS[path.suffix](path)
-        return
-    with TemporaryDirectory() as folder:
-        plain = Path(folder) / _plain_name(path)
-        try:
-            with path.open("rb") as source, plain.open("wb") as target:
-                _unpack_file(source, target, path)
-        except zstandard.ZstdError as error:
-            raise RecordingError(f"{path} cannot be decompressed ({error}): restore it from a copy.") from error
+    with _readable(path), decompress_file(path) as plain:
         yield _FORMATS[plain.suffix](plain)
-
-
-def _unpack_file(source: BinaryIO, target: BinaryIO, path: Path) -> None:
-    """Decompress as far as it goes, but no more than a bag can have, and never the last of the disk."""
-    most = min(LARGEST_BAG, shutil.disk_usage(Path(target.name).parent).free // 2)
-    most = min(most, max(SMALL, LARGEST_RATIO * path.stat().st_size))
-    for part in zstandard.ZstdDecompressor().read_to_iter(source, write_size=1 << 20):
-        target.write(part)
-        if target.tell() > most:
-            raise RecordingError(f"{path} unpacks to more than {most / 2**20:.0f} MiB: split it, or make room.")
-
-
-def _decompressed(data: bytes) -> bytes:
-    """A message; empty where it cannot be decompressed, which is then no message of its type."""
-    try:
-        plain = unpack_zstd(data, LARGEST_RECORD)
-    except zstandard.ZstdError:
-        return b""
-    return plain if len(plain) <= LARGEST_RECORD else b""
 
 
 def _counted(file: _File) -> Contents:

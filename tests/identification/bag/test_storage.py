@@ -4,8 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from motor_bags import SAMPLES, assert_is, rewritten, write_bag
-from rosbags.rosbag2 import CompressionMode, StoragePlugin
+from motor_bags import SAMPLES, assert_is, write_bag
 
 from motor_identification.bag import contents, read_recording
 from motor_identification.bag.storage import Bag
@@ -57,11 +56,3 @@ def test_a_path_that_is_no_bag(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_text("t,u,y\n")
     with pytest.raises(RecordingError, match=r"is neither a directory nor a \.mcap or \.db3 file"):
         Bag(tmp_path / "log.csv")
-
-
-@pytest.mark.parametrize("compression", [CompressionMode.FILE, CompressionMode.MESSAGE, CompressionMode.NONE])
-def test_compression_is_seen_and_undone(tmp_path: Path, compression: CompressionMode) -> None:
-    plain = write_bag(tmp_path / "bag", SAMPLES[:50])
-    bag = Bag(rewritten(plain, tmp_path / "other", StoragePlugin.MCAP, compression))
-    assert bag.compressed == (compression is not CompressionMode.NONE)
-    assert [data for _, _, data in bag.messages()] == [data for _, _, data in Bag(plain).messages()]
