@@ -220,6 +220,7 @@ def test_linted() -> None:
     run("ruff", "check", ".")
 
 
+@pytest.mark.long
 def test_pure_modules_are_typed() -> None:
     run("mypy")
 

@@ -1,5 +1,7 @@
 """Effects are named beside a random torque, which is measured; what is not in the table is told from it."""
 
+from collections.abc import Callable
+
 import pytest
 from plant import profiles, record
 
@@ -10,11 +12,15 @@ from motor_identification.recording import check
 TORQUE, TIME = 0.15, 0.05  # [V] 1.25 % of the supply, [s]
 
 
-def diagnosed(hidden: dict[str, float], seed: int) -> Diagnosis:
+def short(volts: float, seed: int) -> profiles.Profile:
+    """What tells a torque that follows the motion from a random one, in 11 s."""
+    parts = [profiles.staircase(volts, 3, 0.4), profiles.reversals(volts, 4)]
+    return profiles.joined(*parts, profiles.random(volts, 5.0, seed))
+
+
+def diagnosed(hidden: dict[str, float], seed: int, drive: Callable[..., profiles.Profile]) -> Diagnosis:
     values = {"kv": 0.07, "ka": 0.0055, "random_torque": TORQUE, "random_torque_time": TIME, "random_torque_seed": seed}
-    recording, _truth = record(
-        values | hidden, *profiles.compact(12.0, seed), seed=seed, irregularity=0.005, disc_seed=seed
-    )
+    recording, _truth = record(values | hidden, *drive(12.0, seed), seed=seed, irregularity=0.005, disc_seed=seed)
     return diagnose([check(recording)])
 
 
@@ -29,7 +35,7 @@ def diagnosed(hidden: dict[str, float], seed: int) -> Diagnosis:
     ids=["nothing", "friction and delay", "backlash"],
 )
 def test_effects_are_named_and_the_torque_is_measured(hidden: dict[str, float], named: tuple[str, ...]) -> None:
-    found = diagnosed(hidden, 11)
+    found = diagnosed(hidden, 11, profiles.compact)
     assert tuple(sorted(one.effect for one in found.findings)) == named
     assert found.verdict is (Verdict.EXPLAINED if named else Verdict.NOTHING_MISSING)
     for name, value in hidden.items():
@@ -51,7 +57,7 @@ def test_effects_are_named_and_the_torque_is_measured(hidden: dict[str, float], 
     ids=["a wave over the speed", "friction of loaded gears"],
 )
 def test_what_is_not_in_the_table_is_told_from_the_torque(hidden: dict[str, float], variables: set[str]) -> None:
-    found = diagnosed(hidden, 12)
+    found = diagnosed(hidden, 12, short)
     assert found.verdict is Verdict.UNEXPLAINED
     assert not found.findings and found.disturbance is None
     assert found.structure[0].variable in variables and found.structure[0].certain

@@ -94,6 +94,7 @@ def simulated(motor: Parameters, name: str, irregularity: float) -> Recording:
     return check(recording_of(samples, config.info(motor), name))
 
 
+@pytest.mark.long
 def test_two_that_hide_each_other_are_found_beside_a_third() -> None:
     """Friction lifts a static curve at its beginning, drag at its end: a line with another gain is near to both."""
     hidden = {"ks": 0.3, "breakaway_voltage": 0.8, "stribeck_speed": 4.0, "drag": 5e-5, "delay": 0.006}

@@ -4,6 +4,7 @@ from math import degrees
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Diagnosis, Verdict
@@ -214,6 +215,7 @@ def test_the_same_names_where_nobody_says_what_a_count_is() -> None:
     )
 
 
+@pytest.mark.long
 def test_diagnosis_of_a_coasting_bridge_predicts_its_static_curve() -> None:
     """Two effects that only together explain anything; the same kv as years later with a braking bridge.
 

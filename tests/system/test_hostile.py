@@ -26,6 +26,7 @@ def run_trials() -> list[list[Any]]:
     return [json.loads(line) for line in done.stdout.splitlines()]
 
 
+@pytest.mark.long
 @pytest.mark.timeout(600)
 def test_nothing_breaks_hangs_floods_or_runs() -> None:
     trials = run_trials()

@@ -29,8 +29,7 @@ def fitted(effect: str, seed: int, there: bool) -> Fit:
     return identify([check(recording)], Request(("coulomb_friction", effect)))
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-@pytest.mark.parametrize("effect", THERE)
+@pytest.mark.parametrize(("effect", "seed"), list(zip(THERE, (1, 2, 1, 2, 1), strict=True)))
 def test_what_is_not_there_is_absent(effect: str, seed: int) -> None:
     fit = fitted(effect, seed, there=False)
     assert fit.absent == (effect,)
