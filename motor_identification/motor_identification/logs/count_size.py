@@ -33,7 +33,7 @@ def count_size(form: CsvForm, values: Floats, voltage: Floats) -> tuple[float, i
         if form.edges_per_revolution is None:
             raise RecordingError("The size of a count is unknown: give --edges-per-revolution.")
         return form.count_quantum or 1.0, form.edges_per_revolution, ""
-    turn = 2.0 * pi / unit
+    turn = 2.0 * pi / unit / float(form.gear)  # of the encoder's shaft
     if form.count_quantum:
         return form.count_quantum, agree_on_edges(form, turn / form.count_quantum, AGREE_COUNTS), ""
     if form.edges_per_revolution:

@@ -2,7 +2,10 @@
 
 from dataclasses import dataclass
 from enum import Enum
+from fractions import Fraction
 from math import pi, radians
+
+from motor_model.gearing.gear import edge_angle
 
 
 class Kind(str, Enum):
@@ -41,6 +44,7 @@ class CsvForm:
     unit: str
     voltage_scale: float = 1.0
     edges_per_revolution: int | None = None
+    gear: Fraction = Fraction(1)  # turns of the encoder's shaft, whose those edges are, in a turn of the output
     count_quantum: float | None = None  # the size of one count in `unit`
     speed_window: float | None = None  # [s] what a speed is the mean over
     speed_lag: float | None = None  # [s] how old the middle of that window is at the row's time
@@ -73,5 +77,5 @@ class CsvForm:
         if self.unit in ("m", "m/s") and self.units_per_revolution:
             return 2.0 * pi / self.units_per_revolution
         if self.unit == "count/s" and self.edges_per_revolution:
-            return 2.0 * pi / self.edges_per_revolution
+            return edge_angle(self.edges_per_revolution, self.gear)
         return UNITS[self.kind][self.unit]

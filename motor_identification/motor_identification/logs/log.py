@@ -72,6 +72,7 @@ def read_motor(table: Table, form: CsvForm) -> Log:
         single_channel=False,  # such logs have signs
         edge_resolution=0.0,  # and no stamps
         max_voltage=_max_voltage(form, signals),
+        gear_ratio=float(form.gear) if form.gear != 1 else 0.0,
     )
     log = _steady_log(form, info, signals) if form.time is None else _timed_log(table, form, info, signals)
     _check_ranges(table.path, log.info)

@@ -12,6 +12,7 @@ from motor_identification.logs.rows.wraps import split_at_resets, unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_model.errors import RecordingError
+from motor_model.gearing.gear import edge_angle
 from motor_model.sample import Info, Measurement
 
 _FAR = 5.5  # times between the steps of speeds and one count, below the 2π, 9.5 and 57.3 of mistaken units
@@ -53,9 +54,10 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     lag = 0.5 * window if form.speed_lag is None else form.speed_lag
     edges = form.edges_per_revolution or 0
     if form.count_quantum:
-        edges = agree_on_edges(form, 2.0 * pi / (form.count_quantum * unit * window), AGREE_SPEED)
+        turn = 2.0 * pi / float(form.gear)  # of the encoder's shaft
+        edges = agree_on_edges(form, turn / (form.count_quantum * unit * window), AGREE_SPEED)
     if edges:
-        _check_steps(form, values, edges, 2.0 * pi / edges / window / unit)
+        _check_steps(form, values, edges, edge_angle(edges, form.gear) / window / unit)
     info = replace(info, measurement=Measurement.SPEED, speed_window=window, speed_lag=lag, edges_per_revolution=edges)
     assumed = "" if form.speed_window else " (assumed: one sample period; otherwise: --speed-window)"
     placed = "" if form.speed_lag is not None else " (assumed: the window ends there; otherwise: --speed-lag)"
@@ -70,13 +72,14 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
 def _about_count(form: CsvForm, values: Floats, edges: int, angle: float) -> str:
     """One count in the form's unit, said or seen; `angle` [rad] is what the unit turns within the window."""
     if edges:
-        size = 2.0 * pi / edges / angle
+        size = edge_angle(edges, form.gear) / angle
         return f"One count ({edges} per revolution) within the window is {size:.4g} {form.unit}."
     step = find_lattice(values)
     if step > 0.0:
+        counts = tau / (step * angle) / float(form.gear)
         return (
             f"Values are multiples of {step:.4g} {form.unit}: one count within the window if the encoder has "
-            f"{tau / (step * angle):.5g} per revolution (assumed; otherwise: --edges-per-revolution)."
+            f"{counts:.5g} per revolution (assumed; otherwise: --edges-per-revolution)."
         )
     return "Speeds show no counts; their noise is estimated from neighbours (otherwise: --edges-per-revolution)."
 
@@ -105,7 +108,7 @@ def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     counts = np.rint(exact).astype(np.int64)
     beside = float(np.max(np.abs(exact - counts)))
     rate, held = count_rates(signals, counts)
-    speed = rate * (2.0 * pi / edges)
+    speed = rate * edge_angle(edges, form.gear)
     info = replace(info, measurement=Measurement.COUNTS, edges_per_revolution=edges)
     findings = [
         *wrapped,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.imported import Imported, import_log
 from motor_model.errors import RecordingError
+from motor_model.gearing.gear import parse_gear_ratio
 
 ROWS = 400
 MS = 10 * np.arange(ROWS)
@@ -151,3 +152,18 @@ def test_missing_rows_leave_the_stamps_of_the_others_alone(tmp_path: Path) -> No
     assert set(np.rint(times).astype(int)) == set(MS) - {10 * k for k in lost}
     slow = "\n".join(["ms,pwm,rpm", *(f"{int(1.01 * k) * 10},{DUTY[k]},{RPM[k]}" for k in range(ROWS))])
     assert np.allclose(np.diff(column(imported(tmp_path, slow, SAID), "sample_time") / 1e6), 10.1, atol=0.05)
+
+
+@pytest.mark.parametrize("ratio", ["34.014", "1"])
+def test_counts_of_a_geared_motor_are_angles_of_its_output(tmp_path: Path, ratio: str) -> None:
+    gear = parse_gear_ratio(ratio)
+    counts = Said(supply_voltage=12.0, edges_per_revolution=44, gear=gear)
+    found = imported(tmp_path, table(lambda k: f"{MS[k]},{DUTY[k]},{COUNT[k]}", "ms,pwm,ticks"), counts)
+    info, turned = found.motors[0].log.info, column(found, "speed")
+    assert (info.edges_per_revolution, info.gear) == (44, gear)
+    assert np.sum(turned) * 0.01 == pytest.approx(COUNT[-1] * 2.0 * np.pi / 44 / float(gear), rel=0.02)
+    rates = table(lambda k: f"{MS[k]},{DUTY[k]},{np.diff(COUNT, prepend=0)[k] * 100}", "ms,pwm,speed [count/s]")
+    assert np.allclose(np.sum(column(imported(tmp_path, rates, counts), "speed")), np.sum(turned), rtol=0.02)
+    degrees = table(lambda k: f"{MS[k]},{DUTY[k]},{COUNT[k] * 360.0 / 44 / float(gear):.9f}", "ms,pwm,angle [deg]")
+    again = imported(tmp_path, degrees, counts)
+    assert np.array_equal(column(again, "edge_count"), COUNT) and np.allclose(column(again, "speed"), turned)

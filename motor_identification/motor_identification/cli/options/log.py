@@ -1,11 +1,14 @@
 """The options of the commands that import logs, and what a user says with them."""
 
 import argparse
+from fractions import Fraction
 from pathlib import Path
 
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.count_size import MOST_EDGES
 from motor_identification.logs.form import TIME_UNITS, UNITS, Kind
+from motor_model.errors import MotorError
+from motor_model.gearing.gear import parse_gear_ratio
 from motor_ros.command import between, positive, whole_between
 from motor_ros.output_files import add_force_option
 
@@ -73,7 +76,15 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
         help="the counts of a row are those since the row before (default: by name and numbers)",
     )
     edges = whole_between(1, MOST_EDGES)
-    add("--edges-per-revolution", type=edges, metavar="N", help="counts of a turn of the shaft that the log is about")
+    add("--edges-per-revolution", type=edges, metavar="N", help="counts of a turn of the encoder's shaft")
+    add(
+        "--gear-ratio",
+        type=_gear,
+        dest="gear",
+        default=Fraction(1),
+        metavar="R",
+        help="turns of the encoder's shaft, whose edges those are, per turn of the output: 34.014, 9291/273",
+    )
     add("--count-quantum", type=positive, metavar="Q", help="size of one count in --unit (default: a turn / N)")
     add("--units-per-revolution", type=positive, metavar="U", help="how many m (or whatever stands there) a turn goes")
     add("--wrap", type=positive, metavar="R", help="positions begin again after this much (default: seen in them)")
@@ -91,6 +102,13 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
         help="the motor stood until this time [s] of the column, when the first row's voltage came (such as 0, where "
         "the rows begin a little later)",
     )
+
+
+def _gear(text: str) -> Fraction:
+    try:
+        return parse_gear_ratio(text)
+    except MotorError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def _scale(text: str) -> float:

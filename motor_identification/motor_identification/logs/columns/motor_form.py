@@ -47,7 +47,15 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     increments = kind is Kind.COUNT and count_anew(table, pair, said, notes)
     direction = guess_direction(table, pair, said, increments or kind is Kind.SPEED, notes)
     milliamperes = roles.current is not None and read_heading(roles.current).unit == "mA"
-    same = ("edges_per_revolution", "count_quantum", "units_per_revolution", "wrap", "speed_window", "speed_lag")
+    same = (
+        "edges_per_revolution",
+        "gear",
+        "count_quantum",
+        "units_per_revolution",
+        "wrap",
+        "speed_window",
+        "speed_lag",
+    )
     return CsvForm(
         time=rows.time,
         voltage=pair.voltage,

@@ -1,6 +1,7 @@
 """What a user said about a log; everything else is guessed."""
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 from motor_identification.logs.form import Kind
 
@@ -29,6 +30,7 @@ class Said:
     supply: str | None = None
     supply_voltage: float | None = None  # [V] at full duty
     edges_per_revolution: int | None = None
+    gear: Fraction = Fraction(1)  # encoder turns per turn of the output
     count_quantum: float | None = None
     units_per_revolution: float | None = None
     wrap: float | None = None
