@@ -1,6 +1,7 @@
 """The node of a live experiment: answers every sample with the plan's command, and sees when something is wrong."""
 
 import time
+from math import inf
 
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.duration import Duration
@@ -8,6 +9,7 @@ from rclpy.node import Node
 from rclpy.time import Time
 
 from motor_identification.experiment import Plan, make_plan
+from motor_identification.live.plant_watch import Asked, PlantWatch
 from motor_model.errors import MotorError
 from motor_model.excitation import Profile
 from motor_model.sample import Info, Sample
@@ -17,11 +19,8 @@ from motor_ros.messages import info_of, sample_of, voltage_message
 from motor_ros.topics import publishers_of
 
 SILENCE = 1.0  # [s] without samples after which the plant is gone
-DEAF = 0.5  # [s] without any voltage, while there should be one, after which the output is off
 LEAST = 0.02  # of max_voltage: a command that any bridge can follow
-TOO_FAST = 2  # samples in a row: a single one may be a flank that came early
 ARRIVAL = 0.5  # [s] for the last command to arrive
-OUTPUT_OFF = "The plant's output is off: call motor/enable with data: true"
 JUST_DISCOVERED = "/_NODE_NAME_UNKNOWN"  # begins the name of a node that has not told it yet
 OURS = "experiment"  # frame_id of the voltages this command sends
 
@@ -45,10 +44,8 @@ class Driver(Node):
         self.elapsed = 0.0  # [s]
         self.heard: float | None = None  # [s] monotonic time of the latest sample
         self._start: int | None = None  # [ns] plant's clock
-        self._latest = 0  # [ns] plant's clock
         self._asked = 0.0  # [V] the latest command
-        self._deaf_since: float | None = None  # [s] monotonic time
-        self._too_fast = 0
+        self._plant = PlantWatch(limit or inf)
         self.plant_says = ""  # what the plant's diagnostics said since its output is off
         self._voltage = self.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
@@ -105,7 +102,7 @@ class Driver(Node):
         if self._start is None:
             self._start = message.sample_time
         self._watch(message)
-        self.elapsed, self._latest = (message.sample_time - self._start) * 1e-9, message.sample_time
+        self.elapsed = (message.sample_time - self._start) * 1e-9
         if not self.problem:
             command = self._following.command(self.elapsed)
             self.done = command is None
@@ -119,26 +116,13 @@ class Driver(Node):
 
     def _on_diagnostics(self, message: DiagnosticArray) -> None:
         for status in message.status:
-            if self._deaf_since is not None and self.info and status.hardware_id == self.info.name:
+            if self._plant.deaf_since is not None and self.info and status.hardware_id == self.info.name:
                 self.plant_says = status.message
 
     def _watch(self, message: MotorSpeed) -> None:
-        if message.sample_time <= self._latest:
-            self.problem = (
-                f"The plant's clock stepped back after {self.elapsed:.2f} s: was it restarted, or are there two?"
-            )
-        self._too_fast = self._too_fast + 1 if abs(message.speed) > (self.limit or float("inf")) else 0
-        if self._too_fast >= TOO_FAST:
-            self.problem = self._beyond(abs(message.speed))
         if message.voltage != 0.0:
-            self._deaf_since, self.plant_says = None, ""
-        elif self.info and abs(self._asked) > LEAST * self.info.max_voltage:
-            self._deaf_since = self._deaf_since or time.monotonic()
-            if time.monotonic() - self._deaf_since > DEAF:
-                self.problem = f"{OUTPUT_OFF}."
-
-    def _beyond(self, speed: float) -> str:
-        return (
-            f"The motor ran at {speed:.4g} rad/s after {self.elapsed:.2f} s, at {self._asked:.3g} V, "
-            f"above --speed {self.limit:g}, and was stopped: give less --voltage."
-        )
+            self.plant_says = ""
+        heard = self.info is not None and abs(self._asked) > LEAST * self.info.max_voltage
+        asked, now = Asked(self._asked, heard, self.elapsed), time.monotonic()
+        self._plant, problem = self._plant.see(message.sample_time, message.speed, message.voltage, asked, now)
+        self.problem = problem or self.problem

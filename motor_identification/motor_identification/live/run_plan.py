@@ -9,7 +9,8 @@ from tqdm import tqdm
 
 from motor_identification.bag import BagWriter, check_new_bag
 from motor_identification.experiment import announce
-from motor_identification.live.experiment_node import OUTPUT_OFF, Driver
+from motor_identification.live.experiment_node import Driver
+from motor_identification.live.plant_watch import OUTPUT_OFF
 from motor_identification.live.recorder import Recorder
 from motor_model.errors import MotorError
 from motor_ros.run import Interrupt, spin

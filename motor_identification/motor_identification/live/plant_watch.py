@@ -1,0 +1,45 @@
+"""Watch a plant that is driven: whether its clock goes on, it obeys, and it is no faster than is wanted. No clock."""
+
+from dataclasses import dataclass
+from math import inf
+
+DEAF = 0.5  # [s] without any voltage, while there should be one, after which the output is off
+TOO_FAST = 2  # samples in a row: a single one may be a flank that came early
+OUTPUT_OFF = "The plant's output is off: call motor/enable with data: true"
+STEPPED_BACK = "The plant's clock stepped back after {:.2f} s: was it restarted, or are there two?"
+BEYOND = (
+    "The motor ran at {:.4g} rad/s after {:.2f} s, at {:.3g} V, above --speed {:g}, and was stopped: give less "
+    "--voltage."
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What a sample is the answer to."""
+
+    voltage: float  # [V] the latest command
+    heard: bool  # any bridge can follow that
+    elapsed: float  # [s] since the plan began, of the sample before
+
+
+@dataclass(frozen=True, slots=True)
+class PlantWatch:
+    """What is remembered from sample to sample."""
+
+    limit: float = inf  # [rad/s]
+    latest: int = 0  # [ns] on the plant's clock
+    too_fast: int = 0  # samples in a row
+    deaf_since: float | None = None  # [s] on the caller's clock
+
+    def see(self, time: int, speed: float, voltage: float, asked: Asked, now: float) -> tuple["PlantWatch", str]:
+        """Take a sample in (time [ns], speed [rad/s], voltage [V]); what is wrong, as a sentence, stands beside it."""
+        problem = STEPPED_BACK.format(asked.elapsed) if time <= self.latest else ""
+        too_fast = self.too_fast + 1 if abs(speed) > self.limit else 0
+        if too_fast >= TOO_FAST:
+            problem = BEYOND.format(abs(speed), asked.elapsed, asked.voltage, self.limit)
+        deaf_since = None if voltage != 0.0 else self.deaf_since
+        if voltage == 0.0 and asked.heard:
+            deaf_since = self.deaf_since or now
+            if now - deaf_since > DEAF:
+                problem = f"{OUTPUT_OFF}."
+        return PlantWatch(self.limit, time, too_fast, deaf_since), problem

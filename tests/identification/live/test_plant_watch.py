@@ -1,0 +1,42 @@
+"""What ends an experiment, sample by sample, on a clock of the test's own."""
+
+import pytest
+
+from motor_identification.live.plant_watch import DEAF, Asked, PlantWatch
+
+ASKED = Asked(6.0, True, 1.5)
+PERIOD = 5_000_000  # [ns]
+
+
+def see(watch: PlantWatch, samples: list[tuple[float, float]], asked: Asked = ASKED) -> tuple[PlantWatch, list[str]]:
+    """Speeds [rad/s] and voltages [V], one a sample."""
+    problems = []
+    for speed, voltage in samples:
+        time = watch.latest + PERIOD
+        watch, problem = watch.see(time, speed, voltage, asked, time * 1e-9)
+        problems.append(problem)
+    return watch, problems
+
+
+def test_two_samples_in_a_row_are_too_fast_and_one_is_not() -> None:
+    _, problems = see(PlantWatch(40.0), [(40.1, 6.0), (40.0, 6.0), (-40.1, 6.0), (-41.0, 6.0)])
+    assert problems[:3] == ["", "", ""]
+    assert problems[3].startswith("The motor ran at 41 rad/s after 1.50 s, at 6 V, above --speed 40")
+    assert see(PlantWatch(), [(1e6, 6.0)] * 3)[1] == ["", "", ""]
+
+
+@pytest.mark.parametrize(("asked", "off"), [(ASKED, True), (Asked(0.1, False, 1.5), False)])
+def test_a_plant_that_applies_nothing_is_off(asked: Asked, off: bool) -> None:
+    count = round(DEAF / PERIOD * 1e9)
+    watch, problems = see(PlantWatch(), [(0.0, 0.0)] * count, asked)
+    assert not any(problems) and (watch.deaf_since is not None) == off
+    _, problems = see(watch, [(0.0, 0.0)] * 3, asked)
+    assert problems[-1].startswith("The plant's output is off") == off
+    obeying, problems = see(watch, [(0.0, 6.0), (0.0, 0.0)], asked)
+    assert not any(problems) and (obeying.deaf_since or 0.0) * 1e9 == (obeying.latest if off else 0)
+
+
+def test_a_clock_that_steps_back_is_another_plant() -> None:
+    watch, _ = see(PlantWatch(), [(0.0, 6.0)] * 2)
+    assert watch.see(watch.latest + 1, 0.0, 6.0, ASKED, 0.0)[1] == ""
+    assert watch.see(watch.latest, 0.0, 6.0, ASKED, 0.0)[1].startswith("The plant's clock stepped back after 1.50 s")
