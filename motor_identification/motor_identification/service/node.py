@@ -40,7 +40,7 @@ class MotorIdentification(Node):
         super().__init__("motor_identification")
         declare(self, PARAMETERS)
         self._closed = False
-        self._worker = Worker(warm_up.main)
+        self._worker = Worker(warm_up.prepare)
         self._model = self.create_publisher(MotorModel, "motor/model", qos.MODEL)
         self._places = Places(*map(self._value, ("bag_directory", "report_directory", "absolute_uris")))
         self._reader = make_reader(self._value("mapping"))

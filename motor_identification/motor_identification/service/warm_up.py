@@ -7,28 +7,36 @@ import numpy as np
 from motor_identification.diagnose import diagnose
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.identify import Request, SearchConfig, identify
-from motor_identification.recording import recording_of
+from motor_identification.recording import Recording, recording_of
 from motor_model import warm_up
 from motor_model.effects import EFFECTS
 from motor_model.excitation import profile
 from motor_model.parameters import paper_motor
 from motor_model.sensing.board import BoardConfig
 
+LEAST = SearchConfig(4, 1)
 PERIODIC = tuple(effect.name for effect in EFFECTS if effect.periodic)
+
+
+def prepare() -> None:
+    """Load what every fit needs, or compile it: what a node does before the first request comes."""
+    warm_up.main()
+    identify([_record_step()], Request((), LEAST))
 
 
 def main() -> None:
     """Fit a simulated step, as small as it gets; with what a diagnosis looks for in a spectrum and in what is left."""
-    warm_up.main()
+    prepare()
+    recording = _record_step()
+    identify([recording], Request(PERIODIC, LEAST))
+    disturbed = recording.voltage + np.random.default_rng(0).normal(0.0, 0.5, len(recording))
+    diagnose([replace(recording, voltage=disturbed)], request=Request((), LEAST, time_limit=20.0))
+
+
+def _record_step() -> Recording:
     motor, config = paper_motor(), BoardConfig()
     plan = make_plan(profile("step"), 10.0, motor.max_voltage, 1.0 / config.sample_rate)
-    samples = [sample for _, sample in simulate_plan(plan, motor, config)]
-    recordings = [recording_of(samples, config.info(motor), "warm-up")]
-    for effects in ((), PERIODIC):
-        identify(recordings, Request(effects, SearchConfig(4, 1)))
-    (recording,) = recordings
-    disturbed = recording.voltage + np.random.default_rng(0).normal(0.0, 0.5, len(recording))
-    diagnose([replace(recording, voltage=disturbed)], request=Request((), SearchConfig(4, 1), time_limit=20.0))
+    return recording_of([sample for _, sample in simulate_plan(plan, motor, config)], config.info(motor), "warm-up")
 
 
 if __name__ == "__main__":
