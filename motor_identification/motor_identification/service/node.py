@@ -1,7 +1,6 @@
 """The identification node: fits and diagnoses bags on request, in a process of its own, and latches the last model."""
 
 import os
-from concurrent.futures import Future as Answer
 from dataclasses import replace
 from datetime import datetime, timezone
 from functools import partial
@@ -9,20 +8,20 @@ from typing import Any
 
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
-from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 from motor_identification.bag import Source
 from motor_identification.mapping import make_reader
 from motor_identification.reporting.fit_model_file import save_model
 from motor_identification.service import warm_up
+from motor_identification.service.call_waiter import CallWaiter
 from motor_identification.service.diagnose_action import DiagnoseAction
 from motor_identification.service.fit_queue import FitQueue
 from motor_identification.service.job import DiagnosisJob, Job
 from motor_identification.service.messages import diagnosis_job_of, fill_response, job_of, model_message
 from motor_identification.service.parameters import PARAMETERS, PROGRAM
 from motor_identification.service.places import Places
-from motor_identification.service.worker import STOPPED, Call, Ended, Worker
+from motor_identification.service.worker import Worker
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
 from motor_msgs.action import Diagnose
@@ -39,19 +38,19 @@ class MotorIdentification(Node):
     def __init__(self) -> None:
         super().__init__("motor_identification")
         declare(self, PARAMETERS)
-        self._closed = False
+        self._waiter = CallWaiter()
         self._worker = Worker(warm_up.prepare)
         self._model = self.create_publisher(MotorModel, "motor/model", qos.MODEL)
         self._places = Places(*map(self._value, ("bag_directory", "report_directory", "absolute_uris")))
         self._reader = make_reader(self._value("mapping"))
-        self._fits = FitQueue(self._worker, self._awaited)
+        self._fits = FitQueue(self._worker, self._waiter.wait)
         # Each request is taken at once: one that stayed in DDS while a fit is awaited would get no answer but silence.
         at_once = ReentrantCallbackGroup()
         options = {"callback_group": at_once, "qos_profile": qos.REQUESTS}
         self.create_service(Identify, "motor/identify", self._on_identify, **options)
         self.create_service(Trigger, "motor/cancel", self._on_cancel, callback_group=at_once)
         limit = partial(self._value, "time_limit")
-        self._diagnose = DiagnoseAction(self, self._worker, self._diagnosis_job, limit, self._awaited, self._keep)
+        self._diagnose = DiagnoseAction(self, self._worker, self._diagnosis_job, limit, self._waiter.wait, self._keep)
         self.get_logger().info("ready: call motor/identify, or send motor/diagnose a goal, with bag_uris")
 
     async def _on_identify(self, request: Identify.Request, response: Identify.Response) -> Identify.Response:
@@ -104,25 +103,9 @@ class MotorIdentification(Node):
         value = self.get_parameter(name).value
         return (value or os.cpu_count() or 1) if name == "workers" else value
 
-    def _awaited(self, call: Call) -> Future:
-        """A future that the executor waits for while it serves other callbacks."""
-        future = Future()
-
-        def hand_over(answer: "Answer[Any]") -> None:
-            if self._closed:  # nobody waits any more
-                return
-            error = Ended(STOPPED) if answer.cancelled() else answer.exception()
-            if error is None:
-                future.set_result(answer.result())
-            else:
-                future.set_exception(error)
-
-        call.answer.add_done_callback(hand_over)
-        return future
-
     def close(self) -> None:
         """End a computation that is still going on."""
-        self._closed = True
+        self._waiter.close()
         self._worker.close()
 
 

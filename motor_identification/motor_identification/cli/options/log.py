@@ -1,6 +1,7 @@
 """The options of the commands that import logs, and what a user says with them."""
 
 import argparse
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 
@@ -70,6 +71,25 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
         "controller logs what it did before it reads the encoder",
     )
     add("--max-voltage", type=positive, metavar="V", help="voltage at full duty (default: the largest in the log)")
+    _add_counts(add)
+    add("--speed-window", type=positive, metavar="S", help="[s] what a speed is the mean over (default: sample period)")
+    add(
+        "--speed-lag",
+        type=between(-1e3, 1e3),
+        metavar="S",
+        help="[s] age of that window's middle at the row's time (default: half of it)",
+    )
+    add(
+        "--rest-until",
+        type=between(-1e18, 1e18),
+        metavar="S",
+        help="the motor stood until this time [s] of the column, when the first row's voltage came (such as 0, where "
+        "the rows begin a little later)",
+    )
+
+
+def _add_counts(add: Callable[..., object]) -> None:
+    """Counts, and the angle that one of them stands for."""
     add(
         "--increments",
         action=argparse.BooleanOptionalAction,
@@ -88,20 +108,6 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
     add("--count-quantum", type=positive, metavar="Q", help="size of one count in --unit (default: a turn / N)")
     add("--units-per-revolution", type=positive, metavar="U", help="how many m (or whatever stands there) a turn goes")
     add("--wrap", type=positive, metavar="R", help="positions begin again after this much (default: seen in them)")
-    add("--speed-window", type=positive, metavar="S", help="[s] what a speed is the mean over (default: sample period)")
-    add(
-        "--speed-lag",
-        type=between(-1e3, 1e3),
-        metavar="S",
-        help="[s] age of that window's middle at the row's time (default: half of it)",
-    )
-    add(
-        "--rest-until",
-        type=between(-1e18, 1e18),
-        metavar="S",
-        help="the motor stood until this time [s] of the column, when the first row's voltage came (such as 0, where "
-        "the rows begin a little later)",
-    )
 
 
 def _gear(text: str) -> Fraction:
