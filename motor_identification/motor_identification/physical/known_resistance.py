@@ -1,7 +1,7 @@
 """Convert a fit in armature voltages to physics by a resistance that is known otherwise: no current was measured."""
 
 from dataclasses import replace
-from math import nan
+from math import isnan, nan
 
 from motor_identification.estimation.request import PhysicalRequest
 from motor_identification.physical.propagation import Values, propagate_errors
@@ -50,7 +50,7 @@ def convert_with_resistance(fit: Fit, request: PhysicalRequest) -> Fit:
         "resistance",
         found,
         {name: nan if name in exact else error for name, error in sure.items()},
-        tuple(name for name, error in sure.items() if error != error),
+        tuple(name for name, error in sure.items() if isnan(error)),
         notes=(GIVEN if given else ALL_BACK_EMF,),
     )
     parameters = replace(fit.parameters, resistance=request.resistance, torque_constant=given)

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import nan
+from math import isnan, nan
 
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.physical.current_samples import select_current
@@ -95,7 +95,7 @@ def _physical(judged: Judged, values: dict[str, float], errors: dict[str, float]
 
     correlations = judged.sure.correlations_of(judged.fit.electrical.names)
     found, sure = quantities(values), propagate_errors(quantities, values, errors, correlations)
-    open_ones = [name for name, error in sure.items() if error != error]
+    open_ones = [name for name, error in sure.items() if isnan(error)]
     notes = [samples.note for samples in judged.fit.residuals.currents if samples.note]
     notes += describe_warm_winding(judged.fit)
     hit = find_bounds_hit(judged.fit.estimate)
