@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from time import perf_counter
 
+from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import (
     drop_stand_ins,
     drop_stand_ins_of_either,
@@ -98,7 +99,9 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     beside = _select_beside_torque(start, selection, reporter)
     if beside is None:
         selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
-    elif beside.steps and beside.model.held.gap > start.model.held.gap:  # it fits the torque, not the motion
+    elif (
+        beside.steps and beside.model.held.gap > thresholds.GAP_CHANCE * start.model.held.gap
+    ):  # it fits the torque, not the motion
         selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
     else:
         selection = beside

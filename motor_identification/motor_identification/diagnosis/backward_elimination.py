@@ -17,6 +17,7 @@ from motor_identification.diagnosis.effect_test import (
 )
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.diagnosis.standstill_evidence import explains_standstills
+from motor_identification.discrepancy.free_curves import REPEATING
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -25,14 +26,27 @@ def drop_stand_ins(selection: Selection) -> Selection:
     """Drop what may only stand in for an effect that is not in the table, where the gap stays above the floor.
 
     That is every finding that leaves a visible part of what it should explain, and what was found after it; a line in
-    the spectrum over the angle is its own evidence, and so is a standstill under a voltage.
+    the spectrum over the angle is its own evidence, and so is a standstill under a voltage. Where what is left comes
+    and goes whatever the motor does, no finding that answers its motion stands in for that.
     """
     if selection.model.complete:
         return selection
+    apart = leaves_another_variable(selection.model)
     for i, step in enumerate(selection.steps):
-        if step.explains < thresholds.STAND_IN_SHARE and not _is_own_evidence(selection, i):
+        answers = apart and step.explains > thresholds.APART_SHARE and not _changes_over_time(step.found.effect)
+        if step.explains < thresholds.STAND_IN_SHARE and not answers and not _is_own_evidence(selection, i):
             return replace(selection, steps=selection.steps[:i], model=step.before)
     return selection
+
+
+def leaves_another_variable(model: Model) -> bool:
+    """Decide whether all that can be predicted of what is left goes with the angle or the time alone."""
+    certain = [one.variable for one in model.structure if one.certain]
+    return bool(certain) and all(name in REPEATING for name in certain)
+
+
+def _changes_over_time(effect: str) -> bool:
+    return any(spec.scale.duration for spec in EFFECT_BY_NAME[effect].parameters)
 
 
 def _is_own_evidence(selection: Selection, number: int) -> bool:

@@ -218,7 +218,9 @@ class CandidateTest:
     def relevant(self) -> bool:
         """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual."""
         if self.model.beside_torque:
-            shrinks = self.model.held.gap <= self.before.held.gap and self.model.held_out > self.before.held_out
+            line = EFFECT_BY_NAME[self.effect].periodic  # fast beside a torque that most of the gap may be of
+            most = self.before.held.gap * (thresholds.GAP_CHANCE if line else 1.0)
+            shrinks = self.model.held.gap <= most and self.model.held_out > self.before.held_out
             return shrinks and 2.0 * self.steadiness > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
         before, after = self.before.lasting, self.model.lasting
         floor = after.floor(self.model.noise.share)

@@ -35,7 +35,8 @@ def _sum_false_motion(motion: Motion, share: float) -> float:
     recording, data, increments = motion
     still = find_held_intervals(recording, data)
     scatter = np.sqrt(data.floor_squared(share * data.slot)) * data.duration
-    return float(np.sum((increments[still] / np.maximum(scatter, data.slot)[still]) ** 2))
+    unit = np.maximum(np.maximum(scatter, data.slot), data.slack)  # counts without stamps have no slot, but its slack
+    return float(np.sum((increments[still] / unit[still]) ** 2))
 
 
 def find_held_intervals(recording: Recording, data: Intervals) -> Bools:

@@ -44,6 +44,10 @@ RELEVANT_SHARE_NEAR_FLOOR = 0.5
 NEAR_FLOOR = 2.0
 # Of the white residual's power beside a random torque, which no floor is known for: less is nothing to name.
 RELEVANT_WHITE_SHARE = 0.01
+# Times the gap before: so much it may grow by chance where a finding is fast beside the random torque that the gap is
+# mostly of. Measured: 1.03 with a ripple of 0.3 V beside a torque of 0.1 V; where a model fits the torque instead of
+# the motion 1.3 and more.
+GAP_CHANCE = 1.1
 # Likelihoods that the search for a candidate's errors may ask for, and that for a model's to begin with.
 CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120
 # How often a model is fitted again from where the best finding leads, beside a random torque.
@@ -58,6 +62,9 @@ CHANCE_HARMONIC = 5.0
 # Of the excess over the floor: what explains less, and leaves the gap above the floor, may. Measured: the right single
 # effect explains 0.98 and more, a wrong one in its place up to 0.94 (drag as coasting, a limit as sag).
 STAND_IN_SHARE = 0.95
+# The same where all that can be predicted of the rest goes with the angle or the time alone: most of it. A stand-in for
+# a friction over the angle, or a supply that swings, is not even relevant.
+APART_SHARE = 0.5
 
 # Of squares of travel, in units of the sensor's own: what a model moves where the motor stood under a voltage. A motion
 # of ten slots, or one interval in which a speed that was measured as zero is off by ten standard deviations.

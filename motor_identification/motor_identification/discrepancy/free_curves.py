@@ -105,6 +105,7 @@ FAMILIES: dict[str, Callable[[MotionHistory, Reach], Floats]] = {
     "past": _past,
 }
 
+REPEATING = ("angle", "time", "spectrum")  # what comes and goes whatever the motor is asked to do
 OF_ONE_RECORDING = ("time", "spectrum")  # what is different in every recording is learnt and judged in the same one
 
 

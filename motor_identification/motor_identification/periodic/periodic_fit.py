@@ -9,13 +9,16 @@ from motor_identification.estimation.direction_correction import correct_directi
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds, improves_fit
 from motor_identification.estimation.parameter_space import map_theta
+from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.measured_angle import Track
 from motor_identification.periodic.ripple_spectrum import find_ripples, fit_ripple
+from motor_identification.periodic.run_alignment import Aligned, align_runs
 from motor_identification.periodic.simulated_angle_fit import fit_on_simulated_angle
-from motor_identification.recording import Floats
+from motor_identification.recording import Floats, Integers
 from motor_model.effects import EFFECT_BY_NAME
 
 PERIODIC_ROUNDS = 2  # the second time, the motor that bridges the gaps of the measured angle has the effect already
+WAVE_ROUNDS = 5  # of the noise that a wave and its slips leave
 ITERATIONS, TOLERANCE = 25, 1e-8  # of a descent on measured angles
 
 Tracks = tuple[Track, ...]
@@ -125,22 +128,42 @@ def estimate_phases(bare: Estimate, effect: str, cycles: float, tracks: Tracks =
         ripple = fit_ripple(bare, tracks, cycles)
         return Start(ripple.tracks, {"ripple_phase": np.array(ripple.phases)})
     wave = _start_eccentricity(bare, tracks, 0.0)
-    return Start(tracks, {"eccentricity_phase": wave.values["eccentricity_phase"]})
+    return Start(wave.tracks, {"eccentricity_phase": wave.values["eccentricity_phase"]})
 
 
 def _start_eccentricity(bare: Estimate, tracks: Tracks, _least: float) -> Start:
-    """Fit the first harmonic of what an estimate leaves over the angle, by least squares."""
-    waves = []
+    """Fit the first harmonic of what an estimate leaves over the angle, with every run's slips, by least squares."""
+    waves, straightened = [], []
     for data, track, increments in zip(bare.problem.intervals, tracks, bare.increments, strict=True):
         angle, root = data.gear * track.at(data.time), 1.0 / np.sqrt(data.duration)
         sine, cosine = (
-            np.diff(shape(angle)[np.stack([data.first, data.last])], axis=0)[0] for shape in (np.sin, np.cos)
+            np.diff(shape(angle)[np.stack([data.first, data.last])], axis=0)[0] * root for shape in (np.sin, np.cos)
         )
-        moving = data.slack == 0.0
-        design = (np.column_stack([sine, cosine]) * root[:, None])[moving]
-        waves.append(data.gear * complex(*np.linalg.lstsq(design, -(increments * root)[moving], rcond=None)[0]))
+        aligned = align_wave(sine, cosine, -increments * root, track.run_at(data.time[data.first]), data)
+        waves.append(data.gear * aligned.weight)
+        straightened.append(track.slipped(np.asarray(aligned.slips * data.slot)))
     size = np.full(len(waves), np.mean(np.abs(waves)))
-    return Start(tracks, {"eccentricity": size, "eccentricity_phase": np.asarray(np.angle(waves), dtype=np.float64)})
+    phase = np.asarray(np.angle(waves), dtype=np.float64)
+    return Start(tuple(straightened), {"eccentricity": size, "eccentricity_phase": phase})
+
+
+def align_wave(sine: Floats, cosine: Floats, left: Floats, run: Integers, data: Intervals) -> Aligned:
+    """Align counted runs by a wave of one cycle a turn; noise is what it leaves, first of runs as they were counted.
+
+    sine, cosine, left: responses and residual of every interval, shape (I,); run: the number of its run.
+    """
+    moving = data.slack == 0.0
+    parts = np.stack([sine * sine, sine * cosine, cosine * cosine, sine * left, cosine * left])
+    sums = np.stack([np.bincount(run[moving], part[moving]) for part in parts], axis=1)
+    power, number = float(left[moving] @ left[moving]), max(int(np.count_nonzero(moving)), 1)
+    aligned = Aligned(0j, np.zeros(len(sums)), 0.0)
+    noise = power
+    for _ in range(WAVE_ROUNDS):
+        if noise <= 0.0:
+            break
+        aligned = align_runs(np.asarray(sums * (number / noise)), data.slot * data.gear)
+        noise = power - aligned.explained * noise / number
+    return aligned
 
 
 def _start_ripple(bare: Estimate, tracks: Tracks, least: float) -> Start | None:

@@ -18,6 +18,7 @@ from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.parameter_space import SLOW_SPEED
 from motor_identification.estimation.whitened_fit import Encoder, learn_encoders
 from motor_identification.measurement.measured_angle import Track
+from motor_identification.periodic.autoregression import Autoregression, fit_autoregression
 from motor_identification.periodic.linear_response import Course
 from motor_identification.periodic.run_alignment import align_runs
 from motor_identification.recording import Floats, Integers
@@ -51,6 +52,7 @@ class _Run:
     """One recording's residual, whitened, with what is needed to whiten a response; arrays of shape (I,)."""
 
     encoder: Encoder
+    colour: Autoregression
     course: Course
     white: Floats  # of measured minus simulated increments, without what an initial speed explains
     transient: Floats  # whitened increments that an initial speed of every counted run makes, of length 1 in each
@@ -99,7 +101,7 @@ def _powers(run: _Run, cycles: Floats, block: Integers, go_on: Callable[[], None
     at = np.arange(len(cycles)) / KNOT_DISTANCE
     sizes = np.array([np.interp(at, np.arange(len(knots)), column) for column in knots.T]).T
     squares = []
-    for along, across in run.course.products(run.encoder.pull(run.white), cycles, block):
+    for along, across in run.course.products(run.encoder.pull(run.colour.whiten_adjoint(run.white)), cycles, block):
         go_on()
         squares.append(along**2 + across**2)
     parts = np.concatenate(squares)
@@ -138,7 +140,9 @@ def _make_runs(estimate: Estimate, tracks: Sequence[Track]) -> list[_Run]:
             np.argsort(begun, kind="stable"), track.run_at(begun), angle[data.first], angle[data.last], data.duration,
             data.slack == 0.0, *estimate.lag,
         )  # fmt: skip
-        run = _Run(encoder, course, -increments, increments)
+        moved = np.where(course.moving, -increments, 0.0)
+        colour = fit_autoregression(encoder.white(moved)[: len(moved)], course.order)
+        run = _Run(encoder, colour, course, -increments, increments)
         white, transient = _whitened(run, run.white), _whitened(run, course.transient())
         length = np.sqrt(np.bincount(course.run, transient**2))[course.run]
         run = replace(run, white=white, transient=np.divide(transient, length, where=length > 0.0, out=0.0 * length))
@@ -167,7 +171,7 @@ def _blocks(run: _Run) -> Integers:
 
 
 def _whitened(run: _Run, increments: Floats) -> Floats:
-    return run.encoder.white(np.where(run.course.moving, increments, 0.0))[: len(increments)]
+    return run.colour.whiten(run.encoder.white(np.where(run.course.moving, increments, 0.0))[: len(increments)])
 
 
 @compiled

@@ -1,5 +1,8 @@
 """What repeats with the shaft angle is found where no swarm would: its line, size, and phase in every recording."""
 
+from types import SimpleNamespace
+from typing import cast
+
 import numpy as np
 import pytest
 from plant import profiles, record
@@ -11,8 +14,9 @@ from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import make_unknowns, map_theta
 from motor_identification.estimation.problem import make_problem
 from motor_identification.identify import Request, SearchConfig, identify
+from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.measured_angle import make_track
-from motor_identification.periodic.periodic_fit import add_periodic_effect, measure_angles
+from motor_identification.periodic.periodic_fit import add_periodic_effect, align_wave, measure_angles
 from motor_identification.periodic.ripple_spectrum import find_ripples
 from motor_identification.periodic.run_alignment import align_runs
 from motor_identification.recording import Floats, Recording, check
@@ -202,3 +206,35 @@ def test_an_eccentric_disc_cannot_be_seen_in_speeds() -> None:
     recording = as_speed(made({"ks": 0.3}, profiles.staircase(8.0, 2, 0.3), seed=1))
     with pytest.raises(ModelError, match="encoder_eccentricity needs a recording with encoder counts"):
         identify([recording], Request(("encoder_eccentricity",)))
+
+
+TORQUE = {"random_torque": 0.1, "random_torque_time": 0.05, "random_torque_seed": 3.0}
+
+
+def test_counted_runs_are_aligned_by_the_wave_of_an_eccentric_disc() -> None:
+    """A swing about a standstill loses slots: the wave itself tells how many, beside a torque's noise."""
+    random, slot, size = np.random.default_rng(5), 2.0 * np.pi / 96, 0.02
+    run = np.repeat(np.arange(6), 192)
+    counted = np.arange(len(run) + 1) * slot
+    slips = np.array([0.0, 2.0, 5.0, 4.0, 7.0, 9.0])
+    true = counted[:-1] + slips[run] * slot
+    shown = size * (np.sin(true + slot + 0.7) - np.sin(true + 0.7)) + random.normal(0.0, 1e-4, len(run))
+    data = cast(Intervals, SimpleNamespace(slack=np.zeros(len(run)), slot=slot, gear=1.0))
+    aligned = align_wave(np.diff(np.sin(counted)), np.diff(np.cos(counted)), shown, run, data)
+    assert abs(aligned.weight) == pytest.approx(size, rel=0.02)
+    assert aligned.slips - aligned.slips[0] == pytest.approx(slips, abs=0.5)
+    still = replace_slack(data)
+    assert align_wave(np.diff(np.sin(counted)), np.diff(np.cos(counted)), shown, run, still).weight == 0.0
+
+
+def replace_slack(data: Intervals) -> Intervals:
+    """The same intervals, in none of which an edge came."""
+    return cast(Intervals, SimpleNamespace(slack=np.full(len(data.slack), data.slot), slot=data.slot, gear=1.0))
+
+
+def test_a_ripple_beside_a_random_torque_that_is_slower_and_stronger() -> None:
+    hidden = {"ripple_voltage": 0.2, "ripple_cycles": 7.4, "ripple_phase": 0.3}
+    bare, _ = without_ripple(made(hidden | TORQUE, profiles.staircase(9.0, 3, 0.5), 2), BASE)
+    tracks = measure_angles(bare, bare.problem.unknowns.effects)
+    ripple = find_ripples(bare, tracks)[0]
+    assert ripple.cycles == pytest.approx(7.4, abs=0.02) and ripple.amplitude == pytest.approx(0.2, rel=0.2)
