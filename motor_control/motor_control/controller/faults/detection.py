@@ -24,7 +24,7 @@ def begin(speed: float) -> State:
 
 def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     """Find a fault: a sentence if the motor has to stop, else ""."""
-    regular = state.periods.jump < irregular_edges.IRREGULAR
+    regular = not state.periods.irregular
     still, stalled = stall.check(config, state.stalled, seen)
     few, missing = few_edges.check(config, state.missing, seen, regular)
     irregular, periods = irregular_edges.check(config, state.periods, seen)

@@ -9,6 +9,10 @@ slots are irregular, or in a swing that takes no longer than two edges. So the j
 cut off at `LARGEST`: its mean over the latest edges is 0.45 for random edges whatever their rate, below 0.1 for a disc
 whose slots are irregular by 5 %, and up to 0.4 where a loop makes a slow motor swing: edge by edge, at a rate below
 `LEAST_RATE`. After a standstill or a turn the mean begins anew.
+
+Edges of four flanks a period are as uneven as the encoder's sensor, by a fifth or more, and so is a disc of four slots:
+every fourth period is alike there. So a second mean is taken over periods whose counts leave the same rest by 4: where
+it is that of ordinary motion, the jumps are the sensor's. Of random edges both means are the same.
 """
 
 from dataclasses import dataclass, replace
@@ -16,6 +20,7 @@ from math import exp, log
 
 from motor_control.controller.faults.evidence import Config, Seen
 
+FLANKS = 4
 EDGES = 10.0  # over which the jumps are averaged
 LARGEST = 1.0  # jump that counts: an edge that is one too many makes two such jumps, and is no lost line
 IRREGULAR = 0.3  # mean jump; 50 random edges a second have it after 0.3 s, and after 0.6 s in 95 of 100 cases
@@ -38,6 +43,8 @@ class State:
     period: float = 0.0  # [s] 0: none yet
     step: float = 0.0  # log of its ratio to the one before
     jump: float = 0.0  # mean
+    patterned: float = 0.0  # mean over periods of the same flank
+    flanks: tuple[tuple[float, float], ...] = ((0.0, 0.0),) * FLANKS  # period and step of each
     count: int = 0  # of edges
     backward: bool = False  # a second channel counts down
     steps: int = 0  # periods since it began anew
@@ -45,7 +52,12 @@ class State:
     @property
     def regular(self) -> bool:
         """Whether the edges are a motor's beyond doubt, so that one may learn from them."""
-        return self.jump < REGULAR and self.steps >= EDGES
+        return min(self.jump, self.patterned) < REGULAR and self.steps >= EDGES
+
+    @property
+    def irregular(self) -> bool:
+        """Whether the edges are no motor's: their periods jump, and no pattern of flanks explains it."""
+        return self.jump >= IRREGULAR and self.patterned >= REGULAR
 
 
 def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
@@ -53,8 +65,8 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     period = seen.sample.edge_period
     if seen.motion.edges and config.slot > 0.0:
         count = seen.sample.edge_count
-        state = replace(follow_period(state, period, count < state.count), count=count)
-    if state.jump < IRREGULAR or config.stall_time == 0.0:
+        state = replace(follow_period(state, period, count < state.count, count), count=count)
+    if not state.irregular or config.stall_time == 0.0:
         return "", state
     driven = seen.motion.slow_voltage >= LEAST_VOLTAGE * seen.voltage_limit > 0.0
     if not driven or seen.motion.slow_speed < LEAST_RATE * config.slot:
@@ -62,12 +74,28 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     return SENTENCE.format(exp(state.jump)), state
 
 
-def follow_period(state: State, period: float, backward: bool = False) -> State:
-    """Follow one more period [s]; 0 is one that is not known. A standstill and a turn begin anew."""
+def follow_period(state: State, period: float, backward: bool = False, count: int = 0) -> State:
+    """Follow one more period [s] up to a count; 0 is one that is not known. A standstill and a turn begin anew."""
     if period >= STANDSTILL or backward != state.backward:
         return State(backward=backward)
     if period <= 0.0 or state.period <= 0.0:
         return replace(state, period=max(period, 0.0), step=0.0)
-    step = log(period / state.period)
-    jump = min(abs(step), abs(state.step), LARGEST) if step * state.step < 0.0 else 0.0
-    return State(period, step, state.jump + (jump - state.jump) / EDGES, state.count, backward, state.steps + 1)
+    step, jump = _find_jump((state.period, state.step), period)
+    flank = state.flanks[count % FLANKS]
+    flank_step, flank_jump = _find_jump(flank, period) if flank[0] else (0.0, jump)
+    return State(
+        period,
+        step,
+        state.jump + (jump - state.jump) / EDGES,
+        state.patterned + (flank_jump - state.patterned) / EDGES,
+        (*state.flanks[: count % FLANKS], (period, flank_step), *state.flanks[count % FLANKS + 1 :]),
+        state.count,
+        backward,
+        state.steps + 1,
+    )
+
+
+def _find_jump(before: tuple[float, float], period: float) -> tuple[float, float]:
+    """The step [log] from a period, itself reached by a step, to the next, and the jump that both are."""
+    step = log(period / before[0])
+    return step, min(abs(step), abs(before[1]), LARGEST) if step * before[1] < 0.0 else 0.0

@@ -39,6 +39,21 @@ def test_mean_jump_of_random_edges_is_as_the_page_says() -> None:
     assert np.mean(jumps) == pytest.approx(0.45, abs=0.01)
 
 
+@pytest.mark.parametrize("seen_every", [1, 3, 4, 7])
+def test_flanks_as_uneven_as_a_sensors_are_a_motors(seen_every: int) -> None:
+    """Four flanks of 0.6 to 1.4 slots, of which a sample sees the latest only; seed 30173 of no_false_stops stopped."""
+    rng, state, largest = np.random.default_rng(2), State(), 0.0
+    for count in range(0, 4000, seen_every):
+        period = 0.01 * (0.6, 1.4, 0.75, 1.25)[count % 4] * (1.0 + 0.03 * rng.standard_normal())
+        state = follow_period(state, period, count=count)
+        largest = max(largest, state.jump)
+        assert not state.irregular
+    assert state.regular and (largest > IRREGULAR or seen_every == 4)
+    for count in range(4000, 4000 + 20 * seen_every, seen_every):  # and then the line is lost
+        state = follow_period(state, 0.01 * float(rng.exponential()), count=count)
+    assert state.irregular
+
+
 def test_a_period_that_is_not_known_is_no_jump() -> None:
     """Two channels: an edge that was taken back."""
     state = follow_period(follow_period(State(), 0.02), 0.0)
