@@ -32,8 +32,8 @@ voltage) has shown half an edge after 0.5 s. Tried: to stop where the voltage wi
 50 % of the voltage, and one of 530 ordinary motors (seed 50020 of `no_false_stops.py`). 5 and 20 stray edges a second
 are about what is wanted there (at 174 rad/s 80), and too few for their periods to be judged (from 35 a second on; ten
 edges tell): such a motor turns as it likes, at up to 97 % of its top speed, and stops late or never. From 50 a second
-on stray edges stop it in time (but for one run of the 6 rad/s motor), and at half of the top speed at any rate. On the
-board the exchanged channels of the 6 rad/s motor take 572 ms at 1 kHz."""
+on stray edges stop it in time (but for one run of the 6 rad/s motor), and at half of the top speed at any rate. The
+exchanged channels of the 6 rad/s motor took 401 ms on the board at 1 kHz here, and 572 ms in the run before, at b58f6e8."""
 
 
 @dataclass(frozen=True)
