@@ -33,7 +33,7 @@ voltage) has shown half an edge after 0.5 s. Tried: to stop where the voltage wi
 are about what is wanted there (at 174 rad/s 80), and too few for their periods to be judged (from 35 a second on; ten
 edges tell): such a motor turns as it likes, at up to 97 % of its top speed, and stops late or never. From 50 a second
 on stray edges stop it in time (but for one run of the 6 rad/s motor), and at half of the top speed at any rate. The
-exchanged channels of the 6 rad/s motor took 401 ms on the board at 1 kHz here, and 572 ms in the run before, at b58f6e8."""
+exchanged channels of the 6 rad/s motor took 401 ms on the board at 1 kHz here, and 572 ms at b58f6e8."""
 
 
 @dataclass(frozen=True)
