@@ -32,7 +32,7 @@ def test_a_wrong_argument_is_one_sentence(
 ) -> None:
     (tmp_path / "broken.yaml").write_text("a: [\n")
     arguments = ["--ros-args", *(word.format(tmp_path) for word in words)] if words else []
-    command = [workbench.program("motor_sim", "motor_sim"), *arguments]
+    command = [workbench.program("motor_driver", "motor_driver"), *arguments]
     done = subprocess.run(
         command, env=workbench.ENVIRONMENT | environment, capture_output=True, text=True, timeout=120.0, check=False
     )

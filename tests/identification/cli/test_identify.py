@@ -143,20 +143,22 @@ def test_a_bad_command_is_one_sentence(
     assert words.format(tmp=tmp_path, bag=good) in err and err.count("\n") == 1
 
 
-@pytest.mark.parametrize("taken", ["model.yaml", "fit.json", "report/fit.png", "report/model.yaml"])
-def test_what_exists_is_only_replaced_by_force(
-    taken: str, good: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_what_exists_is_only_replaced_by_force(good: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "report").mkdir()
-    (tmp_path / taken).write_text("mine")
     options = ["--output", str(tmp_path / "model.yaml"), "--json", str(tmp_path / "fit.json")]
     options += ["--report", str(tmp_path / "report")]
-    assert identify([str(good), *options]) == 1
     said = "exists already and is left as it is: choose another name, or replace it with --force.\n"
-    assert capsys.readouterr() == ("", f"{tmp_path / taken} {said}")
-    assert (tmp_path / taken).read_bytes() == b"mine"
+    files = [tmp_path / name for name in ("model.yaml", "fit.json", "report/fit.png", "report/model.yaml")]
+    for taken in files:
+        taken.write_text("mine")
+        assert identify([str(good), *options]) == 1
+        assert capsys.readouterr() == ("", f"{taken} {said}")
+        assert taken.read_bytes() == b"mine" and sum(file.exists() for file in files) == 1
+        taken.unlink()
+    for taken in files:
+        taken.write_text("mine")
     assert identify([str(good), *options, "--force"]) == 0
-    assert (tmp_path / taken).read_bytes() != b"mine"
+    assert all(taken.read_bytes() != b"mine" for taken in files)
 
 
 SLOW = """
