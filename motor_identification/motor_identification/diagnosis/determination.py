@@ -18,7 +18,8 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
     """Drop the findings whose one parameter the training data do not determine; and name them with their rivals.
 
     First the one whose absence costs least likelihood: of effects that do each other's work, what is left is then
-    determined. One that has a rival which is determined gives way to that. What is not needed any more goes, too.
+    determined. One that has a rival which is determined gives way to that. What is not needed any more goes, too. What
+    has a size by chance, and leaves a complete model, is not named.
     """
     dropped: list[str] = []
     while weak := [step for step in selection.steps if step.found.effect in find_undetermined(selection.model)]:
@@ -29,7 +30,8 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
         if rival is not None:
             selection = rival
             continue
-        dropped += [step.found.effect, *step.rivals]
+        if not (smaller.model.complete and is_chance_size(step.found.effect, selection.model)):
+            dropped += [step.found.effect, *step.rivals]
         selection = eliminate_backward(smaller, reporter) if smaller.steps else smaller
         if any(one.found.effect in dropped for one in selection.steps):  # back in the place of another: no circles
             selection = smaller
@@ -56,7 +58,18 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
     parameter that belongs to a recording, such as an instant, says nothing of the motor.
     """
     unknown = _find_unknown(model) if model.effects else ()
-    return tuple(name for name in model.effects if is_undetermined(name, unknown))
+    return tuple(name for name in model.effects if is_undetermined(name, unknown) or is_chance_size(name, model))
+
+
+def is_chance_size(effect: str, model: Model) -> bool:
+    """Decide whether an effect that begins at an instant has a size of either sign: a place where any would help."""
+    specs = EFFECT_BY_NAME[effect].parameters
+    if not any(spec.of_recording and spec.scale.duration for spec in specs):
+        return False
+    fit = model.whitened
+    errors = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors
+    at = fit.problem.unknowns.names.index(specs[0].name)
+    return bool(abs(fit.theta[at] - specs[0].off) < thresholds.SURE_SIZE * errors[at])
 
 
 def _find_unknown(model: Model) -> tuple[str, ...]:

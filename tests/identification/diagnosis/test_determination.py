@@ -10,12 +10,13 @@ from diagnosed import fitted, with_effect
 from plant import profiles, record
 
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis import determination
+from motor_identification.diagnosis import determination, thresholds
 from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
 from motor_identification.diagnosis.determination import (
     drop_undetermined,
     find_limits_hit,
     find_undetermined,
+    is_chance_size,
     is_undetermined,
 )
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
@@ -68,6 +69,27 @@ def test_what_a_recording_does_not_determine_is_dropped_and_named() -> None:
     left, names = drop_undetermined(selection, SILENT)
     assert names == ("armature_inductance",) and left.steps == () and left.model.effects == ()
     assert left.model.held.gap == pytest.approx(before.held.gap, rel=1e-6)
+
+
+@pytest.mark.parametrize(("sigma", "chance"), [(0.99, True), (1.01, False)])
+def test_a_step_of_either_sign_is_chance(monkeypatch: pytest.MonkeyPatch, sigma: float, chance: bool) -> None:
+    estimate, hold_out = fitted()
+    model = validate_model(hold_out, with_effect(estimate, "load_step", {"step_voltage": 0.1, "step_time": 0.3}))
+    at = model.whitened.problem.unknowns.names.index("step_voltage")
+    errors = np.full(len(model.whitened.theta), abs(model.whitened.theta[at]) / (sigma * thresholds.SURE_SIZE))
+    monkeypatch.setattr(determination, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
+    assert is_chance_size("load_step", model) == chance
+    assert not is_chance_size("coulomb_friction", model)
+
+
+def test_a_step_by_chance_is_not_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    estimate, hold_out = fitted()
+    before = validate_model(hold_out, estimate)
+    after = validate_model(hold_out, with_effect(estimate, "load_step", {"step_voltage": 1e-4, "step_time": 0.3}))
+    selection = Selection((found_step(before, after, "load_step"),), after, hold_out, 1)
+    monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: True)
+    left, names = drop_undetermined(selection, SILENT)
+    assert before.complete and names == () and left.steps == () and left.model.effects == ()
 
 
 def found_step(before: Model, after: Model, effect: str, rivals: tuple[str, ...] = ()) -> SelectionStep:
