@@ -9,7 +9,9 @@ from dataclasses import replace
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import CandidateTest, Model, refit_without
 from motor_identification.diagnosis.effect_test import (
+    EFFECT_ORDER,
     count_parameters,
+    find_rivals,
     likelihood_threshold,
     list_candidates,
     sort_by_table,
@@ -107,9 +109,10 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
         reporter.report(f"{test.effect} in place of {effect}", 0.9, effect, current.held.gap)
 
     tests = try_effects(without, selection.hold_out, others, selection.workers, heard)
-    better = next((test for test in tests if is_better(test, effect, current)), None)
+    better = choose_better(tests, effect, current)
     if better is not None:
-        return replace_step(selection, step, replace(step, found=better, rivals=()), better.model)
+        rivals = tuple(name for name in find_rivals(better, tests) if name != better.effect)
+        return replace_step(selection, step, replace(step, found=better, rivals=rivals), better.model)
     alike = [test.effect for test in tests if find_loss(test, effect, current) < thresholds.RIVAL_MARGIN]
     rivals = sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
     return replace_step(selection, step, replace(step, rivals=rivals), current)
@@ -123,6 +126,19 @@ def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequ
     likely = [test.effect for test in step.tests if test is not step.found and test.evidence > likelihood_threshold()]
     free = [name for name in list_candidates(without) if name not in current]
     return [name for name in likely if name in free][: thresholds.ELIMINATION_RIVALS]
+
+
+def choose_better(tests: Sequence[CandidateTest], effect: str, current: Model) -> CandidateTest | None:
+    """Choose among tests, best first, what does better than an effect of the current model; of equals the most common.
+
+    None if nothing does.
+    """
+    best = next((test for test in tests if is_better(test, effect, current)), None)
+    if best is None:
+        return None
+    least, most = best.evidence - thresholds.TIE_LIKELIHOOD, count_parameters(best.effect)
+    equals = [test for test in tests if test.evidence > least and count_parameters(test.effect) <= most]
+    return min(equals, key=lambda test: EFFECT_ORDER[test.effect])
 
 
 def is_better(test: CandidateTest, effect: str, current: Model) -> bool:

@@ -168,8 +168,10 @@ class Model:
         same = all(a is b for a, b in zip(held.recordings, problem.recordings, strict=False))
 
         def rest(recording: Recording, data: Intervals, angle: Floats, increments: Floats, judged: Bools) -> Rest:
-            history = make_history(recording, data, angle, values["kv"], values.get("delay", 0.0))
-            return Rest(make_error_data(data, increments), history, ~judged, judged)
+            motor = values["kv"], values.get("delay", 0.0)
+            history = make_history(recording, data, angle, *motor)
+            simulated = make_history(recording, data, angle, *motor, data.speed + increments / data.duration)
+            return Rest(make_error_data(data, increments), history, simulated, ~judged, judged)
 
         rows = zip(held.recordings, held.intervals, held.angles, held.increments, held.scored, strict=True)
         own = [rest(*row) for row in rows]

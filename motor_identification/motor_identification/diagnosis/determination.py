@@ -6,7 +6,7 @@ from math import inf
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward, replace_step
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.effect_test import likelihood_threshold, sort_by_table, try_effects
+from motor_identification.diagnosis.effect_test import likelihood_threshold, needs_instant, sort_by_table, try_effects
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
 from motor_identification.uncertainty.result import find_bounds_hit
@@ -63,10 +63,9 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
 
 def is_chance_size(effect: str, model: Model) -> bool:
     """Decide whether an effect that begins at an instant has a size of either sign: a place where any would help."""
-    specs = EFFECT_BY_NAME[effect].parameters
-    if not any(spec.of_recording and spec.scale.duration for spec in specs):
+    if not needs_instant(effect):
         return False
-    fit = model.whitened
+    specs, fit = EFFECT_BY_NAME[effect].parameters, model.whitened
     errors = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors
     at = fit.problem.unknowns.names.index(specs[0].name)
     return bool(abs(fit.theta[at] - specs[0].off) < thresholds.SURE_SIZE * errors[at])

@@ -16,6 +16,7 @@ from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
 
+EFFECT_ORDER = {name: number for number, name in enumerate(EFFECT_BY_NAME)}  # the most common first
 Heard = Callable[[CandidateTest], None]  # told of each test as it is done
 
 
@@ -68,20 +69,25 @@ def likelihood_threshold() -> float:
 def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
     """Choose the finding among tests, best first, if there is one: likely, and relevant; of equals the most common.
 
-    What needs an instant for every recording has to be more likely than what needs none.
+    What needs an instant, or one for every recording, has to be more likely than what needs none.
     """
     best = next((test for test in tests if _is_finding(test)), None)
     if best is None:
         return None
-    margin = thresholds.RIVAL_MARGIN if best.has_instants else thresholds.TIE_LIKELIHOOD
+    margin = thresholds.RIVAL_MARGIN if needs_instant(best.effect) else thresholds.TIE_LIKELIHOOD
     equals = [
         test
         for test in tests
-        if test.evidence > best.evidence - (thresholds.TIE_LIKELIHOOD if test.has_instants else margin)
+        if test.evidence > best.evidence - (thresholds.TIE_LIKELIHOOD if needs_instant(test.effect) else margin)
         and count_parameters(test.effect) <= count_parameters(best.effect)
         and _is_finding(test)
     ]
-    return min(equals, key=lambda test: list(EFFECT_BY_NAME).index(test.effect))
+    return min(equals, key=lambda test: EFFECT_ORDER[test.effect])
+
+
+def needs_instant(effect: str) -> bool:
+    """Whether an effect begins at an instant, which a search finds a place for where any size would help."""
+    return any(spec.of_recording and spec.scale.duration for spec in EFFECT_BY_NAME[effect].parameters)
 
 
 def _is_finding(test: CandidateTest) -> bool:

@@ -20,6 +20,7 @@ from motor_identification.diagnosis.candidate_model import (
 )
 from motor_identification.diagnosis.disturbed_fit import fit_beside_torque
 from motor_identification.diagnosis.effect_test import (
+    EFFECT_ORDER,
     choose_finding,
     count_parameters,
     find_rivals,
@@ -35,8 +36,6 @@ from motor_identification.estimation.miscounts import exclude_miscounts, find_mi
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
-
-EFFECT_ORDER = {name: number for number, name in enumerate(EFFECT_BY_NAME)}  # the most common first
 
 
 @dataclass(frozen=True)

@@ -33,11 +33,15 @@ class MotionHistory:
     at_end: Integers  # (I,) segment that begins where each interval ends
 
 
-def make_history(recording: Recording, data: Intervals, angle: Floats, kv: float, delay: float) -> MotionHistory:
+def make_history(
+    recording: Recording, data: Intervals, angle: Floats, kv: float, delay: float, speeds: Floats | None = None
+) -> MotionHistory:
     """Cut a recording into segments between samples and ends of intervals.
 
-    angle: [rad] simulated at `data.time`. kv [V·s/rad] and delay [s]: of the fitted motor.
+    angle: [rad] simulated at `data.time`. kv [V·s/rad] and delay [s]: of the fitted motor. speeds: [rad/s] of the
+    intervals (I,), where not the measured ones.
     """
+    speeds = data.speed if speeds is None else speeds
     sampled = recording.time + delay
     edges = np.unique(np.concatenate([data.time, sampled[sampled < data.time[-1]]]))
     middle, duration = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges)
@@ -46,9 +50,7 @@ def make_history(recording: Recording, data: Intervals, angle: Floats, kv: float
     order = np.flatnonzero(moving)[np.argsort(start[moving], kind="stable")]
     centre = 0.5 * (start[order] + end[order])
     inside = np.maximum(np.searchsorted(start[order], middle, side="right") - 1, 0)
-    speed = np.where(
-        middle < end[order][inside], data.speed[order][inside], np.interp(middle, centre, data.speed[order])
-    )
+    speed = np.where(middle < end[order][inside], speeds[order][inside], np.interp(middle, centre, speeds[order]))
     still = _covered(middle, start[~moving], end[~moving])
     speed = np.where(still, 0.0, speed)
     sample = np.maximum(np.searchsorted(sampled, middle, side="right") - 1, 0)

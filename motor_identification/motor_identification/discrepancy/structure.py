@@ -15,6 +15,7 @@ from motor_identification.discrepancy.free_curves import (
     FAMILIES,
     HARMONICS,
     OF_ONE_RECORDING,
+    OF_SPEED,
     Reach,
     measure_reach,
     respond,
@@ -52,6 +53,7 @@ class Rest:
 
     errors: ErrorData
     history: MotionHistory
+    simulated: MotionHistory  # with the model's speeds, which no random torque is in
     learnt: Bools  # intervals that curves may be learnt on
     judged: Bools  # others, that they are judged by
 
@@ -74,7 +76,13 @@ def find_structure(
     found = []
     for name in FAMILIES:
         rests = own if name in OF_ONE_RECORDING or not others else (*(_to_judge(rest) for rest in own), *others)
-        found.append(_judge_family(name, rests, reach, model, rate, ka))
+        judged = _judge_family(name, rests, reach, model, rate, ka)
+        if judged.certain and name in OF_SPEED:  # a torque that is in the measured speed is predicted by it, too
+            again = _judge_family(
+                name, [replace(rest, history=rest.simulated) for rest in rests], reach, model, rate, ka
+            )
+            judged = min(judged, again, key=lambda one: one.significance)
+        found.append(judged)
     return tuple(sorted(found, key=lambda one: -one.share if one.certain else 1.0 - one.significance * 1e-9))
 
 

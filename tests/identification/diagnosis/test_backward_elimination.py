@@ -1,11 +1,16 @@
 """Backward elimination: what stands in is dropped, what is not needed goes, what is better replaces it."""
 
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
+
 import pytest
 from diagnosed import fitted
 from stub_models import stub_model, stub_test
 
 from motor_identification.diagnosis import backward_elimination, thresholds
 from motor_identification.diagnosis.backward_elimination import (
+    choose_better,
     drop_stand_ins,
     drop_stand_ins_of_either,
     eliminate_backward,
@@ -17,6 +22,7 @@ from motor_identification.diagnosis.candidate_model import CandidateTest, Model,
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.diagnosis.effect_test import likelihood_threshold
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
+from motor_identification.discrepancy.structure import Structure
 from motor_identification.progress import ProgressReporter
 
 BELOW, ABOVE = 0.999, 1.001
@@ -62,6 +68,26 @@ def test_what_holds_the_motor_is_its_own_evidence_where_it_explains_standstills(
     assert asked == [(steps[0].before, steps[1].before)]
 
 
+@pytest.mark.parametrize(
+    ("effect", "explains", "left", "kept"),
+    [
+        ("transport_delay", ABOVE * thresholds.APART_SHARE, ("spectrum",), 1),
+        ("transport_delay", BELOW * thresholds.APART_SHARE, ("spectrum",), 0),
+        ("transport_delay", 0.9, ("spectrum", "past"), 0),  # its own variable: it may stand in for another lag
+        ("transport_delay", 0.9, (), 0),
+        ("warm_up", 0.9, ("time",), 0),
+        ("coulomb_friction", 0.9, ("angle", "time"), 1),
+    ],
+)
+def test_what_only_angle_or_time_predict_is_nothing_that_a_finding_stands_in_for(
+    effect: str, explains: float, left: tuple[str, ...], kept: int
+) -> None:
+    selection = selection_of(5.0, step_of(effect, explains))
+    rest = tuple(Structure(name, 0.5, 100.0) for name in left)
+    model = cast(Model, SimpleNamespace(complete=False, structure=rest))
+    assert len(drop_stand_ins(replace(selection, model=model)).steps) == kept
+
+
 def test_of_two_selections_the_one_that_keeps_more() -> None:
     poor, rich = selection_of(4.0, step_of("load_bias", 0.9)), selection_of(5.0, step_of("load_bias", 0.99))
     assert drop_stand_ins_of_either(rich, poor).steps == rich.steps == drop_stand_ins_of_either(poor, rich).steps
@@ -80,6 +106,20 @@ def test_findings_that_another_selection_confirms_are_kept() -> None:
 def test_a_line_in_the_spectrum_is_its_own_evidence() -> None:
     steps = step_of("torque_ripple", 0.1), step_of("load_bias", 0.99)
     assert drop_stand_ins(selection_of(5.0, *steps)).steps == steps
+
+
+def test_of_what_is_as_much_better_the_most_common_replaces_a_finding() -> None:
+    current = stub_model(1.0, 0.0, likelihood=-500.0)
+    before = stub_model(2.0, 0.0, likelihood=-600.0)
+
+    def better(name: str, evidence: float) -> CandidateTest:
+        return CandidateTest(name, before, stub_model(1.0, 0.0, likelihood=-600.0 + evidence))
+
+    zone, friction = better("dead_zone", 110.0), better("coulomb_friction", 110.0 - 0.9 * thresholds.TIE_LIKELIHOOD)
+    assert choose_better([zone, friction], "load_step", current) is friction
+    behind = better("coulomb_friction", 110.0 - 1.1 * thresholds.TIE_LIKELIHOOD)
+    assert choose_better([zone, behind], "load_step", current) is zone
+    assert choose_better([better("dead_zone", 1.0)], "load_step", current) is None
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,8 @@
 """What a model lacks is told from what is random, and in which variable it is; ridge and lines on made-up numbers."""
 
+from collections.abc import Sequence
 from math import tau
+from typing import cast
 
 import numpy as np
 import pytest
@@ -8,10 +10,22 @@ from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.forward_selection import begin_selection
-from motor_identification.discrepancy.structure import CERTAIN, LEAST_SHARE, Structure, share_of_disc, solve_ridge
+from motor_identification.discrepancy import structure
+from motor_identification.discrepancy.free_curves import OF_SPEED, Reach
+from motor_identification.discrepancy.motion_history import MotionHistory
+from motor_identification.discrepancy.structure import (
+    CERTAIN,
+    LEAST_SHARE,
+    Rest,
+    Structure,
+    find_structure,
+    share_of_disc,
+    solve_ridge,
+)
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.multistart import SearchConfig
 from motor_identification.estimation.problem import make_problem
+from motor_identification.noise.error_model import ErrorData, ErrorModel
 from motor_identification.recording import check
 from motor_identification.validation.hold_out import make_hold_out
 
@@ -86,3 +100,23 @@ def test_a_torque_that_would_leave_much_more_is_no_description(slew: float, rand
     """A bridge that slews, which an inductance stands in for, leaves rare large errors and nothing between them."""
     model = fitted({"slew_rate": slew} if slew else {}, ("armature_inductance",), torque=0.0 if slew else 0.1)
     assert model.is_random == random == model.complete
+
+
+@pytest.mark.parametrize(("simulated", "certain"), [(0.0, False), (200.0, True)])
+def test_what_only_the_measured_speed_predicts_is_its_own_disturbance(
+    monkeypatch: pytest.MonkeyPatch, simulated: float, certain: bool
+) -> None:
+    """A slow torque is in the measured speed, and therefore predicted by it; the model's speeds have none."""
+    nothing = np.zeros(0, dtype=bool)
+    measured, model = cast(MotionHistory, "measured"), cast(MotionHistory, "model's")
+    rest = Rest(cast(ErrorData, None), measured, model, nothing, nothing)
+    gains = {"measured": 100.0, "model's": simulated}
+
+    def judged(name: str, rests: Sequence[Rest], *_: object) -> Structure:
+        return Structure(name, 0.5, gains[str(rests[0].history)] if name in OF_SPEED else 0.0)
+
+    monkeypatch.setattr(structure, "_judge_family", judged)
+    monkeypatch.setattr(structure, "measure_reach", lambda histories: Reach(1.0, 1.0, 1.0, 1.0))
+    monkeypatch.setattr(structure, "find_lines", lambda *_: ())
+    found = find_structure([rest], [], ErrorModel(0.0, 0.0, 0.0, 1.0), 1.0, 1.0)
+    assert [one.certain for one in found if one.variable in OF_SPEED] == [certain] * 3
