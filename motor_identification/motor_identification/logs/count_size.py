@@ -1,29 +1,51 @@
-"""How large one count is, and how many there are in a turn: said, seen in the data, or fine enough to stand for it."""
+"""How large one count is, and how many there are in a turn: said, seen in the data, or fine enough to stand for it.
 
-from math import log10, pi
+The counts of a turn need not be whole: a converter behind a potentiometer, printed digits and a gear have no regard for
+turns. `motor/info` has whole counts of an encoder's turn, and the turns of the encoder in one of the output: 102.4
+counts a turn are 102, and a gear of 256/255.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, log10, pi
 
 import numpy as np
 
 from motor_identification.logs.form import CsvForm
+from motor_identification.logs.position_lattice import Lattice, find_position_lattice
 from motor_identification.logs.signals import Floats
-from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import estimate_white_noise
 from motor_model.errors import RecordingError
+from motor_model.gearing.gear import LEAST, MOST, MOST_TEETH
 
 # How far, relatively, the counts of a turn may be from those said or from a whole number: they scale what is measured
 # where positions are counted, and only the noise floor where speeds are given.
 AGREE_COUNTS, AGREE_SPEED = 1e-4, 1e-3
-ON_GRID = 0.05  # counts: how far positions may lie beside whole counts before the user is told
 MOST_EDGES = 10_000_000  # a turn: a finer encoder than is sold, and within what motor/info can say
-LEAST_LEVELS = 10  # different values, fewer of which show no steps
+FEWEST_COUNTS = 8  # of an encoder's turn that is made up: slots that are told apart
 # Counts from row to row, at most, where counts stand for a position without steps: as many as an encoder of a thousand
 # lines has on such a motor. More would make a jump of every reversal, and are finer than any model.
 COUNTS_A_ROW = 30.0
 FINE = (360, 1_000_000)  # counts a turn that stand for a position without steps: at least, at most
+SURE = 3.0  # standard errors within which a step is taken for a simple share of so many turns at most:
+MOST_TURNS = 16
 
 
-def count_size(form: CsvForm, values: Floats, voltage: Floats) -> tuple[float, int, str]:
-    """The size of one count in the form's unit, the counts of a turn, and in words where that comes from.
+@dataclass(frozen=True)
+class Count:
+    """One count of a column of positions, and the encoder that has such counts."""
+
+    size: float  # in the form's unit
+    edges: int  # in a turn of the encoder's shaft
+    gear: Fraction  # turns of the encoder's shaft in a turn of the output
+    per_turn: float  # counts in the turn that the user means: `edges`, where they are whole
+    how: str = ""  # where that comes from, in words
+    origin: float = 0.0  # position of count 0, in the form's unit
+    stands_for: bool = False  # whether such counts are not in the data, but fine enough to stand for it
+
+
+def count_size(form: CsvForm, values: Floats, voltage: Floats) -> Count:
+    """Size one count of positions in the form's unit and of voltages [V], both of shape (K,).
 
     Raises:
         RecordingError: it is not to be had, or contradicts the edges per revolution.
@@ -32,72 +54,79 @@ def count_size(form: CsvForm, values: Floats, voltage: Floats) -> tuple[float, i
     if unit is None:  # the file counts by itself
         if form.edges_per_revolution is None:
             raise RecordingError("The size of a count is unknown: give --edges-per-revolution.")
-        return form.count_quantum or 1.0, form.edges_per_revolution, ""
+        return _whole(form, form.count_quantum or 1.0, form.edges_per_revolution)
     turn = 2.0 * pi / unit / float(form.gear)  # of the encoder's shaft
     if form.count_quantum:
-        return form.count_quantum, agree_on_edges(form, turn / form.count_quantum, AGREE_COUNTS), ""
+        return _said(form, form.count_quantum, turn, values)
     if form.edges_per_revolution:
-        return turn / form.edges_per_revolution, form.edges_per_revolution, ""
-    step = position_step(values)
-    if step > 0.0:
-        edges = turn / step
-        if abs(edges - round(edges)) <= AGREE_COUNTS * edges and round(edges) >= 1:
-            return step, round(edges), " (assumed: the smallest step in the data)"
-        if edges < MOST_EDGES:  # such as a gear's ratio: the counts of a turn need not be whole to be fine
-            return _fine(
-                turn, step, f" (assumed: values are multiples of {step:.4g} {form.unit}, no whole share of a turn)"
-            )
+        return _whole(form, turn / form.edges_per_revolution, form.edges_per_revolution)
+    way = float(np.quantile(np.abs(np.diff(values)), 0.9))  # from row to row
+    lattice = find_position_lattice(values)
+    if lattice and turn / lattice.step < MOST_EDGES:
+        return _seen(form, lattice, turn, way <= COUNTS_A_ROW * lattice.step and lattice.holds(values))
     noise = estimate_white_noise(values, voltage)
-    coarse = max(noise, float(np.quantile(np.abs(np.diff(values)), 0.9)) / COUNTS_A_ROW)
-    return _fine(turn, coarse, f" (assumed: the values show no steps, and noise of {noise:.2g} {form.unit})")
+    coarse = max(noise, way / COUNTS_A_ROW)
+    return _fine(form, turn, coarse, f" (assumed: the values show no steps, and noise of {noise:.2g} {form.unit})")
 
 
-def position_step(values: Floats) -> float:
-    """The smallest step of positions, or that of their printed digits; 0 where there is none.
-
-    Where no two positions are one step apart, what all the ways from row to row are multiples of.
-    """
-    return _step_of_neighbours(values) or _step_of_ways(values)
+def _whole(form: CsvForm, size: float, edges: int, how: str = "", origin: float = 0.0) -> Count:
+    return Count(size, edges, form.gear, edges, how, origin)
 
 
-def _step_of_ways(values: Floats) -> float:
-    """What all ways from row to row are multiples of, if all positions are, too; else 0."""
-    ways = np.diff(values)
-    if len(np.unique(ways)) < LEAST_LEVELS:
-        return 0.0
-    step = find_lattice(ways)
-    if step == 0.0:
-        return 0.0
-    numbers = np.cumsum(np.rint(ways / step))
-    places = values[1:] - values[0]
-    step = float(numbers @ places / (numbers @ numbers))
-    return step if np.max(np.abs(places / step - numbers)) < 2 * ON_GRID else 0.0
+def _said(form: CsvForm, size: float, turn: float, values: Floats) -> Count:
+    """A count of the size that was said: a whole share of the encoder's turn, or the step that the values have."""
+    exact = turn / size
+    if form.edges_per_revolution or abs(exact - round(exact)) <= AGREE_COUNTS * exact or exact > MOST_EDGES:
+        return _whole(form, size, agree_on_edges(form, exact, AGREE_COUNTS))
+    lattice = find_position_lattice(values)
+    if lattice and abs(size - lattice.step) <= max(AGREE_COUNTS * size, SURE * lattice.error):
+        said = Lattice(size, 0.0, lattice.origin)
+        made = _fractional(form, said, Fraction(exact).limit_denominator(MOST_TEETH), "")
+        if made and said.holds(values):
+            return made
+    return _whole(form, size, agree_on_edges(form, exact, AGREE_COUNTS))
 
 
-def _step_of_neighbours(values: Floats) -> float:
-    """The smallest step between the levels of all positions, if all steps are multiples of it; else 0."""
-    levels = np.unique(values)
-    if len(levels) < LEAST_LEVELS:
-        return 0.0
-    steps = np.diff(levels)
-    steps = steps[steps > 1e-9 * np.ptp(levels)]
-    step = float(np.min(steps))
-    near = steps[steps < 1.5 * step]
-    step = float(np.mean(near))
-    numbers = np.cumsum(np.rint(steps / step))
-    places = levels[-1] - levels[0] if not len(numbers) else np.concatenate(([0.0], np.cumsum(steps)))
-    step = float(numbers @ places[1:] / (numbers @ numbers))
-    beside = np.diff(places) / step
-    return step if np.max(np.abs(beside - np.rint(beside))) < 2 * ON_GRID else 0.0
+def _seen(form: CsvForm, lattice: Lattice, turn: float, matters: bool) -> Count:
+    """A count that is the step of the values' lattice; where a step that is no whole share does not matter, finer."""
+    exact = turn / lattice.step
+    if abs(exact - round(exact)) <= AGREE_COUNTS * exact and round(exact) >= 1:
+        return _whole(form, lattice.step, round(exact), " (assumed: the smallest step in the data)", lattice.origin)
+    per_turn = _simple_share(exact, SURE * exact * lattice.error / lattice.step)
+    made = _fractional(form, lattice, per_turn, " (assumed: values are multiples of it)") if matters else None
+    how = f" (assumed: values are multiples of {lattice.step:.4g} {form.unit}, no whole share of a turn)"
+    return made or _fine(form, turn, lattice.step, how)
 
 
-def _fine(turn: float, size: float, how: str) -> tuple[float, int, str]:
+def _simple_share(exact: float, error: float) -> Fraction:
+    """The simplest ratio of counts and turns that an uncertain number of counts a turn may be."""
+    for turns in range(1, MOST_TURNS + 1):
+        share = Fraction(round(exact * turns), turns)
+        if abs(float(share) - exact) <= max(error, 1e-9 * exact):
+            return share
+    return Fraction(exact).limit_denominator(MOST_TEETH)
+
+
+def _fractional(form: CsvForm, lattice: Lattice, per_turn: Fraction, how: str) -> Count | None:
+    """Whole counts of an encoder that a gear turns a little faster or slower; None where no gear does."""
+    if per_turn <= 0:
+        return None
+    turns = ceil(FEWEST_COUNTS / per_turn) if per_turn < FEWEST_COUNTS else 1
+    edges = round(per_turn * turns)
+    gear = Fraction(form.gear * per_turn / edges).limit_denominator(MOST_TEETH)
+    if not LEAST <= gear <= MOST:
+        return None
+    size = 2.0 * pi / (form.unit_size or 1.0) / float(edges * gear)
+    return Count(size, edges, gear, float(per_turn), how, lattice.origin)
+
+
+def _fine(form: CsvForm, turn: float, size: float, how: str) -> Count:
     """Counts fine enough to stand for values without steps, whose noise or step is `size`."""
     wanted = turn / size if size > 0.0 else float(FINE[1])
     edges = int(min(max(wanted, FINE[0]), FINE[1]))
     digits = 10 ** max(int(log10(edges)) - 1, 0)
     edges = edges // digits * digits
-    return turn / edges, edges, how
+    return Count(turn / edges, edges, form.gear, edges, how, stands_for=True)
 
 
 def agree_on_edges(form: CsvForm, exact: float, tolerance: float) -> int:

@@ -5,9 +5,11 @@ from math import pi, tau
 
 import numpy as np
 
-from motor_identification.logs.count_size import AGREE_SPEED, LEAST_LEVELS, ON_GRID, agree_on_edges, count_size
+from motor_identification.logs.count_size import AGREE_SPEED, agree_on_edges, count_size
 from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID
 from motor_identification.logs.rows.count_rate import count_rates
+from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.wraps import split_at_resets, unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.sensor.value_lattice import find_lattice
@@ -96,27 +98,33 @@ def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> Non
 
 def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     signals, wrapped = unwrap(signals, form)
-    quantum, edges, how = count_size(form, signals.motion, signals.voltage)
-    largest = float(np.max(np.abs(signals.motion))) / quantum
+    count = count_size(form, signals.motion, signals.voltage)
+    largest = float(np.max(np.abs(signals.motion))) / count.size
     if not largest < LARGEST_COUNT:
         raise RecordingError(
             f"{signals.path}: {form.motion} comes to {largest:.3g} counts, beyond what can be counted: check the "
             "column and --count-quantum."
         )
-    signals, reset = split_at_resets(signals, form, lambda values: np.rint(values / quantum).astype(np.int64))
-    exact = signals.motion / quantum
+    signals, reset = split_at_resets(signals, form, lambda values: np.rint(values / count.size).astype(np.int64))
+    exact = (signals.motion - count.origin) / count.size
     counts = np.rint(exact).astype(np.int64)
     beside = float(np.max(np.abs(exact - counts)))
+    counts, flicker = remove_flicker(signals, counts) if form.kind is Kind.POSITION else (counts, [])
     rate, held = count_rates(signals, counts)
-    speed = rate * edge_angle(edges, form.gear)
-    info = replace(info, measurement=Measurement.COUNTS, edges_per_revolution=edges)
+    speed = rate * edge_angle(count.edges, count.gear)
+    info = replace(info, measurement=Measurement.COUNTS, edges_per_revolution=count.edges)
+    if count.gear != 1:
+        info = replace(info, gear_ratio=float(count.gear))
+    per_turn = f"{count.edges}" if count.per_turn == count.edges else f"{count.per_turn:.6g}"
     findings = [
         *wrapped,
         *reset,
-        f"Sampled counts without time stamps: one count is {quantum:.6g} {form.unit}, {edges} per revolution{how}.",
+        f"Sampled counts without time stamps: one count is {count.size:.6g} {form.unit}, {per_turn} per "
+        f"revolution{count.how}.",
         "The angle is known to one count at each row's time; the speed is that between its latest changes.",
+        *flicker,
         *held,
     ]
-    if beside > ON_GRID and "no steps" not in how:
+    if beside > ON_GRID and not count.stands_for:
         findings.append(f"Caution: values are up to {beside:.2f} counts off whole counts: check --count-quantum.")
     return Motion(signals, speed, counts, info, tuple(findings))

@@ -44,7 +44,7 @@ def compare_speed_with_count(recording: Recording) -> float | None:
 
     Both are without sign, so that a single channel's doubt about it does not matter.
     """
-    steps = np.abs(np.diff(recording.edge_count))
+    steps = _passed_counts(recording)
     travel = np.abs(recording.speed[1:]) * np.diff(recording.time)
     whole = len(steps) // CHUNK_SAMPLES * CHUNK_SAMPLES
     counted = steps[:whole].reshape(-1, CHUNK_SAMPLES).sum(axis=1)
@@ -54,6 +54,19 @@ def compare_speed_with_count(recording: Recording) -> float | None:
         return None
     slot = recording.info.edge_angle
     return float(np.median(travelled[telling] / counted[telling])) / slot
+
+
+def _passed_counts(recording: Recording) -> Integers:
+    """Count what is passed from sample to sample, shape (K − 1,); of two channels without a flank crossed again.
+
+    A shaft that stands on a flank crosses it many times, which the reported speed takes for standing.
+    """
+    steps = np.diff(recording.edge_count)
+    if not recording.info.single_channel:
+        changed = np.flatnonzero(steps)
+        again = (np.abs(steps[changed[1:]]) == 1) & (np.sign(steps[changed[1:]]) == -np.sign(steps[changed[:-1]]))
+        steps[changed[1:][again]] = 0
+    return np.asarray(np.abs(steps))
 
 
 def check_counts(recording: Recording) -> Recording:

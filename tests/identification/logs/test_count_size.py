@@ -1,41 +1,78 @@
 """How large one count is."""
 
+from dataclasses import replace
+from fractions import Fraction
+from math import radians
+
 import numpy as np
 import pytest
 
-from motor_identification.logs.count_size import FINE, LEAST_LEVELS, MOST_EDGES, count_size, position_step
+from motor_identification.logs.count_size import FEWEST_COUNTS, FINE, count_size
 from motor_identification.logs.form import CsvForm, Kind
+from motor_model.errors import RecordingError
+from motor_model.gearing.gear import edge_angle, exact_gear
 
 DEGREES = CsvForm("t", "u", "y", Kind.POSITION, "deg")
 MOTION = np.cumsum(np.random.default_rng(2).integers(-3, 9, 400))
 
 
-@pytest.mark.parametrize("step", [0.9, 1.0, 360 / 2800, 1 / 8192])
-def test_the_step_of_positions_with_printed_digits(step: float) -> None:
-    assert position_step(np.round(MOTION * step, 7)) == pytest.approx(step, rel=1e-5)
-    assert position_step(MOTION[: LEAST_LEVELS - 1] * 1.0) == 0.0
-
-
-@pytest.mark.parametrize("step", [30.0, 360 / 20])
-def test_positions_of_a_fast_shaft_are_never_one_step_apart(step: float) -> None:
-    """Of 12 counts a turn, 23 to 28 a row."""
-    way = np.random.default_rng(4).integers(23, 29, 400)
-    way[:20] = np.arange(20) + 4
-    moved = np.cumsum(way) * step
-    assert position_step(moved) == pytest.approx(step, rel=1e-9)
-    beside = moved + step * np.random.default_rng(5).uniform(-0.2, 0.2, 400)
-    assert position_step(beside) == 0.0
-
-
 def test_positions_without_steps_have_none() -> None:
     smooth = np.cumsum(np.random.default_rng(3).normal(1.0, 0.3, 400))
-    assert position_step(smooth) == 0.0
-    size, edges, how = count_size(DEGREES, smooth, np.zeros(400))
-    assert FINE[0] <= edges <= FINE[1] and size == pytest.approx(360 / edges) and "show no steps" in how
+    count = count_size(DEGREES, smooth, np.zeros(400))
+    assert FINE[0] <= count.edges <= FINE[1] and count.size == pytest.approx(360 / count.edges)
+    assert "show no steps" in count.how and count.stands_for
 
 
 def test_a_step_that_is_a_whole_share_of_a_turn_is_the_count() -> None:
-    assert count_size(DEGREES, MOTION * 0.9, np.zeros(400))[:2] == (pytest.approx(0.9), 400)
-    size, edges, how = count_size(DEGREES, MOTION * 0.7, np.zeros(400))
-    assert "no whole share of a turn" in how and 360 / size == pytest.approx(edges) and 360 <= edges <= 515
-    assert edges <= MOST_EDGES
+    count = count_size(DEGREES, MOTION * 0.9, np.zeros(400))
+    assert (count.size, count.edges, count.gear) == (pytest.approx(0.9), 400, 1)
+
+
+def test_a_step_that_is_no_whole_share_of_a_turn_is_the_count_of_a_geared_encoder() -> None:
+    """A potentiometer of ten turns on a converter of 10 bits, printed with two digits: least squares has its step."""
+    printed = np.round(MOTION * 3.515625, 2)
+    count = count_size(DEGREES, printed, np.zeros(400))
+    assert (count.edges, count.gear, count.per_turn) == (102, Fraction(256, 255), 102.4)
+    assert count.size == pytest.approx(3.515625, rel=1e-15)
+    assert edge_angle(count.edges, exact_gear(float(count.gear))) == pytest.approx(radians(3.515625), rel=1e-15)
+    assert count.how == " (assumed: values are multiples of it)" and not count.stands_for
+
+
+@pytest.mark.parametrize(("turn", "edges"), [(7.9, 16), (7.6, 15), (3.3, 10), (0.7, 8), (8.4, 8)])
+def test_coarse_steps_are_slots_of_a_slower_encoder(turn: float, edges: int) -> None:
+    moved = np.cumsum(np.random.default_rng(2).integers(-1, 3, 400)) * 360.0 / turn
+    count = count_size(DEGREES, moved, np.zeros(400))
+    assert count.edges * float(count.gear) == pytest.approx(turn, rel=1e-9)
+    assert count.edges == edges >= FEWEST_COUNTS
+
+
+@pytest.mark.parametrize(("way", "kept"), [(29, True), (31, False)])
+def test_a_lattice_too_fine_to_matter_is_stood_for_by_coarser_counts(way: int, kept: bool) -> None:
+    moved = np.cumsum(np.where(np.arange(600) % 20 == 0, 1, way)) * 360.0 / 1496.6
+    count = count_size(DEGREES, moved, np.zeros(600))
+    assert (count.per_turn == 1496.6) is kept and count.stands_for is not kept
+    assert kept or (count.edges == 1400 and "no whole share of a turn" in count.how)
+
+
+def test_a_lattice_beside_zero_is_counted_from_where_it_is() -> None:
+    count = count_size(DEGREES, MOTION * 3.515625 + 1.7, np.zeros(400))
+    assert count.origin == pytest.approx(1.7)
+    assert count_size(DEGREES, MOTION * 3.515625 + 0.17, np.zeros(400)).origin == 0.0  # 0.048 counts
+
+
+@pytest.mark.parametrize(("said", "taken"), [(3.515625, True), (3.5156, True), (3.5160, False), (3.4, False)])
+def test_a_count_that_was_said_and_is_no_whole_share_is_that_of_the_values(said: float, taken: bool) -> None:
+    form = replace(DEGREES, count_quantum=said)
+    printed = np.round(MOTION[:60] * 3.515625, 2)
+    if taken:
+        assert count_size(form, printed, np.zeros(60)).size == pytest.approx(said, rel=1e-9)
+    else:
+        with pytest.raises(RecordingError, match=r"per revolution, not a whole number: check --count-quantum"):
+            count_size(form, printed, np.zeros(60))
+
+
+def test_a_said_count_that_drifts_off_the_values_is_refused() -> None:
+    far = np.cumsum(np.random.default_rng(2).integers(-3, 19, 900)) * 3.515625
+    assert count_size(replace(DEGREES, count_quantum=3.515625), far, np.zeros(900)).edges == 102
+    with pytest.raises(RecordingError, match="not a whole number"):
+        count_size(replace(DEGREES, count_quantum=3.51555), far, np.zeros(900))  # 2e-5 of 7000 counts

@@ -1,15 +1,17 @@
 """The motion column: the size of a count where it is said, seen or contradicted, and speeds out of counts."""
 
 from dataclasses import replace
-from math import pi, tau
+from fractions import Fraction
+from math import pi, radians, tau
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from motor_identification.logs.count_size import FINE, MOST_EDGES, position_step
+from motor_identification.logs.count_size import FINE, MOST_EDGES
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.motion import Motion, read_motion
+from motor_identification.logs.position_lattice import position_step
 from motor_identification.logs.signals import Signals
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement
@@ -43,10 +45,13 @@ def test_the_size_of_a_count_is_the_smallest_step_where_nobody_said_it() -> None
     assert position_step(np.array(RAMP[:9])) == 0.0 < position_step(np.array(RAMP[:10]))  # too few to tell
 
 
-def test_a_step_that_is_no_share_of_a_turn_is_counted_finely_enough() -> None:
-    motion = read(DEGREES, [0.7 * k for k in range(30)])
-    assert "0.7 deg, no whole share of a turn" in motion.findings[0]
-    assert motion.speed == pytest.approx(np.full(30, 0.7 * tau / 360 / 0.02), rel=0.5)
+def test_a_step_that_is_no_share_of_a_turn_is_the_count() -> None:
+    motion = read(DEGREES, [round(3.515625 * k, 2) for k in range(30)])
+    said = "one count is 3.51562 deg, 102.4 per revolution (assumed: values are multiples of it)."
+    assert motion.findings[0].endswith(said) and not any("Caution" in line for line in motion.findings)
+    assert motion.counts.tolist() == list(range(30))
+    assert (motion.info.edges_per_revolution, motion.info.gear) == (102, Fraction(256, 255))
+    assert motion.speed == pytest.approx(np.full(30, radians(3.515625) / 0.02), rel=1e-12)
 
 
 def test_counts_beyond_what_can_be_counted_are_refused() -> None:

@@ -33,6 +33,19 @@ def test_no_motion_of_a_motor_is_a_jump() -> None:
                 assert 0.9 < (compare_speed_with_count(recording) or 1.0) < 1.1
 
 
+def test_a_flank_crossed_again_and_again_is_no_speed() -> None:
+    """A shaft of two channels that trembles on a flank between two moves; with one channel each change is a slot."""
+    recording, _ = record(TRUTH, *profiles.step(12.0), edges=24, single_channel=False)
+    ends = np.arange(len(recording)) >= len(recording) // 5
+    trembling = np.where(ends, np.arange(len(recording)) % 2, 0)
+    held = np.where(ends, recording.edge_count[len(recording) // 5], recording.edge_count)
+    still = replace(recording, edge_count=held + trembling, speed=np.where(ends, 0.0, recording.speed))
+    ratio = compare_speed_with_count(still)
+    assert ratio is None or 0.8 < ratio < 1.2
+    single = replace(still, info=replace(still.info, single_channel=True))
+    assert (compare_speed_with_count(single) or 0.0) < 0.1
+
+
 COUNTS = {
     "wraps at a byte": lambda r: replace(r, edge_count=r.edge_count % 256),
     "wraps after a turn": lambda r: replace(r, edge_count=r.edge_count % 96),

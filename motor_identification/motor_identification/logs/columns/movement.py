@@ -6,8 +6,9 @@ from math import pi, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.count_size import position_step
+from motor_identification.logs.count_size import FEWEST_COUNTS
 from motor_identification.logs.form import UNITS, Kind
+from motor_identification.logs.position_lattice import position_step
 from motor_identification.logs.rows.wraps import RANGES, REACHED, SLACK
 from motor_identification.sensor.value_lattice import find_lattice
 
@@ -19,7 +20,6 @@ WHOLE = 0.015
 RELATIVE = 5e-6  # of the counts of a turn: what printed digits leave of the step
 MOST_COUNTS = 10_000  # a turn
 FORGETS = 5.0  # time constants in a recording, from which on a column is a speed: a position forgets nothing
-FEWEST_COUNTS = 8  # a turn
 ASKED = {Kind.SPEED: ("rad/s", "deg/s", "rpm"), Kind.POSITION: ("rad", "deg", "rev", "count")}
 
 

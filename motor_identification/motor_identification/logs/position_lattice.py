@@ -1,0 +1,80 @@
+"""Find the lattice that sampled positions lie on: the step of an encoder, of a converter or of printed digits."""
+
+from dataclasses import dataclass
+from math import sqrt
+
+import numpy as np
+
+from motor_identification.logs.signals import Floats
+from motor_identification.sensor.value_lattice import find_lattice
+
+LEAST_LEVELS = 10  # different values, fewer of which show no steps
+ON_GRID = 0.05  # counts: how far positions may lie beside whole counts before the user is told
+
+
+@dataclass(frozen=True)
+class Lattice:
+    """Multiples of a step, beside 0 by an origin."""
+
+    step: float  # in the positions' unit
+    error: float  # standard error of the step
+    origin: float  # within half a step of 0
+
+    def holds(self, values: Floats) -> bool:
+        """Whether all values, shape (K,), lie on it but for printed digits."""
+        exact = (values - self.origin) / self.step
+        return bool(np.max(np.abs(exact - np.rint(exact))) < 2 * ON_GRID)
+
+
+def position_step(values: Floats) -> float:
+    """Find the smallest step of positions, or that of their printed digits; 0 where there is none."""
+    lattice = find_position_lattice(values)
+    return lattice.step if lattice else 0.0
+
+
+def find_position_lattice(values: Floats) -> Lattice | None:
+    """Find the lattice of positions, shape (K,), by their smallest step.
+
+    Where no two positions are one step apart, by what all the ways from row to row are multiples of.
+    """
+    return _lattice_of_neighbours(values) or _lattice_of_ways(values)
+
+
+def _lattice_of_ways(values: Floats) -> Lattice | None:
+    """What all ways from row to row are multiples of, if all positions are, too."""
+    ways = np.diff(values)
+    if len(np.unique(ways)) < LEAST_LEVELS:
+        return None
+    step = find_lattice(ways)
+    if step == 0.0:
+        return None
+    numbers, first = np.unique(np.append(0.0, np.cumsum(np.rint(ways / step))), return_index=True)
+    lattice = _fit_lattice(values[first], numbers)
+    return lattice if lattice.holds(values) else None
+
+
+def _lattice_of_neighbours(values: Floats) -> Lattice | None:
+    """The smallest step between the levels of all positions, if all steps are multiples of it."""
+    levels = np.unique(values)
+    if len(levels) < LEAST_LEVELS:
+        return None
+    steps = np.diff(levels)
+    real = steps > 1e-9 * np.ptp(levels)
+    levels, steps = levels[np.append(True, real)], steps[real]
+    smallest = float(np.min(steps))
+    step = float(np.mean(steps[steps < 1.5 * smallest]))
+    lattice = _fit_lattice(levels, np.append(0.0, np.cumsum(np.rint(steps / step))))
+    beside = steps / lattice.step
+    return lattice if np.max(np.abs(beside - np.rint(beside))) < 2 * ON_GRID else None
+
+
+def _fit_lattice(levels: Floats, numbers: Floats) -> Lattice:
+    """Least squares of levels = origin + number × step, both of shape (L,); each level once, as its digits were."""
+    centred = numbers - numbers.mean()
+    spread = float(centred @ centred)
+    step = float(centred @ levels) / spread
+    left = levels - levels.mean() - step * centred
+    error = sqrt(float(left @ left) / max(len(levels) - 2, 1) / spread)
+    origin = float(levels.mean() - step * numbers.mean())
+    origin -= step * round(origin / step)
+    return Lattice(step, error, origin if abs(origin) > ON_GRID * step else 0.0)

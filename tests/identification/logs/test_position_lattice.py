@@ -1,0 +1,37 @@
+"""The lattice that positions lie on."""
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.position_lattice import LEAST_LEVELS, find_position_lattice, position_step
+
+MOTION = np.cumsum(np.random.default_rng(2).integers(-3, 9, 400))
+
+
+@pytest.mark.parametrize("step", [0.9, 1.0, 360 / 2800, 1 / 8192])
+def test_the_step_of_positions_with_printed_digits(step: float) -> None:
+    assert position_step(np.round(MOTION * step, 7)) == pytest.approx(step, rel=1e-5)
+    assert position_step(MOTION[: LEAST_LEVELS - 1] * 1.0) == 0.0
+
+
+@pytest.mark.parametrize("step", [30.0, 360 / 20])
+def test_positions_of_a_fast_shaft_are_never_one_step_apart(step: float) -> None:
+    """Of 12 counts a turn, 23 to 28 a row."""
+    way = np.random.default_rng(4).integers(23, 29, 400)
+    way[:20] = np.arange(20) + 4
+    moved = np.cumsum(way) * step
+    assert position_step(moved) == pytest.approx(step, rel=1e-9)
+    beside = moved + step * np.random.default_rng(5).uniform(-0.2, 0.2, 400)
+    assert position_step(beside) == 0.0
+
+
+def test_positions_without_steps_have_none() -> None:
+    assert position_step(np.cumsum(np.random.default_rng(3).normal(1.0, 0.3, 400))) == 0.0
+
+
+def test_the_step_of_rounded_digits_is_as_sure_as_it_says() -> None:
+    """54 levels of 3.515625 deg with two digits: uniform rounding leaves 0.01/√12/√(Σ(n − n̄)²) = 2.5e-5 deg."""
+    lattice = find_position_lattice(np.round(np.arange(-26, 28) * 3.515625, 2))
+    assert lattice is not None and lattice.error == pytest.approx(2.5e-5, rel=0.2)
+    assert abs(lattice.step - 3.515625) < 2.0 * lattice.error
+    assert lattice.holds(np.array([35.16, -7.03])) and not lattice.holds(np.array([35.56]))
