@@ -9,6 +9,7 @@ from motor_identification.logs.csv.mending import mend_table
 from motor_identification.logs.excitation import describe_excitation
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
+from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows
 from motor_model.errors import RecordingError
 
 
@@ -43,7 +44,11 @@ def import_source(source: Source, said: Said) -> Imported:
     Raises:
         RecordingError: as above.
     """
-    table = mend_table(source.table)
+    if said.sample_period is None:
+        table = mend_table(source.table)
+    else:
+        table = give_times(mend_table(number_rows(source.table)), said.sample_period)
+        said = replace(said, time=ROW_TIMES, time_unit="ns")
     guess = guess_forms(table, source.with_said(said))
     motors = []
     for form in guess.forms:
@@ -51,7 +56,7 @@ def import_source(source: Source, said: Said) -> Imported:
         motors.append(Motor(form.label, replace(log, findings=(*log.findings, *describe_excitation(log)))))
     if not any(motor.log.runs for motor in motors):
         raise RecordingError(f"{table.path} holds no recording: give a log with at least 2 samples.")
-    about = f"{table.path}: a {source.format} with the columns {_listed(table.names)}."
+    about = f"{table.path}: a {source.format} with the columns {_listed(source.table.names)}."
     return Imported(tuple(motors), (about, *table.notes, *guess.findings))
 
 

@@ -43,6 +43,20 @@ def test_an_output_has_to_be_said() -> None:
     assert caught.value.code == 2
 
 
+@pytest.mark.parametrize("period", ["0", "-1", "nan", "inf", "1e300", "two"])
+def test_a_sample_period_is_a_number_above_zero(period: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["log.csv", "--dry-run", "--sample-period", period])
+    assert caught.value.code == 2 and "argument --sample-period: " in capsys.readouterr().err.splitlines()[-1]
+
+
+@pytest.mark.parametrize("other", [["--time", "t"], ["--time-unit", "ms"], ["--steady"]])
+def test_a_sample_period_is_instead_of_times(other: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["log.csv", "--dry-run", "--sample-period", "0.002", *other])
+    assert caught.value.code == 2 and "--sample-period" in capsys.readouterr().err.splitlines()[-1]
+
+
 def test_what_breaks_in_the_middle_leaves_no_bag(tmp_path: Path) -> None:
     run = Run("", (Sample(0, 1.0, 1.0), Sample(10, 1.0, 1.0)))
     broken = Run("", (Sample(0, 1.0, 1.0), Sample(10, "fast", 1.0)))  # type: ignore[arg-type]

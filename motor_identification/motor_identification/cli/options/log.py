@@ -10,6 +10,7 @@ from motor_identification.logs.count_size import MOST_EDGES
 from motor_identification.logs.form import TIME_UNITS, UNITS, Kind
 from motor_model.errors import MotorError
 from motor_model.gearing.gear import parse_gear_ratio
+from motor_model.sample import RANGES
 from motor_ros.command import between, positive, whole_between
 from motor_ros.output_files import add_force_option
 
@@ -32,6 +33,12 @@ def _add_columns(parser: argparse.ArgumentParser) -> None:
     rows.add_argument("--time", metavar="COL", help="column of times")
     rows.add_argument(
         "--steady", action="store_true", help="every row is a steady state, such as those of a static curve"
+    )
+    rows.add_argument(
+        "--sample-period",
+        type=between(*RANGES["sample_period"]),
+        metavar="S",
+        help="rows are S seconds apart; the log has no times",
     )
     group.add_argument("--voltage", metavar="COL", help="column of voltages or duties")
     kind = group.add_mutually_exclusive_group()
@@ -138,6 +145,8 @@ def read_log_options(parser: argparse.ArgumentParser, options: argparse.Namespac
         parser.error("--rest-until takes a time of the --time column")
     if "count" in (kind.value if kind else "", options.unit) and options.edges_per_revolution is None:
         parser.error("counts have a size only with --edges-per-revolution")
+    if options.sample_period and options.time_unit:
+        parser.error("--sample-period is in seconds, and takes no --time-unit")
     if options.voltage_scale and (options.full_duty or options.supply or options.supply_voltage):
         parser.error("--voltage-scale does not go with --full-duty, --supply and --supply-voltage")
     if not options.output and not options.dry_run:

@@ -7,15 +7,13 @@ import numpy as np
 
 from motor_identification.logs.columns.clock import SLOWEST, guess_time_unit, row_period
 from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.motor_form import Rows, make_form
+from motor_identification.logs.columns.motor_form import STEPS_BETWEEN, Rows, make_form
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles import Roles, find_roles
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import TIME_UNITS, CsvForm
 from motor_model.errors import RecordingError
-
-STEPS_BETWEEN = 0.8  # of the rows that a steady curve's voltage changes in
 
 
 @dataclass(frozen=True)
@@ -45,10 +43,15 @@ def _rows(table: Table, roles: Roles, said: Said, notes: Notes) -> Rows:
     """When the rows were, and whether they are steady states."""
     if roles.time is None:
         if not said.steady:
-            notes.findings.append("No column of times: every row is taken for a steady state (otherwise: --time).")
+            notes.findings.append(
+                "No column of times: every row is taken for a steady state (otherwise: --time, or --sample-period)."
+            )
         return Rows(None, "s", 0.0)
     unit, why = _time_unit(table, roles.time, said)
-    notes.findings.append(f"Time: {roles.time} in {unit}{why}.")
+    if said.sample_period:
+        notes.findings.append(f"Time: rows are {said.sample_period * 1e3:.6g} ms apart, as said (--sample-period).")
+    else:
+        notes.findings.append(f"Time: {roles.time} in {unit}{why}.")
     stamps = table.nanoseconds(roles.time, TIME_UNITS[unit])
     period = row_period(np.asarray(stamps * 1e-9, dtype=np.float64))
     if said.time or not _is_steady(table, roles, period):

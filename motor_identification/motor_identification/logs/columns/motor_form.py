@@ -20,6 +20,7 @@ from motor_identification.logs.form import TIME_UNITS, UNITS, CsvForm, Kind
 
 Floats = NDArray[np.float64]
 
+STEPS_BETWEEN = 0.8  # of the rows that a steady curve's voltage changes in
 FIRST_ROWS = 6.0  # sample periods after 0, within which a run's clock began with its voltage
 _KINDS = {Quantity.SPEED: Kind.SPEED, Quantity.POSITION: Kind.POSITION, Quantity.COUNT: Kind.COUNT}
 _ORDER = (Kind.SPEED, Kind.COUNT, Kind.POSITION)  # `count` is a count before it is a position
@@ -44,6 +45,8 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     kind, unit = _motion(table, pair, said, rows.period if rows.time else 0.0, notes)
     why = f" ({unit.why})" if unit.why else ""
     notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}.")
+    if rows.time is None and not said.steady:
+        _ask_for_times(table, pair, kind, notes)
     increments = kind is Kind.COUNT and count_anew(table, pair, said, notes)
     direction = guess_direction(table, pair, said, increments or kind is Kind.SPEED, notes)
     milliamperes = roles.current is not None and read_heading(roles.current).unit == "mA"
@@ -142,6 +145,15 @@ def _ask_about(column: str, kind: Kind, unit: Unit, said: Said, notes: Notes) ->
         notes.questions.append((column, question))
     if unit.name in ("m", "m/s") and said.units_per_revolution is None:
         notes.questions.append((column, f"in {unit.name}: say how far a turn goes (--units-per-revolution U)"))
+
+
+def _ask_for_times(table: Table, pair: Pair, kind: Kind, notes: Notes) -> None:
+    """Ask, where rows without times are no steady states: these have speeds, and a voltage each."""
+    times = "and no column is its times: say --time COL, or --sample-period S where the rows are S seconds apart"
+    if kind is not Kind.SPEED:
+        notes.questions.append((pair.motion, f"is a {kind.value}, {times}"))
+    elif np.mean(np.diff(table.numbers(pair.voltage)) != 0.0) < STEPS_BETWEEN:
+        notes.questions.append((pair.voltage, f"stays from row to row, {times}; or --steady"))
 
 
 def _kind_of(heading: Heading) -> Kind | None:

@@ -11,6 +11,7 @@ from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.csv.table import Table
+from motor_identification.logs.rows.row_times import ROW_TIMES
 from motor_model.errors import RecordingError
 
 _BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
@@ -157,5 +158,5 @@ def _supply_of(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair])
 
 
 def _ask(table: Table, what: str, option: str, names: Sequence[str]) -> RecordingError:
-    shown = list(names)[:12]
+    shown = [name for name in names if name != ROW_TIMES][:12]
     return RecordingError(f"{table.path}: which column is the {what}? Say {option} and one of {', '.join(shown)}.")

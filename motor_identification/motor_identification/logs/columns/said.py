@@ -21,6 +21,7 @@ class Said:
 
     time: str | None = None
     time_unit: str | None = None
+    sample_period: float | None = None  # [s] from row to row of a log without times
     voltage: str | None = None
     motion: str | None = None
     kind: Kind | None = None

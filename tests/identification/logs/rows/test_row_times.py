@@ -1,0 +1,71 @@
+"""Logs without times whose rows are so many seconds apart."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import Kind
+from motor_identification.logs.imported import import_log
+from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows
+from motor_model.errors import RecordingError
+
+HEADER = "Channel 1,Channel 2,Channel 4"
+SAID = {"voltage": "Channel 4", "motion": "Channel 2", "unit": "deg"}
+
+
+def write_logs(folder: Path, spoilt: int | None = None) -> tuple[Path, Path]:
+    """The same log without and with times, 2 ms a row; a row may have a garbled cell."""
+    volts = 6.0 * np.sign(np.sin(np.arange(400) / 25.0))
+    angle = 0.9 * np.rint(40.0 * (1.0 - np.cos(np.arange(400) / 25.0)))
+    rows = [f"{k % 3},{y:.2f},{u:g}" for k, (y, u) in enumerate(zip(angle, volts, strict=True))]
+    if spoilt is not None:
+        rows[spoilt] = "1,#,6"
+    timed = [f"{0.002 * k:.3f},{row}" for k, row in enumerate(rows)]
+    bare, full = folder / "bare.csv", folder / "timed.csv"
+    bare.write_text("\n".join([HEADER, *rows]) + "\n")
+    full.write_text("\n".join([f"t,{HEADER}", *timed]) + "\n")
+    return bare, full
+
+
+@pytest.mark.parametrize("spoilt", [None, 200, 399])
+def test_a_log_has_the_samples_that_it_has_with_times(tmp_path: Path, spoilt: int | None) -> None:
+    bare, full = write_logs(tmp_path, spoilt)
+    without = import_log(bare, Said(sample_period=0.002, kind=Kind.POSITION, **SAID))
+    (motor,), (other,) = without.motors, import_log(full, Said(kind=Kind.POSITION, **SAID)).motors
+    assert motor.log.runs == other.log.runs and motor.log.info == other.log.info
+    assert motor.log.info.sample_period == 0.002 and sum(len(run.samples) for run in motor.log.runs) >= 399
+    assert "Time: rows are 2 ms apart, as said (--sample-period)." in without.findings
+    assert not any(ROW_TIMES in line for line in (*without.findings, *motor.log.findings))
+
+
+def test_without_times_a_position_is_asked_about(tmp_path: Path) -> None:
+    bare, _ = write_logs(tmp_path)
+    asked = "Channel 2 is a position, and no column is its times: say --time COL, or --sample-period S where"
+    with pytest.raises(RecordingError, match=asked):
+        import_log(bare, Said(kind=Kind.POSITION, **SAID))
+    with pytest.raises(RecordingError, match=r"one of Channel 1, Channel 2, Channel 4\.$"):
+        import_log(bare, Said(sample_period=0.002))
+
+
+@pytest.mark.parametrize(("held", "asked"), [(4, False), (3, True)])
+def test_speeds_are_steady_states_where_each_has_a_voltage(tmp_path: Path, held: int, asked: bool) -> None:
+    """Of 21 rows, one in so many has the voltage of the row before; 4 of 5 may change."""
+    volts = np.cumsum(np.arange(1, 22) % (held + 1) != 0)
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["u,speed [rad/s]", *(f"{u},{5 * u}" for u in volts)]) + "\n")
+    if asked:
+        with pytest.raises(RecordingError, match=r"u stays from row to row, .*--sample-period S .*; or --steady\."):
+            import_log(path, Said())
+        assert import_log(path, Said(steady=True)).motors
+    else:
+        assert any("--time, or --sample-period" in line for line in import_log(path, Said()).findings)
+
+
+def test_rows_that_are_left_out_leave_their_time_and_turned_ones_go_forward() -> None:
+    table = number_rows(Table(Path("log.csv"), [2, 3, 4, 5], {"u": ["1", "2", "3", "4"]}))
+    some = table.rows(np.array([True, False, True, True]), "")
+    assert give_times(some, 0.002).nanoseconds(ROW_TIMES, 1).tolist() == [0, 4_000_000, 6_000_000]
+    assert give_times(table.rows(np.arange(4)[::-1], ""), 1.0).nanoseconds(ROW_TIMES, 1).tolist()[::3] == [0, 3 * 10**9]
