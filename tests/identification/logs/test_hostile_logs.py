@@ -110,3 +110,12 @@ def test_no_damage_breaks_it(tmp_path: Path, part: int) -> None:
                 assert np.isfinite(numbers).all() and np.abs(numbers[:, 2]).max() < 2**60, seed
                 assert np.all(np.diff([one.sample_time for one in run.samples]) > 0), seed
     assert read >= 3
+
+
+def test_the_largest_numbers_warn_of_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text("t,voltage,position\n" + "".join(f"{k},{(-1) ** k * 1.7e308},{k}\n" for k in range(20)))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(MotorError, match="V, which no such motor has"):
+            import_log(path, Said(unit="deg", voltage_scale=1.0))

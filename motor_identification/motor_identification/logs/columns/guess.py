@@ -7,7 +7,7 @@ import numpy as np
 
 from motor_identification.logs.columns.clock import SLOWEST, guess_time_unit, row_period
 from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.motor_form import STEPS_BETWEEN, Rows, make_form
+from motor_identification.logs.columns.motor_form import STEPS_BETWEEN, Rows, make_form, share_of_changes
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles import Roles, find_roles
 from motor_identification.logs.columns.said import Said
@@ -77,8 +77,8 @@ def _time_unit(table: Table, column: str, said: Said) -> tuple[str, str]:
 
 
 def _is_steady(table: Table, roles: Roles, period: float) -> bool:
-    changes = np.diff(table.numbers(roles.pairs[0].voltage)) != 0.0
-    return period > SLOWEST and float(np.mean(changes)) > STEPS_BETWEEN
+    changes = share_of_changes(table.numbers(roles.pairs[0].voltage))
+    return period > SLOWEST and changes > STEPS_BETWEEN
 
 
 def _ask_once(questions: Sequence[tuple[str, str]]) -> str:

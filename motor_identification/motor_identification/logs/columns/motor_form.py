@@ -152,8 +152,13 @@ def _ask_for_times(table: Table, pair: Pair, kind: Kind, notes: Notes) -> None:
     times = "and no column is its times: say --time COL, or --sample-period S where the rows are S seconds apart"
     if kind is not Kind.SPEED:
         notes.questions.append((pair.motion, f"is a {kind.value}, {times}"))
-    elif np.mean(np.diff(table.numbers(pair.voltage)) != 0.0) < STEPS_BETWEEN:
+    elif share_of_changes(table.numbers(pair.voltage)) < STEPS_BETWEEN:
         notes.questions.append((pair.voltage, f"stays from row to row, {times}; or --steady"))
+
+
+def share_of_changes(values: Floats) -> float:
+    """Count the rows whose value, shape (K,), is another than in the row before, as a share."""
+    return float(np.mean(values[1:] != values[:-1]))
 
 
 def _kind_of(heading: Heading) -> Kind | None:
@@ -170,7 +175,7 @@ def _rest(table: Table, rows: Rows, pair: Pair, said: Said, notes: Notes) -> flo
         return None
     volts, period = table.numbers(pair.voltage), row_period(stamps)
     runs = [slice(start, stop) for start, stop in zip(begins[:-1], begins[1:], strict=True) if stop - start > 1]
-    even = all(np.ptp(volts[run]) == 0.0 for run in runs)
+    even = all(np.all(volts[run] == volts[run.start]) for run in runs)
     if not even or not all(0.0 < stamps[run.start] < FIRST_ROWS * period for run in runs):
         return None
     notes.findings.append(

@@ -115,7 +115,8 @@ class Table:
             array = np.char.replace(array, b",", b".")
         elif array.dtype.kind == "U" and self.decimal_comma:
             array = np.char.replace(array, ",", ".")
-        return np.asarray(array, dtype=np.float64)
+        with np.errstate(over="ignore"):  # infinite, which is complained of
+            return np.asarray(array, dtype=np.float64)
 
     def _float(self, cell: object) -> float:
         try:
