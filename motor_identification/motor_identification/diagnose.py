@@ -108,6 +108,14 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     return drop_undetermined(selection, reporter)
 
 
+def fits_torque(beside: float, plain: float, start: float) -> bool:
+    """Decide by gaps [rad/s] whether a model beside a random torque fits the torque instead of the motion.
+
+    It predicts worse than the model that the diagnosis began with, or far worse than what was found without a torque.
+    """
+    return beside > min(thresholds.GAP_CHANCE * start, thresholds.WORSE_GAP * plain)
+
+
 def _select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
     """Select on beside a random torque, where more is left than the sensor leaves; None if that leaves structure.
 

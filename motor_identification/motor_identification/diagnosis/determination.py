@@ -90,6 +90,7 @@ def _is_physical(name: str) -> bool:
 
 
 def is_undetermined(effect: str, not_identifiable: tuple[str, ...]) -> bool:
-    """Decide whether an effect's one own parameter is not determined."""
-    own = [spec.name for spec in EFFECT_BY_NAME[effect].parameters if not spec.of_recording]
-    return len(own) == 1 and own[0] in not_identifiable
+    """Decide whether an effect's one own parameter is not determined, or all of what takes its time in a recording."""
+    own = [spec for spec in EFFECT_BY_NAME[effect].parameters if not spec.of_recording]
+    unknown = [spec.name in not_identifiable for spec in own]
+    return all(unknown) and (len(own) == 1 or any(spec.scale.duration for spec in own))

@@ -48,6 +48,9 @@ RELEVANT_WHITE_SHARE = 0.01
 # mostly of. Measured: 1.03 with a ripple of 0.3 V beside a torque of 0.1 V; where a model fits the torque instead of
 # the motion 1.3 and more.
 GAP_CHANCE = 1.1
+# Times the gap of what was found without a torque, beyond which a model beside one fits that instead of the motion.
+# Measured: 0.9 to 1.2 where there is a random torque, 2.6 on a robot whose speeds jitter.
+WORSE_GAP = 1.5
 # Likelihoods that the search for a candidate's errors may ask for, and that for a model's to begin with.
 CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120
 # How often a model is fitted again from where the best finding leads, beside a random torque.

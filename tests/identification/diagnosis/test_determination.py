@@ -39,6 +39,8 @@ SILENT = ProgressReporter(lambda stage: None, lambda: False)
         ("load_step", ("step_time",), False),
         ("backlash", ("backlash_angle",), False),
         ("backlash", ("backlash_angle", "load_fraction"), False),  # each is unsure because the other is
+        ("warm_up", ("resistance_rise", "warm_up_time"), True),  # it may be anything that changes
+        ("warm_up", ("warm_up_time",), False),
         ("transport_delay", ("delay",), True),
         ("coulomb_friction", ("kv", "ka"), False),
     ],

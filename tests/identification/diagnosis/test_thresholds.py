@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from stub_models import LASTING_FLOOR, stub_held, stub_model, stub_test
 
+from motor_identification.diagnose import fits_torque
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import CandidateTest
 from motor_identification.diagnosis.effect_test import (
@@ -136,3 +137,10 @@ def test_chance_harmonic(times: float, passes: bool) -> None:
     chance = share * slot * sqrt(2.0 / 96)
     assert np.std([waves.real, waves.imag]) == pytest.approx(chance, rel=0.03)
     assert is_beyond_chance(times * thresholds.CHANCE_HARMONIC * chance, slot, share) is passes
+
+
+@SIDES
+def test_worse_gap(times: float, passes: bool) -> None:
+    """A model beside a random torque that predicts far worse than the one without fits the torque."""
+    assert fits_torque(times * thresholds.WORSE_GAP, 1.0, 9.0) is passes
+    assert fits_torque(times * thresholds.GAP_CHANCE * 2.0, 9.0, 2.0) is passes
