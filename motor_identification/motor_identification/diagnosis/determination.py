@@ -19,11 +19,14 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
 
     First the one whose absence costs least likelihood: of effects that do each other's work, what is left is then
     determined. One that has a rival which is determined gives way to that. What is not needed any more goes, too. What
-    has a size by chance, and leaves a complete model, is not named.
+    has a size by chance, predicts no better with it and leaves a complete model, is not named.
     """
     dropped: list[str] = []
     while weak := [step for step in selection.steps if step.found.effect in find_undetermined(selection.model)]:
         without = {step.found.effect: drop_step(selection, step) for step in weak}
+        weak = [step for step in weak if not _is_needed(selection.model, without[step.found.effect].model, step)]
+        if not weak:
+            break
         step = max(weak, key=lambda one: without[one.found.effect].model.likelihood)
         smaller = without[step.found.effect]
         rival = _replace_by_rival(selection, step, smaller.model)
@@ -36,6 +39,11 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
         if any(one.found.effect in dropped for one in selection.steps):  # back in the place of another: no circles
             selection = smaller
     return selection, sort_by_table(set(dropped) - set(selection.model.effects))
+
+
+def _is_needed(model: Model, without: Model, step: SelectionStep) -> bool:
+    """Decide whether what begins at an instant is seen in the gap: one block of time tells it, with wide errors."""
+    return needs_instant(step.found.effect) and without.held.gap > thresholds.GAP_CHANCE * model.held.gap
 
 
 def _replace_by_rival(selection: Selection, step: SelectionStep, without: Model) -> Selection | None:

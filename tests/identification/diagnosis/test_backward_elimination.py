@@ -4,6 +4,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
 
+import numpy as np
 import pytest
 from diagnosed import fitted
 from stub_models import stub_model, stub_test
@@ -14,6 +15,7 @@ from motor_identification.diagnosis.backward_elimination import (
     drop_stand_ins,
     drop_stand_ins_of_either,
     eliminate_backward,
+    find_loss,
     is_better,
     keep_confirmed,
     list_replacements,
@@ -24,6 +26,7 @@ from motor_identification.diagnosis.effect_test import likelihood_threshold
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.progress import ProgressReporter
+from motor_identification.recording import Floats
 
 BELOW, ABOVE = 0.999, 1.001
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
@@ -169,3 +172,18 @@ def test_what_is_not_needed_beside_the_others_is_taken_back() -> None:
     assert [step.found.effect for step in left.steps] == ["coulomb_friction"]
     assert left.model.effects == ("coulomb_friction",) and left.model.at_floor
     assert left.model.estimate.parameters.value("ks") == pytest.approx(0.4, rel=1e-3)
+
+
+@pytest.mark.parametrize(("times", "few"), [(BELOW, True), (ABOVE, False)])
+def test_a_few_moments_count_where_what_replaces_predicts_worse(times: float, few: bool) -> None:
+    """A slow torque does in one moment what a load step does, but does not predict it."""
+    moments = np.zeros(60)
+    moments[7] = 100.0
+
+    def model(gap: float, likelihood: float, moments: Floats) -> Model:
+        held = SimpleNamespace(gap=gap)
+        return cast(Model, SimpleNamespace(likelihood=likelihood, held=held, moments=moments, beside_torque=True))
+
+    current = model(1.0, 100.0, moments)
+    test = CandidateTest("load_bias", current, model(times * thresholds.GAP_CHANCE, 0.0, np.zeros(60)))
+    assert find_loss(test, "load_step", current) == (0.0 if few else 100.0)

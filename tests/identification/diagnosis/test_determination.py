@@ -94,6 +94,17 @@ def test_a_step_by_chance_is_not_named(monkeypatch: pytest.MonkeyPatch) -> None:
     assert before.complete and names == () and left.steps == () and left.model.effects == ()
 
 
+def test_a_step_that_predicts_is_no_chance(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The one block of time that its instant is in makes its errors wide; without it the motion is missed."""
+    estimate, hold_out = fitted(step_voltage=0.8, step_time=2.0)
+    before = validate_model(hold_out, estimate)
+    after = validate_model(hold_out, with_effect(estimate, "load_step", {"step_voltage": 0.7, "step_time": 2.0}))
+    assert before.held.gap > 2.0 * after.held.gap
+    selection = Selection((found_step(before, after, "load_step"),), after, hold_out, 1)
+    monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: True)
+    assert drop_undetermined(selection, SILENT) == (selection, ())
+
+
 def found_step(before: Model, after: Model, effect: str, rivals: tuple[str, ...] = ()) -> SelectionStep:
     test = CandidateTest(effect, before, after)
     return SelectionStep(before, test, (test,), rivals, 1.0)
