@@ -42,8 +42,12 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
 
 
 def _is_needed(model: Model, without: Model, step: SelectionStep) -> bool:
-    """Decide whether what begins at an instant is seen in the gap: one block of time tells it, with wide errors."""
-    return needs_instant(step.found.effect) and without.held.gap > thresholds.GAP_CHANCE * model.held.gap
+    """Decide whether what has its time in a recording is seen in the gap: one block of time tells it, with wide errors.
+
+    Such as an instant, or a warming-up of which only the product of rise and rate shows.
+    """
+    timed = any(spec.scale.duration for spec in EFFECT_BY_NAME[step.found.effect].parameters)
+    return timed and without.held.gap > thresholds.WORSE_GAP * model.held.gap
 
 
 def _replace_by_rival(selection: Selection, step: SelectionStep, without: Model) -> Selection | None:
