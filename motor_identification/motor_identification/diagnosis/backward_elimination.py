@@ -154,11 +154,11 @@ def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
 def find_loss(test: CandidateTest, effect: str, current: Model) -> float:
     """Find what a test's model loses of log likelihood beside the current one, which has an effect instead.
 
-    Beside a random torque not counting the few moments that speak most against it, if it predicts about as well: a
+    Beside a random torque not counting the few moments that speak most against it, unless it predicts far worse: a
     slow torque does in one moment what a load step does.
     """
     loss = current.likelihood - test.model.likelihood
-    if test.model.held.gap > thresholds.GAP_CHANCE * current.held.gap:
+    if test.model.held.gap > thresholds.WORSE_GAP * current.held.gap:
         return loss
     return min(loss, CandidateTest(effect, test.model, current).steadiness) if current.beside_torque else loss
 
