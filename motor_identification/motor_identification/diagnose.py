@@ -99,21 +99,19 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     beside = _select_beside_torque(start, selection, reporter)
     if beside is None:
         selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
-    elif (
-        beside.steps and beside.model.held.gap > thresholds.GAP_CHANCE * start.model.held.gap
-    ):  # it fits the torque, not the motion
+    elif beside.steps and fits_torque(beside.model.held.gap, start.model.held.gap):
         selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
     else:
         selection = beside
     return drop_undetermined(selection, reporter)
 
 
-def fits_torque(beside: float, plain: float, start: float) -> bool:
+def fits_torque(beside: float, start: float) -> bool:
     """Decide by gaps [rad/s] whether a model beside a random torque fits the torque instead of the motion.
 
-    It predicts worse than the model that the diagnosis began with, or far worse than what was found without a torque.
+    It predicts worse than the model that the diagnosis began with.
     """
-    return beside > min(thresholds.GAP_CHANCE * start, thresholds.WORSE_GAP * plain)
+    return beside > thresholds.GAP_CHANCE * start
 
 
 def _select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:

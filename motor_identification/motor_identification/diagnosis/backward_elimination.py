@@ -35,7 +35,7 @@ def drop_stand_ins(selection: Selection) -> Selection:
         return selection
     apart = leaves_another_variable(selection.model)
     for i, step in enumerate(selection.steps):
-        answers = apart and step.explains > thresholds.APART_SHARE and not _changes_over_time(step.found.effect)
+        answers = apart and step.explains > thresholds.APART_SHARE and not EFFECT_BY_NAME[step.found.effect].anywhere
         if step.explains < thresholds.STAND_IN_SHARE and not answers and not _is_own_evidence(selection, i):
             return replace(selection, steps=selection.steps[:i], model=step.before)
     return selection
@@ -45,10 +45,6 @@ def leaves_another_variable(model: Model) -> bool:
     """Decide whether all that can be predicted of what is left goes with the angle or the time alone."""
     certain = [one.variable for one in model.structure if one.certain]
     return bool(certain) and all(name in REPEATING for name in certain)
-
-
-def _changes_over_time(effect: str) -> bool:
-    return any(spec.scale.duration for spec in EFFECT_BY_NAME[effect].parameters)
 
 
 def _is_own_evidence(selection: Selection, number: int) -> bool:
@@ -111,8 +107,8 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     tests = try_effects(without, selection.hold_out, others, selection.workers, heard)
     better = choose_better(tests, effect, current)
     if better is not None:
-        rivals = tuple(name for name in find_rivals(better, tests) if name != better.effect)
-        return replace_step(selection, step, replace(step, found=better, rivals=rivals), better.model)
+        replaced = replace(step, found=better, rivals=find_rivals(better, tests))
+        return replace_step(selection, step, replaced, better.model)
     alike = [test.effect for test in tests if find_loss(test, effect, current) < thresholds.RIVAL_MARGIN]
     rivals = sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
     return replace_step(selection, step, replace(step, rivals=rivals), current)

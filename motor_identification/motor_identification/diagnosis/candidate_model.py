@@ -1,7 +1,7 @@
 """Compare candidate models on held-out data, with and without one more effect, and decide whether that matters."""
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import exp, sqrt
 
 import numpy as np
@@ -170,7 +170,8 @@ class Model:
         def rest(recording: Recording, data: Intervals, angle: Floats, increments: Floats, judged: Bools) -> Rest:
             motor = values["kv"], values.get("delay", 0.0)
             history = make_history(recording, data, angle, *motor)
-            simulated = make_history(recording, data, angle, *motor, data.speed + increments / data.duration)
+            speeds = data.speed + increments / data.duration  # of the model
+            simulated = partial(make_history, recording, data, angle, *motor, speeds)
             return Rest(make_error_data(data, increments), history, simulated, ~judged, judged)
 
         rows = zip(held.recordings, held.intervals, held.angles, held.increments, held.scored, strict=True)

@@ -46,8 +46,7 @@ def _is_needed(model: Model, without: Model, step: SelectionStep) -> bool:
 
     Such as an instant, or a warming-up of which only the product of rise and rate shows.
     """
-    timed = any(spec.scale.duration for spec in EFFECT_BY_NAME[step.found.effect].parameters)
-    return timed and without.held.gap > thresholds.WORSE_GAP * model.held.gap
+    return EFFECT_BY_NAME[step.found.effect].anywhere and without.held.gap > thresholds.WORSE_GAP * model.held.gap
 
 
 def _replace_by_rival(selection: Selection, step: SelectionStep, without: Model) -> Selection | None:
@@ -103,6 +102,5 @@ def _is_physical(name: str) -> bool:
 
 def is_undetermined(effect: str, not_identifiable: tuple[str, ...]) -> bool:
     """Decide whether an effect's one own parameter is not determined, or all of what takes its time in a recording."""
-    own = [spec for spec in EFFECT_BY_NAME[effect].parameters if not spec.of_recording]
-    unknown = [spec.name in not_identifiable for spec in own]
-    return all(unknown) and (len(own) == 1 or any(spec.scale.duration for spec in own))
+    own = [spec.name for spec in EFFECT_BY_NAME[effect].parameters if not spec.of_recording]
+    return all(name in not_identifiable for name in own) and (len(own) == 1 or EFFECT_BY_NAME[effect].anywhere)

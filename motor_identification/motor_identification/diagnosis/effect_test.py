@@ -87,7 +87,8 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
 
 def needs_instant(effect: str) -> bool:
     """Whether an effect begins at an instant, which a search finds a place for where any size would help."""
-    return any(spec.of_recording and spec.scale.duration for spec in EFFECT_BY_NAME[effect].parameters)
+    row = EFFECT_BY_NAME[effect]
+    return row.anywhere and any(spec.of_recording for spec in row.parameters)
 
 
 def _is_finding(test: CandidateTest) -> bool:

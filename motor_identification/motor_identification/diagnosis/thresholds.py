@@ -48,8 +48,8 @@ RELEVANT_WHITE_SHARE = 0.01
 # mostly of. Measured: 1.03 with a ripple of 0.3 V beside a torque of 0.1 V; where a model fits the torque instead of
 # the motion 1.3 and more.
 GAP_CHANCE = 1.1
-# Times the gap of what was found without a torque, beyond which a model beside one fits that instead of the motion.
-# Measured: 0.9 to 1.2 where there is a random torque, 2.6 on a robot whose speeds jitter.
+# Times the gap of a model, beyond which one without a finding, or with another in its place, predicts far worse.
+# Measured: 6 and 1.7 where a load step or a warming-up that is there goes, 1.02 and 1.13 where it is chance.
 WORSE_GAP = 1.5
 # Likelihoods that the search for a candidate's errors may ask for, and that for a model's to begin with.
 CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120

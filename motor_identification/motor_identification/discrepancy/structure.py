@@ -5,7 +5,7 @@ whose strength maximises the marginal likelihood, and are judged by the likeliho
 fit nor the curve has seen. What no curve can predict is disturbance, however large; what one can is structure.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import log, tau
 
@@ -53,7 +53,7 @@ class Rest:
 
     errors: ErrorData
     history: MotionHistory
-    simulated: MotionHistory  # with the model's speeds, which no random torque is in
+    simulated: Callable[[], MotionHistory]  # with the model's speeds, which no random torque is in
     learnt: Bools  # intervals that curves may be learnt on
     judged: Bools  # others, that they are judged by
 
@@ -79,7 +79,7 @@ def find_structure(
         judged = _judge_family(name, rests, reach, model, rate, ka)
         if judged.certain and name in OF_SPEED:  # a torque that is in the measured speed is predicted by it, too
             again = _judge_family(
-                name, [replace(rest, history=rest.simulated) for rest in rests], reach, model, rate, ka
+                name, [replace(rest, history=rest.simulated()) for rest in rests], reach, model, rate, ka
             )
             judged = min(judged, again, key=lambda one: one.significance)
         found.append(judged)

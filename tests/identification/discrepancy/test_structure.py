@@ -109,7 +109,7 @@ def test_what_only_the_measured_speed_predicts_is_its_own_disturbance(
     """A slow torque is in the measured speed, and therefore predicted by it; the model's speeds have none."""
     nothing = np.zeros(0, dtype=bool)
     measured, model = cast(MotionHistory, "measured"), cast(MotionHistory, "model's")
-    rest = Rest(cast(ErrorData, None), measured, model, nothing, nothing)
+    rest = Rest(cast(ErrorData, None), measured, lambda: model, nothing, nothing)
     gains = {"measured": 100.0, "model's": simulated}
 
     def judged(name: str, rests: Sequence[Rest], *_: object) -> Structure:
