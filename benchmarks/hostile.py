@@ -17,7 +17,8 @@ from machine import commit, machine
 sys.path[0] = str(Path(__file__).resolve().parents[1] / "tests" / "support")  # not beside control.py: tune imports one
 os.environ.setdefault("ROS_DOMAIN_ID", "99")
 
-from hostile.inputs import KINDS, Kind
+from hostile.inputs import KINDS
+from hostile.kind import Kind
 from hostile.live import garbled_messages
 from hostile.sandbox import MEMORY, PATIENCE
 from hostile.trial import Trial, tried, warm_up

@@ -9,6 +9,7 @@ from motor_board.build import FirmwareConfig, firmware
 from motor_board.emulator import Emulator
 from motor_board.faults import Faults, Wire
 from motor_board.shaft import EncoderConfig
+from motor_driver import status
 from motor_driver.config import Config
 from motor_driver.driver import Driver, Reading
 from motor_model.parameters import Parameters, paper_motor
@@ -124,3 +125,12 @@ class Rig:
                 self.stops.append(order.stop)
                 self.gate = self.gate.stop(order.stop)
             self._in.send(order.data if self.plugged else b"", self.faults, self.now)
+
+
+MakeRig = Callable[..., Rig]
+
+
+def problem(rig: Rig) -> str:
+    """What /diagnostics says now, had it been fine a second ago."""
+    was = status.Tally(rig.now - 1, rig.driver.readings - 1, rig.driver.counters, True, rig.driver.openings)
+    return " ".join(filter(None, (status.problem(rig.driver, was, rig.now), rig.gate.problem(rig.now))))

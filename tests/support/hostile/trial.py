@@ -15,7 +15,9 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 from hypothesis import strategies as st
 
 from hostile import sandbox
-from hostile.inputs import FIT, ROOT, Kind, main_of
+from hostile.bags import FIT
+from hostile.inputs import main_of
+from hostile.kind import ROOT, Kind
 
 
 @dataclass(frozen=True)

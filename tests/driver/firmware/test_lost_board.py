@@ -1,0 +1,114 @@
+"""Board, link, controller or driver fails: 0 V at the pins within 150 ms, and nothing but the user switches on again.
+
+All times are the emulator's: the pins of the emulated chip against its own clock.
+"""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import pytest
+from driver_rig import MakeRig, Rig, problem
+
+from motor_board.chip import Hang
+
+MOST = 150.0  # [ms] to 0 V at the pins, whatever has died
+
+
+def test_a_dead_controller_means_0_volt(running: Rig) -> None:
+    running.until(lambda: running.gate.received == running.now, 10)
+    running.voltage = None
+    assert 100.0 < running.until(lambda: running.pins == 0.0, MOST) < 120.0
+    assert running.stops == [] and running.gate.enabled
+    running.voltage = 6.0
+    running.until(lambda: running.pins == 6.0, 30)  # not latched: commands act again
+
+
+def test_a_dead_driver_means_0_volt_and_its_successor_starts_afresh(running: Rig) -> None:
+    running.alive = False
+    assert 80.0 < running.until(lambda: running.pins == 0.0, MOST) < 130.0
+    successor = Rig(emulator=running.emulator)
+    successor.voltage = 6.0
+    successor.plug()
+    successor.until(lambda: successor.pins == 6.0, 600)
+    assert successor.stops == []
+
+
+def test_silence_of_the_board_is_said_and_stops_the_motor(running: Rig) -> None:
+    running.faults = replace(running.faults, stuck_telemetry=True)
+    assert 110.0 < running.until(lambda: running.pins == 0.0, MOST) < 140.0
+    assert running.stops == ["no telemetry from the port for 120 ms"]
+    assert "No telemetry comes from the port" in problem(running)
+    assert "No telemetry comes" in running.enable()
+    running.faults = replace(running.faults, stuck_telemetry=False)
+    running.run(100)
+    assert (running.pins, running.gate.enabled) == (0.0, False)
+    assert problem(running) == (
+        "The output is off (no telemetry from the port for 120 ms): call motor/enable with data: true."
+    )
+    assert running.enable() == ""
+    running.until(lambda: running.pins == 6.0, 30)
+    assert problem(running) == ""
+
+
+def test_a_pulled_plug_stops_and_stays_off_until_enabled(running: Rig) -> None:
+    before = running.readings[-1].sample
+    running.unplug()
+    assert running.until(lambda: running.pins == 0.0, MOST) < 130.0
+    assert running.stops == ["the link to the board on the port was lost"] and running.enable() == "the port is gone"
+    running.run(300)
+    running.plug()
+    count = len(running.readings)
+    assert running.until(lambda: len(running.readings) > count, 100) < 50.0
+    running.run(500)
+    after = running.readings[count].sample
+    assert running.pins == 0.0 and not running.readings[count].restarted
+    elapsed = running.readings[count].host - running.readings[count - 1].host
+    assert (after.sample_time - before.sample_time) == pytest.approx(elapsed, abs=1e6)
+    assert after.edge_count > before.edge_count
+    assert running.enable() == ""
+    running.until(lambda: running.pins == 6.0, 30)
+
+
+@pytest.mark.parametrize("hang", [None, *Hang])
+def test_a_reset_board_stays_off_until_enabled(running: Rig, hang: Hang | None) -> None:
+    before, cause = running.readings[-1].sample, "watchdog" if hang is not None else "external"
+    if hang is None:
+        running.emulator.reset()
+    else:
+        running.emulator.chip.hang(hang)
+    assert running.until(lambda: running.pins == 0.0, MOST) < 130.0
+    running.until(lambda: running.driver.resets > 0, 400)
+    count = len(running.readings)
+    running.until(lambda: len(running.readings) > count, 400)
+    running.run(300)
+    assert running.stops[-1] == f"the board was reset ({cause})"
+    first = running.readings[count]
+    assert first.restarted and first.sample.sample_time > before.sample_time and first.sample.edge_count < 100
+    samples = [reading.sample for reading in running.readings]
+    assert all(b.sample_time > a.sample_time for a, b in pairwise(samples))
+    assert {b.sample_time - a.sample_time for a, b in pairwise(samples[count:])} == {5_000_000}  # configured again
+    assert running.pins == 0.0 and cause in problem(running)
+    assert running.enable() == ""
+    running.until(lambda: running.pins == 6.0, 30)
+    assert problem(running) == ""
+
+
+def test_a_held_up_driver_finds_its_board_switched_off(running: Rig) -> None:
+    running.alive = False
+    running.run(200)
+    running.alive = True
+    running.run(300)
+    assert running.stops != [] and running.pins == 0.0
+    assert running.enable() == ""
+    running.until(lambda: running.pins == 6.0, 30)
+
+
+def test_an_opening_that_resets_the_board_is_no_stop(make_rig: MakeRig) -> None:
+    rig = make_rig()
+    rig.voltage = 6.0
+    rig.run(30)
+    rig.plug()
+    rig.run(2)
+    rig.emulator.reset()
+    rig.until(lambda: rig.pins == 6.0, 900)
+    assert rig.stops == []

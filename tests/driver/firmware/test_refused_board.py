@@ -1,0 +1,64 @@
+"""A board that is not the wanted one, or none at all, is refused in a sentence."""
+
+import re
+
+import pytest
+from driver_rig import MakeRig, problem
+
+from motor_board.build import FirmwareConfig
+from motor_driver.config import Config
+from motor_driver.frames import Identify
+from motor_driver.protocol import pack
+
+
+def test_another_version_is_refused_in_a_sentence(make_rig: MakeRig) -> None:
+    rig = make_rig()
+    rig.driver.opened("the port", rig.now)
+    rig.driver.received(b"\0" + pack(Identify(), 0, version=2), rig.now)
+    assert "The board on the port speaks protocol version 2, this driver version 1: update" in problem(rig)
+    assert "has not answered" in rig.enable()
+
+
+@pytest.mark.parametrize(
+    ("board", "words"),
+    [
+        (
+            FirmwareConfig(edges_per_revolution=20),
+            "with 20 edges per revolution, and the parameter .* is 96: set the parameter",
+        ),
+        (FirmwareConfig(channels=2), r"reads 2 encoder channel\(s\), and single_channel is true: set the parameter"),
+    ],
+)
+def test_a_board_that_does_not_fit_is_refused_in_a_sentence(
+    make_rig: MakeRig, board: FirmwareConfig, words: str
+) -> None:
+    rig = make_rig(firmware=board)
+    rig.plug()
+    rig.voltage = 6.0
+    rig.run(600)
+    assert re.search(words, problem(rig)) and rig.readings == [] and rig.pins == 0.0
+
+
+def test_nothing_that_answers_is_said_to_be_no_board(make_rig: MakeRig) -> None:
+    rig = make_rig()
+    rig.driver.opened("the port", rig.now - 3_100_000_000)
+    rig.run(50)
+    assert problem(rig).startswith("Nothing on the port answers as a motor board: flash it")
+
+
+@pytest.mark.parametrize(
+    ("wanted", "there", "words"),
+    [
+        (None, 7, ""),
+        (7, 7, ""),
+        (8, 7, "This is the board number 7, and the parameter board_id is 8: plug the right board in"),
+        (8, 0, "This is the board without a number, and the parameter board_id is 8"),
+    ],
+)
+def test_another_board_is_refused_in_a_sentence(make_rig: MakeRig, wanted: int | None, there: int, words: str) -> None:
+    rig = make_rig(config=Config(board_id=wanted), firmware=FirmwareConfig(board_id=there))
+    rig.plug()
+    rig.voltage = 6.0
+    rig.run(600)
+    assert problem(rig).startswith(words) and rig.driver.unsuitable(rig.now) == bool(words)
+    assert (rig.readings == []) == bool(words) and (rig.pins == 0.0) == bool(words)

@@ -1,0 +1,106 @@
+"""Hostile command lines: odd words, odd tables, and pipes or devices in the places of files."""
+
+import os
+import shutil
+from pathlib import Path
+from random import Random
+
+from hypothesis import strategies as st
+
+from hostile import mcap_mutation
+from hostile.bags import FIT
+from hostile.kind import ROOT, Draw
+from hostile.odd_values import NUMBERS, WORDS
+
+OPTIONS = {
+    name: [f"--{option}" for option in options.split()]
+    for name, options in {
+        "identify": "effects start stop particles epochs seed output json report topic-namespace",
+        "diagnose": "validate known-effects start stop topic-namespace output json report",
+        "experiment": "voltage speed model sample-rate edges-per-revolution edge-resolution seed slot-irregularity",
+        "import_csv": "time voltage speed unit split edges-per-revolution speed-lag count-quantum",
+        "play": "rate topics remap start-offset",
+        "tune": "output nope",
+    }.items()
+}
+
+
+def arguments(draw: Draw, random: Random, folder: Path) -> list[str]:
+    """A command with odd words in the places of its options, and outputs where nothing can be written."""
+    name = random.choice(list(OPTIONS))
+    shutil.copytree(ROOT / "bags" / "step", folder / "input")
+    (folder / "input.yaml").write_text((ROOT / "bags" / "paper.yaml").read_text())
+    odd = (*WORDS, *NUMBERS, draw(st.text(max_size=12)).replace("\0", ""))
+    first = {"experiment": ["step", "--output", "out/bag", "--model", "input.yaml"], "tune": ["input.yaml"]}.get(
+        name, ["input"]
+    )
+    if name in ("identify",):
+        first += FIT
+    if random.random() < 0.15 or name in ("play", "diagnose"):
+        first[0] = random.choice(odd).replace("input", "none") or "none"
+    words = [name, *first]
+    for option in random.sample(OPTIONS[name], random.choice((1, 1, 2))):
+        value = random.choice(odd)
+        if option in ("--output", "--json", "--report") and not value.startswith(("/dev/", "/proc", "out")):
+            value = f"out/{value[:100].replace('/', '_').replace('..', 'dots')}"  # what the user names is theirs
+        words += [option, value]
+    return words
+
+
+def csv(draw: Draw, random: Random, folder: Path) -> list[str]:
+    rows = [
+        [f"{0.005 * k:.3f}", f"{6.0 if k > 20 else 0.0}", f"{min(k, 60) * 1.5:.2f}", str(3 * k)] for k in range(200)
+    ]
+    texts = draw(st.lists(st.text(max_size=6), min_size=1, max_size=9))
+    for _ in range(random.choice((0, 1, 1, 5, 300))):
+        row = random.choice(rows)
+        if row:
+            row[random.randrange(len(row))] = random.choice((*NUMBERS, *texts))
+    if random.random() < 0.2:
+        del random.choice(rows)[:]
+    separator = random.choice((",", ",", ",", ";", "\t", "|"))
+    text = "\n".join(separator.join(row) for row in [["t", "u", "w", "n"], *rows])
+    data = text.encode("utf-8", errors="surrogatepass")
+    if random.random() < 0.3:
+        data = mcap_mutation.changed_bytes(data, random)
+    (folder / "input.csv").write_bytes(data)
+    words = ["import_csv", "input.csv", "--output", "out/bag", "--time", "t", "--voltage", "u"]
+    words += random.choice(
+        (
+            ["--speed", "w", "--unit", "rad/s"],
+            ["--count", "n", "--edges-per-revolution", "96"],
+            ["--position", "w", "--unit", "rad"],
+        )
+    )
+    extra = (
+        ["--edges-per-revolution", "20000000000"],
+        ["--speed-lag", "nan"],
+        ["--speed-window", "1e300"],
+        ["--split", "u"],
+        ["--voltage-scale", "1e300"],
+    )
+    return words + (random.choice(extra) if random.random() < 0.2 else [])
+
+
+def pipes(draw: Draw, random: Random, folder: Path) -> list[str]:
+    """Pipes, devices, loops and folders in the places of files."""
+    bad = folder / ("input" + random.choice(("", ".mcap", ".db3", ".yaml", ".csv", ".mcap.zstd")))
+    way = random.randrange(6)
+    if way == 0:
+        os.mkfifo(bad)
+    elif way == 1:
+        bad.symlink_to(bad.name)
+    elif way == 2:
+        bad.mkdir()
+        os.mkfifo(bad / random.choice(("metadata.yaml", "a.mcap", "a.db3")))
+    else:
+        bad.symlink_to(random.choice(("/dev/zero", "/dev/random", "/dev/full", "/proc/self/mem", "/dev/stdin", "/")))
+    name = bad.name
+    return random.choice(
+        (
+            ["identify", name, *FIT], ["diagnose", name],
+            ["ros2", "bag", "info", name], ["ros2", "bag", "reindex", name],
+            ["experiment", "step", "--model", name, "--output", "out/bag"], ["tune", name], ["play", name],
+            ["import_csv", name, "--output", "out/bag", "--time", "t", "--voltage", "u", "--speed", "w"],
+        )
+    )  # fmt: skip
