@@ -8,7 +8,6 @@ import numpy as np
 from motor_model.sample import Sample
 
 STANDSTILL = 0.1  # [s] without an edge
-SLOT = tau / 96  # [rad]
 
 
 @dataclass
@@ -17,6 +16,7 @@ class CableOff:
 
     stray: float = 0.0  # [1/s]
     seed: int = 5
+    slot: float = tau / 96  # [rad]
     before: Sample | None = None
     next: float = 0.0  # [ns] the next stray edge
     random: np.random.Generator = field(init=False)
@@ -37,7 +37,7 @@ class CableOff:
         self.before = known
         age = (sample.sample_time - known.edge_time) * 1e-9
         moving = known.edge_period > 0.0 and age < STANDSTILL
-        speed = copysign(SLOT / max(known.edge_period, age), sample.voltage) if moving else 0.0
+        speed = copysign(self.slot / max(known.edge_period, age), sample.voltage) if moving else 0.0
         return replace(known, sample_time=sample.sample_time, voltage=sample.voltage, speed=speed)
 
     def _wait(self) -> float:

@@ -43,6 +43,7 @@ class Loop:
     single_channel: bool = True
     supply: float = 0.0  # [V] 0: the motor's voltage
     seed: int = 1
+    edges: int = 96  # a turn
     load: dict[str, float] = field(default_factory=dict)  # of the motor's effects
     line: Line = lambda sample: sample  # what the encoder's cable makes of a sample
     delay: float = 0.0  # [s] samples reach the controller so much later
@@ -74,7 +75,11 @@ class Loop:
     @property
     def _board_config(self) -> BoardConfig:
         return BoardConfig(
-            sample_rate=self.rate, slot_irregularity=0.01, seed=self.seed, single_channel=self.single_channel
+            sample_rate=self.rate,
+            edges_per_revolution=self.edges,
+            slot_irregularity=0.01,
+            seed=self.seed,
+            single_channel=self.single_channel,
         )
 
     @property

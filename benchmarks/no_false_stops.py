@@ -141,10 +141,12 @@ def main() -> int:
     parser.add_argument("--runs", type=int, default=1000, help="of each rate (default 1000)")
     parser.add_argument("--seconds", type=float, default=36.0, help="simulated, of each run (default 36)")
     parser.add_argument("--first", type=int, default=0, help="seed of the first run (default 0)")
+    parser.add_argument("--rate", type=float, choices=RATES, help="[Hz] this rate alone")
+    parser.add_argument("--page", type=Path, default=PAGE, help="where the page is written")
     options = parser.parse_args()
     begun = commit()
     results: dict[float, list[Result]] = {}
-    for rate in RATES:
+    for rate in (options.rate,) if options.rate else RATES:
         results[rate] = []
         for seed in range(options.first, options.first + options.runs):
             result = run(seed, rate, options.seconds)
@@ -152,8 +154,8 @@ def main() -> int:
             if result.stop:
                 print(f"seed {seed}, {rate:.0f} Hz, {result.source}, {result.time:.2f} s: {result.stop}", flush=True)
             if seed % 25 == 24 or seed == options.first + options.runs - 1:
-                PAGE.write_text(page(results, begun, options.first, options.seconds), encoding="utf-8")
-    print(PAGE.read_text(encoding="utf-8"))
+                options.page.write_text(page(results, begun, options.first, options.seconds), encoding="utf-8")
+    print(options.page.read_text(encoding="utf-8"))
     return 1 if any(one.stop for some in results.values() for one in some) else 0
 
 

@@ -59,9 +59,8 @@ def _add_wish(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--lowest-speed",
         type=positive,
-        default=10.0,
         metavar="RAD_S",
-        help="slowest reference of interest [rad/s] (default 10)",
+        help="slowest reference of interest [rad/s] (default: 6 %% of the speed at full voltage, or 20 edges/s)",
     )
     parser.add_argument(
         "--oscillation",

@@ -19,13 +19,11 @@ from motor_control.tuning.margins import Margins, least, margins_of
 from motor_control.tuning.measured_speed import LATENESSES, Measured
 from motor_control.tuning.observed_speed import Observed
 from motor_control.tuning.speed_feedback import MEASURED, OBSERVER, Encoder, Ripple, Sight, cancelling
+from motor_control.tuning.speed_range import choose_speeds, default_lowest_speed
 from motor_control.tuning.step_response import StepResponse, respond, small_step
 from motor_model.errors import MotorError
 from motor_model.parameters import Parameters
 from motor_model.sample import Info
-
-SPEEDS = (1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0)  # [rad/s] that are looked at, between the lowest and the top
-TOP = 0.9  # of the speed at full voltage: a reference above has no voltage left to control with
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +31,7 @@ class Wish:
     """What is wanted of the loop."""
 
     sample_period: float = 0.005  # [s]
-    lowest_speed: float = 10.0  # [rad/s] the slowest reference of interest
+    lowest_speed: float | None = None  # [rad/s] the slowest reference of interest; None: see `speed_range`
     time_constant: float | None = None  # [s] of the closed loop; None: as fast as the bounds allow
     oscillation: float = 0.02  # share of the speed, peak to peak, that the encoder may cause
     source: str = MEASURED  # where the law's speed comes from
@@ -52,6 +50,7 @@ class Tuning:
     """Gains, why they are not larger, and what is predicted of them."""
 
     wish: Wish
+    lowest_speed: float  # [rad/s]
     sight: Sight
     plant: Plant  # at the lowest speed
     gains: Gains
@@ -69,15 +68,10 @@ def tune(parameters: Parameters, encoder: Encoder, wish: Wish) -> Tuning:
     Raises:
         MotorError: the wish is faster than the delays allow, or there is no such speed.
     """
-    top = TOP * parameters.max_voltage / parameters.value("kv")
-    if not 0.0 < wish.lowest_speed <= top:
-        raise MotorError(
-            f"The lowest speed is {wish.lowest_speed:g} rad/s: give one above 0 and below {top:.0f} rad/s, "
-            f"{TOP:.0%} of what {parameters.max_voltage:g} V reach."
-        )
+    lowest = default_lowest_speed(parameters, encoder) if wish.lowest_speed is None else wish.lowest_speed
+    speeds = choose_speeds(parameters, lowest)
     bare = plant_of(parameters, wish.sample_period)
     sight = sight_of(parameters, encoder, wish)
-    speeds = tuple(sorted({wish.lowest_speed, top, *(s for s in SPEEDS if wish.lowest_speed < s < top)}))
     possible = (
         bare.ka / (bare.gain * LATENESSES * bare.late),
         calm := sight.fastest(bare, speeds),
@@ -85,10 +79,10 @@ def tune(parameters: Parameters, encoder: Encoder, wish: Wish) -> Tuning:
     )
     names = (
         "sampling and bridge delay",
-        sight.bound.format(wish.lowest_speed),
+        sight.bound.format(lowest),
         f"{100 * wish.oscillation:.3g} % ripple from the disc",
     )
-    plants = (sight.plant(bare, top), *[sight.plant(bare, wish.lowest_speed)] * 2)
+    plants = (sight.plant(bare, speeds[-1]), *[sight.plant(bare, lowest)] * 2)
     bounds = tuple(
         Bound(name, time_constant_of(sight, plant, cancelling(bare, kp)))
         for name, plant, kp in zip(names, plants, possible, strict=True)
@@ -125,12 +119,13 @@ def _predicted(
     speeds: tuple[float, ...],
 ) -> Tuning:
     middle = 0.5 * parameters.max_voltage / bare.kv
-    plant, law = sight.plant(bare, wish.lowest_speed), sight.law(gains)
+    plant, law = sight.plant(bare, speeds[0]), sight.law(gains)
     there, limit = sight.plant(bare, middle), parameters.max_voltage
     brake = -limit if sight.name == OBSERVER else 0.0  # a single channel that is only measured is never braked
     duration = 4.0 * bare.ka / bare.kv
     return Tuning(
         wish=wish,
+        lowest_speed=speeds[0],
         sight=sight,
         plant=plant,
         gains=gains,

@@ -23,7 +23,7 @@ def gain_text(tuning: Tuning, model: Path) -> str:
         f"# kv = {plant.kv:.6g} V·s/rad, ka = {plant.ka:.6g} V·s²/rad; ki/kp = kv/ka: it cancels the motor's pole.",
         f"# Closed-loop time constant {1e3 * tuning.time_constant:.3g} ms, {how}.",
         f"# {1.0 / wish.sample_period:.6g} Hz, {encoder.edges_per_revolution} edges per revolution, "
-        f"speeds from {wish.lowest_speed:.6g} rad/s on.",
+        f"speeds from {tuning.lowest_speed:.3g} rad/s on.",
         f"# Gain margin {margins.gain_db:.1f} dB, phase margin {margins.phase:.0f} deg, "
         f"delay margin {1e3 * margins.delay:.3g} ms.",
         f"{NODE}:",

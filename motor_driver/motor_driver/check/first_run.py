@@ -7,6 +7,8 @@ from motor_driver.driver import Driver, Reading
 from motor_driver.frames import Hello
 from motor_driver.handshake import PATIENCE
 
+ANSWERS = {"": Answer.DONE, "y": Answer.YES, "n": Answer.NO}
+HUNG_UP = "the terminal was closed"
 SILENT = "no telemetry comes from {port} any more"
 
 
@@ -30,6 +32,7 @@ class FirstRun:
         self.driver.opened(port, now, roll_call)
         self.check: Check | None = None  # once the board runs
         self._answer: Answer | None = None
+        self._hung_up = False
 
     @property
     def board(self) -> Hello | None:
@@ -65,6 +68,15 @@ class FirstRun:
         """A person has said something."""
         self._answer = answer
 
+    def hear(self, line: str) -> None:
+        """A person has typed a line; an empty one, without its newline, is the terminal's end: nobody answers any more."""
+        answer = ANSWERS.get(line.strip().lower()[:1])
+        if not line:
+            self._hung_up = True
+            self.abort(HUNG_UP)
+        elif answer is not None:
+            self.answer(answer)
+
     def abort(self, why: str) -> None:
         """Stop for good; `why` is a clause."""
         if self.check:
@@ -75,6 +87,8 @@ class FirstRun:
         for reading in self.driver.received(data, now):
             if self.check is None and self.driver.board is not None:
                 self.check = Check(self.settings, self.driver.board)
+                if self._hung_up:  # before the board had answered
+                    self.abort(HUNG_UP)
             if self.check is not None:
                 self.check.see(self._look(reading))
 

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 
 from motor_driver.check import words
 from motor_driver.check.first_run import FirstRun
-from motor_driver.check.look import Answer, Prompt
+from motor_driver.check.look import Prompt
 from motor_driver.check.settings import Settings, config_of
 from motor_driver.frames import Decay, Pwm
 from motor_driver.link import open_port
@@ -20,7 +20,6 @@ from motor_ros.run import Interrupt
 LOOK_EVERY = 0.004  # [s]
 MOST_READ = 4096
 OFF_TIME = 0.3  # [s] in which the board says that its output is off
-ANSWERS = {"": Answer.DONE, "y": Answer.YES, "n": Answer.NO}
 
 
 def run_on(options: argparse.Namespace, settings: Settings, port: str, roll_call: bool = False) -> FirstRun:
@@ -62,6 +61,8 @@ class _Terminal:
         config = config_of(settings, options.baud, decay, Pwm.SILENT if options.silent_pwm else Pwm.STANDARD)
         self._run = FirstRun(settings, config, port, time.monotonic_ns(), roll_call)
         self._shown, self._ended = 0, False
+        if settings.hand and sys.stdin is None:  # it was closed before we started
+            self._run.hear("")
         self._prompt: Prompt | None = None
 
     def run(self) -> FirstRun:
@@ -92,14 +93,14 @@ class _Terminal:
 
     def _step(self) -> None:
         """Take what has come, then send what is due."""
-        keys = [sys.stdin] if self._settings.hand and not self._ended else []
+        keys = [sys.stdin] if self._settings.hand and not self._ended and sys.stdin else []
         try:
             ready, _, _ = select.select([self._port, *keys], [], [], LOOK_EVERY)
             data = os.read(self._port.fileno(), MOST_READ) if self._port in ready else None
             if data == b"":
                 raise OSError
             if keys and sys.stdin in ready:
-                self._hear_keys(sys.stdin.readline())
+                self._run.hear(sys.stdin.readline())
             now = time.monotonic_ns()
             if data:
                 self._run.received(data, now)
@@ -110,13 +111,6 @@ class _Terminal:
             self._ended = True
             self._run.driver.closed(f"The serial port {self._name} is gone: plug the board in again.")
             self._run.abort(f"the serial port {self._name} is gone")
-
-    def _hear_keys(self, line: str) -> None:
-        if not line:  # its end: who might have answered is gone
-            self._run.abort("the terminal was closed")
-        answer = ANSWERS.get(line.strip().lower()[:1])
-        if answer is not None:
-            self._run.answer(answer)
 
     def _show(self) -> None:
         """Say what is new."""

@@ -52,7 +52,7 @@ def test_prints_and_writes(model: Path, tmp_path: Path, capsys: pytest.CaptureFi
     assert 12.5 < shown["gain margin"] < 14.0 and 69.0 < shown["phase margin"] < 73.0
     assert 48.0 < shown["delay margin"] < 52.0
     assert shown["overshoot, small step"] == 0.0
-    assert "encoder delay at 10 rad/s  22.8 ms" in out and "2 % ripple from the disc   33 ms" in out
+    assert "encoder delay at 10.4 rad/s  22.6 ms" in out and "2 % ripple from the disc   33 ms" in out
     assert "The model has 0.9 V of friction, which these gains do not compensate." in out
     text = gains.read_text(encoding="utf-8")
     assert "time constant 33 ms, limited by 2 % ripple from the disc" in text

@@ -229,11 +229,11 @@ def test_a_stronger_direction_sets_the_gain() -> None:
     ("wish", "encoder", "words"),
     [
         (
-            Wish(time_constant=0.01),
+            Wish(0.005, 10.0, 0.01),
             Encoder(),
             "The total delay is 14 ms .*sampling 7.5, encoder 6.54.* ask for 22.8 ms or more",
         ),
-        (Wish(time_constant=1e4), Encoder(), "1e\\+04 s is too long for this law: ask for 28.1 s or less"),
+        (Wish(0.005, 10.0, 1e4), Encoder(), "1e\\+04 s is too long for this law: ask for 28.1 s or less"),
         (Wish(lowest_speed=170.0), Encoder(), "lowest speed is 170 rad/s: give one above 0 and below 157"),
         (Wish(lowest_speed=float("nan")), Encoder(), "lowest speed is nan"),
         (Wish(oscillation=1e-7), Encoder(), "No gains keep the speed ripple below 1e-05 %"),

@@ -54,6 +54,29 @@ def test_another_board_than_the_one_that_was_meant_is_not_touched(settings: Sett
     assert not any(volts for _, volts in bench.pins)
 
 
+@pytest.mark.parametrize("when", ["before the board answers", "while it waits for a turn by hand", "while the motor runs"])
+def test_a_terminal_that_ends_is_no_answer(when: str) -> None:
+    """Ctrl-D, or input from a file: as an empty line it would say that the turn is done."""
+    need_emulator()
+    bench = EmulatedRun(TOLD, config=BOARD)
+    if when == "before the board answers":
+        bench.run_.hear("")
+    elif when == "while the motor runs":
+        while not any(volts for _, volts in bench.pins[-1:]):
+            bench._step()
+    else:
+        bench.person.said, bench.person.prompt = True, Prompt.TURN  # nobody turns
+        while bench.run_.prompt is not Prompt.TURN:
+            bench._step()
+    driven = len(bench.pins)
+    bench.run_.hear("")
+    run = bench.run()
+    assert run.check is not None and not run.check.right and run.off
+    assert run.check.record.rows[-1].text.startswith("The check has stopped the motor: the terminal was closed.")
+    assert not any(volts for _, volts in bench.pins[driven + 10 :])  # a sample of 5 ms, and its frame
+    assert (when == "while the motor runs") == any(volts for _, volts in bench.pins)
+
+
 def test_a_line_that_falls_silent_stops_it() -> None:
     need_emulator()
     bench = EmulatedRun(Settings(edges_per_revolution=96, hand=False), config=BOARD)
