@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from faults_board import BOARD_FAULTS, run_on_board
+from faults_encoders import encoders
 from faults_limits import limits
 from faults_loop import Loop, Outcome, outcome
 from faults_motor import MOTORS, Motor
@@ -34,6 +35,14 @@ are about what is wanted there (at 174 rad/s 80), and too few for their periods 
 edges tell): such a motor turns as it likes, at up to 97 % of its top speed, and stops late or never. From 50 a second
 on stray edges stop it in time (but for one run of the 6 rad/s motor), and at half of the top speed at any rate. The
 exchanged channels of the 6 rad/s motor took 401 ms on the board at 1 kHz here, and 572 ms at b58f6e8."""
+
+ENCODERS = """\
+8 to 2,880 edges a turn on the slowest and the fastest motor, simulated, at 200 Hz; [ms] without a model / with one.
+Where fewer than 10 edges a second are all that there is (6 rad/s, 8 edges), every plant reports a standstill: with a
+model the motor is refused, without one it is stopped as stalled, or turns as stray edges let it. With 24 and 96 edges at
+15 % of 6 rad/s (3 and 14 edges a second) 5 stray edges a second are no fewer than what is wanted, and exchanged channels
+take 0.8 to 1.6 s with a model: a load of a quarter of the voltage may drive a motor with two channels backward, so that
+only more than half of the voltage tells. 2,880 edges at 300 rad/s come every 7 us, and the timer ticks every 4."""
 
 
 @dataclass(frozen=True)
@@ -124,6 +133,12 @@ def page() -> str:
             f"| fault | may take | {' | '.join(m.name for m in BOARD_MOTORS)} | speed | voltage | what was said |",
             "|---|---|" + "---|" * len(BOARD_MOTORS) + "---|---|---|",
             *[line for line, _ in board],
+            "",
+            "## Other encoders",
+            "",
+            ENCODERS,
+            "",
+            *encoders(),
             "",
             "## What is limited, and nothing to stop for",
             "",

@@ -4,7 +4,7 @@ A run is one motor (top speed 6 to 600 rad/s, 1.2 to 48 V, time constant 20 ms t
 supply, breakaway up to twice that), one disc (irregular by up to 5 % of a slot, one channel or two), loads that come
 and go (up to 25 % of the supply with two channels; up to the friction with one, which holds 0 rad/s by friction alone)
 and references that change every second or so, reversals and stops included. The observer's model is off by some per
-cent, as an identified one is. A latched stop is a false one.
+cent, as an identified one is. A latched stop is a false one, the controller's as well as the plant's own.
 """
 
 import argparse
@@ -25,6 +25,7 @@ from motor_control.controller import controller
 from motor_control.parameters import ROWS
 from motor_model.parameters import Parameters
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
+from motor_model.sensing.motion_check import MotionCheck
 
 PAGE = Path(__file__).with_name("results") / "no_false_stops.md"
 DEFAULTS = {row.name: row.default for row in ROWS}
@@ -54,7 +55,7 @@ class Result:
     time: float  # [s] of it, or the whole run
 
 
-def draw(seed: int, rate: float, seconds: float) -> Setup:
+def draw(seed: int, rate: float, seconds: float, edge_rate: float) -> Setup:
     """Draw a setup; its load step comes once, at a random time."""
     rng = np.random.default_rng([seed, round(rate)])
 
@@ -72,7 +73,7 @@ def draw(seed: int, rate: float, seconds: float) -> Setup:
     off = {"kv": 1.0 + 0.02 * rng.standard_normal(), "ka": 1.0 + 0.1 * rng.standard_normal(), "ks": 0.9}
     known = {name: values[name] * float(factor) for name, factor in off.items()}
     model = Parameters(known | {"ks": min(known["ks"], values["breakaway_voltage"])}, ("coulomb_friction",), supply)
-    edges = int(np.clip(round(log_uniform(*EDGE_RATES) * 2.0 * pi / top), 4, 4000))
+    edges = int(np.clip(round(log_uniform(EDGE_RATES[0], edge_rate) * 2.0 * pi / top), 4, 4000))
     board = BoardConfig(
         sample_rate=rate,
         edges_per_revolution=edges,
@@ -94,20 +95,23 @@ def draw(seed: int, rate: float, seconds: float) -> Setup:
     return Setup(plant, model if observed or rng.integers(2) else None, board, loop, references)
 
 
-def run(seed: int, rate: float, seconds: float) -> Result:
+def run(seed: int, rate: float, seconds: float, edge_rate: float = EDGE_RATES[1]) -> Result:
     """Run one setup."""
-    setup = draw(seed, rate, seconds)
+    setup = draw(seed, rate, seconds, edge_rate)
     config = config_of(DEFAULTS | setup.values, setup.board.info(setup.plant), setup.model)  # type: ignore[operator]
     board, state, voltage = SimulatedBoard(setup.plant, setup.board), controller.State(), 0.0
+    check = MotionCheck(setup.board.info(setup.plant).max_voltage, setup.board.single_channel)
     coming, source = list(setup.references), str(setup.values["speed_source"])
     for k in range(round(seconds * rate)):
         time, fresh = k / rate, None
         while coming and coming[0][0] <= time:
             fresh = coming.pop(0)[1]
-        output, state = controller.update(config, state, board.sample(voltage), fresh, time)
+        sample = board.sample(voltage)
+        check = check.see(sample)
+        output, state = controller.update(config, state, sample, fresh, time)
         voltage = output.terms.voltage
-        if state.latched:
-            return Result(source, setup.board.single_channel, state.latched, time)
+        if state.latched or check.stop:
+            return Result(source, setup.board.single_channel, state.latched or check.stop, time)
     return Result(source, setup.board.single_channel, "", seconds)
 
 
@@ -142,6 +146,7 @@ def main() -> int:
     parser.add_argument("--seconds", type=float, default=36.0, help="simulated, of each run (default 36)")
     parser.add_argument("--first", type=int, default=0, help="seed of the first run (default 0)")
     parser.add_argument("--rate", type=float, choices=RATES, help="[Hz] this rate alone")
+    parser.add_argument("--edge-rate", type=float, default=EDGE_RATES[1], help="[1/s] at top speed, at most")
     parser.add_argument("--page", type=Path, default=PAGE, help="where the page is written")
     options = parser.parse_args()
     begun = commit()
@@ -149,7 +154,7 @@ def main() -> int:
     for rate in (options.rate,) if options.rate else RATES:
         results[rate] = []
         for seed in range(options.first, options.first + options.runs):
-            result = run(seed, rate, options.seconds)
+            result = run(seed, rate, options.seconds, options.edge_rate)
             results[rate].append(result)
             if result.stop:
                 print(f"seed {seed}, {rate:.0f} Hz, {result.source}, {result.time:.2f} s: {result.stop}", flush=True)

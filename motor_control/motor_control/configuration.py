@@ -2,11 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from math import isfinite
+from math import inf, isfinite
 
 from motor_control.controller import pi
 from motor_control.controller.faults.evidence import SPARE, SPARE_SINGLE
 from motor_control.controller.faults.evidence import Config as FaultConfig
+from motor_control.controller.faults.stall import REPORTABLE
 from motor_control.controller.reference import position_law
 from motor_control.controller.run import Config
 from motor_model.errors import MotorError
@@ -26,6 +27,11 @@ NO_DIRECTION = "An angle cannot be approached: a single channel does not measure
 NO_POSITION = "An angle cannot be approached without the observer: set model, and speed_source to observer."
 NOT_READY = "Observer and feed-forward are being prepared; the speed is the measured one until then."
 BAD_INFO = "motor/info says {} = {:g}, which cannot be: correct it in the plant. The motor gets 0 V until then."
+
+TOO_FEW_EDGES = (
+    "By its model this motor shows {:.2g} edges a second at top speed, and below {:g} a standstill is reported: "
+    "nothing tells a lost line or a wrong direction. Use an encoder with more edges. The motor gets 0 V until then."
+)
 
 
 def model_of(path: str) -> Parameters | None:
@@ -54,7 +60,12 @@ def config_of(
     if info is not None:
         limit, two_samples = min(limit, info.max_voltage), 2.0 * info.sample_period
     single = info is None or info.single_channel
-    faults = FaultConfig(float(values["stall_time"]), slot=slot_of(info), spare=SPARE_SINGLE if single else SPARE)
+    faults = FaultConfig(
+        float(values["stall_time"]),
+        slot=slot_of(info),
+        tick=info.edge_resolution if info is not None else 0.0,
+        spare=SPARE_SINGLE if single else SPARE,
+    )
     config = Config(
         gains=pi.Config(float(values["kp"]), float(values["ki"]), limit),
         voltage_limit=limit,
@@ -130,6 +141,7 @@ def _add_model(config: Config, values: Mapping[str, Value], info: Info | None, m
     kv = max(limit - friction, 0.1 * limit) / max(forward.top_speed(limit), 1e-9)
     if watcher is not None and not config.single_channel:
         place = position_law.design(slot_of(info), config.gains.kp, motor.value("ka"), limit, forward.top_speed(limit))
+    shown = forward.fastest / config.faults.slot if config.faults.slot else inf
     lag = motor.value("delay") + motor.value("electrical_time_constant")
     return replace(
         config,
@@ -138,6 +150,7 @@ def _add_model(config: Config, values: Mapping[str, Value], info: Info | None, m
         observer=watcher,
         position=place,
         feedforward=forward if values["feedforward"] else None,
+        unusable=config.unusable or (TOO_FEW_EDGES.format(shown, REPORTABLE) if shown < REPORTABLE else ""),
         faults=replace(
             config.faults,
             fastest=forward.fastest,

@@ -1,12 +1,14 @@
 """What parameters, plant and model make of the controller; what is asked for and cannot be had is said."""
 
+from math import tau
+
 import pytest
 from bench_board import DEFAULTS, motor
 
 from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_model.errors import MotorError
-from motor_model.parameters import PAPER_KV
+from motor_model.parameters import PAPER_KV, Parameters
 from motor_model.sample import Info, Measurement, Sample
 
 
@@ -43,6 +45,21 @@ def test_the_plants_voltage_replaces_the_models() -> None:
     assert config.voltage_limit == 6.0 and config.observer is not None and config.feedforward is not None
     assert config.observer.parameters.max_voltage == config.feedforward.parameters.max_voltage == 6.0
     assert config.faults.fastest == pytest.approx(6.0 / PAPER_KV)
+
+
+@pytest.mark.parametrize(("edges", "refused"), [(0.99, True), (1.01, False)])
+@pytest.mark.parametrize("measurement", [Measurement.EDGES, Measurement.COUNTS])
+def test_an_encoder_whose_edges_at_top_speed_count_as_a_standstill_is_refused(
+    edges: float, refused: bool, measurement: Measurement
+) -> None:
+    """10 edges a second: a motor of 6 rad/s with 8 edges a turn and exchanged channels ran for ever."""
+    slow = Parameters({"kv": PAPER_KV * 1000.0, "ka": 1.0}, max_voltage=12.0)
+    gear = 10.0 * edges / (12.0 / PAPER_KV / 1000.0) * tau / 8.0
+    info = Info(edges_per_revolution=8, gear_ratio=gear, measurement=measurement)
+    config = config_of(DEFAULTS, info, slow)
+    assert ("By its model this motor shows 9.9 edges a second" in config.unusable) == refused == bool(config.unusable)
+    output, _ = controller.update(config, controller.State(), Sample(0, 0.0, 0.0), 0.1, 0.0)
+    assert (output.terms.voltage == 0.0 and output.state == controller.STOPPED) == refused
 
 
 def test_a_source_that_is_none_is_refused() -> None:

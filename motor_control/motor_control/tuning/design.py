@@ -21,7 +21,6 @@ from motor_control.tuning.observed_speed import Observed
 from motor_control.tuning.speed_feedback import MEASURED, OBSERVER, Encoder, Ripple, Sight, cancelling
 from motor_control.tuning.speed_range import choose_speeds, default_lowest_speed
 from motor_control.tuning.step_response import StepResponse, respond, small_step
-from motor_model.errors import MotorError
 from motor_model.parameters import Parameters
 from motor_model.sample import Info
 

@@ -69,7 +69,7 @@ class FirstRun:
         self._answer = answer
 
     def hear(self, line: str) -> None:
-        """A person has typed a line; an empty one, without its newline, is the terminal's end: nobody answers any more."""
+        """A person has typed a line; one without even a newline is the terminal's end, and nobody answers any more."""
         answer = ANSWERS.get(line.strip().lower()[:1])
         if not line:
             self._hung_up = True

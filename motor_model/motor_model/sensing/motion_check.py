@@ -19,6 +19,10 @@ LITTLE = 3.0  # [V] of supply: no bridge works with less
 QUICK = 1.0 / 300.0  # [s] between edges; to stop within the next slot takes 3000 rad/s² with 96 of them
 SLOWER = 0.98  # of the speed at the beginning; a motor that is braked by STRONG keeps more only if its time constant
 # is over 50 times the stall time: du/dt = -(0.5 + 1)·speed/time constant at least, from top speed down
+# A plant reports 0 rad/s where edges are further apart than SLOW; the count of two channels still says which way they
+# went. BACK of them against a strong voltage, none of them much later than the one before, are no motor that is being
+# braked: under STRONG the periods of one whose time constant is 1 s and that comes to rest grow by GROWTH and more.
+SLOW, GROWTH, BACK = 0.1, 1.25, 3
 
 NO_SUPPLY = "the motor does not turn: its supply is at {supply:.1f} V; switch it on, and join its ground to the board's"
 NEVER = (
@@ -48,6 +52,7 @@ class MotionCheck:
     strong_since: int = 0  # [ns] driven strongly in this direction since
     begun: float = 0.0  # [rad/s] speed against the strong voltage since then, before it fell
     begun_at: int = 0  # [ns]
+    back: int = 0  # slow edges against the strong voltage since then
     quick: bool = False  # the latest edges came in quick succession
 
     def see(self, sample: Sample) -> "MotionCheck":
@@ -70,6 +75,7 @@ class MotionCheck:
             strong_since=now if anew else self.strong_since,
             begun=against if fell else self.begun,
             begun_at=now if fell else self.begun_at,
+            back=0 if anew else self._count_back(sample, strong),
             quick=0.0 < sample.edge_period < QUICK if moved else self.quick,
         )
 
@@ -92,8 +98,20 @@ class MotionCheck:
         backward = not self.single_channel and sample.speed * self.strong < 0.0
         if backward and sample.sample_time - self.begun_at >= most:
             return AGAINST
+        if not self.single_channel and self.back >= BACK and sample.sample_time - self.strong_since >= most:
+            return AGAINST
         stalled = sample.sample_time - max(self.still, self.strong_since) >= most
         return self._no_edges(sample) if stalled else ""
+
+    def _count_back(self, sample: Sample, strong: int) -> int:
+        """Count slow edges against a strong voltage, none of them much later than the one before."""
+        before = self.latest
+        if before is None or sample.edge_count == before.edge_count:
+            return self.back
+        if (sample.edge_count - before.edge_count) * strong >= 0:
+            return 0
+        known = before.edge_period if before.edge_period > 0.0 else sample.edge_period
+        return self.back + (SLOW <= sample.edge_period <= GROWTH * known)
 
     def _no_edges(self, sample: Sample) -> str:
         text = NEVER if sample.edge_count == 0 else CUT_OFF if self.quick else STALLED

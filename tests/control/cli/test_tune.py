@@ -52,11 +52,11 @@ def test_prints_and_writes(model: Path, tmp_path: Path, capsys: pytest.CaptureFi
     assert 12.5 < shown["gain margin"] < 14.0 and 69.0 < shown["phase margin"] < 73.0
     assert 48.0 < shown["delay margin"] < 52.0
     assert shown["overshoot, small step"] == 0.0
-    assert "encoder delay at 10.4 rad/s  22.6 ms" in out and "2 % ripple from the disc   33 ms" in out
+    assert "encoder delay at 10.4 rad/s  22.4 ms" in out and "2 % ripple from the disc     33.1 ms" in out
     assert "The model has 0.9 V of friction, which these gains do not compensate." in out
     text = gains.read_text(encoding="utf-8")
-    assert "time constant 33 ms, limited by 2 % ripple from the disc" in text
-    assert "Gain margin 13.2 dB, phase margin 71 deg, delay margin 49.7 ms" in text
+    assert "time constant 33.1 ms, limited by 2 % ripple from the disc" in text
+    assert "Gain margin 13.4 dB, phase margin 71 deg, delay margin 50 ms" in text
     assert figure.stat().st_size > 30_000 and figure.read_bytes()[:4] == b"\x89PNG"
 
 
@@ -115,7 +115,7 @@ def test_options_reach_the_loop(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert 0.2 < kp("--slot-irregularity", "0.02") / usual < 0.4
     assert 1.2 < kp("--oscillation", "0.04") / usual < 1.7
     assert main([str(path), "--time-constant", "0.025"]) == 0
-    assert "causes 2.37 % speed ripple. A time constant of 33 ms keeps it at 2 %" in capsys.readouterr().out
+    assert "causes 2.37 % speed ripple. A time constant of 33.1 ms keeps it at 2 %" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -125,7 +125,7 @@ def test_options_reach_the_loop(tmp_path: Path, capsys: pytest.CaptureFixture[st
         ("parameters: {kv: {value: 0.07}, ka: {value: 0.0}}", [], "kv and ka must be positive"),
         ("[]", [], "a model file has 'effects' and 'parameters'"),
         (None, [], "cannot read the model file"),
-        ("", ["--time-constant", "0.005"], "ask for 22.8 ms or more, sample faster"),
+        ("", ["--time-constant", "0.005"], "ask for 22.4 ms or more, sample faster"),
         ("", ["--output", "nowhere/gains.yaml"], "cannot write nowhere/gains.yaml: name a file in a directory"),
         ("", ["--figure", "nowhere/step.png"], "cannot write nowhere/step.png: name a file in a directory"),
         ("", ["--figure", "step.txt"], "its name must end in .png"),

@@ -42,5 +42,7 @@ def test_two_speeds_a_decade_lie_between() -> None:
 
 @pytest.mark.parametrize("lowest", [0.0, -1.0, 5.41, float("nan")])
 def test_a_lowest_speed_that_is_none(lowest: float) -> None:
-    with pytest.raises(MotorError, match=r"The lowest speed is .*: give one above 0 and below 5.4 rad/s, 90% of what 12"):
+    with pytest.raises(
+        MotorError, match=r"The lowest speed is .*: give one above 0 and below 5.4 rad/s, 90% of what 12"
+    ):
         choose_speeds(motor(6.0), lowest)

@@ -40,5 +40,6 @@ def test_more_ripple_than_allowed_is_said_with_the_way_out() -> None:
     one = tuning(time_constant=0.025)
     first = cautions(one, RUBBING)[0]
     assert (
-        first == "At this time constant the disc causes 2.37 % speed ripple. A time constant of 33 ms keeps it at 2 %."
+        first
+        == "At this time constant the disc causes 2.37 % speed ripple. A time constant of 33.1 ms keeps it at 2 %."
     )

@@ -54,7 +54,9 @@ def test_another_board_than_the_one_that_was_meant_is_not_touched(settings: Sett
     assert not any(volts for _, volts in bench.pins)
 
 
-@pytest.mark.parametrize("when", ["before the board answers", "while it waits for a turn by hand", "while the motor runs"])
+@pytest.mark.parametrize(
+    "when", ["before the board answers", "while it waits for a turn by hand", "while the motor runs"]
+)
 def test_a_terminal_that_ends_is_no_answer(when: str) -> None:
     """Ctrl-D, or input from a file: as an empty line it would say that the turn is done."""
     need_emulator()

@@ -92,3 +92,30 @@ def test_turning_against_a_strong_voltage_without_slowing_down_is_a_stop() -> No
     turning = [sample(0.05 * k, -k, -min(20.0 * k, 80.0) * (1.0 + 0.03 * (-1) ** k), 8.0) for k in range(30)]
     assert [bool(checked(False, *turning[:k]).stop) for k in (8, 20)] == [False, True]
     assert checked(True, *turning).stop == ""  # one channel does not know
+
+
+@pytest.mark.parametrize(
+    ("times", "stops"),
+    [
+        ((0.2, 0.4, 0.6), True),  # five edges a second, which a plant reports as a standstill
+        ((0.2, 0.4, 0.59), True),
+        ((0.2, 0.4, 0.66), False),  # each a quarter later than the one before: it comes to rest
+        ((0.09, 0.18, 0.27), False),  # fast enough for a speed that tells
+    ],
+)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_slow_edges_against_a_strong_voltage_are_a_stop(times: tuple[float, ...], stops: bool, sign: int) -> None:
+    """A motor of 6 rad/s with 8 edges a turn and exchanged channels ran for ever."""
+    edges = (0.0, *times)
+    check = MotionCheck(12.0, single_channel=False)
+    for k in range(160):
+        passed = [at for at in edges if at <= 0.005 * k]
+        period = passed[-1] - passed[-2] if len(passed) > 1 else 0.2
+        check = check.see(Sample(k * 5_000_000, 0.0, 7.2 * sign, -sign * len(passed), edge_period=period))
+        if check.stop:
+            break
+    assert check.stop.startswith("the motor turns against" if stops else "no edges") or not (check.stop or stops)
+    along = MotionCheck(12.0, single_channel=False)
+    for k in range(160):
+        along = along.see(Sample(k * 5_000_000, 0.0, 7.2, sum(at <= 0.005 * k for at in edges), edge_period=0.2))
+    assert "against" not in along.stop

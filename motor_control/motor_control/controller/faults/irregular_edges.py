@@ -13,10 +13,13 @@ whose slots are irregular by 5 %, and up to 0.4 where a loop makes a slow motor 
 Edges of four flanks a period are as uneven as the encoder's sensor, by a fifth or more, and so is a disc of four slots:
 every fourth period is alike there. So a second mean is taken over periods whose counts leave the same rest by 4: where
 it is that of ordinary motion, the jumps are the sensor's. Of random edges both means are the same.
+
+A timer that ticks hardly faster than edges come makes steps of its own: a period is known to one tick, and a step
+counts as far as it is larger than what that makes of it.
 """
 
 from dataclasses import dataclass, replace
-from math import exp, log
+from math import copysign, exp, log
 
 from motor_control.controller.faults.evidence import Config, Seen
 
@@ -65,7 +68,7 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     period = seen.sample.edge_period
     if seen.motion.edges and config.slot > 0.0:
         count = seen.sample.edge_count
-        state = replace(follow_period(state, period, count < state.count, count), count=count)
+        state = replace(follow_period(state, period, count < state.count, count, config.tick), count=count)
     if not state.irregular or config.stall_time == 0.0:
         return "", state
     driven = seen.motion.slow_voltage >= LEAST_VOLTAGE * seen.voltage_limit > 0.0
@@ -74,15 +77,18 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     return SENTENCE.format(exp(state.jump)), state
 
 
-def follow_period(state: State, period: float, backward: bool = False, count: int = 0) -> State:
-    """Follow one more period [s] up to a count; 0 is one that is not known. A standstill and a turn begin anew."""
+def follow_period(state: State, period: float, backward: bool = False, count: int = 0, tick: float = 0.0) -> State:
+    """Follow one more period [s], known to a tick, up to a count; 0 is one that is not known.
+
+    A standstill and a turn begin anew.
+    """
     if period >= STANDSTILL or backward != state.backward:
         return State(backward=backward)
     if period <= 0.0 or state.period <= 0.0:
         return replace(state, period=max(period, 0.0), step=0.0)
-    step, jump = _find_jump((state.period, state.step), period)
+    step, jump = _find_jump((state.period, state.step), period, tick)
     flank = state.flanks[count % FLANKS]
-    flank_step, flank_jump = _find_jump(flank, period) if flank[0] else (0.0, jump)
+    flank_step, flank_jump = _find_jump(flank, period, tick) if flank[0] else (0.0, jump)
     return State(
         period,
         step,
@@ -95,7 +101,8 @@ def follow_period(state: State, period: float, backward: bool = False, count: in
     )
 
 
-def _find_jump(before: tuple[float, float], period: float) -> tuple[float, float]:
+def _find_jump(before: tuple[float, float], period: float, tick: float) -> tuple[float, float]:
     """The step [log] from a period, itself reached by a step, to the next, and the jump that both are."""
     step = log(period / before[0])
+    step = copysign(max(abs(step) - tick / period - tick / before[0], 0.0), step)
     return step, min(abs(step), abs(before[1]), LARGEST) if step * before[1] < 0.0 else 0.0

@@ -39,6 +39,20 @@ def test_mean_jump_of_random_edges_is_as_the_page_says() -> None:
     assert np.mean(jumps) == pytest.approx(0.45, abs=0.01)
 
 
+@pytest.mark.parametrize(("mean", "tick", "stops"), [(7e-6, 4e-6, False), (7e-6, 0.0, True), (0.01, 4e-6, True)])
+def test_steps_of_the_timer_are_no_jumps(mean: float, tick: float, stops: bool) -> None:
+    """A motor of 600 rad/s with 2,880 edges a turn, 4 or 8 us a period, was stopped; noise on a slow line still is."""
+    rng, state = np.random.default_rng(4), State()
+    for count in range(0, 4000, 5):  # a sample sees the latest of some edges
+        end = float(rng.uniform(0.0, 1.0))
+        begin = end - (mean if mean < 1e-3 else float(rng.exponential(mean)))
+        stamped = (round(end / 4e-6) - round(begin / 4e-6)) * 4e-6
+        state = follow_period(state, stamped, count=count, tick=tick)
+        if state.irregular:
+            break
+    assert state.irregular == stops
+
+
 @pytest.mark.parametrize("seen_every", [1, 3, 4, 7])
 def test_flanks_as_uneven_as_a_sensors_are_a_motors(seen_every: int) -> None:
     """Four flanks of 0.6 to 1.4 slots, of which a sample sees the latest only; seed 30173 of no_false_stops stopped."""
