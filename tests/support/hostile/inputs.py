@@ -1,8 +1,10 @@
 """The table of the kinds of hostile inputs."""
 
+from hostile import foreign
 from hostile.bags import contents, database, mcap, playing
 from hostile.command_lines import arguments, csv, pipes
 from hostile.kind import Kind, command, node
+from hostile.log_files import json_log, matlab, refused, wpilog
 from hostile.node_inputs import fill_values, parameters, values
 from hostile.sandbox import Main
 from hostile.yaml_files import metadata, model
@@ -25,5 +27,11 @@ KINDS = (
     Kind("pipes, devices, links", 100, main_of, pipes),
     Kind("values on the command line", 200, main_of, values),
     Kind("parameters of nodes", 80, main_of, parameters, interrupt=1.0),
+    Kind("MATLAB file", 200, main_of, matlab),
+    Kind("JSON log", 200, main_of, json_log),
+    Kind("WPILOG", 200, main_of, wpilog),
+    Kind("formats that are not read", 60, main_of, refused),
+    Kind("mapping of a bag", 150, main_of, foreign.mapping),
+    Kind("bag of another robot", 250, main_of, foreign.bag),
     Kind("bag to play", 40, main_of, playing, interrupt=8.0),
 )

@@ -11,11 +11,12 @@ from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.json_lines import are_json_lines, read_json_lines
 from motor_identification.logs.formats.matlab import read_matlab
 from motor_identification.logs.formats.sysid import read_sysid
+from motor_identification.logs.formats.wpilog import LETTERS, read_wpilog
 from motor_model.errors import RecordingError
 
 HEAD = 512  # bytes at the beginning that tell the format
 _LONGEST_LINE = 10_000  # characters of a first line of JSON
-_HDF5, _WPILOG, _ZIP, _PARQUET, _MCAP = b"\x89HDF\r\n\x1a\n", b"WPILOG", b"PK\x03\x04", b"PAR1", b"\x89MCAP"
+_HDF5, _ZIP, _PARQUET, _MCAP = b"\x89HDF\r\n\x1a\n", b"PK\x03\x04", b"PAR1", b"\x89MCAP"
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,9 @@ def read_source(path: Path) -> Source:
             raise RecordingError(f"{path} is {cure}.")
     if head.startswith(b"MATLAB 5.0"):
         return Source(read_matlab(path), "MATLAB 5 file")
+    if head.startswith(LETTERS):
+        table, split = read_wpilog(path)
+        return Source(table, "WPILOG", Said(split=split))
     if head.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"{"):
         with path.open(encoding="utf-8-sig", errors="replace") as file:
             if are_json_lines(file.read(_LONGEST_LINE)):
@@ -60,7 +64,6 @@ def read_source(path: Path) -> Source:
 
 _REFUSED: tuple[tuple[Callable[[bytes], bool], str], ...] = (
     (lambda head: head.startswith(_HDF5), "a MATLAB 7.3 or HDF5 file: save it with -v7, or as CSV"),
-    (lambda head: head.startswith(_WPILOG), "a WPILOG: export it with SysId or AdvantageScope as JSON or CSV"),
     (lambda head: head.startswith(_ZIP), "a ZIP or spreadsheet file: unpack it, or export it as CSV"),
     (
         lambda head: head.startswith((_PARQUET, b"ARROW1")),

@@ -32,7 +32,6 @@ def test_what_a_user_says_comes_before_what_the_file_says() -> None:
     ("head", "complaint"),
     [
         (b"\x89HDF\r\n\x1a\n", "is a MATLAB 7.3 or HDF5 file: save it with -v7"),
-        (b"WPILOG\x00\x01", "is a WPILOG: export it with SysId or AdvantageScope as JSON or CSV"),
         (b"PK\x03\x04", "is a ZIP or spreadsheet file: unpack it, or export it as CSV"),
         (b"PAR1", "is a Parquet or Feather file: export it as CSV"),
         (b"\x89MCAP0\r\n", "is a bag: give it to identify, diagnose or inspect"),

@@ -1,0 +1,165 @@
+"""WPILib's data log (WPILOG 1.0), as robots and SysId's routines write it: numbers by name, each with its own times.
+
+The format is WPILib's "DataLog file format": the six letters, a version, an extra header; then records of an entry's
+number, a payload's size and a time [us], each of as many bytes as it needs. Entry 0 says which others there are.
+Numbers that come only when they change, or some microseconds after one another in one turn of a loop, are put into the
+rows of the entry that came most often.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from struct import calcsize, unpack_from
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.csv.table import Table
+from motor_model.errors import RecordingError
+
+LETTERS, VERSION = b"WPILOG", 0x0100
+NUMBERS = {"double": "<d", "float": "<f", "int64": "<q"}
+STATE = "sysid-test-state"  # the text that SysId's routines log: which test runs
+NO_TEST = "none"
+TOGETHER = 0.1  # of a row's time: what one turn of a loop logs comes within that
+SELDOM = 0.05  # of the rows: what has fewer values need not have begun with the first row
+MOST_NAMES, MOST_NUMBERS = 1000, 2**26
+_UNITS = {"Volt": "V", "Ampere": "A", "Meter": "m", "Radian": "rad", "Rotation": "rev", "Degree": "deg"}
+
+
+@dataclass
+class Entry:
+    """A named series."""
+
+    name: str
+    kind: str
+    unit: str
+    times: list[int] = field(default_factory=list)  # [us]
+    values: list[Any] = field(default_factory=list)
+
+
+def read_wpilog(path: Path) -> tuple[Table, str | None]:
+    """Read the numbers as columns, with `time [s]` and the tests of SysId as `test`; and the column that splits it.
+
+    Raises:
+        RecordingError: it is no such log, or has too few numbers in it, or too many.
+    """
+    data = path.read_bytes()
+    entries, cut = _read_entries(path, data)
+    numbers = [entry for entry in entries if entry.kind in NUMBERS and len(entry.times) >= 2]
+    if len(numbers) < 2:
+        raise RecordingError(f"{path} has no two series of numbers: log voltage and position or speed as doubles.")
+    if len(numbers) > MOST_NAMES:
+        raise RecordingError(f"{path} has {len(numbers)} series of numbers, and {MOST_NAMES} is the most: log fewer.")
+    rows = _rows_of(numbers)
+    if len(rows) * len(numbers) > MOST_NUMBERS:
+        raise RecordingError(f"{path} has {len(rows)} rows of {len(numbers)} numbers: export fewer of them as CSV.")
+    state = next((entry for entry in entries if entry.kind == "string" and STATE in entry.name), None)
+    tests = _at(state, rows, "") if state else None
+    chosen = np.array([test not in ("", NO_TEST) for test in tests], np.bool_) if tests is not None else None
+    if chosen is None or chosen.sum() < 2:
+        tests, chosen = None, np.ones(len(rows), np.bool_)
+    cells: dict[str, Any] = {"test": tests[chosen]} if tests is not None else {}
+    cells["time [s]"] = rows[chosen] * 1e-6
+    for entry in numbers:
+        cells[f"{entry.name} [{entry.unit}]" if entry.unit else entry.name] = _at(entry, rows, np.nan)[chosen]
+    notes = [f"WPILOG of {len(numbers)} series; rows are those of {max(numbers, key=lambda e: len(e.times)).name}."]
+    notes += [f"{path} is damaged or cut off: what follows byte {cut} is not read."] if cut else []
+    table = Table(path, np.arange(1, int(chosen.sum()) + 1), cells, notes=tuple(notes))
+    return table, None if tests is None else "test"
+
+
+def _read_entries(path: Path, data: bytes) -> tuple[list[Entry], int]:
+    """Every entry with its values, and the byte from which on nothing could be read; 0: there is none."""
+    if len(data) < 12 or unpack_from("<H", data, 6)[0] >> 8 != VERSION >> 8:
+        raise RecordingError(f"{path} is a WPILOG of another version than 1: export it as CSV.")
+    started: dict[int, Entry] = {}
+    found: list[Entry] = []
+    position = 12 + unpack_from("<I", data, 8)[0]
+    for number, time, payload, end in _records(data, position):
+        position = end
+        if number == 0:
+            _start(payload, started, found)
+        elif (entry := started.get(number)) is not None:
+            _take(entry, time, payload)
+    return found, position if position < len(data) else 0
+
+
+def _records(data: bytes, position: int) -> Iterator[tuple[int, int, bytes, int]]:
+    """Entry, time [us], payload and end of each record up to the first that is cut off."""
+    while position < len(data):
+        sizes = data[position]
+        parts, at = [], position + 1
+        for length in ((sizes & 3) + 1, (sizes >> 2 & 3) + 1, (sizes >> 4 & 7) + 1):
+            parts.append(int.from_bytes(data[at : at + length], "little"))
+            at += length
+        if sizes & 0x80 or at + parts[1] > len(data):
+            return
+        position = at + parts[1]
+        yield parts[0], parts[2], data[at:position], position
+
+
+def _start(payload: bytes, started: dict[int, Entry], found: list[Entry]) -> None:
+    """Take a control record: an entry starts, or ends; what else there is, is left out."""
+    if len(payload) < 5:
+        return
+    number = unpack_from("<I", payload, 1)[0]
+    if payload[0] == 1:
+        started.pop(number, None)
+    if payload[0] != 0:
+        return
+    texts, at = [], 5
+    for _ in range(3):
+        if at + 4 > len(payload):
+            return
+        size = unpack_from("<I", payload, at)[0]
+        texts.append(payload[at + 4 : at + 4 + size].decode("utf-8", "replace"))
+        at += 4 + size
+    before = next((one for one in found if one.name == texts[0] and one.kind == texts[1]), None)
+    if before is None and len(found) < 20 * MOST_NAMES:
+        before = Entry(texts[0], texts[1], _unit(texts[2]))
+        found.append(before)
+    if before is not None:
+        started[number] = before
+
+
+def _take(entry: Entry, time: int, payload: bytes) -> None:
+    """Take a value; times that go back are another clock's, and are left out."""
+    if entry.times and time < entry.times[-1] or time >= 1 << 53:
+        return
+    form = NUMBERS.get(entry.kind)
+    if form is not None and len(payload) == calcsize(form):
+        entry.values.append(float(unpack_from(form, payload)[0]))
+    elif entry.kind == "string" and STATE in entry.name:
+        entry.values.append(payload[:100].decode("utf-8", "replace"))
+    else:
+        return
+    entry.times.append(time)
+
+
+def _rows_of(numbers: list[Entry]) -> NDArray[np.float64]:
+    """The times [us] of the rows: those of the entry with most values, once all that come often have begun."""
+    most = max(numbers, key=lambda entry: len(entry.times))
+    rows = np.unique(np.array(most.times, np.float64))
+    often = [entry.times[0] for entry in numbers if len(entry.times) >= SELDOM * len(most.times)]
+    begun = rows[rows >= max(often) - _together(rows)]
+    return begun if len(begun) >= 2 else rows
+
+
+def _together(rows: NDArray[np.float64]) -> float:
+    """[us] that a value may come after its row."""
+    return TOGETHER * float(np.median(np.diff(rows))) if len(rows) > 1 else 0.0
+
+
+def _at(entry: Entry, rows: NDArray[np.float64], none: Any) -> NDArray[Any]:
+    """The entry's latest value at each row; `none` before the first."""
+    values = np.array([none, *entry.values])
+    return values[np.searchsorted(np.array(entry.times, np.float64), rows + _together(rows), side="right")]
+
+
+def _unit(metadata: str) -> str:
+    """The unit of metadata such as `Meter per Second`, as SysId's routines write it; else empty."""
+    what, _, per = metadata.partition(" per ")
+    unit = _UNITS.get(what, "")
+    return unit if not per else f"{unit}/s" if unit and per == "Second" else ""
