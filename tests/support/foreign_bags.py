@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 KV, KA, KS = 0.35, 0.02, 0.3  # [V·s/rad], [V·s²/rad], [V]
@@ -71,7 +71,13 @@ def stamp(store: Any, nanoseconds: int) -> Any:
     return kinds["std_msgs/msg/Header"](time, "")
 
 
-def write_joint_states(path: Path, motion: Motion, storage: StoragePlugin = StoragePlugin.MCAP, seed: int = 2) -> None:
+def write_joint_states(
+    path: Path,
+    motion: Motion,
+    storage: StoragePlugin = StoragePlugin.MCAP,
+    seed: int = 2,
+    compression: CompressionMode = CompressionMode.NONE,
+) -> None:
     """`/joint_states` of two wheels, of which the second turns, and `/wheels/commands` in shares of 12 V.
 
     Speeds are those at the instant of the stamp, with a noise of 0.05 rad/s.
@@ -82,7 +88,10 @@ def write_joint_states(path: Path, motion: Motion, storage: StoragePlugin = Stor
     generator = np.random.default_rng(seed)
     late = generator.uniform(2e5, 6e5, len(motion.time)).astype(np.int64)  # [ns]
     speed = motion.speed + generator.normal(0.0, 0.05, len(motion.time))
-    with Writer(path, version=9, storage_plugin=storage) as bag:
+    writer = Writer(path, version=9, storage_plugin=storage)
+    if compression is not CompressionMode.NONE:
+        writer.set_compression(compression, CompressionFormat.ZSTD)
+    with writer as bag:
         states = bag.add_connection("/joint_states", joint.__msgtype__, typestore=store)
         commands = bag.add_connection("/wheels/commands", array.__msgtype__, typestore=store)
         for k, now in enumerate(start + np.rint(motion.time * 1e9).astype(np.int64)):

@@ -10,6 +10,7 @@ from motor_identification.sensor.value_lattice import find_lattice
 
 LEAST_LEVELS = 10  # different values, fewer of which show no steps
 ON_GRID = 0.05  # counts: how far positions may lie beside whole counts before the user is told
+FARTHEST = 1e100  # in any unit: the squares of larger numbers are no numbers, and no encoder counts that far
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,8 @@ def find_position_lattice(values: Floats) -> Lattice | None:
 
     Where no two positions are one step apart, by what all the ways from row to row are multiples of.
     """
+    if not np.all(np.abs(values) < FARTHEST):
+        return None
     return _lattice_of_neighbours(values) or _lattice_of_ways(values)
 
 

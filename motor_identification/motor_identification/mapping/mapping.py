@@ -59,7 +59,9 @@ def parse_origin(text: str, kind: Kind | None = None) -> Origin:
     """
     match = _ORIGIN.fullmatch(text.strip())
     if match is None:
-        raise RecordingError(f"{text[:200]} is no TOPIC:FIELD, with @UNIT and *FACTOR behind it where they are needed.")
+        raise RecordingError(
+            f"'{text[:200]}' is no TOPIC:FIELD, with @UNIT and *FACTOR behind it where they are needed."
+        )
     try:
         scale = float(match["scale"] or 1.0)
     except ValueError:

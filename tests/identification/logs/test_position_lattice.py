@@ -35,3 +35,9 @@ def test_the_step_of_rounded_digits_is_as_sure_as_it_says() -> None:
     assert lattice is not None and lattice.error == pytest.approx(2.5e-5, rel=0.2)
     assert abs(lattice.step - 3.515625) < 2.0 * lattice.error
     assert lattice.holds(np.array([35.16, -7.03])) and not lattice.holds(np.array([35.56]))
+
+
+@pytest.mark.parametrize(("largest", "found"), [(1e99, True), (1e101, False), (9e307, False), (float("inf"), False)])
+def test_numbers_whose_squares_are_none_have_no_lattice(largest: float, found: bool) -> None:
+    values = np.append(np.arange(20.0), largest) if largest > 1e100 else np.arange(20.0) * largest / 20.0
+    assert (find_position_lattice(values) is not None) == found

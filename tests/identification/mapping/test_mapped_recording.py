@@ -7,8 +7,9 @@ from pathlib import Path
 import foreign_bags
 import numpy as np
 import pytest
+import yaml
 from foreign_bags import KA, KS, KV
-from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from motor_identification.bag import Source, Window
 from motor_identification.diagnose import diagnose
@@ -53,6 +54,32 @@ def test_the_motor_is_found_through_messages_of_others(bags: Path, bag: str, map
     assert found["kv"] == pytest.approx(KV, rel=0.003)
     assert found["ka"] == pytest.approx(KA, rel=0.02)
     assert found["ks"] == pytest.approx(KS, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    ("storage", "mode", "content"),
+    [
+        (StoragePlugin.MCAP, CompressionMode.FILE, "packed_0.mcap.zstd"),
+        (StoragePlugin.SQLITE3, CompressionMode.FILE, "packed_0.db3.zstd"),
+        (StoragePlugin.SQLITE3, CompressionMode.MESSAGE, "packed_0.db3"),
+    ],
+)
+def test_a_bag_that_was_recorded_with_compression_says_the_same(
+    tmp_path: Path, storage: StoragePlugin, mode: CompressionMode, content: str
+) -> None:
+    """`ros2 bag record --compression-mode file|message --compression-format zstd`, laid out as it does."""
+    motion = foreign_bags.move(2.0)
+    foreign_bags.write_joint_states(tmp_path / "plain", motion)
+    foreign_bags.write_joint_states(tmp_path / "packed", motion, storage, compression=mode)
+    about_file, written = tmp_path / "packed" / "metadata.yaml", content.replace("_0", "")
+    (tmp_path / "packed" / written).rename(tmp_path / "packed" / content)  # the recorder counts its files
+    about_file.write_text(about_file.read_text(encoding="utf-8").replace(written, content), encoding="utf-8")
+    metadata = yaml.safe_load(about_file.read_text(encoding="utf-8"))
+    about = metadata["rosbag2_bagfile_information"]
+    assert about["relative_file_paths"] == [content]
+    assert (about["compression_format"], about["compression_mode"].upper()) == ("zstd", mode.name)
+    plain, packed = (read_mapped(tmp_path / name, ANGLE) for name in ("plain", "packed"))
+    assert packed.samples == plain.samples and len(plain.samples) > 390
 
 
 def test_a_speed_without_a_word_is_the_mean_of_its_period(bags: Path) -> None:

@@ -67,9 +67,9 @@ def _odd_variables(draw: Draw, random: Random) -> bytes:
         at = random.randrange(COUNT)
         column[at : at + random.choice((1, 1, COUNT))] = random.choice((np.nan, np.inf, -np.inf, 1e308, 5e-324, -1.0))
     odd = (
-        column, column[:, None], column[: random.randrange(COUNT)], column + 1j, np.arange(COUNT, dtype=np.int8), column > 1.0,
-        column.reshape(2, -1), np.zeros((0, 0)), np.zeros((2, 0, 3)), "text", draw(VALUES), {"a": column, "b": "x"},
-        np.array([column, "x", None], dtype=object), column.astype(str), np.zeros((COUNT, 65)),
+        column, np.arange(COUNT, dtype=np.int8), column[:, None], column[: random.randrange(COUNT)], column + 1j,
+        column > 1.0, column.reshape(2, -1), np.zeros((0, 0)), np.zeros((2, 0, 3)), "text", draw(VALUES),
+        {"a": column, "b": "x"}, np.array([column, "x", None], dtype=object), column.astype(str), np.zeros((COUNT, 65)),
     )  # fmt: skip
     content[name] = random.choice(odd[:1] * 15 + odd)
     if random.random() < 0.3:

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
-from motor_identification.logs.formats import matlab
 from motor_identification.logs.formats.matlab import read_matlab
 from motor_model.errors import RecordingError
 
@@ -54,12 +53,3 @@ def test_damage_is_a_sentence(tmp_path: Path) -> None:
             assert len(read_matlab(path)) >= 2
         except RecordingError as error:
             assert "\n" not in str(error) and str(error).endswith(".")
-
-
-def test_a_file_that_announces_too_much(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    savemat(tmp_path / "log.mat", {"t": TIME, "u": TIME})
-    monkeypatch.setattr(matlab, "LARGEST", 100)
-    assert len(read_matlab(tmp_path / "log.mat")) == 50
-    monkeypatch.setattr(matlab, "LARGEST", 99)
-    with pytest.raises(RecordingError, match="announces 100 numbers, and 99 is the most"):
-        read_matlab(tmp_path / "log.mat")

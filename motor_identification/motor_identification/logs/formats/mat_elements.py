@@ -1,0 +1,138 @@
+"""Read the real numbers of a MATLAB 5 to 7 file, as its "MAT-File Format" says: tags, sizes, matrices, structs.
+
+SciPy's reader, compiled, is ended by the operating system where a damaged file names a type of numbers that there is
+not: every type, size and dimension is checked here before anything is read by it. What holds no real numbers (texts,
+cells of several, sparse matrices, objects) is left out.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import prod
+from struct import unpack_from
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_model.errors import MotorError
+
+HEADER = 128  # bytes
+MATRIX, COMPRESSED = 14, 15
+TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8"}
+CELL, STRUCT, NUMERIC = 1, 2, range(6, 16)
+COMPLEX = 0x0800  # in the flags
+DEEPEST, MOST_FIELDS = 6, 1000
+MOST_BYTES = 2**29  # unpacked, of all
+Value: TypeAlias = "NDArray[Any] | dict[str, Value]"
+
+
+class BrokenFileError(MotorError):
+    """What the file says of itself cannot be."""
+
+
+@dataclass(frozen=True)
+class Element:
+    """A tagged piece."""
+
+    type: int
+    data: bytes
+
+
+def read_variables(data: bytes) -> dict[str, Value]:
+    """Read matrices of shape (rows, columns) by name, and structs of one element as dictionaries of such.
+
+    Raises:
+        BrokenFileError: a tag, a size, a type or a dimension cannot be, or it is unpacked more than 512 MiB.
+    """
+    if len(data) < HEADER or data[126:128] not in (b"IM", b"MI"):
+        raise BrokenFileError("it has no header")
+    order = "<" if data[126:128] == b"IM" else ">"
+    found: dict[str, Value] = {}
+    unpacked = len(data)
+    for element in _elements(data, HEADER, order):
+        if element.type == COMPRESSED:
+            inner = _unpack(element.data, MOST_BYTES - unpacked)
+            unpacked += len(inner)
+            element = next(_elements(inner, 0, order), element)
+        if element.type == MATRIX:
+            name, value = _matrix(element.data, order, 0)
+            if value is not None:
+                found[name] = value
+    return found
+
+
+def _unpack(data: bytes, most: int) -> bytes:
+    unpacking = zlib.decompressobj()
+    try:
+        inner = unpacking.decompress(data, most + 1)
+    except zlib.error as error:
+        raise BrokenFileError("a variable cannot be unpacked") from error
+    if len(inner) > most:
+        raise BrokenFileError(f"it has more than {MOST_BYTES >> 20} MiB unpacked")
+    return inner
+
+
+def _elements(data: bytes, position: int, order: str) -> Iterator[Element]:
+    """The pieces one after the other; small ones have type and size in one word."""
+    while position + 8 <= len(data):
+        kind, size = unpack_from(order + "II", data, position)
+        begin = position + 8
+        if kind >> 16:
+            kind, size, begin = kind & 0xFFFF, kind >> 16, position + 4
+            if size > 4:
+                raise BrokenFileError("a small element is none")
+        if begin + size > len(data):
+            raise BrokenFileError("an element is longer than what it is in")
+        yield Element(kind, data[begin : begin + size])
+        position = (
+            begin + size if kind == COMPRESSED else position + 8 if begin == position + 4 else begin + -(-size // 8) * 8
+        )
+
+
+def _matrix(data: bytes, order: str, depth: int) -> tuple[str, Value | None]:
+    """Name and value of a matrix; None where it has no real numbers."""
+    parts = _elements(data, 0, order)
+    head = [part for _, part in zip(range(3), parts, strict=False)]
+    if len(head) < 3 or len(head[0].data) < 8 or len(head[1].data) % 4:
+        return "", None
+    flags = unpack_from(order + "I", head[0].data)[0]
+    shape = unpack_from(f"{order}{len(head[1].data) // 4}i", head[1].data)
+    name = head[2].data.decode("latin-1")
+    if any(size < 0 for size in shape) or prod(shape) > MOST_BYTES:
+        raise BrokenFileError("a dimension cannot be")
+    kind = flags & 0xFF
+    if kind in NUMERIC and not flags & COMPLEX and len(shape) == 2:
+        return name, _numbers(next(parts, None), shape, order)
+    if kind == STRUCT and prod(shape) == 1 and depth < DEEPEST:
+        return name, _fields(parts, order, depth)
+    if kind == CELL and prod(shape) == 1 and depth < DEEPEST:
+        inner = next(parts, None)
+        return name, _matrix(inner.data, order, depth + 1)[1] if inner is not None and inner.type == MATRIX else None
+    return name, None
+
+
+def _numbers(part: Element | None, shape: tuple[int, ...], order: str) -> NDArray[Any]:
+    if part is None or part.type not in TYPES:
+        raise BrokenFileError("there is no such type of numbers")
+    kind = np.dtype(order + TYPES[part.type])
+    if len(part.data) != prod(shape) * kind.itemsize:
+        raise BrokenFileError("a matrix has other dimensions than numbers")
+    return np.frombuffer(part.data, kind).reshape(shape, order="F")
+
+
+def _fields(parts: Iterator[Element], order: str, depth: int) -> dict[str, Value]:
+    sizes, names = next(parts, None), next(parts, None)
+    if sizes is None or names is None or len(sizes.data) < 4:
+        raise BrokenFileError("a struct has no fields")
+    length = unpack_from(order + "i", sizes.data)[0]
+    if not 0 < length <= 256 or len(names.data) // length > MOST_FIELDS:
+        raise BrokenFileError("a struct's fields cannot be")
+    found: dict[str, Value] = {}
+    for begin, part in zip(range(0, len(names.data), length), parts, strict=False):
+        value = _matrix(part.data, order, depth + 1)[1] if part.type == MATRIX else None
+        if value is not None:
+            found[names.data[begin : begin + length].split(b"\0")[0].decode("latin-1")] = value
+    return found
