@@ -79,7 +79,9 @@ def test_a_bag_that_was_recorded_with_compression_says_the_same(
     assert about["relative_file_paths"] == [content]
     assert (about["compression_format"], about["compression_mode"].upper()) == ("zstd", mode.name)
     plain, packed = (read_mapped(tmp_path / name, ANGLE) for name in ("plain", "packed"))
-    assert packed.samples == plain.samples and len(plain.samples) > 390
+    assert len(plain) > 190
+    for name in ("sample_time", "voltage", "edge_count", "edge_time"):
+        assert np.array_equal(getattr(packed, name), getattr(plain, name))
 
 
 def test_a_speed_without_a_word_is_the_mean_of_its_period(bags: Path) -> None:
