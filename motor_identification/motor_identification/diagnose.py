@@ -114,6 +114,11 @@ def fits_torque(beside: float, start: float) -> bool:
     return beside > thresholds.GAP_CHANCE * start
 
 
+def predicts_far_worse(beside: float, plain: float) -> bool:
+    """Decide by gaps [rad/s] whether a torque was learned of what a model without it predicts."""
+    return beside > thresholds.WORSE_GAP * plain
+
+
 def _select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
     """Select on beside a random torque, where more is left than the sensor leaves; None if that leaves structure.
 
@@ -126,7 +131,7 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
         reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
         begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
         selection = eliminate_backward(select_forward(begun, reporter), reporter)
-        if selection.model.complete:
+        if selection.model.complete and not predicts_far_worse(selection.model.held.gap, plain.model.held.gap):
             return selection
     return None
 

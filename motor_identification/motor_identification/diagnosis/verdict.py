@@ -32,6 +32,7 @@ def conclude(
     undetermined: effects one of which may be missing, though the recordings determine nothing of it.
     """
     last = selection.model
+    base = base if selection.steps else last  # the same effects: one gap, not one of either fit
     model, baseline = _summarise(last, search, elapsed), _summarise(base, search, elapsed)
     gaps = [step.before.held.gap for step in selection.steps[1:]] + [last.held.gap]  # after each step, fitted again
     findings = tuple(_make_finding(step, model, gap) for step, gap in zip(selection.steps, gaps, strict=False))

@@ -10,7 +10,22 @@ from motor_identification.recording import Bools
 
 USUAL_BLOCK = 0.5  # [s]: most motors' time constants are shorter, so that a block shows what the motor does
 BLOCK_SAMPLES = (25.0, 100.0)  # sample periods that a block has in any case: how fast a motor is sampled tells its own
+NEAR_A_BLOCK = 0.1  # of a block: what begins so near to its end may as well have begun in the next
 LEAST_BLOCKS = 12  # of a short recording: enough for three blocks of every fourth
+
+
+def compute_block_length(data: Intervals, sample_period: float) -> float:
+    """Compute how long [s] the blocks of a recording are, sampled with this period [s]."""
+    shortest, longest = (samples * sample_period for samples in BLOCK_SAMPLES)
+    return float(min(max(shortest, min(USUAL_BLOCK, longest)), data.time[-1] / LEAST_BLOCKS))
+
+
+def mark_blocks_of(data: Intervals, sample_period: float, times: Sequence[float]) -> Bools:
+    """Mark the intervals that begin in the blocks of some times [s], or in the next one's where that is near, (I,)."""
+    length = compute_block_length(data, sample_period)
+    blocks = (data.time[data.first] // length).astype(np.int64)
+    near = [int(time / length + share) for time in times for share in (-NEAR_A_BLOCK, NEAR_A_BLOCK)]
+    return np.asarray(np.isin(blocks, near))
 
 
 @dataclass(frozen=True)
@@ -31,8 +46,6 @@ class TimeBlocks:
 
         None where they would be all: nothing of a recording that is within one block serves another purpose.
         """
-        shortest, longest = (samples * sample_period for samples in BLOCK_SAMPLES)
-        length = min(max(shortest, min(USUAL_BLOCK, longest)), data.time[-1] / LEAST_BLOCKS)
-        block = (data.time[data.first] // length).astype(np.int64)
+        block = (data.time[data.first] // compute_block_length(data, sample_period)).astype(np.int64)
         marks = np.asarray((block + number) % self.every == self.every - 1)
         return marks & ~marks.all()

@@ -31,6 +31,7 @@ class HeldOut:
     parameters: Parameters  # as the first recording has them
     scored: tuple[Bools, ...]
     miscounted: int  # intervals left out because edges were missed or counted twice
+    instants: tuple[Bools, ...] = ()  # left out of the gap: an instant is in these blocks, which nobody could foresee
 
     @cached_property
     def residuals_of(self) -> tuple[Floats, ...]:
@@ -88,7 +89,8 @@ class HeldOut:
 
         A complete model drifts nowhere there; one restart that nobody could predict must not refute it.
         """
-        rows = zip(self.intervals, self.increments, self.scored, strict=True)
+        every = [scored | instant for scored, instant in zip(self.scored, self.instants or self.scored, strict=True)]
+        rows = zip(self.intervals, self.increments, every, strict=True)
         parts = [(exclude_intervals(data, ~scored), increments[scored]) for data, increments, scored in rows]
 
         def under(drift: float) -> float:

@@ -9,10 +9,11 @@ from motor_identification.estimation.direction_correction import correct_directi
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.miscounts import mark_miscounts
 from motor_identification.estimation.problem import Problem, make_problem
-from motor_identification.measurement.time_blocks import TimeBlocks
+from motor_identification.measurement.time_blocks import TimeBlocks, mark_blocks_of
 from motor_identification.recording import Recording
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
+from motor_model.effects import DURATION
 
 Self = TypeVar("Self", bound="HoldOut")
 
@@ -38,9 +39,14 @@ class HoldOut(ABC):
         intervals, increments = here.problem.intervals, here.increments
         bad = tuple(mark_miscounts(data, part) for data, part in zip(intervals, increments, strict=True))
         blocks = self.scored_blocks.mark_each(intervals, here.problem.sample_period)
-        scored = tuple(block & ~marks for block, marks in zip(blocks, bad, strict=True))
+        counted = tuple(block & ~marks for block, marks in zip(blocks, bad, strict=True))
+        instants = tuple(
+            block & mark_blocks_of(data, here.problem.sample_period, times)
+            for block, data, times in zip(counted, intervals, list_instants(here), strict=True)
+        )
+        scored = tuple(block & ~instant for block, instant in zip(counted, instants, strict=True))
         miscounted = int(sum(marks.sum() for marks in bad))
-        return HeldOut(here.problem.recordings, intervals, here.angles, here.parameters, scored, miscounted)
+        return HeldOut(here.problem.recordings, intervals, here.angles, here.parameters, scored, miscounted, instants)
 
     def correct_directions(self: Self, fitted: Estimate) -> Self:
         """Read the held-out recordings again, with directions by the motion of a fitted motor."""
@@ -78,6 +84,13 @@ class BlocksOfSame(HoldOut):
     def restrict(self, training: Problem) -> Problem:
         """Take every fourth block out."""
         return training.keeping_out(self.scored_blocks)
+
+
+def list_instants(estimate: Estimate) -> tuple[list[float], ...]:
+    """List the instants [s] of every recording at which something begins in a motor, such as a load step."""
+    unknowns = estimate.problem.unknowns
+    own = [i for i, spec in enumerate(unknowns.specs) if spec.of_recording and spec.scale == DURATION]
+    return tuple([float(estimate.theta[columns[i]]) for i in own] for columns in unknowns.columns)
 
 
 def make_hold_out(

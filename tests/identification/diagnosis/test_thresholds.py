@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from stub_models import LASTING_FLOOR, stub_held, stub_model, stub_test
 
-from motor_identification.diagnose import fits_torque
+from motor_identification.diagnose import fits_torque, predicts_far_worse
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import CandidateTest
 from motor_identification.diagnosis.effect_test import (
@@ -143,3 +143,9 @@ def test_chance_harmonic(times: float, passes: bool) -> None:
 def test_gap_chance(times: float, passes: bool) -> None:
     """A model beside a random torque that predicts worse than the one to begin with fits the torque."""
     assert fits_torque(times * thresholds.GAP_CHANCE * 2.0, 2.0) is passes
+
+
+@SIDES
+def test_worse_gap_of_a_torque(times: float, passes: bool) -> None:
+    """A torque without a finding that a model without it predicts was learned of that finding's effect."""
+    assert predicts_far_worse(times * thresholds.WORSE_GAP * 2.0, 2.0) is passes

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from motor_identification.measurement.intervals import Intervals, exclude_intervals, index_intervals
-from motor_identification.measurement.time_blocks import LEAST_BLOCKS, USUAL_BLOCK, TimeBlocks
+from motor_identification.measurement.time_blocks import LEAST_BLOCKS, USUAL_BLOCK, TimeBlocks, mark_blocks_of
 
 PERIOD = 0.005  # [s]
 
@@ -53,3 +53,12 @@ def test_a_recording_within_one_block_is_left_whole(count: int) -> None:
     )
     only = exclude_intervals(data, np.arange(count + 1) == count)
     assert not TimeBlocks(4).mark(only, PERIOD, 3).any() and TimeBlocks(4).mark(data, PERIOD, 3).sum() == count
+
+
+@pytest.mark.parametrize(
+    ("time", "blocks"), [(1.25, [2]), (1.46, [2, 3]), (1.44, [2]), (1.04, [1, 2]), (1.06, [2]), (12.5, [])]
+)
+def test_the_blocks_of_a_time_and_of_what_is_near_their_ends(time: float, blocks: list[int]) -> None:
+    data = intervals(12.0)
+    marks = mark_blocks_of(data, PERIOD, [time])
+    assert np.array_equal(np.unique(np.floor(data.time[data.first][marks] / USUAL_BLOCK + 1e-9)), blocks)

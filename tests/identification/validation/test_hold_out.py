@@ -10,6 +10,7 @@ from small import THETA, TRUE, small_recording
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
+from motor_identification.noise.likelihood import Noise
 from motor_identification.recording import check
 from motor_identification.validation.hold_out import BlocksOfSame, HoldOut, OtherRecordings, make_hold_out
 
@@ -75,6 +76,25 @@ def test_miscounted_intervals_do_not_count() -> None:
     assert held.miscounted > 5 and held.gap < 1.3 * held.floor(0.005)
     everything = replace(held, scored=tuple(np.ones_like(marks) for marks in held.scored))
     assert everything.gap > 3.0 * held.gap
+
+
+@pytest.mark.parametrize(("instant", "counts"), [(2.75, False), (2.25, True), (2.99, False), (2.93, False)])
+def test_a_block_in_which_a_load_begins_at_an_instant_that_nobody_could_foresee_does_not_count(
+    instant: float, counts: bool
+) -> None:
+    """Every other block of half a second counts; what is near its end is not told from what is in it."""
+    load = {"step_voltage": 0.8, "step_time": instant}
+    other = check(record(TRUE | load, *profiles.random(9.0, 6.2), seed=2, irregularity=0.005, name="other")[0])
+    hold_out = make_hold_out([TRAINING], [other])
+    fitted = Estimate(make_problem([TRAINING], ("coulomb_friction", "load_step")), np.array([*THETA, 0.8, 0.5]))
+    held = hold_out.validate(fitted)
+    (data,), (scored,) = held.intervals, held.scored
+    begin = data.time[data.first]
+    assert scored[(begin > 2.5) & (begin < 3.0)].any() == counts and scored[(begin > 1.5) & (begin < 2.0)].any()
+    assert held.gap < 1.3 * held.floor(0.005)
+    without = replace(held, instants=tuple(np.zeros_like(marks) for marks in held.scored))
+    noise = Noise(0.005, 0.0)
+    assert (held.log_likelihood(noise) == without.log_likelihood(noise)) == counts  # the likelihood is of all blocks
 
 
 def test_directions_are_those_of_the_fitted_motion() -> None:
