@@ -19,6 +19,8 @@ RIPPLE, CYCLES, PHASE = INDEX["ripple_voltage"], INDEX["ripple_cycles"], INDEX["
 RISE, WARM_UP = INDEX["resistance_rise"], INDEX["warm_up_time"]
 U_MAX, CONSTANT, GEAR = INDEX["max_voltage"], INDEX["torque_constant"], INDEX["gear_ratio"]
 
+GONE = 40.0  # of (ω/ω_s)²: e^−40 of Stribeck friction is less than the rounding of any number beside it
+
 
 @compiled
 def back_emf_constant(p: Floats) -> float:
@@ -66,7 +68,8 @@ def friction_at(p: Floats, speed: float, direction: float) -> float:
     friction = direction * p[KS] + viscous_part(p) * speed
     if p[BREAKAWAY] > p[KS]:
         x = speed / p[STRIBECK]
-        friction += direction * (p[BREAKAWAY] - p[KS]) * exp(-x * x)
+        if x * x < GONE:
+            friction += direction * (p[BREAKAWAY] - p[KS]) * exp(-x * x)
     return friction + p[DRAG] * speed * abs(speed)
 
 
@@ -76,7 +79,8 @@ def friction_slope_at(p: Floats, speed: float) -> float:
     slope = viscous_part(p) + 2.0 * p[DRAG] * abs(speed)
     if p[BREAKAWAY] > p[KS]:
         x = abs(speed) / p[STRIBECK]
-        slope -= (p[BREAKAWAY] - p[KS]) * exp(-x * x) * 2.0 * x / p[STRIBECK]
+        if x * x < GONE:
+            slope -= (p[BREAKAWAY] - p[KS]) * exp(-x * x) * 2.0 * x / p[STRIBECK]
     return slope
 
 

@@ -9,10 +9,15 @@ of it, φ1(z) = (e^z − 1)/z, φ(n+1)(z) = (φn(z) − 1/n!)/z, and the travel 
 is divided by, so that a motor without any damping is no special case.
 """
 
-from math import cos, exp, expm1, sin
-from typing import NamedTuple
+from math import cos, exp, expm1, sin, sqrt
+from typing import NamedTuple, TypeVar
 
 from motor_model.compiled import compiled
+
+Number = TypeVar("Number", float, complex)
+
+SMALL = 0.1  # below it φ by their series
+DOUBLE = 1e-5  # of h·(half the gap of two eigenvalues): what is closer is taken as so far apart, good to its square
 
 
 class Coefficients(NamedTuple):
@@ -70,17 +75,65 @@ def first_order(c: Coefficients, speed: float, h: float) -> tuple[float, float]:
 
 
 @compiled
-def _phi_triple(z: complex) -> tuple[complex, complex, complex]:
-    """φ1, φ2 and φ3 of a complex number."""
-    if abs(z) < 1e-1:
-        third = 1 / 6 + z * (1 / 24 + z * (1 / 120 + z * (1 / 720 + z * (1 / 5040 + z * (
-            1 / 40320 + z * (1 / 362880 + z * (1 / 3628800 + z / 39916800)))))))  # fmt: skip
-        second = 0.5 + z * third
-        return 1.0 + z * second, second, third
-    growth = exp(z.real) * complex(cos(z.imag), sin(z.imag)) - 1.0
+def _phi_series(z: Number) -> tuple[Number, Number, Number]:
+    """φ1, φ2 and φ3 of a small number."""
+    third = 1 / 6 + z * (1 / 24 + z * (1 / 120 + z * (1 / 720 + z * (1 / 5040 + z * (
+        1 / 40320 + z * (1 / 362880 + z * (1 / 3628800 + z / 39916800)))))))  # fmt: skip
+    second = 0.5 + z * third
+    return 1.0 + z * second, second, third
+
+
+@compiled
+def _phi_from_growth(z: Number, growth: Number) -> tuple[Number, Number, Number]:
+    """φ1, φ2 and φ3 of a number that is not small, from e^z − 1."""
     first = growth / z
     second = (first - 1.0) / z
     return first, second, (second - 0.5) / z
+
+
+@compiled
+def _phi_triple(z: float) -> tuple[float, float, float]:
+    """φ1, φ2 and φ3 of a real number."""
+    if abs(z) < SMALL:
+        return _phi_series(z)
+    return _phi_from_growth(z, exp(z) - 1.0)
+
+
+@compiled
+def _complex_phi_triple(z: complex) -> tuple[complex, complex, complex]:
+    """φ1, φ2 and φ3 of a complex number."""
+    if abs(z) < SMALL:
+        return _phi_series(z)
+    return _phi_from_growth(z, exp(z.real) * complex(cos(z.imag), sin(z.imag)) - 1.0)
+
+
+class _Halves(NamedTuple):
+    """φ1, φ2, φ3 of h·M: φ = even + odd·(M − mean)."""
+
+    even1: float
+    odd1: float
+    even2: float
+    odd2: float
+    even3: float
+    odd3: float
+
+
+@compiled
+def _halves(mean: float, square: float, h: float) -> _Halves:
+    """Split φ by the eigenvalues of M, mean ± √square: real ones one by one, of a complex pair one is enough."""
+    gap = sqrt(abs(square))
+    if square < 0.0 and gap * h >= DOUBLE:
+        one, two, three = _complex_phi_triple(complex(mean * h, gap * h))
+        return _Halves(one.real, one.imag / gap, two.real, two.imag / gap, three.real, three.imag / gap)
+    gap = max(gap, DOUBLE / h)
+    upper1, upper2, upper3 = _phi_triple((mean + gap) * h)
+    lower1, lower2, lower3 = _phi_triple((mean - gap) * h)
+    share = 0.5 / gap
+    return _Halves(
+        0.5 * (upper1 + lower1), share * (upper1 - lower1),
+        0.5 * (upper2 + lower2), share * (upper2 - lower2),
+        0.5 * (upper3 + lower3), share * (upper3 - lower3),
+    )  # fmt: skip
 
 
 @compiled
@@ -91,22 +144,15 @@ def second_order(c: Coefficients, tau: float, speed: float, drive: float, h: flo
     f0 = (drive - c.torque) * b
     f1 = (c.source - c.back_emf * speed - drive) / tau
     mean = 0.5 * (a + e)
-    gap = complex(0.25 * (a - e) * (a - e) + b * d, 0.0) ** 0.5
-    if abs(gap) * h < 1e-5:
-        gap = complex(1e-5 / h, 0.0)
-    upper1, upper2, upper3 = _phi_triple((mean + gap) * h)
-    lower1, lower2, lower3 = _phi_triple((mean - gap) * h)
-    even1, odd1 = 0.5 * (upper1 + lower1).real, (0.5 * (upper1 - lower1) / gap).real
-    even2, odd2 = 0.5 * (upper2 + lower2).real, (0.5 * (upper2 - lower2) / gap).real
+    phi = _halves(mean, 0.25 * (a - e) * (a - e) + b * d, h)
     g0 = (a - mean) * f0 + b * f1
     g1 = d * f0 + (e - mean) * f1
-    travel = h * (speed + h * (even2 * f0 + odd2 * g0))
-    later = speed + h * (even1 * f0 + odd1 * g0)
-    then = drive + h * (even1 * f1 + odd1 * g1)
+    travel = h * (speed + h * (phi.even2 * f0 + phi.odd2 * g0))
+    later = speed + h * (phi.even1 * f0 + phi.odd1 * g0)
+    then = drive + h * (phi.even1 * f1 + phi.odd1 * g1)
     if c.gradient != 0.0:
-        even3, odd3 = 0.5 * (upper3 + lower3).real, (0.5 * (upper3 - lower3) / gap).real
         bend = -c.gradient * b
-        later += h * h * bend * (even2 + odd2 * (a - mean))
-        then += h * h * bend * odd2 * d
-        travel += h * h * h * bend * (even3 + odd3 * (a - mean))
+        later += h * h * bend * (phi.even2 + phi.odd2 * (a - mean))
+        then += h * h * bend * phi.odd2 * d
+        travel += h * h * h * bend * (phi.even3 + phi.odd3 * (a - mean))
     return later, then, travel

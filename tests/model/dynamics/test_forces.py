@@ -6,6 +6,7 @@ import pytest
 from numpy.typing import NDArray
 
 from motor_model.dynamics.forces import (
+    GONE,
     drag_curvature_at,
     drive_of,
     friction_at,
@@ -58,6 +59,14 @@ def test_friction_falls_from_breakaway_to_sliding_and_rises_with_drag() -> None:
     assert friction_at(p, 5.0, 1.0) == pytest.approx(0.4 + 0.5 / e + 1e-4 * 25.0)
     assert friction_at(p, 100.0, 1.0) == pytest.approx(0.4 + 1.0)
     assert friction_at(vector("coulomb_friction", ks=0.4), 0.0, 1.0) == 0.4
+
+
+def test_stribeck_friction_is_left_out_where_it_is_less_than_rounding() -> None:
+    p = vector("static_friction", ks=0.4, breakaway_voltage=0.9, stribeck_speed=5.0)
+    before, after = (5.0 * (GONE * share) ** 0.5 for share in (1.0 - 1e-9, 1.0 + 1e-9))
+    assert friction_at(p, before, 1.0) == friction_at(p, after, 1.0) == 0.4
+    assert -1e-15 < friction_slope_at(p, before) < friction_slope_at(p, after) == 0.0
+    assert friction_at(p, 5.0 * 30.0**0.5, 1.0) > 0.4
     assert friction_at(vector(), 100.0, 1.0) == 0.0
 
 
