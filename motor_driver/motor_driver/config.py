@@ -1,9 +1,10 @@
 """What the driver is told at its start."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 
-from motor_driver.frames import BAUD, Configure, Decay, Features, Hello, Pwm, Setup
+from motor_driver.current_limits import CurrentLimits
+from motor_driver.frames import BAUD, Configure, Decay, Features, Hello, Protect, Protection, Pwm, Setup
 from motor_model.sample import Info, Measurement
 
 SILENCE = 0.12  # [s] without telemetry, or for the board without commands: then it is 0 V within 150 ms
@@ -12,6 +13,7 @@ LEAST_TIMEOUT = 0.05  # [s] of the board: no computer is quicker for certain
 # shaft that dithers over one flank as turning.
 OLDEST = (1, 1)
 SETUP = (1, 2)  # of the firmware: knows setup, and counts both channels
+PROTECT = (1, 4)  # of the firmware: watches the motor's current
 USUAL_TICK = 500  # [ns] of the boards there are, before one has said so
 
 
@@ -34,6 +36,7 @@ class Config:
     baud: int = BAUD
     current_gain: float = 0.0  # [V/A] of the sensor on the board's A1; 0: none
     current_offset: float = 2.5  # [V] of it without a current
+    current_limits: CurrentLimits = field(default_factory=CurrentLimits)
     board_id: int | None = None  # None: any
     reverse_motor: bool = False  # its two wires are exchanged
     reverse_encoder: bool = False  # its two channels are exchanged
@@ -57,6 +60,20 @@ class Config:
     def setup(self, board: Hello) -> Setup | None:
         """How this board shall count and pulse; None where it has no choice."""
         return Setup(self.quadrature, self.pwm) if _firmware(board) >= SETUP else None
+
+    def protect(self, board: Hello) -> Protect | None:
+        """Which current shall switch this board off, also where none shall; None where it watches none."""
+        return self.current_limits.protect(board.tick_ns) if _firmware(board) >= PROTECT else None
+
+    def refusal_to_protect(self, held: Protection) -> str:
+        """Why a board that holds these limits cannot be used as configured; empty if it can."""
+        if self.current_limits.most == 0.0 or held.most > 0:
+            return ""
+        return (
+            "The board does not sense the motor's current, and current_limit is "
+            f"{self.current_limits.most:g} A: flash it with a sensor (ros2 run motor_board flash --current-sense), or "
+            "set current_limit to 0."
+        )
 
     def refusal_of(self, features: Features) -> str:
         """Why a board with these cannot be used as configured; empty if it can."""
@@ -92,18 +109,24 @@ class Config:
                 f"quadrature is {self.quadrature}, and the board was flashed for one encoder channel: flash it again "
                 "(ros2 run motor_board flash --channels 2), or set quadrature to 1."
             )
-        wanted = f"quadrature {self.quadrature}" if self.quadrature > 1 else "silent_pwm" if self.pwm else ""
-        if wanted and _firmware(board) < SETUP:
-            return (
-                f"The board runs firmware {board.firmware_major}.{board.firmware_minor}, and {wanted} needs "
-                f"{SETUP[0]}.{SETUP[1]}: flash the board again (ros2 run motor_board flash)."
-            )
+        for wanted, needed in self._wishes():
+            if _firmware(board) < needed:
+                return (
+                    f"The board runs firmware {board.firmware_major}.{board.firmware_minor}, and {wanted} needs "
+                    f"{needed[0]}.{needed[1]}: flash the board again (ros2 run motor_board flash)."
+                )
         if board.channels != channels:
             return (
                 f"The board reads {board.channels} encoder channel(s), and single_channel is "
                 f"{str(self.single_channel).lower()}: set the parameter, or flash the board again."
             )
         return ""
+
+    def _wishes(self) -> list[tuple[str, tuple[int, int]]]:
+        """What not every firmware has, and the first that has it."""
+        wishes = [(f"quadrature {self.quadrature}", SETUP)] if self.quadrature > 1 else []
+        wishes += [("silent_pwm", SETUP)] if self.pwm else []
+        return wishes + ([("current_limit", PROTECT)] if self.current_limits.most else [])
 
     def info(self, board: Hello | None) -> Info:
         """How to read the samples; `board` is None before it has said who it is."""

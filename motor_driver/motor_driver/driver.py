@@ -8,17 +8,17 @@ from dataclasses import dataclass
 
 from motor_driver.config import Config
 from motor_driver.exchange import Exchange
-from motor_driver.frames import Features, Flag, Hello, OtherVersion, Pong, Telemetry
+from motor_driver.frames import Features, Hello, OtherVersion, Pong, Protection, Telemetry
 from motor_driver.handshake import Handshake, reset_cause
 from motor_driver.protocol import Event, LinkCounters
 from motor_driver.readout import Readout
 from motor_driver.session import Session
+from motor_driver.switch import reason_off
 from motor_model.sample import Info, Sample
 from motor_model.sensing.motion_check import MotionCheck
 
 NO_LINK = "There is no link to the board yet."
 LOST = "the link to the board on {} was lost"
-HELD_UP = "the board heard no command for too long and switched off"
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,6 +146,8 @@ class Driver:
             self._hear_hello(session, event.frame, now)
         elif isinstance(event.frame, Features):
             session.handshake.hear_features(event.frame)
+        elif isinstance(event.frame, Protection):
+            session.handshake.hear_protection(event.frame)
         elif isinstance(event.frame, Telemetry):
             return self._hear_telemetry(session, event.frame, now)
         elif isinstance(event.frame, Pong) and session.exchange and session.latest and self._readout:
@@ -185,7 +187,7 @@ class Driver:
             self.motion = self._nothing_seen()
         session.latest, session.heard, session.silent = frame, now, False
         if session.switch.hear(frame):
-            self._halt(HELD_UP if frame.flags & Flag.TIMED_OUT else "the board switched off")
+            self._halt(reason_off(frame))
         return [self._reading(session.exchange, self._readout, frame, now, restarted)]
 
     def _reading(self, exchange: Exchange, readout: Readout, frame: Telemetry, now: int, restarted: bool) -> Reading:

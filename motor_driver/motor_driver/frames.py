@@ -49,6 +49,7 @@ class Flag(IntFlag):
     EDGE_VALID = 4
     REVERSE = 8
     TWO_CHANNELS = 16
+    OVERCURRENT = 32
 
 
 class ResetCause(IntFlag):
@@ -87,6 +88,18 @@ class Setup:
     BODY: ClassVar[struct.Struct] = struct.Struct("<BB")
     quadrature: int  # 1, 2, 4
     pwm: int
+
+
+@dataclass(frozen=True, slots=True)
+class Protect:
+    """Host: switches the output off and sets which current does; protection says what holds. Since firmware 1.4."""
+
+    TYPE: ClassVar[int] = 0x07
+    BODY: ClassVar[struct.Struct] = struct.Struct("<HHHI")
+    zero: int  # [5 V/1024]
+    most: int  # likewise, beside zero; 0: no current does
+    rated: int  # likewise
+    budget: int  # of (current² − rated²)/64 × sample period/64
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,6 +223,18 @@ class Features:
 
 
 @dataclass(frozen=True, slots=True)
+class Protection:
+    """Board: what holds after a protect. Since firmware 1.4."""
+
+    TYPE: ClassVar[int] = 0x86
+    BODY: ClassVar[struct.Struct] = struct.Struct("<HHHI")
+    zero: int
+    most: int  # 0: the board does not sense the current
+    rated: int
+    budget: int
+
+
+@dataclass(frozen=True, slots=True)
 class OtherVersion:
     """A good frame of another protocol version: nothing in it can be read but this."""
 
@@ -225,10 +250,13 @@ class OtherVersion:
         )
 
 
-FromHost: TypeAlias = Identify | Configure | Setup | Enable | Command | Ping
-FromBoard: TypeAlias = Hello | Telemetry | Sensed | Pong | Features
+FromHost: TypeAlias = Identify | Configure | Setup | Protect | Enable | Command | Ping
+FromBoard: TypeAlias = Hello | Telemetry | Sensed | Pong | Features | Protection
 Frame: TypeAlias = FromHost | FromBoard
 FRAMES: dict[int, type[Frame]] = {
     kind.TYPE: kind
-    for kind in (Identify, Configure, Setup, Enable, Command, Ping, Hello, Telemetry, Sensed, Pong, Features)
+    for kind in (
+        *(Identify, Configure, Setup, Protect, Enable, Command, Ping),
+        *(Hello, Telemetry, Sensed, Pong, Features, Protection),
+    )
 }

@@ -3,7 +3,17 @@
 from enum import Enum, auto
 
 from motor_driver.config import Config
-from motor_driver.frames import Configure, Features, FromHost, Hello, Identify, OtherVersion, ResetCause, Telemetry
+from motor_driver.frames import (
+    Configure,
+    Features,
+    FromHost,
+    Hello,
+    Identify,
+    OtherVersion,
+    Protection,
+    ResetCause,
+    Telemetry,
+)
 from motor_model.errors import MotorError
 
 ASK_EVERY = 200_000_000  # [ns]
@@ -15,6 +25,7 @@ class Phase(Enum):
 
     IDENTIFY = auto()
     SETUP = auto()  # of boards that have a choice
+    PROTECT = auto()  # of boards that watch the current
     CONFIGURE = auto()
     RUN = auto()
 
@@ -36,7 +47,7 @@ class Handshake:
             self._refusal = self._config.refusal(frame)
             self.hello = frame
             if not self._refusal and not self._roll_call:
-                self._go(Phase.SETUP if self._config.setup(frame) else Phase.CONFIGURE)
+                self._go(Phase.SETUP if self._config.setup(frame) else self._after_setup(frame))
         elif self.phase is Phase.CONFIGURE and self.hello is not None:
             if frame.boot != self.hello.boot:
                 self.hello = frame
@@ -50,8 +61,20 @@ class Handshake:
         """Take what holds after a setup."""
         if self.phase is Phase.SETUP and features.quadrature == self._config.quadrature:
             self._refusal = self._config.refusal_of(features)
-            if not self._refusal:
-                self._go(Phase.CONFIGURE)
+            if not self._refusal and self.hello is not None:
+                self._go(self._after_setup(self.hello))
+
+    def hear_protection(self, held: Protection) -> None:
+        """Take what holds after a protect."""
+        wanted = self._config.protect(self.hello) if self.phase is Phase.PROTECT and self.hello else None
+        if wanted is None or (held.zero, held.rated, held.budget) != (wanted.zero, wanted.rated, wanted.budget):
+            return
+        self._refusal = self._config.refusal_to_protect(held)
+        if not self._refusal and held.most == wanted.most:
+            self._go(Phase.CONFIGURE)
+
+    def _after_setup(self, hello: Hello) -> Phase:
+        return Phase.PROTECT if self._config.protect(hello) else Phase.CONFIGURE
 
     def refuse(self, other: OtherVersion) -> None:
         """A frame of another version came."""
@@ -72,6 +95,8 @@ class Handshake:
         self._asked = now
         if self.phase is Phase.SETUP and self.hello is not None:
             return self._config.setup(self.hello)
+        if self.phase is Phase.PROTECT and self.hello is not None:
+            return self._config.protect(self.hello)
         return Configure(*self._wanted()) if self.phase is Phase.CONFIGURE else Identify()
 
     @property

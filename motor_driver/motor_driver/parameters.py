@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from motor_driver.config import Config
+from motor_driver.current_limits import CurrentLimits
 from motor_driver.frames import BAUD, Decay, Pwm
 from motor_model.errors import MotorError
 from motor_model.gearing.encoder_count import read_encoder_count
@@ -38,6 +39,25 @@ ROWS = (
     ),
     Row("current_gain", 0.0, "of the current sensor on the board's A1; 0: none", "V/A", -10.0, 10.0, read_only=True),
     Row("current_offset", 2.5, "of that sensor without a current", "V", 0.0, 5.0, read_only=True),
+    Row(
+        "current_limit",
+        0.0,
+        "current that switches the board's output off within three samples, with a sensor; 0: none does",
+        "A",
+        0.0,
+        100.0,
+        read_only=True,
+    ),
+    Row(
+        "continuous_current",
+        0.0,
+        "current the motor bears for ever; more switches off after a time that goes with its square; 0: current_limit",
+        "A",
+        0.0,
+        100.0,
+        read_only=True,
+    ),
+    Row("overload_time", 1.0, "for which a cold motor bears current_limit", "s", 0.01, 8.0, read_only=True),
     Row("decay", "brake", "what the bridge does in the off part of a PWM period: brake or coast", read_only=True),
 )
 PROGRAM = Program(
@@ -76,6 +96,13 @@ def config_of(values: Mapping[str, Value]) -> Config:
         reverse_encoder=bool(values["reverse_encoder"]),
         current_gain=float(values["current_gain"]),
         current_offset=float(values["current_offset"]),
+        current_limits=CurrentLimits(
+            float(values["current_gain"]),
+            float(values["current_offset"]),
+            float(values["current_limit"]),
+            float(values["continuous_current"]),
+            float(values["overload_time"]),
+        ),
         stall_time=float(values["stall_time"]),
         command_timeout=float(values["command_timeout"]),
         decay=Decay[str(values["decay"]).upper()],

@@ -2,9 +2,21 @@
 
 from enum import Enum, auto
 
-from motor_driver.frames import Enable, Telemetry
+from motor_driver.frames import Enable, Flag, Telemetry
 
 ASK_EVERY = 10_000_000  # [ns]
+HELD_UP = "the board heard no command for too long and switched off"
+OVERCURRENT = (
+    "the motor's current was above current_limit, or above continuous_current for too long: see what holds the shaft, "
+    "and the motor's wires"
+)
+
+
+def reason_off(frame: Telemetry) -> str:
+    """Say why a board that was on has switched off, as a clause."""
+    if frame.flags & Flag.TIMED_OUT:
+        return HELD_UP
+    return OVERCURRENT if frame.flags & Flag.OVERCURRENT else "the board switched off"
 
 
 class Output(Enum):

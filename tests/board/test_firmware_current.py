@@ -9,7 +9,9 @@ from emulated_board import MS, TICK, Bench
 
 from motor_board.build import FirmwareConfig
 from motor_board.emulator import SENSE_NOISE
-from motor_driver.frames import NOT_MEASURED, Command, Sensed, Telemetry
+from motor_board.faults import Wiring
+from motor_driver.current_limits import CurrentLimits
+from motor_driver.frames import NOT_MEASURED, Command, Flag, Protection, Sensed, Telemetry
 from motor_model.parameters import Parameters
 from motor_model.sample import CURRENT_LAG
 
@@ -73,6 +75,71 @@ def test_it_is_the_middle_of_the_pulse(make_bench: MakeBench) -> None:
     assert max(spread) < 0.2 * PULSE  # [cycle] a window of 16 µs, and the interrupts of edges
     apart = (np.median(phases[1]) - np.median(phases[0])) % PULSE
     assert 400 < apart < 620
+
+
+def protected(make_bench: MakeBench, most: float, rated: float, seconds: float, period: int) -> Bench:
+    """A motor with a blocked shaft, 2.3 ohm, on 12 V, and limits [A], [A], [s]."""
+    bench = make_bench(parameters=MOTOR, config=SENSING)
+    bench.emulator.supply(3.0)
+    bench.emulator.wiring = Wiring(shaft_stuck=True)
+    bench.start(period)
+    bench.send(CurrentLimits(GAIN, ZERO, most, rated, seconds).protect(500))
+    bench.run(20)
+    assert bench.all(Protection) and not bench.last(Telemetry).enabled
+    bench.enable()
+    bench.run(10)
+    return bench
+
+
+@pytest.mark.parametrize("period", [10_000, 2_000])
+@pytest.mark.parametrize(("most", "stops"), [(5.0, True), (5.4, False)])
+def test_a_peak_switches_off_within_three_samples(make_bench: MakeBench, period: int, most: float, stops: bool) -> None:
+    """5.2 A at full duty."""
+    bench = protected(make_bench, most, 0.0, 1.0, period)
+    bench.send(Command(-256))
+    on = bench.run_until(lambda: bench.emulator.shaft.voltage < -11.9, 50)
+    for _ in range(60):
+        bench.send(Command(-256))
+        bench.run(1)
+    frame = bench.last(Telemetry)
+    assert (frame.flags & Flag.OVERCURRENT > 0, frame.enabled) == (stops, not stops)
+    if stops:
+        first = next(one for one in bench.all(Telemetry) if not one.enabled)
+        since = (first.time * TICK + bench.chip.clock_zero - on) / (period * TICK)
+        assert since < 3.1 and bench.emulator.shaft.voltage == 0.0 and first.flags & Flag.OVERCURRENT
+        bench.enable()
+        bench.run(10)  # nothing but that switches it on again
+        assert not bench.last(Telemetry).flags & Flag.OVERCURRENT
+
+
+@pytest.mark.parametrize("period", [10_000, 2_000])
+@pytest.mark.parametrize(("rated", "after"), [(2.0, 0.31), (3.5, 0.50), (4.0, None)])
+def test_what_lasts_switches_off_after_a_time_that_goes_with_its_square(
+    make_bench: MakeBench, period: int, rated: float, after: float | None
+) -> None:
+    """3.9 A at three quarters of the duty, 0.2 s allowed at 5 A: (25 - rated^2)/(3.9^2 - rated^2) of that."""
+    bench = protected(make_bench, 5.0, rated, 0.2, period)
+    bench.send(Command(192))
+    on = bench.run_until(lambda: bench.emulator.shaft.voltage > 8.0, 50)
+    for _ in range(250):
+        bench.send(Command(192))
+        bench.run(4)
+        if not bench.last(Telemetry).enabled:
+            break
+    took = (bench.chip.cycle - on) / 16e6
+    assert bench.last(Telemetry).enabled == (after is None)
+    assert after is None or took == pytest.approx((25 - rated**2) / (3.9**2 - rated**2) * 0.2, rel=0.12)
+
+
+def test_limits_are_known_to_hold_and_need_a_sensor(make_bench: MakeBench) -> None:
+    limits = CurrentLimits(GAIN, ZERO, 5.0, 2.0, 0.5).protect(500)
+    for config, most in ((SENSING, limits.most), (FirmwareConfig(), 0)):
+        bench = make_bench(parameters=MOTOR, config=config)
+        bench.run(8)
+        bench.chip.feed(b"\0")
+        bench.send(limits)
+        bench.run(20)
+        assert bench.last(Protection) == Protection(limits.zero, most, limits.rated, limits.budget)
 
 
 def test_a_board_without_a_sensor_sends_what_it_always_did(make_bench: MakeBench) -> None:

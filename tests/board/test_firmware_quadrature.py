@@ -36,6 +36,22 @@ def run(bench: Bench, fold: int, cycles: np.ndarray, what: np.ndarray) -> list[T
     return bench.all(Telemetry)
 
 
+@pytest.mark.parametrize("wave", [87.0, 88.0, 92.0])
+def test_edges_that_come_while_they_are_copied_spoil_no_period(make_bench: MakeBench, wave: float) -> None:
+    """Frames of these phases had a period of 2^30 ticks now and then: four edges back was overwritten already."""
+    bench = make_bench(config=TWO)
+    cycles, what, step = line_events(
+        np.arange(0.0, 1_500.0), 5_000.0 * (1.0 + 0.05 * np.sin(np.arange(1_500.0) / wave)), UNEVEN
+    )
+    frames = run(bench, 4, cycles, what)
+    stamps = (cycles[step != 0].astype(np.int64) - bench.chip.clock_zero) // TICK
+    moving = [frame for frame in frames if 8 < frame.edge_count < len(stamps) - 4]
+    assert len(moving) > 290
+    for frame in moving:
+        period = (stamps[frame.edge_count - 1] - stamps[frame.edge_count - 5]) / 4.0
+        assert frame.edge_period == pytest.approx(period, abs=0.51)
+
+
 @pytest.mark.parametrize("fold", [2, 4])
 def test_every_edge_is_counted_and_what_is_reported_is_exact(make_bench: MakeBench, fold: int) -> None:
     """20,000 line edges a second, uneven; count and time of each frame are those of one edge, A's at the tick."""

@@ -17,7 +17,7 @@ def test_flags(flags: int, enabled: bool, edge: bool) -> None:
 
 
 def test_every_frame_has_a_number_and_fits_on_the_wire() -> None:
-    assert len(FRAMES) == 11 and all(number == kind.TYPE for number, kind in FRAMES.items())
+    assert len(FRAMES) == 13 and all(number == kind.TYPE for number, kind in FRAMES.items())
     assert all(4 + kind.BODY.size + 4 + 2 <= LONGEST_FRAME for kind in FRAMES.values())
 
 

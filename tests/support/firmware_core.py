@@ -21,7 +21,7 @@ from motor_board.build import core_library
 from motor_board.errors import BoardError
 
 LONGEST = 48
-KEPT = 8  # edges
+KEPT = 16  # edges
 
 
 class EdgeTimer(Structure):
@@ -85,6 +85,20 @@ class WireEnable(Structure):
     _fields_ = [("on", c_uint8), ("boot", c_uint8), ("latch", c_uint8)]
 
 
+class WireProtect(Structure):
+    _fields_ = [("zero", c_uint16), ("most", c_uint16), ("rated", c_uint16), ("budget", c_uint32)]
+
+
+class Guard(Structure):
+    _fields_ = [
+        ("limits", WireProtect),
+        ("current", c_uint16),
+        ("above", c_uint8),
+        ("heat", c_uint32),
+        ("tripped", c_bool),
+    ]
+
+
 class WireCommand(Structure):
     _fields_ = [("duty", c_int16)]
 
@@ -124,6 +138,7 @@ RESULTS: dict[str, Any] = {
     "edge_timer_extend": c_uint32,
     "edge_timer_at": Edge,
     "quadrature_at": Edge,
+    "guard_check": c_bool,
     "device_latch": c_bool,
     "device_next": c_uint16,
     "device_act": c_bool,
@@ -147,6 +162,8 @@ ARGUMENTS: dict[str, list[Any]] = {
     "output_command": [c_void_p, c_void_p, c_uint16, c_uint32],
     "output_check": [c_void_p, c_uint32],
     "output_latch": [c_void_p],
+    "guard_set": [c_void_p, c_void_p],
+    "guard_check": [c_void_p, c_uint16, c_uint32],
     "device_start": [c_void_p, c_void_p, c_uint8, c_uint8],
     "device_overflow": [c_void_p],
     "device_capture": [c_void_p, c_uint16, c_bool],

@@ -146,15 +146,16 @@ ISR(TIMER1_OVF_vect)
     device_overflow(&device);
 }
 
-#define SURE (EDGE_TIMER_KEPT - 1u)
-
-/* Edges may come meanwhile: times are copied with interrupts on, and the oldest one, which such an edge overwrites, is
- * not used. */
+/* Edges may come meanwhile: times are copied with interrupts on, and as many of the oldest ones as such edges overwrite
+ * are not used. Two or three come where other interrupts are in between. */
 static void copy_edges(struct edge_timer *edges)
 {
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { memcpy(edges, &device.edges, offsetof(struct edge_timer, time)); }
     memcpy(edges->time, device.edges.time, sizeof edges->time);
-    edges->known = edges->known < SURE ? edges->known : SURE;
+    __asm__ volatile("" ::: "memory"); /* what an interrupt has changed meanwhile is read again */
+    uint8_t newer = (uint8_t)(device.edges.newest - edges->newest) & (EDGE_TIMER_KEPT - 1u);
+    uint8_t sure = (uint8_t)(EDGE_TIMER_KEPT - newer);
+    edges->known = edges->known < sure ? edges->known : sure;
 }
 
 /* Only its beginning keeps captures waiting: edges may come every 50 us. The next compare interrupt is at least 1 ms

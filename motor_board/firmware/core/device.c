@@ -5,7 +5,7 @@
 #define UNMEASURED 0xFFFFu
 
 #define FIRMWARE_MAJOR 1
-#define FIRMWARE_MINOR 3
+#define FIRMWARE_MINOR 4
 #define FIRMWARE_PATCH 0
 
 static uint32_t limited(uint32_t value, uint32_t low, uint32_t high)
@@ -71,6 +71,7 @@ static uint8_t flags_of(const struct device *device, const struct edge *edge)
     flags |= edge->valid ? WIRE_FLAG_EDGE_VALID : 0u;
     flags |= edge->reverse ? WIRE_FLAG_REVERSE : 0u;
     flags |= device->config->channels == 2 ? WIRE_FLAG_TWO_CHANNELS : 0u;
+    flags |= device->guard.tripped ? WIRE_FLAG_OVERCURRENT : 0u;
     return (uint8_t)flags;
 }
 
@@ -99,6 +100,10 @@ void device_sample(struct device *device, const struct edge_timer *edges)
     struct wire_telemetry *sample = &device->sample;
     struct edge edge = edges->fold > 1 ? quadrature_at(edges, device->latest)
                                        : edge_timer_at(edges, device->latest, device->config->channels == 2);
+    if (guard_check(&device->guard, device->current, device->period) && device->output.on) {
+        output_off(&device->output);
+        device->guard.tripped = true;
+    }
     device->dropped_samples = (uint16_t)(device->dropped_samples + device->sampled);
     device->sampled = true;
     sample->time = device->latest;
@@ -133,6 +138,19 @@ static void act_setup(struct device *device, const struct frame *frame, uint32_t
     device->set_up = true;
 }
 
+static void act_protect(struct device *device, const struct frame *frame, uint32_t now)
+{
+    (void)now;
+    struct wire_protect protect;
+    wire_get_protect(frame->body, &protect);
+    output_off(&device->output);
+    if (!device->config->senses_current) {
+        protect.most = 0;
+    }
+    guard_set(&device->guard, &protect);
+    device->guarded = true;
+}
+
 static void act_configure(struct device *device, const struct frame *frame, uint32_t now)
 {
     (void)now;
@@ -160,6 +178,7 @@ static void act_enable(struct device *device, const struct frame *frame, uint32_
     struct wire_enable enable;
     wire_get_enable(frame->body, &enable);
     output_enable(&device->output, &enable, now);
+    device->guard.tripped = device->guard.tripped && !device->output.on;
 }
 
 static void act_command(struct device *device, const struct frame *frame, uint32_t now)
@@ -183,6 +202,7 @@ static const struct {
     {WIRE_IDENTIFY, WIRE_IDENTIFY_SIZE, act_identify},
     {WIRE_CONFIGURE, WIRE_CONFIGURE_SIZE, act_configure},
     {WIRE_SETUP, WIRE_SETUP_SIZE, act_setup},
+    {WIRE_PROTECT, WIRE_PROTECT_SIZE, act_protect},
     {WIRE_ENABLE, WIRE_ENABLE_SIZE, act_enable},
     {WIRE_COMMAND, WIRE_COMMAND_SIZE, act_command},
     {WIRE_PING, WIRE_PING_SIZE, act_ping},
@@ -238,6 +258,18 @@ static uint8_t *put_features(const struct device *device, uint8_t *at)
     return wire_put_features(at, &features);
 }
 
+static uint8_t *put_protection(const struct device *device, uint8_t *at)
+{
+    const struct wire_protect *limits = &device->guard.limits;
+    struct wire_protection protection = {
+        .zero = limits->zero,
+        .most = limits->most,
+        .rated = limits->rated,
+        .budget = limits->budget,
+    };
+    return wire_put_protection(at, &protection);
+}
+
 static uint8_t *put_pong(const struct device *device, uint8_t *at, uint32_t now, uint16_t bad_frames)
 {
     struct wire_pong pong = {
@@ -272,6 +304,10 @@ bool device_take(struct device *device, struct device_frame *frame, bool quiet, 
         device->set_up = false;
         frame->type = WIRE_FEATURES;
         end = put_features(device, body);
+    } else if (device->guarded) {
+        device->guarded = false;
+        frame->type = WIRE_PROTECTION;
+        end = put_protection(device, body);
     } else if (device->asked) {
         device->asked = false;
         frame->type = WIRE_HELLO;

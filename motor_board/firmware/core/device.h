@@ -12,6 +12,7 @@
 
 #include "edge_timer.h"
 #include "frame.h"
+#include "guard.h"
 #include "output.h"
 #include "quadrature.h"
 #include "wire.h"
@@ -37,6 +38,7 @@ struct device {
     const struct device_config *config;
     struct edge_timer edges;
     struct output output;
+    struct guard guard;
     uint8_t reset_cause;
     uint32_t period;        /* [tick] between samples */
     uint32_t compare, tick; /* [tick] of the next compare interrupt, of the next sample */
@@ -47,7 +49,7 @@ struct device {
     struct wire_telemetry sample;   /* what was true at the latest tick */
     uint8_t quadrature;             /* asked for; the pins' interrupts have to follow it by quadrature_start */
     uint8_t pwm;                    /* of the bridge, from the next configure on */
-    bool sampled, asked, pinged, set_up; /* a telemetry, hello, pong, features frame is to be sent */
+    bool sampled, asked, pinged, set_up, guarded; /* a telemetry, hello, pong, features, protection frame is due */
     struct wire_ping ping;
     uint32_t ping_received;
     uint16_t seq, dropped_samples;

@@ -5,7 +5,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define EDGE_TIMER_KEPT 8u /* edges, a power of two: up to 3 after the sample, one skipped, a period of A before it */
+/* Edges, a power of two: up to 3 after the sample, one skipped, a period of A before it; and those that come meanwhile. */
+#define EDGE_TIMER_KEPT 16u
 #define EDGE_REVERSE 1u
 #define EDGE_UNDOES 2u
 #define EDGE_LATE 4u /* its time is that of an interrupt, not of the capture unit */

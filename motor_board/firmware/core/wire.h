@@ -21,6 +21,7 @@
 #define WIRE_FLAG_EDGE_VALID 4u
 #define WIRE_FLAG_REVERSE 8u
 #define WIRE_FLAG_TWO_CHANNELS 16u
+#define WIRE_FLAG_OVERCURRENT 32u
 
 #define WIRE_RESET_CAUSE_POWER_ON 1u
 #define WIRE_RESET_CAUSE_EXTERNAL 2u
@@ -70,6 +71,23 @@ static inline void wire_get_setup(const uint8_t *at, struct wire_setup *frame)
 {
     frame->quadrature = wire_get_u8(at + 0);
     frame->pwm = wire_get_u8(at + 1);
+}
+
+/* From the host: switches the output off, sets which current of the motor switches it off, and is answered by protection; since firmware 1.4. */
+#define WIRE_PROTECT 0x07u
+#define WIRE_PROTECT_SIZE 10u /* byte of body */
+struct wire_protect {
+    uint16_t zero; /* [5 V/1024] at A1 without a current */
+    uint16_t most; /* [5 V/1024] beside zero, either way: two samples in a row above it switch off; 0: none does */
+    uint16_t rated; /* [5 V/1024] beside zero; what lasts */
+    uint32_t budget; /* sum over samples of (current^2/64 - rated^2/64) x sample_period/64 tick, never below 0, that switches off */
+};
+static inline void wire_get_protect(const uint8_t *at, struct wire_protect *frame)
+{
+    frame->zero = wire_get_u16(at + 0);
+    frame->most = wire_get_u16(at + 2);
+    frame->rated = wire_get_u16(at + 4);
+    frame->budget = wire_get_u32(at + 6);
 }
 
 /* From the host: switches the output on (rule 3) or off. */
@@ -207,6 +225,24 @@ static inline uint8_t *wire_put_pong(uint8_t *at, const struct wire_pong *frame)
     at = wire_put_u32(at, frame->sent);
     at = wire_put_u16(at, frame->bad_frames);
     at = wire_put_u16(at, frame->dropped_samples);
+    return at;
+}
+
+/* From the board: what holds, as the answer to protect; since firmware 1.4. */
+#define WIRE_PROTECTION 0x86u
+#define WIRE_PROTECTION_SIZE 10u /* byte of body */
+struct wire_protection {
+    uint16_t zero; /* [5 V/1024] */
+    uint16_t most; /* [5 V/1024] 0 where the board was not flashed to sense the current */
+    uint16_t rated; /* [5 V/1024] */
+    uint32_t budget;
+};
+static inline uint8_t *wire_put_protection(uint8_t *at, const struct wire_protection *frame)
+{
+    at = wire_put_u16(at, frame->zero);
+    at = wire_put_u16(at, frame->most);
+    at = wire_put_u16(at, frame->rated);
+    at = wire_put_u32(at, frame->budget);
     return at;
 }
 

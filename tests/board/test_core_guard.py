@@ -1,0 +1,58 @@
+"""The firmware's watch over the motor's current, on this computer, against whole numbers of any size."""
+
+from ctypes import byref
+
+import firmware_core as core
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from motor_driver.current_limits import MOST_BUDGET, CurrentLimits
+
+UNKNOWN = 0xFFFF
+
+
+def guard_with(zero: int, most: int, rated: int, budget: int) -> core.Guard:
+    guard = core.Guard()
+    core.load().guard_set(byref(guard), byref(core.WireProtect(zero, most, rated, budget)))
+    return guard
+
+
+@given(
+    st.integers(0, 1023),
+    st.integers(1, 1023),
+    st.integers(0, 1023),
+    st.integers(0, 2**32 - 1),
+    st.lists(st.tuples(st.one_of(st.integers(0, 1023), st.just(UNKNOWN)), st.integers(0, 2**24)), max_size=40),
+)
+@settings(max_examples=300, deadline=None)
+def test_it_does_what_the_wire_says(
+    zero: int, most: int, rated: int, budget: int, samples: list[tuple[int, int]]
+) -> None:
+    guard = guard_with(zero, most, rated, budget)
+    current = above = heat = 0
+    budget = min(budget, MOST_BUDGET)
+    for steps, period in samples:
+        if steps != UNKNOWN:
+            current = abs(steps - zero)
+            above = above + 1 if current > most else 0
+        heat = max(heat + (current**2 // 64 - min(rated, 1023) ** 2 // 64) * min(period // 64, 0xFFFF), 0)
+        expected = above >= 2 or (heat >= budget and current**2 // 64 > rated**2 // 64)
+        assert core.load().guard_check(byref(guard), steps, period) == expected
+        heat = min(heat, budget)
+        assert guard.heat == heat
+
+
+@pytest.mark.parametrize("rate", [200, 1000])
+@pytest.mark.parametrize(("amperes", "after"), [(5.0, 0.5), (4.0, 0.5 * 21.0 / 12.0), (2.1, 25.6), (1.95, None)])
+def test_a_current_lasts_as_long_as_its_square_allows(rate: int, amperes: float, after: float | None) -> None:
+    """Limits of 5 A for 0.5 s from cold and 2 A for ever, a sensor of 0.185 V/A, a board with ticks of 500 ns."""
+    wanted = CurrentLimits(0.185, 2.5, 5.0, 2.0, 0.5).protect(500)
+    guard = guard_with(wanted.zero, wanted.most, wanted.rated, wanted.budget)
+    steps = wanted.zero - round(amperes * 0.185 * 1024 / 5.0)
+    for k in range(40 * rate):
+        if core.load().guard_check(byref(guard), steps, 2_000_000 // rate):
+            assert after is not None and k / rate == pytest.approx(after, rel=0.15 if amperes < 3.0 else 0.05)
+            break
+    else:
+        assert after is None
