@@ -1,0 +1,127 @@
+"""The square on two emulated boards in lockstep: the real firmware, driver, controller and drive, on the chips' clock.
+
+Motors, discs and geometry are those of `diff_drive.py`; the controllers have the true models. `diff_drive_live.py` is
+the same in real time, over ROS 2, where the machine has the time for it.
+"""
+
+import argparse
+import sys
+from dataclasses import dataclass, field
+from math import degrees, pi
+
+from diff_drive_square import DRIVE_EVERY, GEOMETRY, LIMITS, SIDE, TRUE, Loop, Square, board_of, plan_of
+from machine import commit, machine
+
+from motor_board.build import FirmwareConfig, firmware
+from motor_board.chip import FREQUENCY
+from motor_board.emulator import Emulator
+from motor_board.shaft import EncoderConfig
+from motor_control.controller import controller
+from motor_driver.config import Config
+from motor_driver.driver import Driver
+from motor_examples.diff_drive import drive
+from motor_examples.diff_drive.odometry import Pose, advance_pose
+from motor_examples.diff_drive.wheel import Wheel, follow_controller, follow_sample
+from motor_ros.gate import Gate
+
+RATE, EDGES = 200.0, 374
+LOOK = FREQUENCY // 2000  # [cycle] between two looks at the port
+OURS = Loop("", TRUE, {"speed_source": "observer", "feedforward": True, "voltage_limit": 6.0})
+
+
+@dataclass
+class BoardWheel:
+    """One wheel: emulated board, driver, controller, and what the drive knows of it."""
+
+    side: int
+    seed: int
+    state: controller.State = field(default_factory=controller.State)
+
+    def __post_init__(self) -> None:
+        encoder = EncoderConfig(EDGES, 0.01, self.seed, channels=2)
+        self.emulator = Emulator(firmware(FirmwareConfig(channels=2)), TRUE[self.side], encoder)
+        told = Config(sample_rate=RATE, edges_per_revolution=EDGES, single_channel=False, max_voltage=6.0)
+        self.driver, self.gate, self._begun, self._sent = Driver(told), Gate(True, 0.1, 1.0 / RATE), 0, 0
+        self.driver.opened("the port", self.now)
+        self.config = OURS.config(self.side, board_of(self.seed))
+        self.wheel = Wheel(TRUE[self.side].name, info=self.driver.info)
+
+    @property
+    def now(self) -> int:
+        """[ns]."""
+        return 1 + self.emulator.chip.cycle * 125 // 2
+
+    def run(self, seconds: float) -> None:
+        """Let time pass on the chip."""
+        end = self.emulator.chip.cycle + round(seconds * FREQUENCY)
+        while self.emulator.chip.cycle < end:
+            self.emulator.run(min(self.emulator.chip.cycle + LOOK, end))
+            data = self.emulator.chip.drain()
+            readings = self.driver.received(data, self.now) if data else []
+            if self.driver.runs_begun > self._begun:
+                self._begun, self.gate = self.driver.runs_begun, self.gate.come_up(self.now)
+            for reading in readings:
+                self._answer(reading.sample)
+            order = self.driver.step(self.now, self.gate.enabled, self.gate.voltage(self.now))
+            if order.stop:
+                self.gate = self.gate.stop(order.stop)
+            self.emulator.chip.feed(order.data)
+
+    def _answer(self, sample) -> None:  # type: ignore[no-untyped-def]
+        now = self.now * 1e-9
+        output, self.state = controller.update(self.config, self.state, sample, None, now)
+        if output.drives:
+            self._sent += 1
+            self.gate = self.gate.take(output.terms.voltage, self.now, "", self._sent)
+        self.wheel = follow_sample(self.wheel, sample, now)
+        self.wheel = follow_controller(self.wheel, output.state, output.reason, output.terms.voltage, now)
+
+
+def square(seed: int, way: float) -> Square:
+    """Drive one square."""
+    wheels = [BoardWheel(side, 100 + 2 * seed + side) for side in (0, 1)]
+    config, state = drive.Config(GEOMETRY, LIMITS), drive.State()
+    true = seen = Pose()
+    counted, corners, healthy, step = [0.0, 0.0], [], True, DRIVE_EVERY / RATE
+    for one in wheels:
+        one.run(1.0)
+    for twist, duration in plan_of(way):
+        for _ in range(round(duration / step)):
+            before = [one.emulator.shaft.angle for one in wheels]
+            for one in wheels:
+                one.run(step)
+            now = wheels[0].now * 1e-9
+            after = [one.emulator.shaft.angle for one in wheels]
+            true = advance_pose(GEOMETRY, true, *(a - b for a, b in zip(after, before, strict=True)))
+            state = drive.take_command(config, state, twist, now)
+            decision, state = drive.step(config, state, (wheels[0].wheel, wheels[1].wheel), now)
+            healthy &= decision.healthy
+            for one, reference in zip(wheels, decision.references or (), strict=False):
+                one.state = controller.refer(one.state, reference, now)
+            angles = [one.wheel.angle for one in wheels]
+            seen = advance_pose(GEOMETRY, seen, *(a - b for a, b in zip(angles, counted, strict=True)))
+            counted = angles
+        corners.append(true)
+    for one in wheels:
+        one.emulator.close()
+    return Square(true, seen, tuple(corners), healthy)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--discs", type=int, default=1)
+    options = parser.parse_args()
+    print(f"At {commit()}; {machine()}.\n")
+    print("| discs | way | gap | corner off | heading off | odometry off | well |\n|---|---|---:|---:|---:|---:|---|")
+    for seed in range(options.discs):
+        for way in (1.0, -1.0):
+            one = square(seed, way)
+            turned = abs(degrees(abs(one.end.heading) - 2.0 * pi))
+            cells = f"{one.gap / SIDE:.2%} | {1e3 * one.off:.0f} mm | {turned:.1f}° | {1e3 * one.odometry_error:.1f} mm"
+            side = "left" if way > 0 else "right"
+            print(f"| {seed} | {side} | {cells} | {'yes' if one.healthy else 'no'} |", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,132 @@
+"""The square on two emulated boards, live: two firmwares, two drivers, two controllers and the drive, over ROS 2.
+
+Motors, discs and geometry are those of `diff_drive.py`; each controller has its motor's true model. Velocities are
+published at 20 Hz and nobody corrects the path. Where the robot ends is what its odometry says, of both boards' counts.
+A machine that is too slow for seven programs is seen in the controllers' states, which are counted.
+"""
+
+import argparse
+import os
+import sys
+import tempfile
+import time
+from collections import Counter
+from math import degrees, hypot, pi
+from pathlib import Path
+from typing import Any
+
+import yaml
+from diff_drive_square import GEOMETRY, LIMITS, SIDE, TAU, TRUE, plan_of
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "tests" / "support"))
+os.environ.setdefault("ROS_DOMAIN_ID", "98")
+
+from geometry_msgs.msg import Twist
+from machine import machine
+from nav_msgs.msg import Odometry
+from workbench import Bench, quit_all, start
+
+from motor_model.model_file import save
+from motor_msgs.msg import ControlState
+
+EDGES, RATE = 374, 200.0
+EVERY = 0.05  # [s] between velocities
+
+
+def programs(folder: Path, rate: float) -> list[Any]:
+    """Start everything; boards first."""
+    running, nodes = [], []
+    for k, truth in enumerate(TRUE):
+        model, namespace = folder / f"{truth.name}.yaml", ["-r", f"__ns:=/{truth.name}"]
+        save(model, truth)
+        encoder = {"edges_per_revolution": EDGES, "single_channel": False}
+        board = {"link": str(folder / truth.name), "model": str(model), "slot_irregularity": 0.01, "seed": 100 + k}
+        driver = {"port": str(folder / truth.name), "name": truth.name, "max_voltage": 6.0, "sample_rate": rate}
+        gains = {"kp": truth.value("ka") / TAU, "ki": truth.value("kv") / TAU, "voltage_limit": 6.0}
+        control = {"model": str(model), "speed_source": "observer", "feedforward": True, "reference_timeout": 0.5}
+        nodes += [
+            ("motor_board", "board_emulator", board | encoder | {"board_id": k + 1}, namespace),
+            ("motor_driver", "motor_driver", driver | encoder, namespace),
+            ("motor_control", "motor_control", gains | control, namespace),
+        ]
+    drive = {"wheel_radius": GEOMETRY.wheel_radius, "wheel_separation": GEOMETRY.wheel_separation, "max_wheel": 9.0}
+    drive |= {"linear_acceleration": LIMITS.linear_acceleration, "angular_acceleration": LIMITS.angular_acceleration}
+    nodes.append(("motor_examples", "diff_drive", drive, []))
+    for package, name, values, more in nodes:
+        file = folder / f"{name}{len(running)}.yaml"
+        file.write_text(yaml.safe_dump({"/**": {"ros__parameters": values}}), encoding="utf-8")
+        running.append(start(package, name, "--ros-args", "--params-file", str(file), *more))
+    return running
+
+
+def drive(way: float, rate: float) -> str:
+    """One square: a row."""
+    with tempfile.TemporaryDirectory() as folder:
+        running = programs(Path(folder), rate)
+        bench = Bench()
+        try:
+            poses = bench.hear(Odometry, "odom")
+            states = {one.name: bench.hear(ControlState, f"/{one.name}/motor/control_state") for one in TRUE}
+            command = bench.publisher(Twist, "cmd_vel")
+            bench.wait(lambda: bool(poses) and all(states.values()), "the robot", 60.0)
+            bench.heard(command)
+            _settle(bench, 3.0)
+            for one in states.values():
+                one.clear()
+            first = poses[-1].pose.pose.position
+            corners = []
+            for twist, seconds in plan_of(way):
+                until = time.monotonic() + seconds
+                while time.monotonic() < until:
+                    message = Twist()
+                    message.linear.x, message.angular.z = twist.linear, twist.angular
+                    command.publish(message)
+                    _settle(bench, min(EVERY, max(until - time.monotonic(), 0.0)))
+                corners.append(poses[-1].pose.pose.position)
+            last = poses[-1].pose.pose
+        finally:
+            bench.close()
+            quit_all(running)
+            for process in running:
+                said = process.communicate()[1].strip().splitlines()
+                print(process.args[0].rsplit("/")[-1], said[-2:], file=sys.stderr)
+    gap = hypot(last.position.x - first.x, last.position.y - first.y)
+    turned = 2.0 * degrees(abs(pi / 2.0 - abs(pi / 2.0 - _half(last.orientation))))
+    wanted = ((SIDE, 0.0), (SIDE, way * SIDE), (0.0, way * SIDE), (0.0, 0.0))
+    corner = max(hypot(p.x - first.x - x, p.y - first.y - y) for p, (x, y) in zip(corners[2::4], wanted, strict=True))
+    counted = Counter(state.state for one in states.values() for state in one)
+    latency = sorted(1e3 * state.latency for one in states.values() for state in one)
+    ran = counted["running"] / max(sum(counted.values()), 1)
+    p99 = latency[int(0.99 * len(latency))]
+    side = "left" if way > 0 else "right"
+    return f"| to the {side} | {gap / SIDE:.2%} | {1e3 * corner:.0f} mm | {turned:.1f}° | {ran:.2%} | {p99:.1f} ms |"
+
+
+def _half(q: Any) -> float:
+    """Half of the heading [rad], 0 to pi."""
+    from math import atan2
+
+    return atan2(q.z, q.w) % pi
+
+
+def _settle(bench: Bench, seconds: float) -> None:
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        bench.executor.spin_once(timeout_sec=0.005)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--rate", type=float, default=RATE, help="[Hz] of both boards")
+    options = parser.parse_args()
+    lines = ["| square | gap | corner off | heading off | samples answered as running | age of a sample, 99 % |"]
+    lines += ["|---|---:|---:|---:|---:|---:|"]
+    for way in (1.0, -1.0):
+        lines.append(drive(way, options.rate))
+        print(lines[-1], flush=True)
+    print(machine(), options.rate, "Hz", *lines, sep="\n")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
