@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import CandidateTest, Model, refit_without
+from motor_identification.diagnosis.candidate_model import CandidateTest, Model, refit_without, share_explained
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
     count_parameters,
@@ -19,9 +19,11 @@ from motor_identification.diagnosis.effect_test import (
 )
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.diagnosis.standstill_evidence import explains_standstills
-from motor_identification.discrepancy.free_curves import REPEATING
+from motor_identification.discrepancy.free_curves import PAST, REPEATING
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
+
+OF_REVERSALS = ("backlash",)  # what shows after the motor has turned round, as a friction that builds up there does
 
 
 def drop_stand_ins(selection: Selection) -> Selection:
@@ -88,11 +90,25 @@ def eliminate_backward(selection: Selection, reporter: ProgressReporter) -> Sele
     return selection
 
 
+def stands_in_for_curve(without: Model, current: Model) -> bool:
+    """Decide whether a free curve over the past predicts about as much beside a random torque as a finding does.
+
+    without: the model that lacks the finding.
+    """
+    if not current.beside_torque:
+        return False
+    curve = max((one.share for one in without.structure if one.certain and one.variable == PAST), default=0.0)
+    found = share_explained(without.held.gap, current.held.gap, current.sensor_floor)
+    return found < thresholds.CURVE_MARGIN * curve
+
+
 def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressReporter) -> Selection:
     """Test one finding against the model without it, and against others instead of it."""
     effect, current = step.found.effect, selection.model
     without = refit_without(selection.model, effect, selection.hold_out)
     if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
+        return replace_step(selection, step, None, without)
+    if effect in OF_REVERSALS and stands_in_for_curve(without, current):
         return replace_step(selection, step, None, without)
     judged_alike = step.found.model.beside_torque == current.beside_torque
     if step is selection.steps[-1] and judged_alike:  # what could be in its place was tried beside it

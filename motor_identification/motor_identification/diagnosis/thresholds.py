@@ -68,6 +68,10 @@ STAND_IN_SHARE = 0.95
 # The same where all that can be predicted of the rest goes with the angle or the time alone: most of it. A stand-in for
 # a friction over the angle, or a supply that swings, is not even relevant.
 APART_SHARE = 0.5
+# Times the share that a free curve over what was just before predicts beside a random torque, which a backlash has to
+# explain: the curve knows when the motor turned, and no inertia that is gone until the play is. Measured: right ones
+# 3 to 6 times as much, those that stand in for a friction that builds up after a reversal 0.7 to 1.0 times.
+CURVE_MARGIN = 1.5
 
 # Of squares of travel, in units of the sensor's own: what a model moves where the motor stood under a voltage. A motion
 # of ten slots, or one interval in which a speed that was measured as zero is off by ten standard deviations.

@@ -94,6 +94,7 @@ def _past(h: MotionHistory, most: Reach) -> Floats:
     return np.concatenate([since, travel, h.past, share * np.abs(h.past)], axis=1)
 
 
+PAST = "past"
 FAMILIES: dict[str, Callable[[MotionHistory, Reach], Floats]] = {
     "speed": _speed,
     "voltage": _voltage,
@@ -102,7 +103,7 @@ FAMILIES: dict[str, Callable[[MotionHistory, Reach], Floats]] = {
     "angle": _angle,
     "time": _time,
     "spectrum": _spectrum,
-    "past": _past,
+    PAST: _past,
 }
 
 REPEATING = ("angle", "time", "spectrum")  # what comes and goes whatever the motor is asked to do

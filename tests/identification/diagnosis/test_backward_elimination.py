@@ -19,6 +19,7 @@ from motor_identification.diagnosis.backward_elimination import (
     is_better,
     keep_confirmed,
     list_replacements,
+    stands_in_for_curve,
 )
 from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
 from motor_identification.diagnosis.effect_fit import fit_with_effect
@@ -89,6 +90,25 @@ def test_what_only_angle_or_time_predict_is_nothing_that_a_finding_stands_in_for
     rest = tuple(Structure(name, 0.5, 100.0) for name in left)
     model = cast(Model, SimpleNamespace(complete=False, structure=rest))
     assert len(drop_stand_ins(replace(selection, model=model)).steps) == kept
+
+
+@pytest.mark.parametrize(
+    ("times", "variable", "beside", "stands_in"),
+    [
+        (BELOW, "past", True, True),
+        (ABOVE, "past", True, False),
+        (BELOW, "speed", True, False),
+        (BELOW, "past", False, False),
+    ],
+)
+def test_what_a_curve_over_the_past_predicts_as_well_is_no_backlash(
+    times: float, variable: str, beside: bool, stands_in: bool
+) -> None:
+    """With a gap of 5 before, 3 after and a floor of 1 rad/s it explains 16 parts of 24."""
+    curve = Structure(variable, 16.0 / 24.0 / thresholds.CURVE_MARGIN / times, 100.0)
+    without = cast(Model, SimpleNamespace(structure=(curve,), held=SimpleNamespace(gap=5.0)))
+    current = cast(Model, SimpleNamespace(beside_torque=beside, held=SimpleNamespace(gap=3.0), sensor_floor=1.0))
+    assert stands_in_for_curve(without, current) is stands_in
 
 
 def test_of_two_selections_the_one_that_keeps_more() -> None:
