@@ -89,6 +89,7 @@ class Effect:
             effects would have left the same trace.
         holds: it holds the motor at rest under a voltage, which nothing that only shapes a motion does.
         anywhere: it happens once, or slowly: a few pieces of a long recording do not show it.
+        after_reversals: it shows for a while after the motor has turned round, and nowhere else.
         fitted: a fit can have it as a parameter; else it is recognised in what any fit leaves.
     """
 
@@ -103,6 +104,7 @@ class Effect:
     linear_onset: bool = False
     holds: bool = False
     anywhere: bool = False
+    after_reversals: bool = False
     fitted: bool = True
 
     @property

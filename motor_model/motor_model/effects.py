@@ -173,6 +173,7 @@ EFFECTS = (
             P("backlash_angle", "rad", 0.0, 0.0, 1.33, TURN, starts=(0.067, 0.53), usual=(0.0, 1.0)),
             P("load_fraction", "–", 0.0, 0.0, 0.95, maximum=0.99, starts=(0.3, 0.7)),
         ),
+        after_reversals=True,
     ),
     Effect(
         "warm_up",

@@ -23,8 +23,6 @@ from motor_identification.discrepancy.free_curves import PAST, REPEATING
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 
-OF_REVERSALS = ("backlash",)  # what shows after the motor has turned round, as a friction that builds up there does
-
 
 def drop_stand_ins(selection: Selection) -> Selection:
     """Drop what may only stand in for an effect that is not in the table, where the gap stays above the floor.
@@ -108,7 +106,7 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     without = refit_without(selection.model, effect, selection.hold_out)
     if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
         return replace_step(selection, step, None, without)
-    if effect in OF_REVERSALS and stands_in_for_curve(without, current):
+    if EFFECT_BY_NAME[effect].after_reversals and stands_in_for_curve(without, current):
         return replace_step(selection, step, None, without)
     judged_alike = step.found.model.beside_torque == current.beside_torque
     if step is selection.steps[-1] and judged_alike:  # what could be in its place was tried beside it
