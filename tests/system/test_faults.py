@@ -21,6 +21,7 @@ from motor_ros import qos
 
 Start = Callable[..., "Popen[str]"]
 MOST = 0.150  # [s] to 0 V at the pins
+LATE = ("--ros-args", "-p", "latency_limit:=10.0")  # on a busy machine a sample is late, which is no fault here
 
 
 @pytest.fixture
@@ -49,7 +50,7 @@ def seconds_to_rest(board: LiveBoard) -> float:
 def test_a_killed_controller(driver: "Popen[str]", live: LiveBoard, user: User, start: Start) -> None:
     user.sending = False  # the controller does
     reference = user.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
-    controller = start("motor_control", "motor_control")
+    controller = start("motor_control", "motor_control", *LATE)
     user.bench.heard(reference)
     user.until_moving(reference, "motion")
     controller.kill()
@@ -78,7 +79,7 @@ def test_a_latched_stop_does_not_end_by_starting_the_driver_again(
     """The telemetry sticks, which is a stop; the driver starts again, and the controller still has its reference."""
     user.sending = False  # the controller does
     reference = user.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
-    start("motor_control", "motor_control")
+    start("motor_control", "motor_control", *LATE)
     user.bench.heard(reference)
     user.until_moving(reference, "motion")
     live.faults = replace(live.faults, stuck_telemetry=True)
