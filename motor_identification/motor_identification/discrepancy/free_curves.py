@@ -21,6 +21,8 @@ KNOTS = 12  # of a curve over each direction of the motion
 GRID = 7  # knots along each side of a curve over two variables
 HARMONICS = 16  # of a turn
 TIME_KNOTS = 15  # over a recording
+SINCE = (0.03, 30.0)  # time constants since a reversal: from what a delay is to what any motion has forgotten
+TRAVEL = (6e-4, 0.6)  # of the angle at top speed in a time constant: from a gear's play to many turns
 
 
 @dataclass(frozen=True)
@@ -31,12 +33,19 @@ class Reach:
     voltage: float
     drive: float
     duration: float
+    lag: float  # [s] time constant of the fitted motor
     lines: tuple[float, ...] = ()  # [Hz] where the spectrum of what is left is highest
 
 
 def hats(values: Floats, knots: NDArray[np.floating[Any]]) -> Floats:
     """Evaluate linear hat functions over knots (M,) at values (S,), shape (S, M); constant beyond the ends."""
     return np.stack([np.interp(values, knots, unit) for unit in np.eye(len(knots))], axis=1)
+
+
+def log_hats(values: Floats, reach: tuple[float, float], unit: float) -> Floats:
+    """Evaluate hats over knots that are even in the logarithm, from the first to the last of `reach` times a unit."""
+    knots = np.geomspace(*reach, KNOTS)
+    return hats(np.log(np.maximum(values / unit, reach[0])), np.log(knots))
 
 
 def _both_ways(values: Floats, way: Floats, most: float) -> Floats:
@@ -88,8 +97,8 @@ def _spectrum(h: MotionHistory, most: Reach) -> Floats:
 
 def _past(h: MotionHistory, most: Reach) -> Floats:
     way = np.sign(h.speed)[:, None]
-    since = hats(np.log(np.maximum(h.since, 1e-4)), np.log(np.geomspace(0.003, 3.0, KNOTS))) * way
-    travel = hats(np.log(np.maximum(h.travel, 1e-3)), np.log(np.geomspace(0.01, 10.0, KNOTS))) * way
+    since = log_hats(h.since, SINCE, most.lag) * way
+    travel = log_hats(h.travel, TRAVEL, most.speed * most.lag) * way
     share = h.past / most.voltage
     return np.concatenate([since, travel, h.past, share * np.abs(h.past)], axis=1)
 
@@ -136,10 +145,10 @@ def fill_travel(duration: Floats, still: Bools, torque: Floats, rate: float, gai
                 speed[c] = speed[c] * decay + push * reach
 
 
-def measure_reach(histories: Sequence[MotionHistory]) -> Reach:
-    """Measure how far the motion of some recordings reaches."""
+def measure_reach(histories: Sequence[MotionHistory], lag: float) -> Reach:
+    """Measure how far the motion of some recordings reaches; lag [s]: the motor's time constant."""
 
     def largest(name: str) -> float:
         return max(float(np.abs(getattr(history, name)).max(initial=0.0)) for history in histories) or 1.0
 
-    return Reach(largest("speed"), largest("voltage"), largest("drive"), largest("time"))
+    return Reach(largest("speed"), largest("voltage"), largest("drive"), largest("time"), lag)

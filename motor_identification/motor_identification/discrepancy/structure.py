@@ -71,7 +71,7 @@ def find_structure(
     own: recordings with intervals to judge by. others: training recordings, to learn from what holds in all of them.
     rate: kv/ka [1/s], ka [V·s²/rad] of the fitted motor.
     """
-    reach = measure_reach([rest.history for rest in (*own, *others)])
+    reach = measure_reach([rest.history for rest in (*own, *others)], 1.0 / rate)
     reach = replace(reach, lines=find_lines(own, model, rate, ka))
     found = []
     for name in FAMILIES:

@@ -54,7 +54,7 @@ def test_a_standing_motor_does_not_respond() -> None:
 @pytest.mark.parametrize("name", FAMILIES)
 def test_families_have_finite_columns_of_one_volt(name: str) -> None:
     motion = history()
-    reach = replace(measure_reach([motion]), lines=(1.0, 3.0, 7.0))
+    reach = replace(measure_reach([motion], 0.1), lines=(1.0, 3.0, 7.0))
     columns = FAMILIES[name](motion, reach)
     assert len(columns) == COUNT and np.all(np.isfinite(columns))
     assert np.abs(columns).max() <= 1.0 + 1e-12
@@ -62,7 +62,7 @@ def test_families_have_finite_columns_of_one_volt(name: str) -> None:
 
 def test_friction_is_a_curve_over_the_speed() -> None:
     motion = history()
-    columns = FAMILIES["speed"](motion, measure_reach([motion]))
+    columns = FAMILIES["speed"](motion, measure_reach([motion], 0.1))
     friction = np.sign(motion.speed)
     knots = np.linalg.lstsq(columns, friction, rcond=None)[0]
     assert np.abs(columns @ knots - friction).max() < 1e-9
@@ -70,3 +70,20 @@ def test_friction_is_a_curve_over_the_speed() -> None:
 
 def test_what_belongs_to_a_recording_is_learnt_there() -> None:
     assert set(OF_ONE_RECORDING) < set(FAMILIES)
+
+
+def test_the_past_is_told_in_time_constants_and_angles_of_the_motor() -> None:
+    """The same motion in other seconds and radians has the same columns; a slower motor's curve reaches further."""
+    motion = history()
+    time, angle = 25.0, 0.02
+    other = replace(
+        motion,
+        duration=motion.duration * time,
+        speed=motion.speed * angle / time,
+        since=motion.since * time,
+        travel=motion.travel * angle,
+    )
+    columns = [
+        FAMILIES["past"](one, measure_reach([one], lag)) for one, lag in ((motion, 0.1), (other, 2.5), (motion, 2.5))
+    ]
+    assert np.allclose(columns[0], columns[1], atol=1e-9) and not np.allclose(columns[0], columns[2], atol=0.1)

@@ -116,7 +116,7 @@ def test_what_only_the_measured_speed_predicts_is_its_own_disturbance(
         return Structure(name, 0.5, gains[str(rests[0].history)] if name in OF_SPEED else 0.0)
 
     monkeypatch.setattr(structure, "_judge_family", judged)
-    monkeypatch.setattr(structure, "measure_reach", lambda histories: Reach(1.0, 1.0, 1.0, 1.0))
+    monkeypatch.setattr(structure, "measure_reach", lambda histories, lag: Reach(1.0, 1.0, 1.0, 1.0, lag))
     monkeypatch.setattr(structure, "find_lines", lambda *_: ())
     found = find_structure([rest], [], ErrorModel(0.0, 0.0, 0.0, 1.0), 1.0, 1.0)
     assert [one.certain for one in found if one.variable in OF_SPEED] == [certain] * 3
