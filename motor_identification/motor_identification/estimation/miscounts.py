@@ -5,28 +5,37 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import ROBUST_SIGMA, fit_speeds, measure_scatter
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.recording import Bools, Floats
+from motor_identification.recording import Bools, Floats, Integers
 
 WHOLE_SLOT_SIGMA = 4.0  # standard deviations from a whole number of slots (interfaces.md, "Gap")
 WHOLE_SLOT_LEAST = 1e-3  # of a slot: the same where the scatter is as good as none
+LEAST_ALIKE, MOST_GROUPS = 100, 8  # intervals that a scatter is told from at least; groups at most
 HEAVY_TAILS = 2.0  # RMS over the middle half's standard deviation, from which on no noise makes the tails
 MOST_CLEANINGS = 8  # rounds of leaving out miscounted intervals: each makes the next easier to see
 
 
 def mark_miscounts(data: Intervals, increments: Floats) -> Bools:
-    """Mark the intervals whose travel [rad] is off by a whole number of slots, within 4 σ of all the others' scatter.
+    """Mark the intervals whose travel [rad] is off by a whole number of slots, within 4 σ of others' scatter.
 
-    Shapes are (I,). Where the model is so far off that 4 σ reach half a slot, nothing is marked.
+    Others are those about as long: what a random torque leaves grows with time. Shapes are (I,). Where the model is so
+    far off that 4 σ reach half a slot, nothing is marked.
     """
     moving = (data.slack == 0.0) & (data.edge[:, 0] >= 0)
     if data.slot == 0.0 or not np.any(moving):
         return np.zeros(len(increments), dtype=bool)
-    middle = float(np.median(increments[moving]))
-    sigma = ROBUST_SIGMA * float(np.median(np.abs(increments[moving] - middle)))
+    reach = np.zeros(len(increments))
+    for alike in _group_by_duration(data, moving):
+        middle = float(np.median(increments[alike]))
+        reach[alike] = WHOLE_SLOT_SIGMA * ROBUST_SIGMA * float(np.median(np.abs(increments[alike] - middle)))
     slots = np.round(increments / data.slot)
-    reach = WHOLE_SLOT_SIGMA * sigma
-    near = np.abs(increments - slots * data.slot) < max(reach, WHOLE_SLOT_LEAST * data.slot)
+    near = np.abs(increments - slots * data.slot) < np.maximum(reach, WHOLE_SLOT_LEAST * data.slot)
     return np.asarray(moving & (slots != 0.0) & near & (reach < 0.5 * data.slot))
+
+
+def _group_by_duration(data: Intervals, which: Bools) -> list[Integers]:
+    """Group intervals with others that are about as long: indices into all."""
+    order = np.flatnonzero(which)[np.argsort(data.duration[which], kind="stable")]
+    return np.array_split(order, int(np.clip(len(order) // LEAST_ALIKE, 1, MOST_GROUPS)))
 
 
 def find_miscounts(estimate: Estimate) -> tuple[Bools, ...]:
