@@ -43,14 +43,14 @@ class Handshake:
 
     def hear(self, frame: Hello) -> bool:
         """Take a hello; True when the board now runs as configured."""
+        if self.hello is not None and frame.boot != self.hello.boot and self.phase is not Phase.IDENTIFY:
+            self.begin_again()  # a reset board has forgotten what it was told, its current limits too
         if self.phase is Phase.IDENTIFY:
             self._refusal = self._config.refusal(frame)
             self.hello = frame
             if not self._refusal and not self._roll_call:
                 self._go(Phase.SETUP if self._config.setup(frame) else self._after_setup(frame))
         elif self.phase is Phase.CONFIGURE and self.hello is not None:
-            if frame.boot != self.hello.boot:
-                self.hello = frame
             done = (frame.sample_period, frame.command_timeout, frame.decay) == self._wanted()
             if done and frame.latch != self.hello.latch:  # not an old answer: to configure is to switch off
                 self.hello, self.phase = frame, Phase.RUN

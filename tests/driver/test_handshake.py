@@ -6,9 +6,23 @@ import pytest
 from board_frames import HELLO, TELEMETRY
 
 from motor_driver.config import Config
-from motor_driver.frames import Configure, Features, Hello, Identify, OtherVersion, ResetCause, Setup
+from motor_driver.current_limits import CurrentLimits
+from motor_driver.frames import (
+    Configure,
+    Features,
+    Hello,
+    Identify,
+    OtherVersion,
+    Protect,
+    Protection,
+    ResetCause,
+    Setup,
+)
 from motor_driver.handshake import ASK_EVERY, PATIENCE, Handshake, Phase, reset_cause
 
+LIMITS = CurrentLimits(0.185, 2.5, 5.0, 2.0, 1.0)
+GUARDING = replace(HELLO, firmware_minor=4)
+HELD = Protection(512, 189, 76, (558 - 90) * 31250)  # what LIMITS are on the wire
 ANSWER = replace(HELLO, command_timeout=120, latch=HELLO.latch + 1)  # as asked, and switched off by that
 
 
@@ -88,3 +102,48 @@ def test_an_old_board_that_cannot_count_both_channels_is_refused() -> None:
     shaken = Handshake(Config(edges_per_revolution=44, single_channel=False, quadrature=4), "the port", 0)
     shaken.hear(replace(HELLO, edges_per_revolution=11, channels=2))
     assert "runs firmware 1.1, and quadrature 4 needs 1.2: flash" in shaken.problem(0)
+
+
+def limited_until(phase: Phase) -> Handshake:
+    """A handshake that sets current limits, and has come as far as `phase`."""
+    shaken = Handshake(Config(current_gain=0.185, current_limits=LIMITS), "the port", 0)
+    shaken.hear(GUARDING)
+    if phase is not Phase.SETUP:
+        shaken.hear_features(Features(1, 0, 0))
+    if phase is Phase.CONFIGURE:
+        shaken.hear_protection(HELD)
+    assert shaken.phase is phase
+    return shaken
+
+
+@pytest.mark.parametrize("phase", [Phase.SETUP, Phase.PROTECT, Phase.CONFIGURE])
+def test_a_board_that_is_reset_meanwhile_is_told_everything_again(phase: Phase) -> None:
+    shaken = limited_until(phase)
+    again = replace(GUARDING, boot=8)
+    assert not shaken.hear(again) and shaken.phase is Phase.SETUP and shaken.hello == again
+    assert not shaken.hear(replace(again, command_timeout=120, latch=again.latch + 1))  # it has no limits yet
+    shaken.hear_features(Features(1, 0, 0))
+    shaken.hear_protection(HELD)
+    assert shaken.hear(replace(again, command_timeout=120, latch=again.latch + 3)) and shaken.phase is Phase.RUN
+
+
+def test_a_hello_of_the_same_boot_begins_nothing_again() -> None:
+    shaken = limited_until(Phase.PROTECT)
+    assert not shaken.hear(replace(GUARDING, latch=2)) and shaken.phase is Phase.PROTECT
+
+
+@pytest.mark.parametrize(
+    "held", [replace(HELD, most=190), replace(HELD, rated=77), replace(HELD, budget=1), replace(HELD, zero=0)]
+)
+def test_other_limits_than_those_asked_for_are_asked_for_again(held: Protection) -> None:
+    shaken = limited_until(Phase.PROTECT)
+    shaken.hear_protection(held)
+    assert shaken.phase is Phase.PROTECT
+    assert shaken.asks(ASK_EVERY) == Protect(512, 189, 76, (558 - 90) * 31250)
+
+
+def test_a_board_that_cannot_watch_the_current_is_refused() -> None:
+    shaken = Handshake(Config(current_gain=0.185, current_limits=LIMITS), "the port", 0)
+    shaken.hear(replace(HELLO, firmware_minor=3))
+    assert "runs firmware 1.3, and current_limit needs 1.4: flash" in shaken.problem(0)
+    assert shaken.phase is Phase.IDENTIFY
