@@ -46,7 +46,8 @@ def extract_edges(recording: Recording) -> Edges:
     period = recording.edge_period[fresh]
     direction = read_directions(recording.speed[fresh])
     if not info.single_channel:
-        direction = open_returns(direction, period)
+        counted = np.where(recording.speed[fresh] == 0.0, np.sign(steps), direction)  # which way, where no sign is said
+        direction = open_returns(counted, period, info.quadrature)
     right = mark_possible(recording, fresh, latest)
     right[right] = mark_smooth(latest[right], _passed(count[fresh][right] - count[0]))
     second = (
@@ -59,7 +60,9 @@ def extract_edges(recording: Recording) -> Edges:
     second[second] = mark_possible(recording, fresh[second], (latest - period)[second])
     time = np.concatenate([(latest - period)[second], latest[right]])
     numbers = np.concatenate([(count[fresh] - np.sign(steps))[second], count[fresh][right]]) - count[0]
-    edges = Edges(time, numbers, np.concatenate([direction[second], direction[right]]))
+    # Counted against its latest edge's direction, two channels turned within a sample, before or after the edge before.
+    before = direction if info.single_channel else np.where(direction * steps < 0, 0, direction)
+    edges = Edges(time, numbers, np.concatenate([before[second], direction[right]]))
     edges = edges.only(np.argsort(time, kind="stable"))
     edges = edges.only(mark_smooth(edges.time, _passed(edges.count)))
     return move_reversals_to_slowest(edges, recording) if info.single_channel else edges
@@ -70,14 +73,17 @@ def _passed(count: Integers) -> Integers:
     return np.asarray(np.abs(np.diff(count, prepend=0)).cumsum())
 
 
-def open_returns(direction: Integers, period: Floats) -> Integers:
+def open_returns(direction: Integers, period: Floats, quadrature: int = 1) -> Integers:
     """Leave the direction (E,) open of edges by which a second channel takes the one before back.
 
     There the shaft leaves a hole by the flank by which it entered it, and the next flank is half a slot away, not one.
-    A board tells such edges by a period [s] of 0.
+    A board tells such edges by a period [s] of 0, whatever was counted before in the same sample and whichever way the
+    motor turns next; so it does of the edge after, which is no such edge unless it turns once more. Where every flank
+    of both channels counts, the next one is a slot away.
     """
     turned = np.append(False, direction[1:] * direction[:-1] < 0)[: len(direction)]
-    return np.where(turned & (period == 0.0), 0, direction)
+    first = np.append(False, period[:-1] > 0.0)[: len(direction)] & (quadrature <= 1)
+    return np.where((turned | first) & (period == 0.0), 0, direction)
 
 
 def read_directions(speed: Floats) -> Integers:

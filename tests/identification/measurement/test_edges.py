@@ -11,7 +11,7 @@ from recorded import as_counts, as_speed
 
 from motor_identification.estimation.residual import compute_residuals
 from motor_identification.measurement.build_intervals import make_intervals
-from motor_identification.measurement.edges import Edges, extract_edges
+from motor_identification.measurement.edges import Edges, extract_edges, open_returns
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Floats, Recording
 from motor_model.errors import RecordingError
@@ -94,6 +94,34 @@ def test_two_channels_leave_out_only_the_interval_with_the_turn() -> None:
         true = angle_at(truth, intervals.time)
         travel = (true[intervals.last] - true[intervals.first])[moving]
         assert np.abs(travel - (intervals.speed * intervals.duration)[moving]).max() < 0.01 * SLOT
+
+
+@pytest.mark.parametrize(
+    ("direction", "period", "quadrature", "known"),
+    [
+        ([1, 1, 1, 1], [0.0, 2.0, 0.0, 3.0], 1, [1, 1, 0, 1]),  # two forward and one back in a sample, then forward
+        ([1, 1, -1, -1, -1], [0.0, 2.0, 0.0, 0.0, 3.0], 1, [1, 1, 0, -1, -1]),  # the flank after it is none
+        ([1, 1, -1, 1, 1], [0.0, 2.0, 0.0, 0.0, 3.0], 1, [1, 1, 0, 0, 1]),  # unless it turns back at once
+        ([1, 1, 1, 1], [0.0, 2.0, 0.0, 3.0], 4, [1, 1, 1, 1]),
+        ([1, 1, -1, -1], [0.0, 0.0, 0.0, 0.0], 1, [1, 1, 0, -1]),  # no period was ever told
+    ],
+)
+def test_an_edge_that_was_taken_back_is_open_whatever_came_before_and_after(
+    direction: list[int], period: list[float], quadrature: int, known: list[int]
+) -> None:
+    assert open_returns(np.array(direction), np.array(period), quadrature).tolist() == known
+
+
+def test_what_two_channels_see_of_a_motor_that_rocks_is_where_it_turned() -> None:
+    """Down, up and down again within two samples: a wrong sign would put the interval off by whole slots."""
+    for seed in range(6):
+        drive = profiles.random(6.0, 6.0, seed, hold=(0.02, 0.12))
+        recording, truth = record(BASE, *drive, seed=seed, single_channel=False, sample_rate=50.0, edges=200)
+        intervals = make_intervals(recording)
+        moving = intervals.slack == 0.0
+        true = angle_at(truth, intervals.time)
+        travel = (true[intervals.last] - true[intervals.first])[moving]
+        assert np.abs(travel - (intervals.speed * intervals.duration)[moving]).max() < 0.01 * intervals.slot
 
 
 @pytest.mark.parametrize("milliseconds", [50, 100])
