@@ -17,6 +17,7 @@ from time import process_time
 import numpy as np
 from hidden import FRICTION, OUTSIDE, PAIRS, SIZES, Outcome, right
 from machine import commit, machine
+from numpy.typing import NDArray
 from plant import profiles, record
 
 from motor_identification.diagnose import diagnose
@@ -25,7 +26,7 @@ from motor_identification.recording import check
 RESULTS = Path(__file__).with_name("results") / "any_motor.md"
 RATES = (20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)  # [Hz]
 EDGES = (6, 8, 12, 20, 48, 96, 200, 500, 1000, 2048, 2880, 8192)
-USUAL = {"supply": 12.0, "top": 174.0, "lag": 0.1}  # the motor that the confusion table's sizes are made for
+USUAL = np.array([12.0, 174.0, 0.1])  # [V], [rad/s], [s] of the motor that the confusion table's sizes are made for
 FASTEST = 40_000.0  # [1/s] edges that a timer's capture keeps up with
 SAMPLES = 100.0  # of a time constant at most: 28,000 of a recording
 KINDS = ("right", "right, not all", "silent", "wrong")
@@ -100,6 +101,15 @@ def _hidden(random: np.random.Generator) -> tuple[str, ...]:
             return (str(random.choice(list(SIZES))),)
 
 
+def _sizes(random: np.random.Generator, hidden: tuple[str, ...], ratio: NDArray[np.float64]) -> dict[str, float]:
+    """Draw the sizes of effects for a motor of so many times the usual [V], [rad/s] and [s]."""
+    return {
+        parameter: float(random.uniform(*bounds) * np.prod(ratio ** np.array(GROWTH.get(parameter, (0.0, 0.0, 0.0)))))
+        for name in hidden
+        for parameter, bounds in (SIZES | OUTSIDE)[name].items()
+    }
+
+
 def draw(seed: int) -> Case:
     """Draw a case; the board reads the motor 3 to 100 times a time constant and sees ten edges in one at top speed."""
     random = np.random.default_rng([19, seed])
@@ -109,15 +119,14 @@ def draw(seed: int) -> Case:
         top, edges = _between(random, 3.0, 6000.0), int(random.choice(EDGES))
         if top * lag * edges >= 10.0 * 2.0 * np.pi and top * edges <= FASTEST * 2.0 * np.pi:
             break
-    hidden, kv = _hidden(random), supply / top
+    kv = supply / top
     values = {"kv": kv, "ka": kv * lag * random.uniform(0.8, 1.2), "max_voltage": supply}
-    ratio = np.array([supply / USUAL["supply"], top / USUAL["top"], lag / USUAL["lag"]])
-    for name in hidden:
-        for parameter, bounds in (SIZES | OUTSIDE)[name].items():
-            growth = np.array(GROWTH.get(parameter, (0.0, 0.0, 0.0)))
-            values[parameter] = float(random.uniform(*bounds) * np.prod(ratio**growth))
-    if "ripple_cycles" in values:  # as fine as the encoder sees
-        values["ripple_cycles"] = min(values["ripple_cycles"], edges / 3.0)
+    while True:
+        hidden = _hidden(random)
+        sizes = _sizes(random, hidden, np.array([supply, top, lag]) / USUAL)
+        if 1.0 <= sizes.get("ripple_cycles", 1.0) <= edges / 3.0:  # a wave that motors have, and that the encoder sees
+            break
+    values |= sizes
     torque = float(random.choice([0.0, 0.0025, 0.008, 0.015]))
     if torque:
         values |= {"random_torque": torque * supply, "random_torque_time": lag * _between(random, 0.05, 2.0)}
@@ -139,7 +148,7 @@ def draw(seed: int) -> Case:
 def one(seed: int) -> tuple[Case, Answer]:
     """Record a motor twice, with commands as slow as it is, and diagnose."""
     case = draw(seed)
-    slower = case.lag / USUAL["lag"]
+    slower = case.lag / USUAL[2]
     drives = profiles.rich(case.supply, seed), profiles.random(case.supply, 14.0, seed + 500)
     first, second = (
         check(

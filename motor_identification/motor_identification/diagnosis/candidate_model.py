@@ -189,8 +189,19 @@ class CandidateTest:
     """A model with one more effect, beside the one without it."""
 
     effect: str
-    before: Model  # without it, on the same held-out intervals
+    before: Model  # without it
     model: Model
+
+    @cached_property
+    def held_before(self) -> HeldOut:
+        """What the model without it leaves, on the same held-out intervals."""
+        return self.before.held.leave_out(self.model.held.instants)
+
+    @property
+    def _lasting_before(self) -> HeldOut:
+        if self.held_before is self.before.held:
+            return self.before.lasting
+        return self.held_before.joined(thresholds.LASTING_INTERVAL)
 
     @property
     def evidence(self) -> float:
@@ -205,7 +216,7 @@ class CandidateTest:
     @property
     def explains(self) -> float:
         """Share of the excess over the noise floor that it takes away."""
-        return share_explained(self.before.held.gap, self.model.held.gap, self.model.unpredictable_gap)
+        return share_explained(self.held_before.gap, self.model.held.gap, self.model.unpredictable_gap)
 
     @property
     def has_instants(self) -> bool:
@@ -222,16 +233,16 @@ class CandidateTest:
         """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual."""
         if self.model.beside_torque:
             line = EFFECT_BY_NAME[self.effect].periodic  # fast beside a torque that most of the gap may be of
-            most = self.before.held.gap * (thresholds.GAP_CHANCE if line else 1.0)
+            most = self.held_before.gap * (thresholds.GAP_CHANCE if line else 1.0)
             shrinks = self.model.held.gap <= most and self.model.held_out > self.before.held_out
             return shrinks and 2.0 * self.steadiness > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
-        before, after = self.before.lasting, self.model.lasting
+        before, after = self._lasting_before, self.model.lasting
         floor = after.floor(self.model.noise.share)
         if before.gap < thresholds.RELEVANT_GAP * floor:
             return False
         near = before.gap < thresholds.NEAR_FLOOR * floor or self.has_instants
         least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE
-        seen = self.model.held.gap < (1.0 - thresholds.LEAST_DROP) * self.before.held.gap
+        seen = self.model.held.gap < (1.0 - thresholds.LEAST_DROP) * self.held_before.gap
         return seen and share_explained(before.gap, after.gap, floor) > least
 
 

@@ -82,7 +82,13 @@ class HeldOut:
         old = zip(self.intervals, longer, self.angles, strict=True)
         angles = tuple(angle[np.searchsorted(data.time, after.time)] for data, after, angle in old)
         everything = tuple(np.ones(len(data.first), dtype=bool) for data in longer)
-        return replace(self, intervals=longer, angles=angles, scored=everything)
+        return replace(self, intervals=longer, angles=angles, scored=everything, instants=())
+
+    def leave_out(self, instants: Sequence[Bools]) -> "HeldOut":
+        """Leave out of the gap what another model of the same motion does because of its instants."""
+        if not any(marks.any() for marks in instants):
+            return self
+        return replace(self, scored=tuple(part & ~marks for part, marks in zip(self.scored, instants, strict=True)))
 
     def log_likelihood(self, noise: Noise) -> float:
         """Compute the log likelihood of what counts, under the training data's drift or one of a few larger ones.

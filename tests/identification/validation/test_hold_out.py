@@ -92,6 +92,9 @@ def test_a_block_in_which_a_load_begins_at_an_instant_that_nobody_could_foresee_
     begin = data.time[data.first]
     assert scored[(begin > 2.5) & (begin < 3.0)].any() == counts and scored[(begin > 1.5) & (begin < 2.0)].any()
     assert held.gap < 1.3 * held.floor(0.005)
+    plain = hold_out.validate(training(hold_out))  # which has no load, and is compared on the same blocks
+    alike = plain.leave_out(held.instants)
+    assert not (alike.scored[0] & held.instants[0]).any() and (alike is plain) == counts
     without = replace(held, instants=tuple(np.zeros_like(marks) for marks in held.scored))
     noise = Noise(0.005, 0.0)
     assert (held.log_likelihood(noise) == without.log_likelihood(noise)) == counts  # the likelihood is of all blocks
