@@ -41,6 +41,14 @@ class Config:
     reverse_motor: bool = False  # its two wires are exchanged
     reverse_encoder: bool = False  # its two channels are exchanged
 
+    def __post_init__(self) -> None:
+        """Check what contradicts itself.
+
+        Raises:
+            MotorError: the current's sensor does not show the limits.
+        """
+        self.current_limits.check(self.current_gain, self.current_offset)
+
     @property
     def silence(self) -> float:
         """[s] without telemetry after which the output is switched off."""
@@ -63,7 +71,9 @@ class Config:
 
     def protect(self, board: Hello) -> Protect | None:
         """Which current shall switch this board off, also where none shall; None where it watches none."""
-        return self.current_limits.protect(board.tick_ns) if _firmware(board) >= PROTECT else None
+        if _firmware(board) < PROTECT:
+            return None
+        return self.current_limits.protect(self.current_gain, self.current_offset, board.tick_ns)
 
     def refusal_to_protect(self, held: Protection) -> str:
         """Why a board that holds these limits cannot be used as configured; empty if it can."""

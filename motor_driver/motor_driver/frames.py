@@ -50,6 +50,7 @@ class Flag(IntFlag):
     REVERSE = 8
     TWO_CHANNELS = 16
     OVERCURRENT = 32
+    CURRENT_UNKNOWN = 64
 
 
 class ResetCause(IntFlag):

@@ -42,7 +42,7 @@ ROWS = (
     Row(
         "current_limit",
         0.0,
-        "current that switches the board's output off within three samples, with a sensor; 0: none does",
+        "current that switches the board's output off, within three samples and 0.35 ms, with a sensor; 0: none does",
         "A",
         0.0,
         100.0,
@@ -76,7 +76,8 @@ def config_of(values: Mapping[str, Value]) -> Config:
     """The driver's configuration.
 
     Raises:
-        MotorError: there is no such decay or board_id, or the encoder's parameters contradict each other.
+        MotorError: there is no such decay or board_id, the encoder's parameters or the current's limits contradict each
+            other, or the current's sensor does not show the limits.
     """
     names = [decay.name.lower() for decay in Decay]
     if values["decay"] not in names:
@@ -97,8 +98,6 @@ def config_of(values: Mapping[str, Value]) -> Config:
         current_gain=float(values["current_gain"]),
         current_offset=float(values["current_offset"]),
         current_limits=CurrentLimits(
-            float(values["current_gain"]),
-            float(values["current_offset"]),
             float(values["current_limit"]),
             float(values["continuous_current"]),
             float(values["overload_time"]),

@@ -8,7 +8,11 @@ ASK_EVERY = 10_000_000  # [ns]
 HELD_UP = "the board heard no command for too long and switched off"
 OVERCURRENT = (
     "the motor's current was above current_limit, or above continuous_current for too long: see what holds the shaft, "
-    "and the motor's wires"
+    "and the motor's wires, and let the motor cool before it goes on"
+)
+CURRENT_UNKNOWN = (
+    "the board could not measure the motor's current for ten samples, and current_limit needs it: see whether more "
+    "edges come than the board counts, and flash it again"
 )
 
 
@@ -16,6 +20,8 @@ def reason_off(frame: Telemetry) -> str:
     """Say why a board that was on has switched off, as a clause."""
     if frame.flags & Flag.TIMED_OUT:
         return HELD_UP
+    if frame.flags & Flag.CURRENT_UNKNOWN:
+        return CURRENT_UNKNOWN
     return OVERCURRENT if frame.flags & Flag.OVERCURRENT else "the board switched off"
 
 

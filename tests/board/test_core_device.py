@@ -4,10 +4,25 @@ from ctypes import byref, create_string_buffer
 from dataclasses import dataclass
 
 import firmware_core as core
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from motor_driver.frames import Command, Configure, Enable, Flag, Frame, Hello, Identify, Ping, Pong, Telemetry
+from motor_driver.frames import (
+    Command,
+    Configure,
+    Enable,
+    Flag,
+    Frame,
+    Hello,
+    Identify,
+    Ping,
+    Pong,
+    Protect,
+    Sensed,
+    Setup,
+    Telemetry,
+)
 from motor_driver.protocol import Arrival, Decoder, pack, unstuff
 
 TIMEOUT = 200  # [tick] of the output under test
@@ -72,9 +87,9 @@ class Board:
 
     CONFIG = core.DeviceConfig(1, 0, 96, 1, 500, 256, 2_000, 2_000, 10_000, LEAD, 100, 0)
 
-    def __init__(self) -> None:
-        self.lib, self.device = core.load(), core.Device()
-        self.lib.device_start(byref(self.device), byref(self.CONFIG), 5, 1)
+    def __init__(self, config: core.DeviceConfig = CONFIG) -> None:
+        self.lib, self.device, self.config = core.load(), core.Device(), config
+        self.lib.device_start(byref(self.device), byref(config), 5, 1)
         self.now, self.seq = 0, 0
         self.decoder = Decoder()
         self.compare = 10_000
@@ -203,3 +218,57 @@ def test_identify_gives_a_hello_and_changes_nothing() -> None:
     (first,) = board.hear()
     board.send(Identify())
     assert board.hear() == [first]
+
+
+SENSING = core.DeviceConfig(1, 0, 96, 1, 500, 256, 2_000, 2_000, 10_000, LEAD, 100, 0, True)
+TRIPPED = Flag.OVERCURRENT | Flag.CURRENT_UNKNOWN
+
+
+def protected(most: int) -> Board:
+    """A board that senses the current, watches it, and is on."""
+    board = Board(SENSING)
+    assert board.send(Protect(512, most, most, 2**30 - 1)) and board.send(Enable(1, 5, 1))
+    return board
+
+
+def tick(board: Board, current: int | None) -> Sensed:
+    """The next sample, after a conversion of the current or without one."""
+    if current is not None:
+        board.device.current = current
+    board.send(Command(100))
+    board.step()
+    frame = board.hear()[0]
+    assert isinstance(frame, Sensed)
+    return frame
+
+
+@pytest.mark.parametrize(("current", "samples", "flag"), [(720, 2, Flag.OVERCURRENT), (None, 10, Flag.CURRENT_UNKNOWN)])
+def test_too_much_current_or_none_converted_is_off_and_says_which(
+    current: int | None, samples: int, flag: Flag
+) -> None:
+    board = protected(200)
+    for _ in range(samples - 1):
+        frame = tick(board, current)
+        assert frame.enabled and not frame.flags & TRIPPED
+    frame = tick(board, current)
+    assert not frame.enabled and frame.flags & TRIPPED == flag
+    assert tick(board, 512).flags & TRIPPED == flag and board.device.output.duty == 0
+
+
+def test_without_a_limit_no_current_need_be_converted() -> None:
+    board = protected(0)
+    assert all(tick(board, None).enabled for _ in range(30))
+
+
+@pytest.mark.parametrize(
+    "frame", [Enable(0), Configure(10_000, 100, 0), Setup(1, 0), Protect(512, 200, 200, 2**30 - 1)]
+)
+def test_a_later_way_off_was_not_the_current(frame: Frame) -> None:
+    board = protected(200)
+    for _ in range(2):
+        latest = tick(board, 720)
+    assert latest.flags & Flag.OVERCURRENT
+    assert board.send(Enable(1, 5, latest.latch - 1))  # a stale one changes nothing
+    assert tick(board, 512).flags & Flag.OVERCURRENT
+    assert board.send(frame)
+    assert not tick(board, 512).flags & TRIPPED

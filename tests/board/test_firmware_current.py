@@ -83,7 +83,7 @@ def protected(make_bench: MakeBench, most: float, rated: float, seconds: float, 
     bench.emulator.supply(3.0)
     bench.emulator.wiring = Wiring(shaft_stuck=True)
     bench.start(period)
-    bench.send(CurrentLimits(GAIN, ZERO, most, rated, seconds).protect(500))
+    bench.send(CurrentLimits(most, rated, seconds).protect(GAIN, ZERO, 500))
     bench.run(20)
     assert bench.all(Protection) and not bench.last(Telemetry).enabled
     bench.enable()
@@ -132,7 +132,7 @@ def test_what_lasts_switches_off_after_a_time_that_goes_with_its_square(
 
 
 def test_limits_are_known_to_hold_and_need_a_sensor(make_bench: MakeBench) -> None:
-    limits = CurrentLimits(GAIN, ZERO, 5.0, 2.0, 0.5).protect(500)
+    limits = CurrentLimits(5.0, 2.0, 0.5).protect(GAIN, ZERO, 500)
     for config, most in ((SENSING, limits.most), (FirmwareConfig(), 0)):
         bench = make_bench(parameters=MOTOR, config=config)
         bench.run(8)

@@ -20,7 +20,7 @@ from motor_driver.frames import (
 )
 from motor_driver.handshake import ASK_EVERY, PATIENCE, Handshake, Phase, reset_cause
 
-LIMITS = CurrentLimits(0.185, 2.5, 5.0, 2.0, 1.0)
+LIMITS = CurrentLimits(5.0, 2.0, 1.0)
 GUARDING = replace(HELLO, firmware_minor=4)
 HELD = Protection(512, 189, 76, (558 - 90) * 31250)  # what LIMITS are on the wire
 ANSWER = replace(HELLO, command_timeout=120, latch=HELLO.latch + 1)  # as asked, and switched off by that

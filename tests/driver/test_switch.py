@@ -1,9 +1,13 @@
 """The output's switch: on only by the user's wish and the board's word, off when in doubt."""
 
+import re
+from dataclasses import replace
+
+import pytest
 from board_frames import TELEMETRY, enabled
 
-from motor_driver.frames import Enable
-from motor_driver.switch import ASK_EVERY, Output, Switch
+from motor_driver.frames import Enable, Flag
+from motor_driver.switch import ASK_EVERY, Output, Switch, reason_off
 
 
 def turned_on() -> Switch:
@@ -44,6 +48,19 @@ def test_a_board_that_switches_off_by_itself_is_noticed_once() -> None:
     switch = turned_on()
     assert switch.hear(enabled(False)) and switch.output is Output.OFF
     assert not switch.hear(enabled(False))
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        (0, "the board switched off"),
+        (Flag.TIMED_OUT, "heard no command for too long"),
+        (Flag.OVERCURRENT, "above current_limit, .* let the motor cool"),
+        (Flag.CURRENT_UNKNOWN, "could not measure the motor's current for ten samples, and current_limit needs it"),
+    ],
+)
+def test_why_a_board_switched_off_is_said(flags: int, words: str) -> None:
+    assert re.search(words, reason_off(replace(TELEMETRY, flags=flags)))
 
 
 def test_an_output_that_is_on_unasked_is_switched_off() -> None:

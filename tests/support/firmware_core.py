@@ -6,6 +6,7 @@ from ctypes import (
     Structure,
     c_bool,
     c_char_p,
+    c_int,
     c_int16,
     c_uint8,
     c_uint16,
@@ -94,8 +95,9 @@ class Guard(Structure):
         ("limits", WireProtect),
         ("current", c_uint16),
         ("above", c_uint8),
+        ("unknown", c_uint8),
         ("heat", c_uint32),
-        ("tripped", c_bool),
+        ("tripped", c_uint8),
     ]
 
 
@@ -117,12 +119,27 @@ class DeviceConfig(Structure):
         ("lead", c_uint32),
         ("first_timeout", c_uint16),
         ("first_decay", c_uint8),
+        ("senses_current", c_bool),
         ("silent_top", c_uint16 * 2),
     ]
 
 
 class Device(Structure):
-    _fields_ = [("config", POINTER(DeviceConfig)), ("edges", EdgeTimer), ("output", Output), ("rest", c_uint8 * 512)]
+    _fields_ = [
+        ("config", POINTER(DeviceConfig)),
+        ("edges", EdgeTimer),
+        ("output", Output),
+        ("guard", Guard),
+        ("reset_cause", c_uint8),
+        ("period", c_uint32),
+        ("compare", c_uint32),
+        ("tick", c_uint32),
+        ("latest", c_uint32),
+        ("timeout", c_uint16),
+        ("supply", c_uint16),
+        ("current", c_uint16),
+        ("rest", c_uint8 * 512),
+    ]
 
 
 class DeviceFrame(Structure):
@@ -138,7 +155,7 @@ RESULTS: dict[str, Any] = {
     "edge_timer_extend": c_uint32,
     "edge_timer_at": Edge,
     "quadrature_at": Edge,
-    "guard_check": c_bool,
+    "guard_check": c_int,
     "device_latch": c_bool,
     "device_next": c_uint16,
     "device_act": c_bool,

@@ -19,6 +19,12 @@ static void set_timeout(struct device *device, uint16_t milliseconds)
     device->output.timeout = device->timeout * device->config->ticks_per_ms;
 }
 
+static void switch_off(struct device *device, enum guard_verdict why)
+{
+    output_off(&device->output);
+    device->guard.tripped = (uint8_t)why;
+}
+
 static uint16_t next_compare(struct device *device)
 {
     uint32_t left = device->tick - device->compare;
@@ -71,7 +77,8 @@ static uint8_t flags_of(const struct device *device, const struct edge *edge)
     flags |= edge->valid ? WIRE_FLAG_EDGE_VALID : 0u;
     flags |= edge->reverse ? WIRE_FLAG_REVERSE : 0u;
     flags |= device->config->channels == 2 ? WIRE_FLAG_TWO_CHANNELS : 0u;
-    flags |= device->guard.tripped ? WIRE_FLAG_OVERCURRENT : 0u;
+    flags |= device->guard.tripped == GUARD_OVERCURRENT ? WIRE_FLAG_OVERCURRENT : 0u;
+    flags |= device->guard.tripped == GUARD_BLIND ? WIRE_FLAG_CURRENT_UNKNOWN : 0u;
     return (uint8_t)flags;
 }
 
@@ -100,9 +107,9 @@ void device_sample(struct device *device, const struct edge_timer *edges)
     struct wire_telemetry *sample = &device->sample;
     struct edge edge = edges->fold > 1 ? quadrature_at(edges, device->latest)
                                        : edge_timer_at(edges, device->latest, device->config->channels == 2);
-    if (guard_check(&device->guard, device->current, device->period) && device->output.on) {
-        output_off(&device->output);
-        device->guard.tripped = true;
+    enum guard_verdict verdict = guard_check(&device->guard, device->current, device->period);
+    if (verdict != GUARD_WELL && device->output.on) {
+        switch_off(device, verdict);
     }
     device->dropped_samples = (uint16_t)(device->dropped_samples + device->sampled);
     device->sampled = true;
@@ -132,7 +139,7 @@ static void act_setup(struct device *device, const struct frame *frame, uint32_t
     struct wire_setup setup;
     wire_get_setup(frame->body, &setup);
     bool folds = device->config->channels == 2 && (setup.quadrature == 2 || setup.quadrature == 4);
-    output_off(&device->output);
+    switch_off(device, GUARD_WELL);
     device->quadrature = folds ? setup.quadrature : 1;
     device->pwm = setup.pwm == WIRE_PWM_SILENT ? WIRE_PWM_SILENT : WIRE_PWM_STANDARD;
     device->set_up = true;
@@ -143,7 +150,7 @@ static void act_protect(struct device *device, const struct frame *frame, uint32
     (void)now;
     struct wire_protect protect;
     wire_get_protect(frame->body, &protect);
-    output_off(&device->output);
+    switch_off(device, GUARD_WELL);
     if (!device->config->senses_current) {
         protect.most = 0;
     }
@@ -156,7 +163,7 @@ static void act_configure(struct device *device, const struct frame *frame, uint
     (void)now;
     struct wire_configure configure;
     wire_get_configure(frame->body, &configure);
-    output_off(&device->output);
+    switch_off(device, GUARD_WELL);
     set_timeout(device, configure.command_timeout);
     device->period = limited(configure.sample_period, device->config->shortest_period, DEVICE_LONGEST_PERIOD);
     device->output.decay = configure.decay == WIRE_DECAY_COAST ? WIRE_DECAY_COAST : WIRE_DECAY_BRAKE;
@@ -178,7 +185,9 @@ static void act_enable(struct device *device, const struct frame *frame, uint32_
     struct wire_enable enable;
     wire_get_enable(frame->body, &enable);
     output_enable(&device->output, &enable, now);
-    device->guard.tripped = device->guard.tripped && !device->output.on;
+    if (enable.on != 1 || device->output.on) {
+        device->guard.tripped = GUARD_WELL;
+    }
 }
 
 static void act_command(struct device *device, const struct frame *frame, uint32_t now)

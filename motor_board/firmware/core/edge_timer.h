@@ -65,8 +65,8 @@ void edge_timer_fall(struct edge_timer *timer, uint16_t counter, bool pending, b
 
 /* The encoder at `now` [tick].
  *
- * Edges captured between a sample's instant and its interrupt belong to the next sample; up to two of them are told
- * apart. Should a second edge overwrite the capture register before the first one's interrupt has read it, both come
+ * Edges captured between a sample's instant and its interrupt belong to the next sample; up to three of them are
+ * told apart. Should a second edge overwrite the capture register before the first one's interrupt has read it, both come
  * with the same time: both count, and the period is that of the pair before. */
 struct edge edge_timer_at(const struct edge_timer *timer, uint32_t now, bool two_channels);
 

@@ -1,6 +1,9 @@
 #include "guard.h"
 
+#include <stdbool.h>
+
 #define PEAK 2u            /* conversions: one may have met a spike of the commutator */
+#define BLIND 10u          /* samples in a row without a conversion: edges delay one, no more */
 #define LONGEST 0xFFFFu    /* [64 tick] 2 s: a product with 2^14 stays below 2^30 */
 #define MOST_HEAT 0x3FFFFFFFul
 
@@ -16,16 +19,19 @@ void guard_set(struct guard *guard, const struct wire_protect *limits)
     if (guard->limits.budget > MOST_HEAT) {
         guard->limits.budget = MOST_HEAT;
     }
-    guard->above = 0;
+    guard->above = guard->unknown = 0;
 }
 
-bool guard_check(struct guard *guard, uint16_t steps, uint32_t period)
+enum guard_verdict guard_check(struct guard *guard, uint16_t steps, uint32_t period)
 {
     const struct wire_protect *limits = &guard->limits;
     if (limits->most == 0) {
-        return false;
+        return GUARD_WELL;
     }
-    if (steps != GUARD_UNKNOWN) { /* else the latest one holds */
+    if (steps == GUARD_UNKNOWN) { /* the latest one holds, for a while */
+        guard->unknown = guard->unknown < BLIND ? (uint8_t)(guard->unknown + 1) : BLIND;
+    } else {
+        guard->unknown = 0;
         guard->current = steps > limits->zero ? (uint16_t)(steps - limits->zero) : (uint16_t)(limits->zero - steps);
         guard->above = guard->current <= limits->most ? 0 : guard->above < PEAK ? (uint8_t)(guard->above + 1) : PEAK;
     }
@@ -41,5 +47,8 @@ bool guard_check(struct guard *guard, uint16_t steps, uint32_t period)
     if (guard->heat > limits->budget) {
         guard->heat = limits->budget;
     }
-    return hot || guard->above >= PEAK;
+    if (hot || guard->above >= PEAK) {
+        return GUARD_OVERCURRENT;
+    }
+    return guard->unknown >= BLIND ? GUARD_BLIND : GUARD_WELL;
 }

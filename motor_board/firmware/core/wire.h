@@ -22,6 +22,7 @@
 #define WIRE_FLAG_REVERSE 8u
 #define WIRE_FLAG_TWO_CHANNELS 16u
 #define WIRE_FLAG_OVERCURRENT 32u
+#define WIRE_FLAG_CURRENT_UNKNOWN 64u
 
 #define WIRE_RESET_CAUSE_POWER_ON 1u
 #define WIRE_RESET_CAUSE_EXTERNAL 2u
@@ -78,7 +79,7 @@ static inline void wire_get_setup(const uint8_t *at, struct wire_setup *frame)
 #define WIRE_PROTECT_SIZE 10u /* byte of body */
 struct wire_protect {
     uint16_t zero; /* [5 V/1024] at A1 without a current */
-    uint16_t most; /* [5 V/1024] beside zero, either way: two samples in a row above it switch off; 0: none does */
+    uint16_t most; /* [5 V/1024] beside zero, either way: two samples in a row above it switch off, and ten without a conversion; 0: none does */
     uint16_t rated; /* [5 V/1024] beside zero; what lasts */
     uint32_t budget; /* sum over samples of (current^2/64 - rated^2/64) x sample_period/64 tick, never below 0, that switches off */
 };

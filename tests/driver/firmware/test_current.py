@@ -14,7 +14,7 @@ from motor_model.parameters import Parameters
 
 SENSING = FirmwareConfig(edges_per_revolution=96, current_sense=True)
 MOTOR = Parameters(LUMPED, ("coulomb_friction",), **ELECTRIC)
-LIMITED = Config(current_gain=0.185, current_limits=CurrentLimits(0.185, 2.5, 4.0, 2.0, 0.2))
+LIMITED = Config(current_gain=0.185, current_limits=CurrentLimits(4.0, 2.0, 0.2))
 
 
 @pytest.mark.parametrize(("volts", "stops"), [(11.0, True), (4.0, False)])
