@@ -108,10 +108,18 @@ def _changed_elements(data: bytes, random: Random) -> bytes:
             kind = random.choice((kind, kind, kind, random.randrange(20)))
             size = random.choice((len(body), len(body), len(body), random.choice(mcap_mutation.INTEGERS) % 2**32))
         out += (pack("<II", kind, size) + body) * random.choice((1, 1, 1, 1, 0, 2))
-    if random.random() < 0.05:  # a megabyte of nothing in a kilobyte
-        bomb = zlib.compress(pack("<IIIIII", 14, 1 << 28, 6, 8, 6, 0) + bytes(1 << 26))
-        out += pack("<II", 15, len(bomb)) + bomb
-    return out
+    return out + _bomb(random.choice(("bytes", "dimensions"))) if random.random() < 0.05 else out
+
+
+@cache
+def _bomb(kind: str) -> bytes:
+    """A variable that says the truth of itself: half a gigabyte of float64 in 70 kB, or a million dimensions in 8."""
+    count = 1 << 26 if kind == "bytes" else 1
+    shape = pack("<2i", count, 1) if kind == "bytes" else pack("<i", 2**31 - 1) * 1_000_000
+    inner = pack("<IIII", 6, 8, 6, 0) + pack("<II", 5, len(shape)) + shape + pack("<HHI", 1, 1, ord("b"))
+    inner += pack("<II", 2, count) + bytes(count + -count % 8)
+    packed = zlib.compress(pack("<II", 14, len(inner)) + inner)
+    return pack("<II", 15, len(packed)) + packed
 
 
 def json_log(draw: Draw, random: Random, folder: Path) -> list[str]:
@@ -169,6 +177,9 @@ def _odd_log(draw: Draw, random: Random) -> bytes:
     names = ("voltage", "position", "velocity", "sysid-test-state-x", *WORDS)
     units = ("", "Volt", "Rotation", "Meter per Second", " per ", "Rotation per Rotation", "é" * 3000)
     count = random.choice((1, 3, 3, 6, 1100))
+    if random.random() < 0.02:  # entries that are looked for in a list take minutes
+        for k in range(100_000):
+            log.start(f"{k}", "double")
     for _ in range(count):
         name = random.choice(names).encode("utf-8", "replace").decode()
         log.start(name + random.choice(("", "2")), random.choice(kinds), random.choice(units))

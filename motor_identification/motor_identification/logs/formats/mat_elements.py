@@ -22,10 +22,12 @@ from motor_model.errors import MotorError
 HEADER = 128  # bytes
 MATRIX, COMPRESSED = 14, 15
 TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8"}
-CELL, STRUCT, NUMERIC = 1, 2, range(6, 16)
+CELL, STRUCT, NUMERIC = 1, 2, range(6, 16)  # beyond: objects, whose elements are in another order
 COMPLEX = 0x0800  # in the flags
-DEEPEST, MOST_FIELDS = 6, 1000
+DEEPEST, MOST_FIELDS, MOST_DIMENSIONS = 6, 1000, 32
 MOST_BYTES = 2**29  # unpacked, of all
+MOST_NUMBERS = 64_000_000  # of all, since each becomes a float64, though it may be packed as a byte: 512 MB
+MOST_ELEMENTS = 20_000  # variables and fields of all
 Value: TypeAlias = "NDArray[Any] | dict[str, Value]"
 
 
@@ -33,49 +35,78 @@ class BrokenFileError(MotorError):
     """What the file says of itself cannot be."""
 
 
+class TooLargeError(MotorError):
+    """The file holds more than fits an ordinary memory."""
+
+
 @dataclass(frozen=True)
 class Element:
     """A tagged piece."""
 
     type: int
-    data: bytes
+    data: memoryview
+
+
+@dataclass
+class _Tally:
+    """A file's byte order, and how much of it has been read."""
+
+    order: str
+    elements: int = 0
+    numbers: int = 0
+
+    def add(self, elements: int = 0, numbers: int = 0) -> None:
+        """Count.
+
+        Raises:
+            TooLargeError: it is too much.
+        """
+        self.elements, self.numbers = self.elements + elements, self.numbers + numbers
+        if self.elements > MOST_ELEMENTS:
+            raise TooLargeError(f"more than {MOST_ELEMENTS} variables and fields")
+        if self.numbers > MOST_NUMBERS:
+            raise TooLargeError(f"more than {MOST_NUMBERS // 10**6} million numbers")
 
 
 def read_variables(data: bytes) -> dict[str, Value]:
     """Read matrices of shape (rows, columns) by name, and structs of one element as dictionaries of such.
 
     Raises:
-        BrokenFileError: a tag, a size, a type or a dimension cannot be, or it is unpacked more than 512 MiB.
+        BrokenFileError: a tag, a size, a type or a dimension cannot be.
+        TooLargeError: it is unpacked more than 512 MiB, 64 million numbers or 20,000 variables and fields.
     """
+    if len(data) > MOST_BYTES:
+        raise TooLargeError(f"more than {MOST_BYTES >> 20} MiB")
     if len(data) < HEADER or data[126:128] not in (b"IM", b"MI"):
         raise BrokenFileError("it has no header")
-    order = "<" if data[126:128] == b"IM" else ">"
+    tally = _Tally("<" if data[126:128] == b"IM" else ">")
     found: dict[str, Value] = {}
     unpacked = len(data)
-    for element in _elements(data, HEADER, order):
+    for element in _elements(memoryview(data), HEADER, tally.order):
+        tally.add(elements=1)
         if element.type == COMPRESSED:
             inner = _unpack(element.data, MOST_BYTES - unpacked)
             unpacked += len(inner)
-            element = next(_elements(inner, 0, order), element)
+            element = next(_elements(inner, 0, tally.order), element)
         if element.type == MATRIX:
-            name, value = _matrix(element.data, order, 0)
+            name, value = _matrix(element.data, tally, 0)
             if value is not None:
                 found[name] = value
     return found
 
 
-def _unpack(data: bytes, most: int) -> bytes:
+def _unpack(data: memoryview, most: int) -> memoryview:
     unpacking = zlib.decompressobj()
     try:
         inner = unpacking.decompress(data, most + 1)
     except zlib.error as error:
         raise BrokenFileError("a variable cannot be unpacked") from error
     if len(inner) > most:
-        raise BrokenFileError(f"it has more than {MOST_BYTES >> 20} MiB unpacked")
-    return inner
+        raise TooLargeError(f"more than {MOST_BYTES >> 20} MiB unpacked")
+    return memoryview(inner)
 
 
-def _elements(data: bytes, position: int, order: str) -> Iterator[Element]:
+def _elements(data: memoryview, position: int, order: str) -> Iterator[Element]:
     """The pieces one after the other; small ones have type and size in one word."""
     while position + 8 <= len(data):
         kind, size = unpack_from(order + "II", data, position)
@@ -92,47 +123,60 @@ def _elements(data: bytes, position: int, order: str) -> Iterator[Element]:
         )
 
 
-def _matrix(data: bytes, order: str, depth: int) -> tuple[str, Value | None]:
+def _matrix(data: memoryview, tally: _Tally, depth: int) -> tuple[str, Value | None]:
     """Name and value of a matrix; None where it has no real numbers."""
-    parts = _elements(data, 0, order)
+    tally.add(elements=1)
+    parts = _elements(data, 0, tally.order)
     head = [part for _, part in zip(range(3), parts, strict=False)]
-    if len(head) < 3 or len(head[0].data) < 8 or len(head[1].data) % 4:
+    if len(head) < 3 or len(head[0].data) < 8:
         return "", None
-    flags = unpack_from(order + "I", head[0].data)[0]
-    shape = unpack_from(f"{order}{len(head[1].data) // 4}i", head[1].data)
-    name = head[2].data.decode("latin-1")
-    if any(size < 0 for size in shape) or prod(shape) > MOST_BYTES:
-        raise BrokenFileError("a dimension cannot be")
+    flags = unpack_from(tally.order + "I", head[0].data)[0]
     kind = flags & 0xFF
+    if kind >= NUMERIC.stop:
+        return "", None
+    shape = _shape(head[1].data, tally.order)
+    name = bytes(head[2].data).decode("latin-1")
     if kind in NUMERIC and not flags & COMPLEX and len(shape) == 2:
-        return name, _numbers(next(parts, None), shape, order)
+        return name, _numbers(next(parts, None), shape, tally)
     if kind == STRUCT and prod(shape) == 1 and depth < DEEPEST:
-        return name, _fields(parts, order, depth)
+        return name, _fields(parts, tally, depth)
     if kind == CELL and prod(shape) == 1 and depth < DEEPEST:
         inner = next(parts, None)
-        return name, _matrix(inner.data, order, depth + 1)[1] if inner is not None and inner.type == MATRIX else None
+        return name, _matrix(inner.data, tally, depth + 1)[1] if inner is not None and inner.type == MATRIX else None
     return name, None
 
 
-def _numbers(part: Element | None, shape: tuple[int, ...], order: str) -> NDArray[Any]:
+def _shape(data: memoryview, order: str) -> tuple[int, ...]:
+    count = len(data) // 4
+    if len(data) % 4 or not 2 <= count <= MOST_DIMENSIONS:  # a product of many takes minutes
+        raise BrokenFileError("a dimension cannot be")
+    shape = unpack_from(f"{order}{count}i", data)
+    if any(size < 0 for size in shape) or prod(shape) > MOST_BYTES:
+        raise BrokenFileError("a dimension cannot be")
+    return shape
+
+
+def _numbers(part: Element | None, shape: tuple[int, ...], tally: _Tally) -> NDArray[Any]:
     if part is None or part.type not in TYPES:
         raise BrokenFileError("there is no such type of numbers")
-    kind = np.dtype(order + TYPES[part.type])
+    kind = np.dtype(tally.order + TYPES[part.type])
     if len(part.data) != prod(shape) * kind.itemsize:
         raise BrokenFileError("a matrix has other dimensions than numbers")
+    tally.add(numbers=prod(shape))
     return np.frombuffer(part.data, kind).reshape(shape, order="F")
 
 
-def _fields(parts: Iterator[Element], order: str, depth: int) -> dict[str, Value]:
+def _fields(parts: Iterator[Element], tally: _Tally, depth: int) -> dict[str, Value]:
     sizes, names = next(parts, None), next(parts, None)
     if sizes is None or names is None or len(sizes.data) < 4:
         raise BrokenFileError("a struct has no fields")
-    length = unpack_from(order + "i", sizes.data)[0]
+    length = unpack_from(tally.order + "i", sizes.data)[0]
     if not 0 < length <= 256 or len(names.data) // length > MOST_FIELDS:
         raise BrokenFileError("a struct's fields cannot be")
     found: dict[str, Value] = {}
-    for begin, part in zip(range(0, len(names.data), length), parts, strict=False):
-        value = _matrix(part.data, order, depth + 1)[1] if part.type == MATRIX else None
+    texts = bytes(names.data)
+    for begin, part in zip(range(0, len(texts), length), parts, strict=False):
+        value = _matrix(part.data, tally, depth + 1)[1] if part.type == MATRIX else None
         if value is not None:
-            found[names.data[begin : begin + length].split(b"\0")[0].decode("latin-1")] = value
+            found[texts[begin : begin + length].split(b"\0")[0].decode("latin-1")] = value
     return found

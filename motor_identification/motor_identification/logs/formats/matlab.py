@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.formats.mat_elements import BrokenFileError, Value, read_variables
+from motor_identification.logs.formats.mat_elements import BrokenFileError, TooLargeError, Value, read_variables
 from motor_model.errors import RecordingError
 
 
@@ -16,15 +16,16 @@ def read_matlab(path: Path) -> Table:
     Raises:
         RecordingError: the file is damaged, too large, or has no two vectors of one length.
     """
+    vectors: dict[str, Any] = {}
     try:
-        content = read_variables(path.read_bytes())
+        for name, value in read_variables(path.read_bytes()).items():
+            _collect(name, value, vectors)
+    except TooLargeError as error:
+        raise RecordingError(f"{path} is too large ({error}): cut it into parts.") from error
     except MemoryError as error:
         raise RecordingError(f"{path} does not fit the memory: cut it into parts.") from error
     except BrokenFileError as error:
         raise RecordingError(f"{path} is a damaged MATLAB file ({error}): save it again with -v7.") from error
-    vectors: dict[str, Any] = {}
-    for name, value in content.items():
-        _collect(name, value, vectors)
     lengths = [len(vector) for vector in vectors.values() if len(vector) >= 2]
     if not lengths:
         raise RecordingError(f"{path} has no vectors of numbers: save time, voltage and motion as vectors.")

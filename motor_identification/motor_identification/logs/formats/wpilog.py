@@ -6,8 +6,9 @@ Numbers that come only when they change, or some microseconds after one another 
 rows of the entry that came most often.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
+from itertools import count
 from pathlib import Path
 from struct import calcsize, unpack_from
 from typing import Any
@@ -55,19 +56,39 @@ def read_wpilog(path: Path) -> tuple[Table, str | None]:
     rows = _rows_of(numbers)
     if len(rows) * len(numbers) > MOST_NUMBERS:
         raise RecordingError(f"{path} has {len(rows)} rows of {len(numbers)} numbers: export fewer of them as CSV.")
-    state = next((entry for entry in entries if entry.kind == "string" and STATE in entry.name), None)
-    tests = _at(state, rows, "") if state else None
-    chosen = np.array([test not in ("", NO_TEST) for test in tests], np.bool_) if tests is not None else None
-    if chosen is None or chosen.sum() < 2:
-        tests, chosen = None, np.ones(len(rows), np.bool_)
-    cells: dict[str, Any] = {"test": tests[chosen]} if tests is not None else {}
+    states = [entry for entry in entries if entry.kind == "string" and STATE in entry.name]
+    tests = _tests_at(states, rows)
+    chosen = tests != ""
+    split = "test" if chosen.sum() >= 2 else None
+    if split is None:
+        chosen = np.ones(len(rows), np.bool_)
+    cells: dict[str, Any] = {"test": tests[chosen]} if split else {}
     cells["time [s]"] = rows[chosen] * 1e-6
     for entry in numbers:
-        cells[f"{entry.name} [{entry.unit}]" if entry.unit else entry.name] = _at(entry, rows, np.nan)[chosen]
+        cells[_free_name(entry, cells)] = _at(entry, rows, np.nan)[chosen]
     notes = [f"WPILOG of {len(numbers)} series; rows are those of {max(numbers, key=lambda e: len(e.times)).name}."]
+    if split and len(states) > 1:
+        notes.append(f"Tests of {len(states)} mechanisms, named before each: choose the columns of one.")
     notes += [f"{path} is damaged or cut off: what follows byte {cut} is not read."] if cut else []
     table = Table(path, np.arange(1, int(chosen.sum()) + 1), cells, notes=tuple(notes))
-    return table, None if tests is None else "test"
+    return table, split
+
+
+def _tests_at(states: list[Entry], rows: NDArray[np.float64]) -> NDArray[Any]:
+    """Which test runs at each row, with its mechanism where there are several; empty where none does."""
+    tests = np.zeros(len(rows), dtype="U201")
+    for state in states:
+        mechanism = state.name.partition(STATE)[2].strip("-_ /")[:100] if len(states) > 1 else ""
+        for k, test in enumerate(_at(state, rows, "")):
+            if test not in ("", NO_TEST) and not tests[k]:
+                tests[k] = f"{mechanism} {test}".strip()
+    return tests
+
+
+def _free_name(entry: Entry, taken: Collection[str]) -> str:
+    """A column for an entry that no other has: the table has a `test` of its own, and names may be of two kinds."""
+    name = f"{entry.name} [{entry.unit}]" if entry.unit else entry.name
+    return next(one for k in count(1) if (one := name if k == 1 else f"{name} ({k})") not in taken)
 
 
 def _read_entries(path: Path, data: bytes) -> tuple[list[Entry], int]:
@@ -75,15 +96,17 @@ def _read_entries(path: Path, data: bytes) -> tuple[list[Entry], int]:
     if len(data) < 12 or unpack_from("<H", data, 6)[0] >> 8 != VERSION >> 8:
         raise RecordingError(f"{path} is a WPILOG of another version than 1: export it as CSV.")
     started: dict[int, Entry] = {}
-    found: list[Entry] = []
+    found: dict[tuple[str, str], Entry] = {}  # by name and kind
     position = 12 + unpack_from("<I", data, 8)[0]
+    if position > len(data):
+        raise RecordingError(f"{path} is damaged: its header says that it is longer than the file; copy it again.")
     for number, time, payload, end in _records(data, position):
         position = end
         if number == 0:
             _start(payload, started, found)
         elif (entry := started.get(number)) is not None:
             _take(entry, time, payload)
-    return found, position if position < len(data) else 0
+    return list(found.values()), position if position < len(data) else 0
 
 
 def _records(data: bytes, position: int) -> Iterator[tuple[int, int, bytes, int]]:
@@ -100,7 +123,7 @@ def _records(data: bytes, position: int) -> Iterator[tuple[int, int, bytes, int]
         yield parts[0], parts[2], data[at:position], position
 
 
-def _start(payload: bytes, started: dict[int, Entry], found: list[Entry]) -> None:
+def _start(payload: bytes, started: dict[int, Entry], found: dict[tuple[str, str], Entry]) -> None:
     """Take a control record: an entry starts, or ends; what else there is, is left out."""
     if len(payload) < 5:
         return
@@ -116,12 +139,11 @@ def _start(payload: bytes, started: dict[int, Entry], found: list[Entry]) -> Non
         size = unpack_from("<I", payload, at)[0]
         texts.append(payload[at + 4 : at + 4 + size].decode("utf-8", "replace"))
         at += 4 + size
-    before = next((one for one in found if one.name == texts[0] and one.kind == texts[1]), None)
-    if before is None and len(found) < 20 * MOST_NAMES:
-        before = Entry(texts[0], texts[1], _unit(texts[2]))
-        found.append(before)
-    if before is not None:
-        started[number] = before
+    name, kind, metadata = texts
+    if (name, kind) not in found and len(found) < 20 * MOST_NAMES:
+        found[name, kind] = Entry(name, kind, _unit(metadata))
+    if (name, kind) in found:
+        started[number] = found[name, kind]
 
 
 def _take(entry: Entry, time: int, payload: bytes) -> None:

@@ -58,16 +58,83 @@ def test_a_file_that_grows_too_large(tmp_path: Path, monkeypatch: pytest.MonkeyP
         read_matlab(tmp_path / "log.mat")
 
 
+def matrix(name: str, shape: tuple[int, ...], kind: int, numbers: bytes, order: str = "<", sort: int = 6) -> bytes:
+    """A variable, not compressed."""
+
+    def tagged(kind: int, data: bytes) -> bytes:
+        return pack(order + "II", kind, len(data)) + data + bytes(-len(data) % 8)
+
+    head = tagged(6, pack(order + "II", sort, 0)) + tagged(5, pack(f"{order}{len(shape)}i", *shape))
+    return tagged(14, head + tagged(1, name.encode()) + tagged(kind, numbers))
+
+
+def mat_file(variables: bytes, order: str = "<") -> bytes:
+    return b"MATLAB 5.0".ljust(124) + pack(order + "H", 0x0100) + (b"IM" if order == "<" else b"MI") + variables
+
+
+def two(kind: int, numbers: bytes, count: int, order: str = "<") -> bytes:
+    return mat_file(
+        matrix("t", (count, 1), kind, numbers, order) + matrix("u", (count, 1), kind, numbers, order), order
+    )
+
+
 def test_numbers_as_matlab_packs_them(tmp_path: Path) -> None:
     """Doubles that are whole numbers are stored in bytes, and on other computers the other way round."""
-    for order, mark in (("<", b"IM"), (">", b"MI")):
-
-        def tagged(kind: int, data: bytes, order: str = order) -> bytes:
-            return pack(order + "II", kind, len(data)) + data + bytes(-len(data) % 8)
-
-        data = b"MATLAB 5.0".ljust(124) + pack(order + "H", 0x0100) + mark
-        for name in "tu":
-            head = tagged(6, pack(order + "II", 6, 0)) + tagged(5, pack(order + "ii", 3, 1)) + tagged(1, name.encode())
-            data += tagged(14, head + tagged(3, pack(order + "3h", 1, -2, 3)))
-        (tmp_path / "log.mat").write_bytes(data)
+    for order in "<>":
+        (tmp_path / "log.mat").write_bytes(two(3, pack(order + "3h", 1, -2, 3), 3, order))
         assert read_matlab(tmp_path / "log.mat").numbers("u").tolist() == [1.0, -2.0, 3.0]
+
+
+@pytest.mark.parametrize(("most", "enough"), [(100, True), (99, False)])
+def test_numbers_are_counted_as_they_will_be_not_as_they_are_packed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most: int, enough: bool
+) -> None:
+    (tmp_path / "log.mat").write_bytes(two(2, bytes(50), 50))
+    monkeypatch.setattr(mat_elements, "MOST_NUMBERS", most)
+    if enough:
+        assert len(read_matlab(tmp_path / "log.mat")) == 50
+        return
+    with pytest.raises(RecordingError, match="is too large \\(more than 0 million numbers\\): cut it into parts"):
+        read_matlab(tmp_path / "log.mat")
+
+
+@pytest.mark.parametrize(("most", "enough"), [(4, True), (3, False)])
+def test_variables_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most: int, enough: bool) -> None:
+    (tmp_path / "log.mat").write_bytes(two(2, bytes(50), 50))
+    monkeypatch.setattr(mat_elements, "MOST_ELEMENTS", most)
+    if enough:
+        assert len(read_matlab(tmp_path / "log.mat")) == 50
+        return
+    with pytest.raises(RecordingError, match="is too large \\(more than 3 variables and fields\\)"):
+        read_matlab(tmp_path / "log.mat")
+
+
+@pytest.mark.parametrize("beyond", [1, 0])
+def test_a_file_that_is_too_large_before_anything_is_unpacked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, beyond: int
+) -> None:
+    """What is left to unpack is then negative, or 0, which zlib takes for no limit."""
+    packed = zlib.compress(matrix("t", (50, 1), 2, bytes(50)))
+    data = mat_file(pack("<II", 15, len(packed)) + packed)
+    (tmp_path / "log.mat").write_bytes(data)
+    monkeypatch.setattr(mat_elements, "MOST_BYTES", len(data) - beyond)
+    with pytest.raises(RecordingError, match="is too large \\(more than 0 MiB"):
+        read_matlab(tmp_path / "log.mat")
+
+
+@pytest.mark.parametrize("dimensions", [1, 2, 32, 33, 10**6])
+def test_a_matrix_has_a_few_dimensions(tmp_path: Path, dimensions: int) -> None:
+    """A product of a million of them would take minutes. Matrices of more than two are left out."""
+    odd = matrix("odd", (1,) * dimensions if dimensions < 10**6 else (2**31 - 1,) * dimensions, 2, bytes(1))
+    (tmp_path / "log.mat").write_bytes(two(2, bytes(50), 50) + odd)
+    if dimensions in (2, 32):
+        assert read_matlab(tmp_path / "log.mat").names == ["t", "u"]
+        return
+    with pytest.raises(RecordingError, match="a dimension cannot be"):
+        read_matlab(tmp_path / "log.mat")
+
+
+def test_an_object_is_left_out(tmp_path: Path) -> None:
+    """Where a matrix has its dimensions, a table or a string has a text."""
+    (tmp_path / "log.mat").write_bytes(two(2, bytes(50), 50) + matrix("when", (0x7F7F7F7F,) * 3, 2, b"", sort=17))
+    assert read_matlab(tmp_path / "log.mat").names == ["t", "u"]

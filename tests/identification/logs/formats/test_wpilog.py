@@ -71,12 +71,44 @@ def test_values_that_come_only_when_they_change_are_held(tmp_path: Path) -> None
     ("data", "words"),
     [
         (b"WPILOG\x00\x02" + bytes(4), "of another version than 1"),
+        (b"WPILOG\x00\x01\xff\0\0\0", "is damaged: its header says that it is longer than the file"),
         (b"WPILOG\x00", "of another version than 1"),
         (b"WPILOG\x00\x01" + bytes(4), "has no two series of numbers"),
-        (b"WPILOG\x00\x01" + b"\xff" * 40, "has no two series of numbers"),
+        (b"WPILOG\x00\x01" + bytes(4) + b"\xff" * 40, "has no two series of numbers"),
     ],
 )
 def test_what_is_none_is_a_sentence(data: bytes, words: str, tmp_path: Path) -> None:
     (tmp_path / "log").write_bytes(data)
     with pytest.raises(RecordingError, match=words):
         read_wpilog(tmp_path / "log")
+
+
+def test_two_mechanisms_have_their_tests_both(tmp_path: Path) -> None:
+    log = Log()
+    drive, arm = (log.start(f"sysid-test-state-{name}", "string") for name in ("drive", "arm"))
+    voltage, angle = log.start("u", "double"), log.start("angle", "double")
+    for k in range(30):
+        log.put(drive, "dynamic-forward" if k < 10 else "none", 1000 * k)
+        log.put(arm, "dynamic-forward" if k >= 20 else "none", 1000 * k)
+        log.put(voltage, 1.0, 1000 * k)
+        log.put(angle, float(k), 1000 * k)
+    (tmp_path / "log").write_bytes(log.data)
+    table, split = read_wpilog(tmp_path / "log")
+    assert split == "test" and "Tests of 2 mechanisms" in table.notes[1]
+    assert list(table.column("test")) == ["drive dynamic-forward"] * 10 + ["arm dynamic-forward"] * 10
+    assert table.numbers("angle").tolist() == [*range(10), *range(20, 30)]
+
+
+def test_columns_of_one_name_are_told_apart(tmp_path: Path) -> None:
+    log = Log()
+    log.start("sysid-test-state-drive", "string")
+    entries = [log.start(*of) for of in (("test", "double"), ("time [s]", "double"), ("u", "double"), ("u", "int64"))]
+    for k in range(5):
+        log.put(1, "quasistatic-forward", 1000 * k)
+        for entry in entries:
+            log.put(entry, entry, 1000 * k)
+    (tmp_path / "log").write_bytes(log.data)
+    table, _ = read_wpilog(tmp_path / "log")
+    assert table.names == ["test", "time [s]", "test (2)", "time [s] (2)", "u", "u (2)"]
+    assert table.numbers("time [s]") == pytest.approx(np.arange(5) * 1e-3)
+    assert [table.numbers(name)[0] for name in table.names[2:]] == [2.0, 3.0, 4.0, 5.0]
