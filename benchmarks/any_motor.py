@@ -28,6 +28,7 @@ RATES = (20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)  # [Hz]
 EDGES = (6, 8, 12, 20, 48, 96, 200, 500, 1000, 2048, 2880, 8192)
 USUAL = np.array([12.0, 174.0, 0.1])  # [V], [rad/s], [s] of the motor that the confusion table's sizes are made for
 FASTEST = 40_000.0  # [1/s] edges that a timer's capture keeps up with
+MOST_EDGES = 5_000.0  # in a time constant at top speed: half a million of a recording
 SAMPLES = 100.0  # of a time constant at most: 28,000 of a recording
 KINDS = ("right", "right, not all", "silent", "wrong")
 # How a size grows with [V], [rad/s] and [s] of the motor; what is not here is a share.
@@ -117,7 +118,8 @@ def draw(seed: int) -> Case:
     rate = float(random.choice([rate for rate in RATES if min(3.0, RATES[-1] * lag) <= rate * lag <= SAMPLES]))
     while True:
         top, edges = _between(random, 3.0, 6000.0), int(random.choice(EDGES))
-        if top * lag * edges >= 10.0 * 2.0 * np.pi and top * edges <= FASTEST * 2.0 * np.pi:
+        turns = top * lag / (2.0 * np.pi)  # in a time constant at top speed
+        if 10.0 <= turns * edges <= MOST_EDGES and turns * edges <= FASTEST * lag:
             break
     kv = supply / top
     values = {"kv": kv, "ka": kv * lag * random.uniform(0.8, 1.2), "max_voltage": supply}

@@ -72,17 +72,39 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     spectrum = _spectrum(runs, rough, blocks, problem.raise_if_stopped)
     if spectrum.max() - 2.0 * sum(int(block.max()) + 1 for block in blocks) < least:
         return []
-    around = np.arange(-PEAK_REACH * width, PEAK_REACH * width, 1.0 / (POINTS_PER_LINE * max(turns, 1.0)))
-    likely = [rough[peak] + around for peak in _peaks(spectrum, ROUGH_PEAKS)]
     counted = [run.course.run for run in runs]
-    likely.sort(key=lambda fine: -_spectrum(runs, fine, counted, problem.raise_if_stopped).max())
+    of_run = 1.0 / (POINTS_PER_LINE * max(1.0, *(_longest_run(run) for run in runs)))
+    around = np.arange(-PEAK_REACH * width, PEAK_REACH * width, of_run)
+    likely: list[tuple[float, float]] = []  # how much each peak explains at best, and where
+    for peak in _peaks(spectrum, ROUGH_PEAKS):
+        closer = _spectrum(runs, rough[peak] + around, counted, problem.raise_if_stopped)
+        likely.append((float(closer.max()), float((rough[peak] + around)[np.argmax(closer)])))
     found, slots = [], [(data.slot, data.gear) for data in problem.intervals]
-    for fine in likely[:FINE_CANDIDATES]:
+    around = np.arange(-PEAK_REACH * of_run, PEAK_REACH * of_run, 1.0 / (POINTS_PER_LINE * max(turns, 1.0)))
+    for middle in _apart([cycles for _, cycles in sorted(likely, reverse=True)], of_run)[:FINE_CANDIDATES]:
         problem.raise_if_stopped()
-        lines = [_fit_line(runs, tracks, cycles, slots) for cycles in fine]
+        lines = [_fit_line(runs, tracks, cycles, slots) for cycles in middle + around]
         found.append(max(lines, key=lambda line: line.explained))
     chance = SLIP_CHANCE * sum(int(run.course.run.max()) + SLIP_CHANCE_BASE for run in runs) if least > 0.0 else 0.0
     return sorted((line for line in found if line.explained > max(least, chance)), key=lambda line: -line.explained)
+
+
+def _longest_run(run: _Run) -> float:
+    """Measure the longest counted run of a recording in turns."""
+    begin, end = np.full((2, int(run.course.run.max(initial=0)) + 1), [[np.inf], [-np.inf]])
+    for angle in (run.course.start, run.course.end):
+        np.minimum.at(begin, run.course.run, angle)
+        np.maximum.at(end, run.course.run, angle)
+    return float((end - begin).max()) / tau
+
+
+def _apart(cycles: Sequence[float], width: float) -> list[float]:
+    """Leave out what is within a line's width of one before."""
+    kept: list[float] = []
+    for one in cycles:
+        if all(abs(one - other) > POINTS_PER_LINE * width for other in kept):
+            kept.append(one)
+    return kept
 
 
 def _spectrum(runs: Sequence[_Run], cycles: Floats, blocks: Sequence[Integers], go_on: Callable[[], None]) -> Floats:
@@ -98,14 +120,17 @@ def _powers(run: _Run, cycles: Floats, block: Integers, go_on: Callable[[], None
     """
     shapes = np.array([_sums(run, knot, block) for knot in cycles[::KNOT_DISTANCE]])
     knots = 0.5 * (shapes[:, :, 0] + shapes[:, :, 2])  # sine and cosine are as good as independent in every block
-    at = np.arange(len(cycles)) / KNOT_DISTANCE
-    sizes = np.array([np.interp(at, np.arange(len(knots)), column) for column in knots.T]).T
-    squares = []
+    powers: list[Floats] = []
     for along, across in run.course.products(run.encoder.pull(run.colour.whiten_adjoint(run.white)), cycles, block):
         go_on()
-        squares.append(along**2 + across**2)
-    parts = np.concatenate(squares)
-    return np.asarray(np.divide(parts, sizes, where=sizes > 0.0, out=np.zeros_like(parts)).sum(axis=1))
+        at = (sum(map(len, powers)) + np.arange(len(along))) / KNOT_DISTANCE
+        low, part = np.divmod(np.minimum(at, len(knots) - 1.0), 1.0)
+        first = low.astype(np.int64)
+        second = np.minimum(first + 1, len(knots) - 1)
+        sizes = knots[first] * (1.0 - part)[:, None] + knots[second] * part[:, None]
+        squares = along**2 + across**2
+        powers.append(np.divide(squares, sizes, where=sizes > 0.0, out=np.zeros_like(squares)).sum(axis=1))
+    return np.concatenate(powers)
 
 
 def fit_ripple(estimate: Estimate, tracks: Sequence[Track], cycles: float) -> Ripple:
