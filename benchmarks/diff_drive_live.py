@@ -11,7 +11,7 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from math import degrees, hypot, pi
+from math import atan2, degrees, hypot, pi
 from pathlib import Path
 from typing import Any
 
@@ -73,29 +73,41 @@ def drive(way: float, rate: float) -> str:
             _settle(bench, 3.0)
             for one in states.values():
                 one.clear()
-            first = poses[-1].pose.pose.position
-            corners = []
+            path = [poses[-1].pose.pose]
             for twist, seconds in plan_of(way):
-                until = time.monotonic() + seconds
-                while time.monotonic() < until:
-                    message = Twist()
-                    message.linear.x, message.angular.z = twist.linear, twist.angular
-                    command.publish(message)
-                    _settle(bench, min(EVERY, max(until - time.monotonic(), 0.0)))
-                corners.append(poses[-1].pose.pose.position)
-            last = poses[-1].pose.pose
+                _publish(bench, command, twist, seconds)
+                path.append(poses[-1].pose.pose)
         finally:
             bench.close()
             quit_all(running)
             for process in running:
                 said = process.communicate()[1].strip().splitlines()
                 print(process.args[0].rsplit("/")[-1], said[-2:], file=sys.stderr)
+    return _row_of(way, path, [state for one in states.values() for state in one])
+
+
+def _publish(bench: Bench, command: Any, twist: Any, seconds: float) -> None:
+    """Publish a velocity for so long."""
+    until = time.monotonic() + seconds
+    while time.monotonic() < until:
+        message = Twist()
+        message.linear.x, message.angular.z = twist.linear, twist.angular
+        command.publish(message)
+        _settle(bench, min(EVERY, max(until - time.monotonic(), 0.0)))
+
+
+def _row_of(way: float, path: list[Any], states: list[ControlState]) -> str:
+    """The table's row: poses at the start and after each velocity, and what the controllers said."""
+    first, last = path[0].position, path[-1]
     gap = hypot(last.position.x - first.x, last.position.y - first.y)
     turned = 2.0 * degrees(abs(pi / 2.0 - abs(pi / 2.0 - _half(last.orientation))))
     wanted = ((SIDE, 0.0), (SIDE, way * SIDE), (0.0, way * SIDE), (0.0, 0.0))
-    corner = max(hypot(p.x - first.x - x, p.y - first.y - y) for p, (x, y) in zip(corners[2::4], wanted, strict=True))
-    counted = Counter(state.state for one in states.values() for state in one)
-    latency = sorted(1e3 * state.latency for one in states.values() for state in one)
+    corner = max(
+        hypot(at.position.x - first.x - x, at.position.y - first.y - y)
+        for at, (x, y) in zip(path[3::4], wanted, strict=True)
+    )
+    counted = Counter(state.state for state in states)
+    latency = sorted(1e3 * state.latency for state in states)
     ran = counted["running"] / max(sum(counted.values()), 1)
     p99 = latency[int(0.99 * len(latency))]
     side = "left" if way > 0 else "right"
@@ -104,8 +116,6 @@ def drive(way: float, rate: float) -> str:
 
 def _half(q: Any) -> float:
     """Half of the heading [rad], 0 to pi."""
-    from math import atan2
-
     return atan2(q.z, q.w) % pi
 
 

@@ -30,7 +30,8 @@ BAD_INFO = "motor/info says {} = {:g}, which cannot be: correct it in the plant.
 
 TOO_FEW_EDGES = (
     "By its model this motor shows {:.2g} edges a second at top speed, and below {:g} a standstill is reported: "
-    "nothing tells a lost line or a wrong direction. Use an encoder with more edges. The motor gets 0 V until then."
+    "a lost encoder line or a wrong direction could not be detected. Use an encoder with more edges. "
+    "The motor gets 0 V until then."
 )
 
 

@@ -60,7 +60,7 @@ class _Terminal:
         self._port = open_port(port, options.baud)
         config = config_of(settings, options.baud, decay, Pwm.SILENT if options.silent_pwm else Pwm.STANDARD)
         self._run = FirstRun(settings, config, port, time.monotonic_ns(), roll_call)
-        self._shown, self._ended = 0, False
+        self._shown, self._ended, self._hung_up = 0, False, False
         if settings.hand and sys.stdin is None:  # it was closed before we started
             self._run.hear("")
         self._prompt: Prompt | None = None
@@ -93,14 +93,17 @@ class _Terminal:
 
     def _step(self) -> None:
         """Take what has come, then send what is due."""
-        keys = [sys.stdin] if self._settings.hand and not self._ended and sys.stdin else []
+        listens = self._settings.hand and not self._ended and not self._hung_up  # a terminal's end is always ready
+        keys = [sys.stdin] if listens and sys.stdin else []
         try:
             ready, _, _ = select.select([self._port, *keys], [], [], LOOK_EVERY)
             data = os.read(self._port.fileno(), MOST_READ) if self._port in ready else None
             if data == b"":
                 raise OSError
             if keys and sys.stdin in ready:
-                self._run.hear(sys.stdin.readline())
+                line = sys.stdin.readline()
+                self._hung_up = not line
+                self._run.hear(line)
             now = time.monotonic_ns()
             if data:
                 self._run.received(data, now)
