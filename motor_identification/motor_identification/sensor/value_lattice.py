@@ -19,6 +19,8 @@ MOST_SCATTER = 0.12  # of a step: beyond, noise hides the lattice (uniform phase
 LEAST_SCATTER = 1e-3  # of a step: better than that is no more evidence
 MOST_COARSE = 1.9  # times a step that was found: half of it fits as well
 LEAST_PLACES = 4  # different multiples that must occur
+FEWEST_COUNTS = 2  # different sizes above 0: one is a motor that runs or stands
+CHANGES_OF_EACH = 20  # changes for each of so few sizes: a motor's speeds between some steps do not come again as often
 CHANCE = 1e-4  # that values without a lattice are given one
 PARTS = (1.0, 0.5, 0.25)  # of the largest value: a window that jitters blurs large values, not small ones
 
@@ -34,7 +36,21 @@ def find_lattice(values: Floats) -> float:
         step = _find_step(some) if len(some) >= LEAST_PLACES else 0.0
         if step > 0.0:
             return step
-    return 0.0
+    return _find_small_counts(values, levels)
+
+
+def _find_small_counts(values: Floats, levels: Floats) -> float:
+    """Find the step of a few counts at most, 0, 1, 2 …, among which values (K,) change all the time; 0 without.
+
+    levels: their sizes above 0, ascending. What has no lattice never comes to the same few values again and again.
+    """
+    if not FEWEST_COUNTS <= len(levels) < LEAST_PLACES or not np.any(values == 0.0):
+        return 0.0
+    step = _refine(levels, float(levels[0]))
+    all_there = np.array_equal(np.rint(levels / step), np.arange(1, len(levels) + 1))
+    changes = np.count_nonzero(np.diff(values))
+    often = changes >= CHANGES_OF_EACH * len(levels)
+    return step if all_there and often and _scatter(levels, step) < LEAST_SCATTER else 0.0
 
 
 def _find_step(levels: Floats) -> float:

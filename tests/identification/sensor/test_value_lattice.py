@@ -61,3 +61,14 @@ def test_a_handful_of_places_decides() -> None:
     assert find_lattice(np.repeat([3.0, 4.0, 5.0], 100) * 6.43) == 0.0
     assert find_lattice(np.repeat(np.arange(1.0, 11.0), 10) * 6.43) == pytest.approx(6.43)
     assert find_lattice(np.zeros(100)) == find_lattice(np.full(100, 3.0)) == find_lattice(np.empty(0)) == 0.0
+
+
+@pytest.mark.parametrize("most", [2, 3])
+def test_a_few_counts_that_change_all_the_time_are_a_lattice(most: int) -> None:
+    counts = np.random.default_rng(most).integers(-most, most + 1, 300).astype(float)
+    assert find_lattice(counts * 4.488) == pytest.approx(4.488)
+    assert find_lattice(np.round(counts * 42.857143, 5)) == pytest.approx(42.857143, rel=1e-6)
+    assert find_lattice(np.sort(counts) * 4.488) == 0.0  # so few changes are the steps of a staircase
+    assert find_lattice(np.where(np.abs(counts) == 1.0, 1.03 * counts, counts) * 4.488) == 0.0  # no multiples
+    assert find_lattice(np.where(counts == 0.0, 1.0, counts) * 4.488) == 0.0  # it never stands
+    assert find_lattice(np.where(np.abs(counts) == 1.0, 0.0, counts) * 4.488) == 0.0  # one size is missing
