@@ -5,15 +5,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar, TypeVar
 
+import numpy as np
+
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.miscounts import mark_miscounts
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.measurement.time_blocks import TimeBlocks, mark_blocks_of
-from motor_identification.recording import Recording
+from motor_identification.recording import Bools, Recording
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
 from motor_model.effects import DURATION
+
+# Of what counts in a recording: more is not left out, however unforeseen. One block of three would be a third of it.
+MOST_LEFT_OUT = 0.25
 
 Self = TypeVar("Self", bound="HoldOut")
 
@@ -41,7 +46,7 @@ class HoldOut(ABC):
         blocks = self.scored_blocks.mark_each(intervals, here.problem.sample_period)
         counted = tuple(block & ~marks for block, marks in zip(blocks, bad, strict=True))
         instants = tuple(
-            block & mark_blocks_of(data, here.problem.sample_period, times)
+            _leave_out_few(block, mark_blocks_of(data, here.problem.sample_period, times))
             for block, data, times in zip(counted, intervals, list_instants(here), strict=True)
         )
         scored = tuple(block & ~instant for block, instant in zip(counted, instants, strict=True))
@@ -52,6 +57,12 @@ class HoldOut(ABC):
         """Read the held-out recordings again, with directions by the motion of a fitted motor."""
         intervals = correct_directions(self.apply(fitted)).problem.intervals
         return replace(self, problem=replace(self.problem, intervals=intervals))
+
+
+def _leave_out_few(counted: Bools, instants: Bools) -> Bools:
+    """Mark what counts in the blocks of instants (I,): nothing where that is much of it, which no gap would be of."""
+    marks = np.asarray(counted & instants)
+    return marks & (np.count_nonzero(marks) <= MOST_LEFT_OUT * np.count_nonzero(counted))
 
 
 @dataclass(frozen=True)

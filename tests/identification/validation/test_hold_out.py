@@ -12,7 +12,13 @@ from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
 from motor_identification.noise.likelihood import Noise
 from motor_identification.recording import check
-from motor_identification.validation.hold_out import BlocksOfSame, HoldOut, OtherRecordings, make_hold_out
+from motor_identification.validation.hold_out import (
+    BlocksOfSame,
+    HoldOut,
+    OtherRecordings,
+    _leave_out_few,
+    make_hold_out,
+)
 
 TRAINING = check(record(TRUE, *profiles.staircase(10.0, 3, 0.3), seed=1, irregularity=0.005, name="training")[0])
 OTHER = check(record(TRUE, *profiles.random(9.0, 4.0), seed=2, irregularity=0.005, name="other")[0])
@@ -98,6 +104,12 @@ def test_a_block_in_which_a_load_begins_at_an_instant_that_nobody_could_foresee_
     without = replace(held, instants=tuple(np.zeros_like(marks) for marks in held.scored))
     noise = Noise(0.005, 0.0)
     assert (held.log_likelihood(noise) == without.log_likelihood(noise)) == counts  # the likelihood is of all blocks
+
+
+@pytest.mark.parametrize(("left_out", "gone"), [(25, 25), (26, 0)])
+def test_no_gap_is_of_what_is_left_where_much_is_left_out(left_out: int, gone: int) -> None:
+    everything, some = np.ones(100, dtype=bool), np.arange(100) < left_out
+    assert np.count_nonzero(_leave_out_few(everything, some)) == gone
 
 
 def test_directions_are_those_of_the_fitted_motion() -> None:
