@@ -102,6 +102,22 @@ def run_all(commands: list[str], directory: Path) -> None:
             assert node.wait(PATIENCE) == 0
 
 
+def test_what_the_readme_says_of_simulated_motors_is_what_the_pages_have() -> None:
+    pages = ROOT / "benchmarks" / "results"
+    rows = re.findall(
+        r"^\| [a-z ]+ \| (\d+) \| (\d+) \| (\d+) \| (\d+) \|$", (pages / "any_motor.md").read_text("utf-8"), re.M
+    )
+    right, part, silent, wrong = (sum(map(int, column)) for column in zip(*rows, strict=True))
+    assert f"{right} of {right + part + silent + wrong} were named exactly" in README and wrong == 0
+    foreign = re.search(
+        r"^\| all \| (\d+) \| (\d+) \| (\d+) \| (\d+) \| (\d+) \|", (pages / "foreign_logs.md").read_text("utf-8"), re.M
+    )
+    assert foreign is not None
+    every, right, part, silent, wrong = map(int, foreign.groups())
+    assert (every, wrong) == (60, 1)  # "sixty", "one"
+    assert f"{right} were right, {part + silent} told less than all and one\ntold a wrong name" in README
+
+
 def test_every_command_belongs_to_a_part() -> None:
     parts = {name: commands_of(name) for name in PARTS}
     assert sorted(sum(parts.values(), [])) == sorted(set(COMMANDS) - set(SCRIPTS)) and min(map(len, parts.values())) > 2
