@@ -21,11 +21,12 @@ from motor_identification.estimation.problem import Problem
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Floats
-from motor_model.effects import EFFECT_BY_NAME, normalised
+from motor_model.effects import DURATION, EFFECT_BY_NAME, normalised
 
 QUICK_SAMPLES = 4.0  # of the intervals of a quick look from every start,
 QUICK_ITERATIONS, QUICK_TOLERANCE = 10, 1e-4  # which shall only tell the starts apart
 ITERATIONS, TOLERANCE = 20, 1e-8  # of the fit from the best of them
+INSTANTS_TRIED = 60  # of a recording: every half second of the rich profile
 DISTURBED_ITERATIONS, DISTURBED_TOLERANCE = 8, 1e-5  # beside a random torque, which leaves more
 
 
@@ -51,11 +52,34 @@ def fit_with_effect(
         spent, cost = end.simulations, _sum_squares(target, end)
         if cost < best:
             best, start = cost, end.theta
+    start, best = _improve_instants(replace(look, problem=quick), effect, start, best)
     if not promises_gain(_sum_squares(look, estimate.on(bare)), best, len(bare.weight), errors is not None):
         return None
     target = replace(_make_target(estimate, errors), problem=larger)
     how = (ITERATIONS, TOLERANCE) if errors is None else (DISTURBED_ITERATIONS, DISTURBED_TOLERANCE)
     return fit_residuals(Estimate(larger, start, spent), target, np.inf, *how)
+
+
+def _improve_instants(
+    target: SpeedResiduals | DisturbedResiduals, effect: str, theta: Floats, least: float
+) -> tuple[Floats, float]:
+    """Put the instants of an effect, such as a load step, at the best of many times, the rest of θ (D,) as it is.
+
+    Between two starts there may be a minimum of its own, wherever the motor hardly moves in between. With the least sum
+    of squares.
+    """
+    unknowns = target.problem.unknowns
+    own = [spec.name for spec in EFFECT_BY_NAME[effect].parameters if spec.of_recording and spec.scale == DURATION]
+    for name in own:
+        columns = unknowns.columns[:, unknowns.names.index(name)]
+        for recording, column in zip(target.problem.recordings, columns, strict=True):
+            for instant in np.linspace(0.0, recording.duration, INSTANTS_TRIED):
+                trial = theta.copy()
+                trial[column] = instant
+                cost = float(np.sum(target.residuals(trial) ** 2))
+                if cost < least:
+                    theta, least = trial, cost
+    return theta, least
 
 
 def _make_target(estimate: Estimate, errors: ErrorModel | None) -> SpeedResiduals | DisturbedResiduals:

@@ -1,16 +1,21 @@
 """One more effect is fitted with all parameters, from starts of its own, or not at all where nothing is gained."""
 
+from types import SimpleNamespace
+from typing import cast
+
 import numpy as np
 import pytest
 from diagnosed import fitted
 
 from motor_identification.diagnosis.effect_fit import (
+    INSTANTS_TRIED,
+    _improve_instants,
     _list_starts,
     add_noticeable_effect,
     fit_with_effect,
     promises_gain,
 )
-from motor_identification.estimation.least_squares import LEAST_GAIN
+from motor_identification.estimation.least_squares import LEAST_GAIN, SpeedResiduals
 from motor_model.effects import EFFECT_BY_NAME
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
@@ -68,3 +73,22 @@ def test_a_quick_look_promises_what_chance_does_not(times: float) -> None:
     gain = times * LEAST_GAIN
     assert promises_gain(1000.0 + gain, 1000.0, 500, white=True) == (times > 1.0)
     assert promises_gain(1.0 + gain / 500, 1.0, 500, white=False) == (times > 1.0)
+
+
+def test_instants_are_put_at_the_best_of_many_times() -> None:
+    """Two recordings, a column each: a minimum beside the start keeps no instant from the lower one far away."""
+    true, beside = np.array([7.0, 3.0]), np.array([9.5, 8.0])
+
+    def residuals(theta: np.ndarray) -> np.ndarray:
+        return np.minimum(np.abs(theta[1:] - true), 1.0 + np.abs(theta[1:] - beside))
+
+    unknowns = SimpleNamespace(names=("step_voltage", "step_time"), columns=np.array([[0, 1], [0, 2]]))
+    problem = SimpleNamespace(unknowns=unknowns, recordings=[SimpleNamespace(duration=10.0)] * 2)
+    target = cast(SpeedResiduals, SimpleNamespace(problem=problem, residuals=residuals))
+    begin = np.array([0.5, *beside])
+    found, least = _improve_instants(target, "load_step", begin, float(np.sum(residuals(begin) ** 2)))
+    assert np.abs(found[1:] - true).max() < 0.5 * 10.0 / (INSTANTS_TRIED - 1) + 1e-9 and found[0] == 0.5
+    assert least == np.sum(residuals(found) ** 2) < 0.1
+    same, cost = _improve_instants(target, "load_step", np.array([0.5, *true]), 0.0)
+    assert np.array_equal(same[1:], true) and cost == 0.0  # never worse
+    assert np.array_equal(_improve_instants(target, "dead_zone", begin, 2.0)[0], begin)
