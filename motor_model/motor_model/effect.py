@@ -30,7 +30,7 @@ class Scale:
         return float(extent.voltage**self.voltage * extent.speed**self.speed * times)
 
 
-ABSOLUTE = Scale()
+ABSOLUTE, DURATION = Scale(), Scale(duration=1)
 MOST_CERTAIN_CYCLES = 2.0  # [1/rev of the encoder's shaft] that any disc shows
 
 
@@ -60,6 +60,11 @@ class ParameterSpec:
     usual: tuple[float, float] | None = None
     most_duration: float = inf
     of_encoder: bool = False  # the box ends where the encoder's view does (`Extent.cycles`)
+
+    @property
+    def is_instant(self) -> bool:
+        """Whether it is a time at which something begins, in every recording another."""
+        return self.of_recording and self.scale == DURATION
 
     def box(self, extent: Extent) -> tuple[float, float]:
         """Return where a search looks in recordings that reach so far."""

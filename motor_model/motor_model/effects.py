@@ -14,11 +14,11 @@ shaft: `ripple_cycles` counts its turns, `eccentricity` and both phases are angl
 
 from math import inf, pi
 
-from motor_model.effect import Effect, ParameterSpec, Scale
+from motor_model.effect import DURATION, Effect, ParameterSpec, Scale
 from motor_model.errors import ModelError
 
 P = ParameterSpec
-VOLTAGE, SPEED, DURATION, SAMPLE = Scale(voltage=1), Scale(speed=1), Scale(duration=1), Scale(sample=1)
+VOLTAGE, SPEED, SAMPLE = Scale(voltage=1), Scale(speed=1), Scale(sample=1)
 TURN = Scale(speed=1, sample=1)
 
 BASE = (

@@ -5,6 +5,7 @@ start values are needed.
 """
 
 from dataclasses import replace
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -21,7 +22,8 @@ from motor_identification.estimation.problem import Problem
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Floats
-from motor_model.effects import DURATION, EFFECT_BY_NAME, normalised
+from motor_identification.validation.instants import list_instant_columns, try_instants
+from motor_model.effects import EFFECT_BY_NAME, normalised
 
 QUICK_SAMPLES = 4.0  # of the intervals of a quick look from every start,
 QUICK_ITERATIONS, QUICK_TOLERANCE = 10, 1e-4  # which shall only tell the starts apart
@@ -49,11 +51,11 @@ def fit_with_effect(
     for begin in _list_starts(estimate, larger):
         target = replace(look, problem=quick)
         end = fit_residuals(Estimate(quick, begin, spent), target, np.inf, QUICK_ITERATIONS, QUICK_TOLERANCE)
-        spent, cost = end.simulations, _sum_squares(target, end)
+        spent, cost = end.simulations, _sum_squares(target, end.theta)
         if cost < best:
             best, start = cost, end.theta
     start, best = _improve_instants(replace(look, problem=quick), effect, start, best)
-    if not promises_gain(_sum_squares(look, estimate.on(bare)), best, len(bare.weight), errors is not None):
+    if not promises_gain(_sum_squares(look, estimate.theta), best, len(bare.weight), errors is not None):
         return None
     target = replace(_make_target(estimate, errors), problem=larger)
     how = (ITERATIONS, TOLERANCE) if errors is None else (DISTURBED_ITERATIONS, DISTURBED_TOLERANCE)
@@ -68,17 +70,10 @@ def _improve_instants(
     Between two starts there may be a minimum of its own, wherever the motor hardly moves in between. With the least sum
     of squares.
     """
-    unknowns = target.problem.unknowns
-    own = [spec.name for spec in EFFECT_BY_NAME[effect].parameters if spec.of_recording and spec.scale == DURATION]
-    for name in own:
-        columns = unknowns.columns[:, unknowns.names.index(name)]
-        for recording, column in zip(target.problem.recordings, columns, strict=True):
-            for instant in np.linspace(0.0, recording.duration, INSTANTS_TRIED):
-                trial = theta.copy()
-                trial[column] = instant
-                cost = float(np.sum(target.residuals(trial) ** 2))
-                if cost < least:
-                    theta, least = trial, cost
+    for column, duration in list_instant_columns(target.problem, [effect]):
+        trial, cost = try_instants(partial(_sum_squares, target), theta, column, duration, INSTANTS_TRIED)
+        if cost < least:
+            theta, least = trial, cost
     return theta, least
 
 
@@ -87,8 +82,8 @@ def _make_target(estimate: Estimate, errors: ErrorModel | None) -> SpeedResidual
     return SpeedResiduals(estimate.problem) if errors is None else make_disturbed_residuals(estimate, errors)
 
 
-def _sum_squares(target: SpeedResiduals | DisturbedResiduals, estimate: Estimate) -> float:
-    return float(np.sum(target.residuals(estimate.theta) ** 2))
+def _sum_squares(target: SpeedResiduals | DisturbedResiduals, theta: Floats) -> float:
+    return float(np.sum(target.residuals(theta) ** 2))
 
 
 def promises_gain(before: float, after: float, count: int, white: bool) -> bool:

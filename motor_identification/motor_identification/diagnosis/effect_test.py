@@ -14,6 +14,7 @@ from motor_identification.diagnosis.candidate_model import (
 )
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.validation.hold_out import HoldOut
+from motor_identification.validation.instants import needs_instant
 from motor_model.effects import EFFECT_BY_NAME
 
 EFFECT_ORDER = {name: number for number, name in enumerate(EFFECT_BY_NAME)}  # the most common first
@@ -83,12 +84,6 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
         and _is_finding(test)
     ]
     return min(equals, key=lambda test: EFFECT_ORDER[test.effect])
-
-
-def needs_instant(effect: str) -> bool:
-    """Whether an effect begins at an instant, which a search finds a place for where any size would help."""
-    row = EFFECT_BY_NAME[effect]
-    return row.anywhere and any(spec.of_recording for spec in row.parameters)
 
 
 def _is_finding(test: CandidateTest) -> bool:

@@ -14,8 +14,8 @@ from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.measurement.time_blocks import TimeBlocks, mark_blocks_of
 from motor_identification.recording import Bools, Recording
 from motor_identification.validation.held_out import HeldOut
+from motor_identification.validation.instants import list_instants
 from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
-from motor_model.effects import DURATION
 
 # Of what counts in a recording: more is not left out, however unforeseen. One block of three would be a third of it.
 MOST_LEFT_OUT = 0.25
@@ -95,13 +95,6 @@ class BlocksOfSame(HoldOut):
     def restrict(self, training: Problem) -> Problem:
         """Take every fourth block out."""
         return training.keeping_out(self.scored_blocks)
-
-
-def list_instants(estimate: Estimate) -> tuple[list[float], ...]:
-    """List the instants [s] of every recording at which something begins in a motor, such as a load step."""
-    unknowns = estimate.problem.unknowns
-    own = [i for i, spec in enumerate(unknowns.specs) if spec.of_recording and spec.scale == DURATION]
-    return tuple([float(estimate.theta[columns[i]]) for i in own] for columns in unknowns.columns)
 
 
 def make_hold_out(

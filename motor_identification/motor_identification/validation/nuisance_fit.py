@@ -14,7 +14,8 @@ from motor_identification.estimation.problem import Problem
 from motor_identification.measurement.measured_angle import Track
 from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Bools, Floats
-from motor_model.effects import DURATION, EFFECT_BY_NAME
+from motor_identification.validation.instants import list_instant_columns, try_instants
+from motor_model.effects import EFFECT_BY_NAME
 
 INSTANTS_TRIED = 24  # at which an instant is tried: one a second of the rich profile
 NUISANCE_TOLERANCE = Tolerance(iterations=30)
@@ -76,25 +77,12 @@ def _fit(estimate: Estimate, used: Bools) -> Estimate:
     if not free.any():
         return estimate
     target = NuisanceResiduals(estimate, free, used)
-    for i, spec in enumerate(unknowns.specs):
-        if spec.of_recording and spec.scale == DURATION:
-            target = replace(target, estimate=_try_instants(target, i))
+    theta = estimate.theta
+    for column, duration in list_instant_columns(estimate.problem, unknowns.effects):
+        theta = try_instants(target.cost, theta, column, duration, INSTANTS_TRIED)[0]
     box = Box(unknowns.low[free], unknowns.high[free])
-    minimum = minimise_squares(
-        target.residuals, None, target.estimate.theta[free], box, NUISANCE_TOLERANCE, step=NUISANCE_DIFFERENCE
-    )
+    minimum = minimise_squares(target.residuals, None, theta[free], box, NUISANCE_TOLERANCE, step=NUISANCE_DIFFERENCE)
     return replace(estimate, theta=target.complete(minimum.theta))
-
-
-def _try_instants(target: NuisanceResiduals, parameter: int) -> Estimate:
-    """Put an instant of each recording, such as that of a load step, at the best of many times."""
-    problem, theta = target.estimate.problem, target.estimate.theta
-    columns = problem.unknowns.columns[:, parameter]
-    for recording, column in zip(problem.recordings, columns, strict=True):
-        trials = np.tile(theta, (INSTANTS_TRIED, 1))
-        trials[:, column] = np.linspace(0.0, recording.duration, INSTANTS_TRIED)
-        theta = min(trials, key=target.cost)
-    return replace(target.estimate, theta=theta)
 
 
 def _add_phases(bare: Estimate, effect: str, fitted: Estimate, used: Bools) -> Estimate:

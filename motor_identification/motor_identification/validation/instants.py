@@ -1,0 +1,44 @@
+"""Place the instants of effects, such as that of a load step, and list them: each recording has its own."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.problem import Problem
+from motor_identification.recording import Floats
+from motor_model.effects import EFFECT_BY_NAME
+
+
+def needs_instant(effect: str) -> bool:
+    """Whether an effect begins at an instant, which a search finds a place for where any size would help."""
+    return any(spec.is_instant for spec in EFFECT_BY_NAME[effect].parameters)
+
+
+def list_instants(estimate: Estimate) -> tuple[list[float], ...]:
+    """List the instants [s] of every recording at which something begins in a motor, such as a load step."""
+    unknowns = estimate.problem.unknowns
+    own = [i for i, spec in enumerate(unknowns.specs) if spec.is_instant]
+    return tuple([float(estimate.theta[columns[i]]) for i in own] for columns in unknowns.columns)
+
+
+def list_instant_columns(problem: Problem, effects: Sequence[str]) -> list[tuple[int, float]]:
+    """List where in θ each recording has each instant of some effects, and how long [s] the recording is."""
+    unknowns = problem.unknowns
+    own = [spec.name for effect in effects for spec in EFFECT_BY_NAME[effect].parameters if spec.is_instant]
+    return [
+        (int(column), recording.duration)
+        for name in own
+        for recording, column in zip(problem.recordings, unknowns.columns[:, unknowns.names.index(name)], strict=True)
+    ]
+
+
+def try_instants(
+    cost: Callable[[Floats], float], theta: Floats, column: int, duration: float, tried: int
+) -> tuple[Floats, float]:
+    """Put one instant at the best of many times of a recording, the rest of θ (D,) as it is; with the cost there."""
+    trials = np.tile(theta, (tried, 1))
+    trials[:, column] = np.linspace(0.0, duration, tried)
+    costs = [cost(trial) for trial in trials]
+    best = int(np.argmin(costs))
+    return trials[best], costs[best]
