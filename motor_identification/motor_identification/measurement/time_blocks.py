@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.recording import Bools
+from motor_identification.recording import Bools, Integers
 
 USUAL_BLOCK = 0.5  # [s]: most motors' time constants are shorter, so that a block shows what the motor does
 BLOCK_SAMPLES = (25.0, 100.0)  # sample periods that a block has in any case: how fast a motor is sampled tells its own
@@ -20,12 +20,16 @@ def compute_block_length(data: Intervals, sample_period: float) -> float:
     return float(min(max(shortest, min(USUAL_BLOCK, longest)), data.time[-1] / LEAST_BLOCKS))
 
 
+def number_blocks(data: Intervals, length: float) -> Integers:
+    """Number the blocks of a length [s] that the intervals begin in, shape (I,)."""
+    return np.asarray((data.time[data.first] // length).astype(np.int64))
+
+
 def mark_blocks_of(data: Intervals, sample_period: float, times: Sequence[float]) -> Bools:
     """Mark the intervals that begin in the blocks of some times [s], or in the next one's where that is near, (I,)."""
     length = compute_block_length(data, sample_period)
-    blocks = (data.time[data.first] // length).astype(np.int64)
     near = [int(time / length + share) for time in times for share in (-NEAR_A_BLOCK, NEAR_A_BLOCK)]
-    return np.asarray(np.isin(blocks, near))
+    return np.asarray(np.isin(number_blocks(data, length), near))
 
 
 @dataclass(frozen=True)
@@ -46,6 +50,6 @@ class TimeBlocks:
 
         None where they would be all: nothing of a recording that is within one block serves another purpose.
         """
-        block = (data.time[data.first] // compute_block_length(data, sample_period)).astype(np.int64)
+        block = number_blocks(data, compute_block_length(data, sample_period))
         marks = np.asarray((block + number) % self.every == self.every - 1)
         return marks & ~marks.all()
