@@ -33,21 +33,16 @@ def conclude(
     """
     last = selection.model
     base = base if selection.steps else last  # the same effects: one gap, not one of either fit
-    model, baseline = _summarise(last, search, elapsed), _summarise(base, search, elapsed)
-    gaps = [step.before.held.gap for step in selection.steps[1:]] + [last.held.gap]  # after each step, fitted again
-    findings = tuple(_make_finding(step, model, gap) for step, gap in zip(selection.steps, gaps, strict=False))
-    share, missed = last.errors.share, find_missed_edges(last)
-    before = base.held
-    if missed is not None:
-        findings = (*findings, missed)
-    hidden = find_undetectable(last)
+    model = summarise_fit(last.whitened, search, elapsed)
+    gaps = _list_gaps(selection)
+    findings, hidden = _list_findings(selection, model, gaps), find_undetectable(last)
     verdict, suggestion = decide(findings, last, hidden, undetermined)
     return Diagnosis(
         verdict=verdict,
         findings=findings,
-        baseline=baseline,
+        baseline=model if base is last else summarise_fit(base.whitened, search, elapsed),
         model=model,
-        gap_before=before.gap,
+        gap_before=base.held.gap,
         gap_after=last.held.gap,
         noise_floor=last.noise_floor if last.complete else last.sensor_floor,
         sensor_floor=last.sensor_floor,
@@ -55,22 +50,30 @@ def conclude(
         structure=last.structure,
         undetectable=hidden,
         suggested_experiment=suggestion,
-        before=before,
+        before=base.held,
         after=last.held,
-        slot_share=share,
+        slot_share=last.errors.share,
         bags=tuple(recording.uri for recording in recordings),
         validation=tuple(recording.uri for recording in validation),
         miscounted=last.held.miscounted,
         left_out=sum(data.left_out for data in last.held.intervals),
-        trace=np.array([before.gap, *gaps[: len(selection.steps)]]),
+        trace=np.array([base.held.gap, *gaps]),
         duration=elapsed(),
         undetermined=undetermined,
     )
 
 
-def _summarise(model: Model, search: SearchReport, elapsed: Callable[[], float]) -> Fit:
-    """Summarise a model with standard errors and everything else that an identification says."""
-    return summarise_fit(model.whitened, search, elapsed)
+def _list_gaps(selection: Selection) -> list[float]:
+    """List the gap [rad/s] after each step, once everything was fitted again."""
+    after = [step.before for step in selection.steps[1:]] + [selection.model]
+    return [model.held.gap for _, model in zip(selection.steps, after, strict=False)]
+
+
+def _list_findings(selection: Selection, model: Fit, gaps: Sequence[float]) -> tuple[Finding, ...]:
+    """List what was found in the order of the steps, then missed edges."""
+    findings = [_make_finding(step, model, gap) for step, gap in zip(selection.steps, gaps, strict=True)]
+    missed = find_missed_edges(selection.model)
+    return (*findings, *([] if missed is None else [missed]))
 
 
 def _make_finding(step: SelectionStep, model: Fit, gap_after: float) -> Finding:
