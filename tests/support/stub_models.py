@@ -5,7 +5,8 @@ from typing import cast
 
 import numpy as np
 
-from motor_identification.diagnosis.candidate_model import CandidateTest, Model
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.intervals import index_intervals

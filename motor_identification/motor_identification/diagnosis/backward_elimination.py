@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import CandidateTest, Model, refit_without, share_explained
+from motor_identification.diagnosis.candidate_model import Model, refit_without
+from motor_identification.diagnosis.candidate_test import CandidateTest, share_explained
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
     count_parameters,

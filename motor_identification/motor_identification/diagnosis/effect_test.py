@@ -6,12 +6,8 @@ from dataclasses import replace
 from math import log, sqrt, tau
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import (
-    CandidateTest,
-    Model,
-    refine_beside_torque,
-    validate_model,
-)
+from motor_identification.diagnosis.candidate_model import Model, refine_beside_torque, validate_model
+from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.validation.hold_out import HoldOut
 from motor_identification.validation.instants import needs_instant

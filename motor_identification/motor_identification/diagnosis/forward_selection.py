@@ -10,14 +10,13 @@ from math import sqrt
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import (
-    CandidateTest,
     Model,
     judge_beside_torque,
     learn_errors,
     refit_without,
-    share_explained,
     validate_model,
 )
+from motor_identification.diagnosis.candidate_test import CandidateTest, share_explained
 from motor_identification.diagnosis.disturbed_fit import fit_beside_torque
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,

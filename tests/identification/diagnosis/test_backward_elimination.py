@@ -21,7 +21,8 @@ from motor_identification.diagnosis.backward_elimination import (
     list_replacements,
     stands_in_for_curve,
 )
-from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
+from motor_identification.diagnosis.candidate_model import Model, validate_model
+from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.diagnosis.effect_test import likelihood_threshold
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep

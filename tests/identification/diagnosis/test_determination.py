@@ -11,7 +11,8 @@ from plant import profiles, record
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis import determination, thresholds
-from motor_identification.diagnosis.candidate_model import CandidateTest, Model, validate_model
+from motor_identification.diagnosis.candidate_model import Model, validate_model
+from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.determination import (
     drop_undetermined,
     find_limits_hit,

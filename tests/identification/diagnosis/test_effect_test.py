@@ -4,7 +4,8 @@ import pytest
 from diagnosed import fitted
 from stub_models import stub_model, stub_test
 
-from motor_identification.diagnosis.candidate_model import CandidateTest, validate_model
+from motor_identification.diagnosis.candidate_model import validate_model
+from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     count_parameters,

@@ -9,7 +9,8 @@ from diagnosed import fitted
 from stub_models import stub_model, stub_test
 
 from motor_identification.diagnosis import forward_selection, thresholds
-from motor_identification.diagnosis.candidate_model import CandidateTest, Model
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import choose_finding, likelihood_threshold
 from motor_identification.diagnosis.forward_selection import (
     Selection,

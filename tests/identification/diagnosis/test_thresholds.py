@@ -10,7 +10,7 @@ from stub_models import LASTING_FLOOR, stub_held, stub_model, stub_test
 
 from motor_identification.diagnose import fits_torque, predicts_far_worse
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import CandidateTest
+from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     find_rivals,

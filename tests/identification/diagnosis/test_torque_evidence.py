@@ -7,7 +7,8 @@ import pytest
 from diagnosed import fitted, with_effect
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import CandidateTest, Model, judge_beside_torque, validate_model
+from motor_identification.diagnosis.candidate_model import Model, judge_beside_torque, validate_model
+from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.disturbed_fit import list_error_data
 from motor_identification.diagnosis.torque_evidence import (
     MOMENTS,

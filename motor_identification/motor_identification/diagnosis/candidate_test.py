@@ -1,0 +1,77 @@
+"""Compare a model with and without one more effect on held-out data, and decide whether that matters."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.torque_evidence import measure_steadiness
+from motor_identification.validation.held_out import HeldOut
+from motor_model.effects import EFFECT_BY_NAME
+
+
+@dataclass(frozen=True)
+class CandidateTest:
+    """A model with one more effect, beside the one without it."""
+
+    effect: str
+    before: Model  # without it
+    model: Model
+
+    @cached_property
+    def held_before(self) -> HeldOut:
+        """What the model without it leaves, on the same held-out intervals."""
+        return self.before.held.leave_out(self.model.held.instants)
+
+    @property
+    def _lasting_before(self) -> HeldOut:
+        if self.held_before is self.before.held:
+            return self.before.lasting
+        return self.held_before.joined(thresholds.LASTING_INTERVAL)
+
+    @property
+    def evidence(self) -> float:
+        """Logarithm of the likelihood ratio to the model without it, beside a random torque of the Bayes factor."""
+        return self.model.likelihood - self.before.likelihood
+
+    @property
+    def steadiness(self) -> float:
+        """Evidence without the few moments that speak most for it, beside a random torque."""
+        return measure_steadiness(self.before.moments, self.model.moments)
+
+    @property
+    def explains(self) -> float:
+        """Share of the excess over the noise floor that it takes away."""
+        return share_explained(self.held_before.gap, self.model.held.gap, self.model.unpredictable_gap)
+
+    @property
+    def has_instants(self) -> bool:
+        """Whether the effect has parameters of its own in each of several held-out recordings."""
+        several = len(self.model.held.recordings) > 1
+        return several and any(spec.of_recording for spec in EFFECT_BY_NAME[self.effect].parameters)
+
+    def is_likely(self, least: float) -> bool:
+        """Decide whether the evidence is beyond a least, beside a random torque without its few best moments too."""
+        return self.evidence > least and (not self.model.beside_torque or self.steadiness > least)
+
+    @cached_property
+    def relevant(self) -> bool:
+        """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual."""
+        if self.model.beside_torque:
+            line = EFFECT_BY_NAME[self.effect].periodic  # fast beside a torque that most of the gap may be of
+            most = self.held_before.gap * (thresholds.GAP_CHANCE if line else 1.0)
+            shrinks = self.model.held.gap <= most and self.model.held_out > self.before.held_out
+            return shrinks and 2.0 * self.steadiness > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
+        before, after = self._lasting_before, self.model.lasting
+        floor = after.floor(self.model.noise.share)
+        if before.gap < thresholds.RELEVANT_GAP * floor:
+            return False
+        near = before.gap < thresholds.NEAR_FLOOR * floor or self.has_instants
+        least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE
+        seen = self.model.held.gap < (1.0 - thresholds.LEAST_DROP) * self.held_before.gap
+        return seen and share_explained(before.gap, after.gap, floor) > least
+
+
+def share_explained(before: float, after: float, floor: float) -> float:
+    """Compute the share of a gap's excess over the noise floor, in squares, that is gone after."""
+    return (before**2 - after**2) / (before**2 - floor**2) if before > floor else 1.0
