@@ -6,6 +6,7 @@ import numpy as np
 
 from motor_identification.measurement.timestamp_checks import mark_possible, mark_smooth
 from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_model.sample import Info
 
 LEAST_TICKS = (
     20.0  # of the timer between two edges of a sample that both count: nearer, the speed is off by 2 % or more
@@ -44,10 +45,7 @@ def extract_edges(recording: Recording) -> Edges:
     steps = np.diff(count[fresh], prepend=count[0])
     latest = (stamp[fresh] - recording.sample_time[0]) * 1e-9 + 0.5 * info.edge_resolution
     period = recording.edge_period[fresh]
-    direction = read_directions(recording.speed[fresh])
-    if not info.single_channel:
-        counted = np.where(recording.speed[fresh] == 0.0, np.sign(steps), direction)  # which way, where no sign is said
-        direction = open_returns(counted, period, info.quadrature)
+    before, direction = _read_ways(info, recording.speed[fresh], steps, period)
     right = mark_possible(recording, fresh, latest)
     right[right] = mark_smooth(latest[right], _passed(count[fresh][right] - count[0]))
     second = (
@@ -60,12 +58,21 @@ def extract_edges(recording: Recording) -> Edges:
     second[second] = mark_possible(recording, fresh[second], (latest - period)[second])
     time = np.concatenate([(latest - period)[second], latest[right]])
     numbers = np.concatenate([(count[fresh] - np.sign(steps))[second], count[fresh][right]]) - count[0]
-    # Counted against its latest edge's direction, two channels turned within a sample, before or after the edge before.
-    before = direction if info.single_channel else np.where(direction * steps < 0, 0, direction)
     edges = Edges(time, numbers, np.concatenate([before[second], direction[right]]))
     edges = edges.only(np.argsort(time, kind="stable"))
     edges = edges.only(mark_smooth(edges.time, _passed(edges.count)))
     return move_reversals_to_slowest(edges, recording) if info.single_channel else edges
+
+
+def _read_ways(info: Info, speed: Floats, steps: Integers, period: Floats) -> tuple[Integers, Integers]:
+    """Read which way the disc turned at the edge before the latest of samples (E,), and at the latest."""
+    if info.single_channel:
+        direction = read_directions(speed)
+        return direction, direction
+    counted = np.sign(np.where(speed == 0.0, steps, speed)).astype(np.int64)  # which way, where no sign is said
+    direction = open_returns(counted, period, info.quadrature)
+    # Counted against its latest edge's direction, two channels turned within a sample, before or after the edge before.
+    return np.where(direction * steps < 0, 0, direction), direction
 
 
 def _passed(count: Integers) -> Integers:

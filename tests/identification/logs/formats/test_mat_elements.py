@@ -85,27 +85,24 @@ def test_numbers_as_matlab_packs_them(tmp_path: Path) -> None:
         assert read_matlab(tmp_path / "log.mat").numbers("u").tolist() == [1.0, -2.0, 3.0]
 
 
-@pytest.mark.parametrize(("most", "enough"), [(100, True), (99, False)])
-def test_numbers_are_counted_as_they_will_be_not_as_they_are_packed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most: int, enough: bool
+@pytest.mark.parametrize(
+    ("limit", "most", "words"),
+    [
+        ("MOST_NUMBERS", 100, ""),  # as they will be, not as they are packed
+        ("MOST_NUMBERS", 99, "more than 0 million numbers\\): cut it into parts"),
+        ("MOST_ELEMENTS", 4, ""),
+        ("MOST_ELEMENTS", 3, "more than 3 variables and fields\\)"),
+    ],
+)
+def test_numbers_and_variables_are_counted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limit: str, most: int, words: str
 ) -> None:
     (tmp_path / "log.mat").write_bytes(two(2, bytes(50), 50))
-    monkeypatch.setattr(mat_elements, "MOST_NUMBERS", most)
-    if enough:
+    monkeypatch.setattr(mat_elements, limit, most)
+    if not words:
         assert len(read_matlab(tmp_path / "log.mat")) == 50
         return
-    with pytest.raises(RecordingError, match="is too large \\(more than 0 million numbers\\): cut it into parts"):
-        read_matlab(tmp_path / "log.mat")
-
-
-@pytest.mark.parametrize(("most", "enough"), [(4, True), (3, False)])
-def test_variables_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most: int, enough: bool) -> None:
-    (tmp_path / "log.mat").write_bytes(two(2, bytes(50), 50))
-    monkeypatch.setattr(mat_elements, "MOST_ELEMENTS", most)
-    if enough:
-        assert len(read_matlab(tmp_path / "log.mat")) == 50
-        return
-    with pytest.raises(RecordingError, match="is too large \\(more than 3 variables and fields\\)"):
+    with pytest.raises(RecordingError, match=f"is too large \\({words}"):
         read_matlab(tmp_path / "log.mat")
 
 
