@@ -8,15 +8,11 @@ import argparse
 import sys
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from pathlib import Path
-from time import process_time
 
 import numpy as np
-from hidden import OUTSIDE, PAIRS, SIZES, Outcome, Torque, recorded, right
+from hidden import OUTSIDE, PAIRS, SIZES, Found, Torque, find, recorded, right, wrong
 from machine import commit, machine
-
-from motor_identification.diagnose import diagnose
 
 RESULTS = Path(__file__).with_name("results") / "disturbance.md"
 TORQUES = (Torque(0.03, 0.05), Torque(0.1, 0.005), Torque(0.1, 0.05), Torque(0.1, 0.2), Torque(0.3, 0.05))
@@ -32,49 +28,28 @@ HEAD = (
 )
 
 
-@dataclass(frozen=True)
-class Found:
-    """What one diagnosis made of a motor beside a torque."""
-
-    verdict: str
-    named: tuple[str, ...]
-    strength: float  # found over true; NaN where none was found
-    seconds: float  # of CPU time
-
-    def right(self, hidden: tuple[str, ...]) -> bool:
-        """Whether it is what the truth deserves, as in the confusion table."""
-        return right(hidden, Outcome(self.verdict, self.named, (), (), 0.0, 0.0))
-
-    def wrong(self, hidden: tuple[str, ...]) -> bool:
-        """Whether it names what is not there; friction is the even part of what is outside the table."""
-        return bool(set(self.named) - set(hidden) - {"coulomb_friction"})
-
-
 def one(hidden: tuple[str, ...], seed: int, torque: Torque) -> Found:
     """Hide it in a random motor beside a torque, and diagnose."""
-    made, begun = recorded(hidden, seed, None, torque), process_time()
-    found = diagnose([made.training], [made.validation])
-    strength = found.disturbance.rms_voltage / torque.rms if found.disturbance else float("nan")
-    named = tuple(finding.effect for finding in found.findings)
-    return Found(found.verdict.value, named, strength, process_time() - begun)
+    made = recorded(hidden, seed, None, torque)
+    return find(made.training, made.validation, torque.rms)
 
 
 def line(torque: Torque, group: str, outcomes: list[tuple[tuple[str, ...], Found]]) -> str:
     """A row of the table."""
-    good = [found.right(hidden) for hidden, found in outcomes]
+    good = [right(hidden, found) for hidden, found in outcomes]
     missed = Counter(
         f"{'+'.join(hidden) or 'nothing'} ({found.verdict}: {' + '.join(found.named) or '–'})"
         for (hidden, found), ok in zip(outcomes, good, strict=True)
         if not ok
     )
-    wrong = sum(found.wrong(hidden) for hidden, found in outcomes)
+    misnamed = sum(wrong(hidden, found.named) for hidden, found in outcomes)
     strength = np.array([found.strength for (_, found), ok in zip(outcomes, good, strict=True) if ok])
     known = strength[np.isfinite(strength)]
     cells = [
         f"{torque.rms:g} V, {torque.time * 1e3:g} ms",
         group,
         f"{sum(good)} of {len(good)}",
-        str(wrong),
+        str(misnamed),
         "; ".join(f"{count} × {what}" if count > 1 else what for what, count in missed.items()),
         f"{np.median(known):.2f} ({known.min():.2f}–{known.max():.2f})" if len(known) else "–",
         f"{np.median([found.seconds for _, found in outcomes]):.0f} s",

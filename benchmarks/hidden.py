@@ -7,9 +7,11 @@ time.
 
 import os
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from time import perf_counter
+from time import perf_counter, process_time
+from typing import Any
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"))
@@ -88,6 +90,17 @@ class Outcome:
 
 
 @dataclass(frozen=True)
+class Found:
+    """What one diagnosis made of a motor beside a torque."""
+
+    verdict: str
+    named: tuple[str, ...]
+    gap: float  # after, times the noise floor
+    strength: float  # of the torque, found over true; NaN where there or found is none
+    seconds: float  # of CPU time
+
+
+@dataclass(frozen=True)
 class Torque:
     """A random torque beside the motor, another course of it in every recording."""
 
@@ -115,12 +128,32 @@ def recorded(
     share, disc = float(random.uniform(0.0, 0.01)), int(random.integers(1000))
     later = values | ({"step_time": float(random.uniform(3.0, 8.0))} if "step_time" in values else {})
     drives = profiles.rich(12.0, seed), profiles.random(12.0, 14.0, seed + 500)
-    how = {"irregularity": share, "disc_seed": disc}
+    pair = record_pair((values, later), drives, seed, torque, irregularity=share, disc_seed=disc)
+    return Hidden(values, *pair)
+
+
+def record_pair(
+    motors: Sequence[dict[str, float]], drives: Sequence[profiles.Profile], seed: int, torque: Torque, **how: Any
+) -> tuple[Recording, Recording]:
+    """Record a motor for training and, another time and beside another course of the torque, for validation."""
     first, second = (
-        check(record(v | torque.values(s), *drive, seed=s, **how)[0])  # type: ignore[arg-type]
-        for v, drive, s in zip((values, later), drives, (seed, seed + 77), strict=True)
+        check(record(values | torque.values(start), *drive, seed=start, **how)[0])
+        for values, drive, start in zip(motors, drives, (seed, seed + 77), strict=True)
     )
-    return Hidden(values, first, second)
+    return first, second
+
+
+def find(training: Recording, validation: Recording, torque: float) -> Found:
+    """Diagnose a motor beside a torque of so many volts RMS."""
+    begun = process_time()
+    found = diagnose([training], [validation])
+    return Found(
+        verdict=found.verdict.value,
+        named=tuple(finding.effect for finding in found.findings),
+        gap=found.gap_after / found.noise_floor if found.noise_floor > 0.0 else float("nan"),
+        strength=found.disturbance.rms_voltage / torque if found.disturbance and torque else float("nan"),
+        seconds=process_time() - begun,
+    )
 
 
 def one(hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None, torque: Torque = QUIET) -> Outcome:
@@ -146,7 +179,7 @@ def one(hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = Non
     )
 
 
-def right(hidden: tuple[str, ...], outcome: Outcome) -> bool:
+def right(hidden: tuple[str, ...], outcome: Outcome | Found) -> bool:
     """Whether an outcome is what the truth deserves: the right names and no other.
 
     What is outside the table counts if the verdict is "unexplained" and no name is wrong.
@@ -159,3 +192,8 @@ def right(hidden: tuple[str, ...], outcome: Outcome) -> bool:
     if any("ks" in OUTSIDE[name] for name in outside):
         expected |= {FRICTION}
     return outcome.verdict == "unexplained" and set(outcome.named) <= expected
+
+
+def wrong(hidden: tuple[str, ...], named: Sequence[str]) -> bool:
+    """Whether a name is not there; friction is the even part of what is outside the table."""
+    return bool(set(named) - set(hidden) - {FRICTION})

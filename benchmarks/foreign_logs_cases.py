@@ -1,0 +1,142 @@
+"""Draw motors of any size, drive each by one excitation, and write logs of it as other people make them."""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"))
+
+import numpy as np
+from numpy.typing import NDArray
+from plant.motor import move
+
+Floats = NDArray[np.float64]
+SUPPLIES = (3.0, 5.0, 6.0, 7.4, 12.0, 24.0, 48.0)
+RATES = (20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
+EXCITATIONS = ("step", "steps one way", "staircase", "prbs one way", "prbs", "ramps", "sweep", "speed loop")
+# Chance of each effect, and its size: of the supply, of the time constant, or a number.
+EFFECTS = {
+    "coulomb_friction": (0.8, {"ks": (0.02, 0.12)}),
+    "transport_delay": (0.25, {"delay": (0.1, 0.5)}),
+    "quadratic_drag": (0.1, {"drag": (0.05, 0.3)}),
+    "dead_zone": (0.1, {"dead_zone_voltage": (0.03, 0.12)}),
+    "direction_asymmetry": (0.1, {"reverse_gain": (0.85, 0.95)}),
+    "load_bias": (0.1, {"bias_voltage": (0.03, 0.1)}),
+}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A motor, what is in it, and how it was logged."""
+
+    seed: int
+    values: dict[str, float]  # of the plant
+    hidden: tuple[str, ...]
+    excitation: str
+    rate: float  # [Hz]
+    counts: int  # of a turn
+    as_position: bool
+    supply: float  # [V]
+    torque: float  # [V] RMS
+
+    @property
+    def lag(self) -> float:
+        """[s] the time constant."""
+        return self.values["ka"] / self.values["kv"]
+
+    def describe(self) -> str:
+        """Say what it is in half a line."""
+        top = self.supply / self.values["kv"]
+        sensor = f"{'positions' if self.as_position else 'speeds'} of {self.counts} counts at {self.rate:g} Hz"
+        motor = f"{self.supply:g} V, {top:.3g} rad/s, {1e3 * self.lag:.0f} ms"
+        return f"{self.excitation}, {motor}, {sensor}, torque {100 * self.torque / self.supply:.1f} %"
+
+
+def draw(seed: int) -> Case:
+    """Draw a case."""
+    random = np.random.default_rng([16, seed])
+    supply, top = float(random.choice(SUPPLIES)), 10.0 ** random.uniform(0.7, 3.3)
+    lag = 10.0 ** random.uniform(np.log10(0.02), np.log10(0.6))
+    kv = supply / top
+    scale = {"ks": supply, "dead_zone_voltage": supply, "bias_voltage": supply, "delay": lag, "drag": kv / top}
+    values, hidden = {"kv": kv, "ka": kv * lag, "max_voltage": supply}, []
+    for name, (chance, sizes) in EFFECTS.items():
+        if random.random() < chance:
+            hidden.append(name)
+            values |= {key: random.uniform(*bounds) * scale.get(key, 1.0) for key, bounds in sizes.items()}
+    torque = float(random.choice([0.0, 0.002, 0.005, 0.015])) * supply
+    if torque:
+        time = lag * 10.0 ** random.uniform(-1.0, 0.5)
+        values |= {"random_torque": torque, "random_torque_time": time, "random_torque_seed": float(seed)}
+    rate = min(float(random.choice(RATES)), 1000.0)
+    rate = next(one for one in RATES if one >= min(max(rate, 4.0 / lag), RATES[-1]))
+    per_row = 10.0 ** random.uniform(0.5, 2.5)  # counts from row to row at full speed
+    counts = int(np.clip(np.rint(per_row * rate * 2.0 * np.pi / top), 12, 100_000))
+    return Case(
+        seed=seed,
+        values=values,
+        hidden=tuple(hidden),
+        excitation=str(random.choice(EXCITATIONS)),
+        rate=rate,
+        counts=counts,
+        as_position=bool(random.integers(2)),
+        supply=supply,
+        torque=torque,
+    )
+
+
+def command(case: Case, time: Floats) -> Floats:
+    """The voltages of the rows, as shares of the supply; a speed loop's are found while it runs."""
+    random, span = np.random.default_rng([17, case.seed]), time[-1]
+    part = (time / span * 8).astype(int)
+    match case.excitation:
+        case "step":
+            return np.where(time > 0.1 * span, random.uniform(0.5, 1.0), 0.0)
+        case "steps one way":
+            return np.append(0.0, random.uniform(0.2, 1.0, 8))[part]
+        case "staircase":
+            return np.array([0.0, 0.3, 0.6, 0.9, 0.0, -0.3, -0.6, -0.9, 0.0])[part]
+        case "prbs one way" | "prbs":
+            low, high = random.uniform(0.25, 0.45), random.uniform(0.55, 0.9)
+            bits = random.integers(2, size=int(span / (1.5 * case.lag)) + 2)
+            levels = np.where(bits, high, low if case.excitation == "prbs one way" else -high)
+            return np.asarray(levels[(time / (1.5 * case.lag)).astype(int)])
+        case "ramps":
+            return np.asarray(np.interp(time / span, [0.0, 0.05, 0.3, 0.55, 0.8, 1.0], [0.0, 0.0, 0.9, -0.9, 0.9, 0.0]))
+        case _:
+            sweep = 2.0 * np.pi * span / (4.0 * case.lag) / 8.0 * (np.exp(2.0 * time / span) - 1.0) / 3.0
+            return np.asarray(random.uniform(0.5, 0.9) * np.sin(sweep))
+
+
+def run(case: Case) -> tuple[Floats, Floats, Floats]:
+    """Time [s], voltage [V] and angle [rad] of every row."""
+    span = float(np.clip(60.0 * case.lag, 4.0, 30.0))
+    time = np.arange(int(span * case.rate)) / case.rate
+    if case.excitation != "speed loop":
+        volts = case.supply * np.clip(command(case, time), -1.0, 1.0)
+        return time, volts, _move(case, time, volts)
+    volts = np.zeros(len(time))
+    speed = np.array([0.5, 0.2, 0.7, 0.4, -0.3, -0.6, 0.3, 0.5, 0.0])[(time / span * 8).astype(int)]
+    for _ in range(3):  # a loop without a model: the command of a run answers the speed of the run before
+        angle = _move(case, time, volts)
+        error = speed * case.supply / case.values["kv"] - np.gradient(angle, time)
+        volts = np.clip(volts + 0.5 * case.values["kv"] * error, -case.supply, case.supply)
+    return time, volts, _move(case, time, volts)
+
+
+def _move(case: Case, time: Floats, volts: Floats) -> Floats:
+    motion = move(case.values, time, volts, step=min(1e-4, case.lag / 400.0))
+    return np.asarray(motion.angle[motion.at])
+
+
+def write(case: Case, path: Path) -> None:
+    """Write the log."""
+    time, volts, angle = run(case)
+    count = np.floor(angle * case.counts / (2.0 * np.pi) + np.random.default_rng(case.seed).random())
+    shown = count * 360.0 / case.counts
+    if not case.as_position:
+        shown = np.append(0.0, np.diff(shown)) * case.rate / 6.0
+    name = "position [deg]" if case.as_position else "speed [rpm]"
+    rows = zip(time, volts, shown, strict=True)
+    text = "\n".join(f"{t:.6f},{u:.4f},{y:.5f}" for t, u, y in rows)
+    path.write_text(f"time [s],voltage [V],{name}\n{text}\n", encoding="utf-8")
