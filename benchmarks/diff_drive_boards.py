@@ -8,21 +8,23 @@ import argparse
 import sys
 from dataclasses import dataclass, field
 from math import degrees, pi
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"))
 
 from diff_drive_square import DRIVE_EVERY, GEOMETRY, LIMITS, SIDE, TRUE, Loop, Square, board_of, plan_of
+from driver_rig import Rig
 from machine import commit, machine
 
-from motor_board.build import FirmwareConfig, firmware
+from motor_board.build import FirmwareConfig
 from motor_board.chip import FREQUENCY
-from motor_board.emulator import Emulator
 from motor_board.shaft import EncoderConfig
 from motor_control.controller import controller
 from motor_driver.config import Config
-from motor_driver.driver import Driver
 from motor_examples.diff_drive import drive
 from motor_examples.diff_drive.odometry import Pose, advance_pose
 from motor_examples.diff_drive.wheel import Wheel, follow_controller, follow_sample
-from motor_ros.gate import Gate
+from motor_model.sample import Sample
 
 RATE, EDGES = 200.0, 374
 LOOK = FREQUENCY // 2000  # [cycle] between two looks at the port
@@ -31,50 +33,38 @@ OURS = Loop("", TRUE, {"speed_source": "observer", "feedforward": True, "voltage
 
 @dataclass
 class BoardWheel:
-    """One wheel: emulated board, driver, controller, and what the drive knows of it."""
+    """One wheel: emulated board with its driver, controller, and what the drive knows of it."""
 
     side: int
     seed: int
     state: controller.State = field(default_factory=controller.State)
 
     def __post_init__(self) -> None:
-        encoder = EncoderConfig(EDGES, 0.01, self.seed, channels=2)
-        self.emulator = Emulator(firmware(FirmwareConfig(channels=2)), TRUE[self.side], encoder)
         told = Config(sample_rate=RATE, edges_per_revolution=EDGES, single_channel=False, max_voltage=6.0)
-        self.driver, self.gate, self._begun, self._sent = Driver(told), Gate(True, 0.1, 1.0 / RATE), 0, 0
-        self.driver.opened("the port", self.now)
+        self.rig = Rig(
+            config=told,
+            parameters=TRUE[self.side],
+            firmware=FirmwareConfig(channels=2),
+            encoder=EncoderConfig(EDGES, 0.01, self.seed),
+            step=LOOK,
+            hear=self._answer,
+        )
         self.config = OURS.config(self.side, board_of(self.seed))
-        self.wheel = Wheel(TRUE[self.side].name, info=self.driver.info)
+        self.wheel, self._sent = Wheel(TRUE[self.side].name, info=self.rig.driver.info), 0
+        self.rig.plug()
 
     @property
-    def now(self) -> int:
-        """[ns]."""
-        return 1 + self.emulator.chip.cycle * 125 // 2
+    def now(self) -> float:
+        """[s]."""
+        return self.rig.now * 1e-9
 
-    def run(self, seconds: float) -> None:
-        """Let time pass on the chip."""
-        end = self.emulator.chip.cycle + round(seconds * FREQUENCY)
-        while self.emulator.chip.cycle < end:
-            self.emulator.run(min(self.emulator.chip.cycle + LOOK, end))
-            data = self.emulator.chip.drain()
-            readings = self.driver.received(data, self.now) if data else []
-            if self.driver.runs_begun > self._begun:
-                self._begun, self.gate = self.driver.runs_begun, self.gate.come_up(self.now)
-            for reading in readings:
-                self._answer(reading.sample)
-            order = self.driver.step(self.now, self.gate.enabled, self.gate.voltage(self.now))
-            if order.stop:
-                self.gate = self.gate.stop(order.stop)
-            self.emulator.chip.feed(order.data)
-
-    def _answer(self, sample) -> None:  # type: ignore[no-untyped-def]
-        now = self.now * 1e-9
-        output, self.state = controller.update(self.config, self.state, sample, None, now)
+    def _answer(self, sample: Sample) -> None:
+        output, self.state = controller.update(self.config, self.state, sample, None, self.now)
         if output.drives:
             self._sent += 1
-            self.gate = self.gate.take(output.terms.voltage, self.now, "", self._sent)
-        self.wheel = follow_sample(self.wheel, sample, now)
-        self.wheel = follow_controller(self.wheel, output.state, output.reason, output.terms.voltage, now)
+            self.rig.gate = self.rig.gate.take(output.terms.voltage, self.rig.now, "", self._sent)
+        self.wheel = follow_sample(self.wheel, sample, self.now)
+        self.wheel = follow_controller(self.wheel, output.state, output.reason, output.terms.voltage, self.now)
 
 
 def square(seed: int, way: float) -> Square:
@@ -84,14 +74,14 @@ def square(seed: int, way: float) -> Square:
     true = seen = Pose()
     counted, corners, healthy, step = [0.0, 0.0], [], True, DRIVE_EVERY / RATE
     for one in wheels:
-        one.run(1.0)
+        one.rig.run(1000.0)
     for twist, duration in plan_of(way):
         for _ in range(round(duration / step)):
-            before = [one.emulator.shaft.angle for one in wheels]
+            before = [one.rig.emulator.shaft.angle for one in wheels]
             for one in wheels:
-                one.run(step)
-            now = wheels[0].now * 1e-9
-            after = [one.emulator.shaft.angle for one in wheels]
+                one.rig.run(1000.0 * step)
+            now = wheels[0].now
+            after = [one.rig.emulator.shaft.angle for one in wheels]
             true = advance_pose(GEOMETRY, true, *(a - b for a, b in zip(after, before, strict=True)))
             state = drive.take_command(config, state, twist, now)
             decision, state = drive.step(config, state, (wheels[0].wheel, wheels[1].wheel), now)
@@ -103,7 +93,7 @@ def square(seed: int, way: float) -> Square:
             counted = angles
         corners.append(true)
     for one in wheels:
-        one.emulator.close()
+        one.rig.close()
     return Square(true, seen, tuple(corners), healthy)
 
 

@@ -13,6 +13,7 @@ from motor_driver import status
 from motor_driver.config import Config
 from motor_driver.driver import Driver, Reading
 from motor_model.parameters import Parameters, paper_motor
+from motor_model.sample import Sample
 from motor_ros.gate import Gate
 
 HOST = 7_000_000_000_000_000  # [ns] of the host's clock at the chip's cycle 0
@@ -30,13 +31,14 @@ class Rig:
     cautious: bool = True  # the user begins with 0 V whenever a board has begun to run
     step: int = MS // 4  # [cycle] between two looks at the port
     emulator: Emulator = None  # type: ignore[assignment]  # of a rig before, or made
+    hear: Callable[[Sample], None] = lambda sample: None  # a controller, which answers before the next order is made
 
     def __post_init__(self) -> None:
         if self.emulator is None:
             encoder = replace(self.encoder, channels=self.firmware.channels)
             self.emulator = Emulator(firmware(self.firmware), self.parameters, encoder)
         self.driver = Driver(self.config)
-        self.gate = Gate(self.enabled, self.config.command_timeout)
+        self.gate = Gate(self.enabled, self.config.command_timeout, 1.0 / self.config.sample_rate)
         self.faults = Faults()
         self.readings: list[Reading] = []
         self.stops: list[str] = []
@@ -111,6 +113,8 @@ class Rig:
         data = self._out.receive(self.now)
         readings = self.driver.received(data, self.now) if data and self.plugged else []
         self.readings += readings
+        for reading in readings:
+            self.hear(reading.sample)
         if self.voltage is not None and self.now - self._told >= 5_000_000:
             self._told, self._said = self.now, self._said + 1
             careful = self.cautious and not self.gate.begun
