@@ -96,7 +96,8 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
         terms, law = pi.apply_voltage(0.0 if aim.rests else demand.value, allowed.low, allowed.high), pi.State()
     else:
         terms, law = _compute_terms(config, run, seen, target, speed, step_time, allowed)
-    look = Seen(sample, speed, motion, target.reference, dt, config.voltage_limit)
+    sigma, innovation = (nan, nan) if seen is None else (seen.sigma, seen.innovation)
+    look = Seen(sample, speed, motion, target.reference, dt, config.voltage_limit, innovation)
     fault, trouble = detection.find_fault(config.faults, run.faults, look)
     after = Run(
         config,
@@ -112,7 +113,6 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
         place=place,
     )
     reason = _explain(config, run, after, allowed, aim.note)
-    sigma, innovation = (nan, nan) if seen is None else (seen.sigma, seen.innovation)
     warning = ignored > IGNORED_TIME or bool(config.note or aim.note)
     return Output(RUNNING, reason, target.reference, speed, terms, sigma, innovation, warning, fault), after
 

@@ -19,6 +19,10 @@ LITTLE = 3.0  # [V] of supply: no bridge works with less
 QUICK = 1.0 / 300.0  # [s] between edges; to stop within the next slot takes 3000 rad/s² with 96 of them
 SLOWER = 0.98  # of the speed at the beginning; a motor that is braked by STRONG keeps more only if its time constant
 # is over 50 times the stall time: du/dt = -(0.5 + 1)·speed/time constant at least, from top speed down
+# A loop that pushes the wrong way may do so in pulses, because it lets a fast motor coast. What is strong in the mean
+# is so, too: beyond PRESSING of the motor's voltage, more than a load that drives the motor asks a brake for.
+PRESSING = 0.3
+PRESSED = 0.04  # [s] of the motor's voltage beyond that; 0.2 s of STRONG
 # A plant reports 0 rad/s where edges are further apart than SLOW; the count of two channels still says which way they
 # went. BACK of them against a strong voltage, none of them much later than the one before, are no motor that is being
 # braked: under STRONG the periods of one whose time constant is 1 s and that comes to rest grow by GROWTH and more.
@@ -50,8 +54,10 @@ class MotionCheck:
     still: int = 0  # [ns] driven in this direction without an edge since
     along: int = 0  # [ns] driven in this direction while turning against it since
     strong_since: int = 0  # [ns] driven strongly in this direction since
-    begun: float = 0.0  # [rad/s] speed against the strong voltage since then, before it fell
+    pushing: int = 0  # direction of the latest strong voltage, until one has the other direction
+    begun: float = 0.0  # [rad/s] speed against that voltage, before it fell
     begun_at: int = 0  # [ns]
+    pressed: float = 0.0  # [s] of the motor's voltage against that speed, beyond PRESSING
     back: int = 0  # slow edges against the strong voltage since then
     quick: bool = False  # the latest edges came in quick succession
 
@@ -62,9 +68,10 @@ class MotionCheck:
         if strong == 0 and share * self.strong >= STILL_STRONG * STRONG:
             strong = self.strong
         fresh, anew = direction != self.direction, strong != self.strong
+        pushing = strong or (self.pushing if share * self.pushing >= 0.0 else 0)
         moved = self.latest is None or sample.edge_count != self.latest.edge_count
-        against = max(-sample.speed * strong, 0.0)
-        fell = anew or against == 0.0 or against < SLOWER * self.begun
+        against = max(-sample.speed * pushing, 0.0)
+        fell = pushing != self.pushing or against == 0.0 or against < SLOWER * self.begun
         return replace(
             self,
             latest=sample,
@@ -73,8 +80,10 @@ class MotionCheck:
             still=now if fresh or moved else self.still,
             along=now if fresh or sample.speed * direction >= 0.0 else self.along,
             strong_since=now if anew else self.strong_since,
+            pushing=pushing,
             begun=against if fell else self.begun,
             begun_at=now if fell else self.begun_at,
+            pressed=0.0 if fell else self._press(share * pushing, strong, now),
             back=0 if anew else self._count_back(sample, strong),
             quick=0.0 < sample.edge_period < QUICK if moved else self.quick,
         )
@@ -93,15 +102,23 @@ class MotionCheck:
     def stop(self) -> str:
         """Why the motor has to be switched off, as a sentence; empty if it may go on."""
         sample, most = self.latest, self.stall_time * 1e9
-        if sample is None or self.strong == 0 or most == 0.0:
+        if sample is None or most == 0.0:
             return ""
-        backward = not self.single_channel and sample.speed * self.strong < 0.0
-        if backward and sample.sample_time - self.begun_at >= most:
+        lasts = not self.single_channel and sample.speed * self.pushing < 0.0
+        lasts &= sample.sample_time - self.begun_at >= most
+        if lasts and self.pressed >= PRESSED:
             return AGAINST
+        if self.strong == 0:
+            return ""
         if not self.single_channel and self.back >= BACK and sample.sample_time - self.strong_since >= most:
             return AGAINST
         stalled = sample.sample_time - max(self.still, self.strong_since) >= most
         return self._no_edges(sample) if stalled else ""
+
+    def _press(self, share: float, strong: int, now: int) -> float:
+        """Sum up a voltage, as a share of the motor's, that pushes against the motion."""
+        dt = (now - self.latest.sample_time) * 1e-9 if self.latest is not None else 0.0
+        return max(self.pressed + (max(share, STRONG if strong else 0.0) - PRESSING) * dt, 0.0)
 
     def _count_back(self, sample: Sample, strong: int) -> int:
         """Count slow edges against a strong voltage, none of them much later than the one before."""

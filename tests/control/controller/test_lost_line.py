@@ -13,7 +13,7 @@ from motor_control.controller import controller
 def test_a_line_lost_at_100_rad_per_s(source: str, known: bool, strays: float, rate: float) -> None:
     """It was full voltage for ever wherever an edge came now and then."""
     loss = lose_line(motor(), 100.0, strays, rate=rate, source=source, model=motor() if known else None)
-    assert loss.stopped is not None and 0.02 < loss.stopped < 0.5
+    assert loss.stopped is not None and 0.01 < loss.stopped < 0.5
     assert loss.reason.startswith("Edges do not fit") and "motor/reset" in loss.reason
 
 

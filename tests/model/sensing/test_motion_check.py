@@ -3,6 +3,7 @@
 from dataclasses import replace
 from math import nan
 
+import numpy as np
 import pytest
 
 from motor_model.sample import Sample
@@ -119,3 +120,20 @@ def test_slow_edges_against_a_strong_voltage_are_a_stop(times: tuple[float, ...]
     for k in range(160):
         along = along.see(Sample(k * 5_000_000, 0.0, 7.2, sum(at <= 0.005 * k for at in edges), edge_period=0.2))
     assert "against" not in along.stop
+
+
+@pytest.mark.parametrize(("share", "stops"), [(0.25, False), (0.5, True)])
+def test_pulses_against_the_motion_are_a_wrong_direction_if_they_are_strong_in_the_mean(
+    share: float, stops: bool
+) -> None:
+    """A loop with its channels exchanged lets a fast motor coast and pushes on: 12 and 0 V in turn, for ever."""
+    rng, on = np.random.default_rng(4), 0.0
+    check, stopped = MotionCheck(12.0, False), 0.0
+    for k in range(400):
+        on += share
+        pulse, on = (12.0, on - 1.0) if on >= 1.0 else (0.0, on)
+        speed = -20.0 - 2.0 * float(rng.uniform())
+        check = check.see(sample(0.005 * k, -k, speed, pulse))
+        stopped = stopped or 0.005 * k * bool(check.stop)
+    assert (0.39 < stopped < 0.6) if stops else not stopped
+    assert not check.stop or check.stop.startswith("the motor turns against its voltage")

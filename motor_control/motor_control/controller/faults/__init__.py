@@ -7,6 +7,7 @@ In goes what a sample shows (`evidence`), out comes a sentence, or none (`detect
                      voltage, while the voltage rises: a line that is lost (whether or not noise still counts), a shaft
                      that is held
     irregular_edges  periods that jump back and forth: noise, no motor
+    unexpected_edges edges at angles where the model's motor is not: noise that is too slow for its periods to be judged
     runaway          the voltage is 0 or strongly against the motion, and yet the speed grows: a wrong sign, a bridge
                      that stays on, a load
     overspeed        faster than full voltage can drive the motor of the model: edges that are none, or a load

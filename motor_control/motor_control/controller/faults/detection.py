@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from motor_control.controller.faults import few_edges, irregular_edges, overspeed, runaway, stall
+from motor_control.controller.faults import few_edges, irregular_edges, overspeed, runaway, stall, unexpected_edges
 from motor_control.controller.faults.evidence import Config, Seen
 
 
@@ -13,6 +13,7 @@ class State:
     stalled: stall.State = stall.State()
     missing: few_edges.State = few_edges.State()
     periods: irregular_edges.State = irregular_edges.State()
+    unexpected: unexpected_edges.State = unexpected_edges.State()
     undriven: runaway.State = runaway.State()
     too_fast: float = 0.0  # [s]
 
@@ -28,6 +29,9 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     still, stalled = stall.check(config, state.stalled, seen)
     few, missing = few_edges.check(config, state.missing, seen, regular)
     irregular, periods = irregular_edges.check(config, state.periods, seen)
+    odd, unexpected = unexpected_edges.check(config, state.unexpected, seen)
     away, undriven = runaway.check(config, state.undriven, seen)
     fast, too_fast = overspeed.check(config, state.too_fast, seen)
-    return still or few or irregular or away or fast, State(stalled, missing, periods, undriven, too_fast)
+    return still or few or irregular or odd or away or fast, State(
+        stalled, missing, periods, unexpected, undriven, too_fast
+    )

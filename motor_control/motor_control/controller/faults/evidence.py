@@ -1,7 +1,7 @@
 """What a fault is told by: what is known of the motor, and what a sample shows."""
 
 from dataclasses import dataclass
-from math import inf
+from math import inf, nan
 
 from motor_control.checks import at_least
 from motor_control.controller.motion import Motion
@@ -45,6 +45,7 @@ class Seen:
     reference: float  # [rad/s]
     dt: float  # [s] since the sample before
     voltage_limit: float  # [V]
+    innovation: float = nan  # [rad] angle at the latest edge less the observer's prediction; NaN: no observer
 
     @property
     def full(self) -> bool:

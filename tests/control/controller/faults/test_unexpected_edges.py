@@ -1,0 +1,61 @@
+"""Edges at angles where the model's motor is not."""
+
+from math import nan, tau
+
+import numpy as np
+import pytest
+
+from motor_control.controller.faults.evidence import SPARE_SINGLE, Config, Seen
+from motor_control.controller.faults.unexpected_edges import State, check, follow_innovation
+from motor_control.controller.motion import Motion
+from motor_model.sample import Sample
+
+SLOT = tau / 96
+ONE, TWO = Config(slot=SLOT, spare=SPARE_SINGLE), Config(slot=SLOT)
+
+
+def needed_edges(config: Config, innovations: np.ndarray, voltage: float = 6.0, period: float = 0.05) -> int | None:
+    """How many edges it takes until the motor is stopped; innovations in slots."""
+    state = State()
+    for k, innovation in enumerate(innovations):
+        sample = Sample(0, 3.0, voltage, k, edge_period=period)
+        seen = Seen(sample, 3.0, Motion(edges=1, slow_voltage=voltage), 3.0, 0.005, 12.0, innovation * SLOT)
+        reason, state = check(config, state, seen)
+        if reason:
+            return k + 1
+    return None
+
+
+def test_a_sum_of_unexpected_edges_from_both_sides() -> None:
+    """Three quarters of a slot, to and fro: half a slot more than ordinary each."""
+    to_and_fro = 0.75 * (-1.0) ** np.arange(30)
+    assert needed_edges(ONE, to_and_fro[:2]) is None and needed_edges(ONE, to_and_fro) == 3
+    assert needed_edges(TWO, to_and_fro[:7]) is None and needed_edges(TWO, to_and_fro) == 8
+
+
+@pytest.mark.parametrize("config", [ONE, TWO])
+def test_a_motors_edges_are_expected(config: Config) -> None:
+    rng = np.random.default_rng(2)
+    assert needed_edges(config, 0.05 * rng.standard_normal(20_000)) is None  # slots
+    assert needed_edges(config, np.tile(0.24 * np.array([1.0, -1.0]), 500)) is None  # a ripple that the model lacks
+    load = np.tile(np.r_[-0.94 * 0.93 ** np.arange(30), np.zeros(30)], 20)  # it comes, and is taken up, edge by edge
+    assert needed_edges(config, load) is None
+
+
+def test_noise_is_told_after_some_ten_edges() -> None:
+    rng = np.random.default_rng(3)
+    counts = [needed_edges(ONE, rng.uniform(-1.0, 1.0, 400)) or 400 for _ in range(200)]
+    assert 9 <= np.median(counts) <= 16
+
+
+@pytest.mark.parametrize(("voltage", "period"), [(0.0, 0.05), (6.0, 0.0)], ids=["not driven", "no period"])
+def test_a_shaft_turned_by_hand_and_an_edge_without_a_period_prove_nothing(voltage: float, period: float) -> None:
+    assert needed_edges(ONE, 0.9 * (-1.0) ** np.arange(100), voltage, period) is None
+
+
+def test_without_an_observer_and_after_a_turn_nothing_is_known() -> None:
+    assert needed_edges(ONE, np.full(100, nan)) is None
+    state = State(excess=1.0, innovation=0.5)
+    turned = follow_innovation(state, -0.9, backward=True)
+    assert turned.excess == 1.0 and turned.backward and turned.innovation == -0.9
+    assert follow_innovation(state, -0.9, backward=False).excess == pytest.approx(1.65)
