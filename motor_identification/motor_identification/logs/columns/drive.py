@@ -15,6 +15,7 @@ FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
 _PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control"})
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
+REACHED = 0.5  # of a register of 16 bits, below which a largest duty tells nothing of it: 5,299 is of 5,319 or of 6,000
 LARGEST_VOLTS = 60.0  # whole numbers beyond are a duty
 
 
@@ -25,6 +26,7 @@ class Drive:
     scale: float | None  # volts, or share of the supply, per unit; None: the supply has to be said
     why: str
     full: float | None = None  # a duty's value at full duty
+    sure: bool = True  # whether that could be told from its values at all
 
 
 def voltage_drive(heading: Heading, values: Floats) -> Drive:
@@ -46,11 +48,16 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
     if heading.unit == "%":
         return Drive(None, "as a duty in %", 100.0)
     words = set(heading.words)
-    for candidate in FULL_DUTIES:
+    for candidate in FULL_DUTIES if not _is_odd_timer(largest) else ():
         per_cent = candidate == 100.0 and np.any(values % 1.0) == 0 and largest < 100.0 and not words & _PER_CENT
         if largest <= candidate and not per_cent:
             return Drive(None, f"as a duty of ±{candidate:g} (assumed; otherwise: --full-duty)", candidate)
-    return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest)
+    return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest, sure=False)
+
+
+def _is_odd_timer(largest: float) -> bool:
+    """Whether duties are those of a timer that counts to a number of its own: too many for 12 bits, too few for 16."""
+    return FULL_DUTIES[-3] < largest < REACHED * FULL_DUTIES[-2]
 
 
 def supply_scale(heading: Heading, values: Floats) -> tuple[float, str]:

@@ -16,6 +16,8 @@ _BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]")
 _PARTS = re.compile(r"[^\W\d_]+|\d+|%|°")
 _CAMEL = re.compile(r"(?<=[^\W\d_A-ZÀ-Þ])(?=[A-ZÀ-Þ])|(?<=[A-Z])(?=[A-Z][a-z])")
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
+_MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
+_PER = {**dict.fromkeys(("s", "sec", "second"), "s"), **dict.fromkeys(("min", "minute"), "min")}
 _MOTOR_NUMBER = re.compile(r"(?:m|motor|wheel|enc|encoder)(\d)$", re.IGNORECASE)
 
 
@@ -49,12 +51,17 @@ def _unit_in_brackets(name: str) -> tuple[str, str]:
 
 
 def _words(text: str) -> tuple[str, ...]:
-    apart = _CAMEL.sub(" ", text.replace("ω", " ω ").replace("θ", " θ "))
+    whole = _MILLI.sub(lambda match: f" m{match[1].lower()} ", text)
+    apart = _CAMEL.sub(" ", whole.replace("ω", " ω ").replace("θ", " θ "))
     return tuple(word.lower() for word in _PARTS.findall(apart))
 
 
 def _unit_at_the_end(words: tuple[str, ...]) -> tuple[str, tuple[str, ...]]:
     """`speed rad s` is in rad/s, `pos deg` in degrees; a name that is only a unit keeps its word."""
+    if len(words) > 3 and words[-2] == "per" and words[-1] in _PER:  # velocityRadPerSec
+        unit = UNIT_BY_SPELLING.get(f"{UNIT_BY_SPELLING.get(words[-3], '')}/{_PER[words[-1]]}", "")
+        if unit:
+            return unit, words[:-3]
     for length in (2, 1):
         unit = UNIT_BY_SPELLING.get("_".join(words[-length:]), "") if len(words) >= length else ""
         if unit and len(words) > length and words[-1] not in ("a", "v", "l", "r"):
@@ -93,6 +100,8 @@ def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
         return _moves_by_unit(by_unit, told, words)
     if MOVES & set(told) and _ORDERS & set(words):
         return Quantity.REFERENCE
+    if told[:1] == [Quantity.POSITION] and words[-1] == "dot":  # theta_dot
+        return Quantity.SPEED
     if Quantity.VOLTAGE in told and Quantity.DUTY in told:
         return Quantity.VOLTAGE
     return told[0] if told else None

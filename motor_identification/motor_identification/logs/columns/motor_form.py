@@ -96,6 +96,10 @@ def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> 
     if drive.scale is not None:
         return drive, drive.scale, None
     full = drive.full or 1.0
+    if not drive.sure:
+        beside = "" if said.supply_voltage or roles.supply else " and the voltage there (--supply-voltage V)"
+        notes.questions.append((pair.voltage, f"is a duty: say what it is at full duty (--full-duty D){beside}"))
+        return drive, 1.0, roles.supply
     if said.supply_voltage:
         why = f"{drive.why}, times {said.supply_voltage:g} V"
         return Drive(None, why, full), said.supply_voltage / full, None

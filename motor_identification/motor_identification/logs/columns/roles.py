@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from motor_identification.logs.columns.behaviour import find_position, present_values
 from motor_identification.logs.columns.clock import runs_forward
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
@@ -14,6 +15,8 @@ from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.row_times import ROW_TIMES
 from motor_model.errors import RecordingError
 
+SHOWN = 12  # names in a question
+FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
 _BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
 
 
@@ -38,7 +41,8 @@ def find_roles(table: Table, said: Said) -> Roles:
     if said.time:
         table.column(said.time)
     free = _of_a_loop([heading for heading in headings if heading.name not in (time, said.supply)])
-    pairs = said.motors or _pairs(table, free, said)
+    free = present_values(free)
+    pairs = said.motors or _pairs(table, free, said, time)
     supply = said.supply or _supply_of(table, free, pairs)
     named = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs} | {supply}
     currents = [one.name for one in free if one.quantity is Quantity.CURRENT and one.name not in named]
@@ -76,12 +80,12 @@ def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
     return forward[0] if forward else None
 
 
-def _pairs(table: Table, headings: Sequence[Heading], said: Said) -> tuple[Pair, ...]:
+def _pairs(table: Table, headings: Sequence[Heading], said: Said, time: str | None) -> tuple[Pair, ...]:
     """The motors: one for each side that has a motion, or the only one."""
     moving = [one for one in headings if one.quantity in MOVES]
     sides = sorted({one.side for one in moving if one.side})
     if said.motion or said.voltage or len(sides) < 2:
-        return (_single(table, headings, said),)
+        return (_single(table, headings, said, time),)
     found = []
     for side in sides:
         own = [one for one in headings if one.side in (side, "")]
@@ -89,7 +93,7 @@ def _pairs(table: Table, headings: Sequence[Heading], said: Said) -> tuple[Pair,
     return tuple(found)
 
 
-def _single(table: Table, headings: Sequence[Heading], said: Said) -> Pair:
+def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | None) -> Pair:
     if said.motion:
         table.column(said.motion)
     if said.voltage:
@@ -98,22 +102,27 @@ def _single(table: Table, headings: Sequence[Heading], said: Said) -> Pair:
     voltage = said.voltage or ""
     rest = [one for one in headings if one.name not in (motion, voltage)]
     if not voltage and not motion and not any(map(drives, rest)) and not any(one.quantity in MOVES for one in rest):
-        return _by_behaviour(table, rest)
+        return _by_behaviour(table, rest, time)
     motion = motion or _moving(table, rest, "")
     voltage = voltage or _driving(table, [one for one in rest if one.name != motion], "", ("",))
     return Pair("", voltage, motion)
 
 
-def _by_behaviour(table: Table, headings: Sequence[Heading]) -> Pair:
-    """Two columns without telling names: what changes in fewer rows, and to fewer values, drives the other."""
-    unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
-    if len(unnamed) != 2:
+def _by_behaviour(table: Table, headings: Sequence[Heading], time: str | None) -> Pair:
+    """Columns without telling names: a drive beside a motion, or beside a position and its speed."""
+    unnamed = _unnamed(table, headings)
+    changes = {name: np.count_nonzero(np.diff(table.numbers(name))) for name in unnamed}
+    drive, *others = sorted(unnamed, key=lambda name: changes[name]) or [""]
+    fewest = min((changes[name] for name in others), default=0)
+    position = (find_position(table, others, time) if len(others) == 2 else others[0]) if len(others) in (1, 2) else ""
+    if not position or fewest < max(2 * changes[drive] + 1, FEWEST_CHANGES):
         raise _ask(table, "voltage or duty", "--voltage", unnamed or table.names)
-    changes = [np.count_nonzero(np.diff(table.numbers(name))) for name in unnamed]
-    if max(changes) < 2 * min(changes) + 1:
-        raise _ask(table, "voltage or duty", "--voltage", unnamed)
-    drive = int(np.argmin(changes))
-    return Pair("", unnamed[drive], unnamed[1 - drive])
+    return Pair("", drive, position)  # what drives changes in fewer rows, and to fewer values
+
+
+def _unnamed(table: Table, headings: Sequence[Heading]) -> list[str]:
+    """Columns whose names tell nothing, without those of nothing but zeros: a log of one step has a constant drive."""
+    return [one.name for one in headings if one.quantity is None and np.any(table.numbers(one.name))]
 
 
 def _moving(table: Table, headings: Sequence[Heading], side: str) -> str:
@@ -145,7 +154,7 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
     unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
     if len(unnamed) == 1 and others:
         return unnamed[0]
-    raise _ask(table, "voltage or duty", "--voltage", unnamed or table.names)
+    raise _ask(table, "voltage or duty", "--voltage", _unnamed(table, headings) or table.names)
 
 
 def _supply_of(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair]) -> str | None:
@@ -158,5 +167,7 @@ def _supply_of(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair])
 
 
 def _ask(table: Table, what: str, option: str, names: Sequence[str]) -> RecordingError:
-    shown = [name for name in names if name != ROW_TIMES][:12]
-    return RecordingError(f"{table.path}: which column is the {what}? Say {option} and one of {', '.join(shown)}.")
+    shown = [name for name in names if name != ROW_TIMES]
+    more = f" and {len(shown) - SHOWN} more" if len(shown) > SHOWN else ""
+    listed = f"{', '.join(shown[:SHOWN])}{more}"
+    return RecordingError(f"{table.path}: which column is the {what}? Say {option} and one of {listed}.")

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from motor_identification.logs.csv.cells import is_number
 from motor_identification.logs.csv.dialect import COMMENT, SPACES, Dialect, find_dialect, read_text, split_line
 from motor_identification.logs.csv.monitor import RECEIVED, Lines, take_apart
+from motor_identification.logs.csv.quotes import unquote_rows
 from motor_identification.logs.csv.table import GARBLED, Table
 from motor_model.errors import RecordingError
 
@@ -32,7 +33,7 @@ def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
     text, encoding = read_text(path)
     if not text.strip():
         raise RecordingError(f"{path} is empty: it needs a line of column names and a row for each sample.")
-    taken = take_apart(text.splitlines())
+    taken = take_apart(unquote_rows(text.splitlines()))
     lines = taken.lines
     dialect = find_dialect(lines)
     if dialect is None:

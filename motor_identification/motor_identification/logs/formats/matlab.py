@@ -1,4 +1,4 @@
-"""MATLAB files (version 5 to 7) as a table: vectors of one length, columns of matrices, fields of structs."""
+"""MATLAB files (version 4 to 7) as a table: vectors of one length, columns of matrices, fields of structs."""
 
 from pathlib import Path
 from typing import Any
@@ -7,7 +7,10 @@ import numpy as np
 
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.mat_elements import BrokenFileError, TooLargeError, Value, read_variables
+from motor_identification.logs.formats.mat_version_4 import is_version_4, read_matrices
 from motor_model.errors import RecordingError
+
+MOST_COLUMNS = 64  # of a matrix of signals: a wider one is a picture or a model
 
 
 def read_matlab(path: Path) -> Table:
@@ -18,7 +21,9 @@ def read_matlab(path: Path) -> Table:
     """
     vectors: dict[str, Any] = {}
     try:
-        for name, value in read_variables(path.read_bytes()).items():
+        data = path.read_bytes()
+        variables = read_matrices(data) if is_version_4(data) else read_variables(data)
+        for name, value in variables.items():
             _collect(name, value, vectors)
     except TooLargeError as error:
         raise RecordingError(f"{path} is too large ({error}): cut it into parts.") from error
@@ -45,5 +50,8 @@ def _collect(name: str, value: Value, vectors: dict[str, Any]) -> None:
             _collect(f"{name}.{inner}", one, vectors)
     elif 1 in value.shape:
         vectors[name] = value.reshape(-1).astype(np.float64)
-    elif value.shape[1] <= 64:
-        vectors.update({f"{name} {k + 1}": value[:, k].astype(np.float64) for k in range(value.shape[1])})
+    else:
+        lying = value.shape[0] < value.shape[1]  # a Simulink file has a row for each signal, the times first
+        columns = value.T if lying else value
+        if columns.shape[1] <= MOST_COLUMNS:
+            vectors.update({f"{name} {k + 1}": columns[:, k].astype(np.float64) for k in range(columns.shape[1])})

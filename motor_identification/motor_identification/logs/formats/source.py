@@ -9,6 +9,7 @@ from motor_identification.logs.csv.dialect import check_file
 from motor_identification.logs.csv.reader import read_table
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.json_lines import are_json_lines, read_json_lines
+from motor_identification.logs.formats.mat_version_4 import is_version_4
 from motor_identification.logs.formats.matlab import read_matlab
 from motor_identification.logs.formats.sysid import read_sysid
 from motor_identification.logs.formats.wpilog import LETTERS, read_wpilog
@@ -50,6 +51,8 @@ def read_source(path: Path) -> Source:
             raise RecordingError(f"{path} is {cure}.")
     if head.startswith(b"MATLAB 5.0"):
         return Source(read_matlab(path), "MATLAB 5 file")
+    if is_version_4(head):
+        return Source(read_matlab(path), "MATLAB 4 file")
     if head.startswith(LETTERS):
         table, split = read_wpilog(path)
         return Source(table, "WPILOG", Said(split=split))
@@ -63,7 +66,7 @@ def read_source(path: Path) -> Source:
 
 
 _REFUSED: tuple[tuple[Callable[[bytes], bool], str], ...] = (
-    (lambda head: head.startswith(_HDF5), "a MATLAB 7.3 or HDF5 file: save it with -v7, or as CSV"),
+    (lambda head: head.startswith((_HDF5, b"MATLAB 7.3")), "a MATLAB 7.3 or HDF5 file: save it with -v7, or as CSV"),
     (lambda head: head.startswith(_ZIP), "a ZIP or spreadsheet file: unpack it, or export it as CSV"),
     (
         lambda head: head.startswith((_PARQUET, b"ARROW1")),

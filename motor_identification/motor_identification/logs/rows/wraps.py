@@ -23,6 +23,9 @@ SLACK = 1.02  # of its range: how far values may reach that wrap there (a turn o
 REACHED = 0.75  # of its range that values have to cover, before they are said to wrap at it
 USUAL = 3.0  # times the largest other step by which an unwrapped one may differ from 0
 AMBIGUOUS = 0.45  # of its range: a step that is nearly half of it could be one the other way
+MOST_JUMPS = 8  # to somewhere else: as many are misread values or a potentiometer's gap, more are a range
+SCRAP = 20  # rows between two jumps, below which they are no recording
+BACK_STEPS = 1.5  # usual steps a row that the motor has gone on meanwhile
 RESET_STEPS = 3.0  # usual steps from 0, or from a run's first value, within which a counter is said to be reset
 
 
@@ -79,7 +82,10 @@ def _without_jumps(values: Floats, size: float) -> tuple[Floats, int]:
 def split_at_resets(
     signals: Signals, form: CsvForm, count_of: Callable[[Floats], Integers]
 ) -> tuple[Signals, list[str]]:
-    """Begin a run wherever a counter is reset to 0 or to the run's first value.
+    """Begin a run wherever a counter is reset, to 0 or to the run's first value, or jumps to somewhere else.
+
+    What is on either side of a jump is right, whatever made it: a value that was misread, a potentiometer's gap, a
+    frame that came late. Many jumps, or two alike, are a range that nobody knows.
 
     Args:
         signals: rows with positions.
@@ -87,24 +93,57 @@ def split_at_resets(
         count_of: converts them to counts.
 
     Raises:
-        RecordingError: a position jumps to somewhere else.
+        RecordingError: a position wraps at a size that is not known.
     """
-    number = 0
+    whole, begins = signals, np.zeros(len(signals), np.bool_)
+    resets = 0
     tops: list[float] = []
+    jumps: list[int] = []  # lines
     while (row := _first_jump(signals, count_of)) is not None:
-        label, run = next((name, run) for name, run in signals.runs.items() if run.start < row < run.stop)
+        run = next(run for run in signals.runs.values() if run.start < row < run.stop)
         motion = signals.motion
-        near = RESET_STEPS * float(np.quantile(np.abs(np.diff(motion[run])), 0.9))
-        if min(abs(motion[row]), abs(motion[row] - motion[run.start])) > near:
-            raise _jumped(signals, form, row)
-        if any(abs(top - motion[row - 1]) <= near for top in tops):
-            raise _wrapped(signals, form, row)
-        tops.append(float(motion[row - 1]))
-        begins = np.zeros(len(signals), np.bool_)
-        begins[row] = True
-        signals, number = signals.split(begins), number + 1
-    said = f"{form.motion} is reset {number} times: {len(signals.runs)} runs, a bag each." if number else ""
-    return signals, [said.replace(" 1 times", " once")] if said else []
+        usual = float(np.quantile(np.abs(np.diff(motion[run])), 0.9))
+        near, right = RESET_STEPS * usual, row
+        if min(abs(motion[row]), abs(motion[row] - motion[run.start])) <= near:
+            if any(abs(top - motion[row - 1]) <= near for top in tops):
+                raise _wrapped(signals, form, row, "and not for the first time")
+            tops.append(float(motion[row - 1]))
+            resets += 1
+        else:
+            right = _row_back(motion, row, run.stop, usual)
+            jumps.append(int(signals.lines[row]))
+            if len(jumps) > MOST_JUMPS:
+                raise _wrapped(signals, form, row, f"as in more than {MOST_JUMPS} places")
+        begins[np.searchsorted(whole.lines, signals.lines[[row, right]])] = True
+        signals = whole.split(begins)
+    said = [f"{form.motion} is reset {resets} times: {len(signals.runs)} runs, a bag each."] if resets else []
+    if jumps:
+        signals = _without_scraps(signals)
+        said.append(_about_jumps(signals, form, jumps))
+    return signals, [line.replace(" 1 times", " once") for line in said]
+
+
+def _row_back(motion: Floats, row: int, stop: int, usual: float) -> int:
+    """The row at which a value that was misread from `row` on is right again; `row`, where it does not come back."""
+    beside = np.abs(motion[row : min(row + SCRAP, stop)] - motion[row - 1])
+    back = np.flatnonzero(beside <= BACK_STEPS * usual * np.arange(1, len(beside) + 1))
+    return row + int(back[0]) if len(back) else row
+
+
+def _without_scraps(signals: Signals) -> Signals:
+    """The runs but for the few rows between a jump and the next, unless all are such."""
+    keep = np.zeros(len(signals), np.bool_)
+    for run in signals.runs.values():
+        keep[run] = run.stop - run.start >= SCRAP
+    return signals.only(keep) if keep.any() else signals
+
+
+def _about_jumps(signals: Signals, form: CsvForm, lines: list[int]) -> str:
+    where = ", ".join(str(line) for line in sorted(lines))
+    return (
+        f"Caution: {form.motion} jumps {len(lines)} times, at line {where}, further than the motor goes: "
+        f"{len(signals.runs)} runs, a bag each (where it wraps: --wrap R)."
+    )
 
 
 def _first_jump(signals: Signals, count_of: Callable[[Floats], Integers]) -> int | None:
@@ -119,18 +158,9 @@ def _first_jump(signals: Signals, count_of: Callable[[Floats], Integers]) -> int
     return None
 
 
-def _wrapped(signals: Signals, form: CsvForm, row: int) -> RecordingError:
+def _wrapped(signals: Signals, form: CsvForm, row: int, how: str) -> RecordingError:
     before, here = (f"{signals.motion[k]:.9g}" for k in (row - 1, row))
     return RecordingError(
-        f"{signals.path}, line {signals.lines[row]}: {form.motion} jumps from {before} to {here}, and not for the "
-        "first time: say where it wraps (--wrap R)."
-    )
-
-
-def _jumped(signals: Signals, form: CsvForm, row: int) -> RecordingError:
-    before, here = (f"{signals.motion[k]:.9g}" for k in (row - 1, row))
-    what = "the counter wrapped or was reset" if form.kind is not Kind.SPEED else "no motor does"
-    return RecordingError(
-        f"{signals.path}, line {signals.lines[row]}: {form.motion} jumps from {before} to {here}: {what}. "
-        "Say where it wraps (--wrap R), or mark the parts in a column for --split."
+        f"{signals.path}, line {signals.lines[row]}: {form.motion} jumps from {before} to {here}, {how}: say where it "
+        "wraps (--wrap R)."
     )

@@ -32,3 +32,12 @@ def test_times_go_on() -> None:
     even = np.arange(50.0)
     assert runs_forward(even) and runs_forward(even // 3 * 2 + even % 3) and not runs_forward(-even)
     assert not runs_forward(np.sin(even)) and not runs_forward(np.cumsum(even**2)) and not runs_forward(even[:3])
+
+
+def test_a_clock_of_many_digits_may_have_late_rows() -> None:
+    """As where a small computer writes its file: the clock goes on in every row, some of which take three times."""
+    steps = np.full(100, 0.0061)
+    steps[::6] = 0.021
+    assert runs_forward(np.cumsum(steps)) and not runs_forward(np.repeat(np.cumsum(steps), 2))
+    steps[::4] = 0.021
+    assert not runs_forward(np.cumsum(steps))

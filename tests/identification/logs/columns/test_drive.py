@@ -32,6 +32,14 @@ def test_full_duty_by_the_largest_value(name: str, top: float, full: float) -> N
     assert duty_drive(read_heading(name), values, 500.0).full == 500.0
 
 
+@pytest.mark.parametrize(("top", "sure"), [(4095.0, True), (4096.0, False), (16383.0, False), (16384.0, True)])
+def test_a_timer_that_counts_to_a_number_of_its_own(top: float, sure: bool) -> None:
+    values = np.rint(top * WAVE)
+    values[7] = top
+    assert duty_drive(read_heading("pwm"), values).sure == sure
+    assert duty_drive(read_heading("pwm"), values, 20_000.0).sure
+
+
 @pytest.mark.parametrize(("top", "scale"), [(60.0, 1.0), (61.0, None)])
 def test_whole_numbers_beyond_a_small_motors_volts_are_a_duty(top: float, scale: float | None) -> None:
     values = np.rint(top * WAVE)

@@ -38,6 +38,12 @@ encoder_count     | count          | count |
 wheel_left_ticks  | count          | count | left
 I (A)             | current        | A     |
 targetSpeed       | reference      |       |
+current_mA        | current        | mA    |
+batt_mV           | supply voltage | mV    |
+velocityRadPerSec | speed          | rad/s |
+omega_degPerSec   | speed          | deg/s |
+wheel turns per minute | speed     | rpm   |
+theta_dot         | speed          |       |
 speed_cmd         | reference      |       |
 r                 | reference      |       |
 temperature       | other          |       |

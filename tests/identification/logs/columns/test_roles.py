@@ -65,6 +65,39 @@ def test_without_names_by_how_numbers_behave() -> None:
     assert (roles.time, roles.pairs) == ("column 1", (Pair("", "column 3", "column 2"),))
 
 
+def test_without_names_a_position_and_its_speed() -> None:
+    """A log of one step: the drive is constant, and the position is the integral of the speed."""
+    KINDS.update(c=np.full(200, 100.0), v=np.round(1.0 - np.exp(-TIME), 2), p=np.floor(np.cumsum(1.0 - np.exp(-TIME))))
+    roles = find_roles(table(**{"column 1": "c", "column 2": "t", "column 3": "v", "column 4": "p"}), Said())
+    assert (roles.time, roles.pairs) == ("column 2", (Pair("", "column 1", "column 4"),))
+    with pytest.raises(RecordingError, match="voltage or duty\\? Say --voltage and one of column 1, column 3, column 4"):
+        find_roles(table(**{"column 1": "c", "column 2": "t", "column 3": "v", "column 4": "u"}), Said())
+    with pytest.raises(RecordingError, match="--voltage and one of c0, .*, c11 and 2 more"):
+        find_roles(table(t="t", **{f"c{k}": "y" for k in range(14)}), Said())
+
+
+def test_current_beside_a_target_is_what_is_present() -> None:
+    roles = find_roles(table(t="t", target="r", current="y", pwm="u"), Said())
+    assert (roles.pairs, roles.current) == ((Pair("", "pwm", "current"),), None)
+    four = find_roles(table(t="t", CURRENT_M1="y", CURRENT_M2="y", PWM_M1="u", PWM_M2="r", DESIRED_M1="r"), Said())
+    assert four.pairs == (Pair("1", "PWM_M1", "CURRENT_M1"), Pair("2", "PWM_M2", "CURRENT_M2"))
+    measured = find_roles(table(t="t", target="r", current="y", pwm="u", speed="y"), Said())
+    assert (measured.pairs[0].motion, measured.current) == ("speed", "current")
+    for columns in ({"current": "y", "loop": "r"}, {"target": "r", "current_mA": "y"}):
+        with pytest.raises(RecordingError, match="which column is the motion"):
+            find_roles(table(t="t", pwm="u", **columns), Said())
+
+
+@pytest.mark.parametrize(("changes", "told"), [(10, True), (9, False)])
+def test_a_motion_changes_more_than_a_few_times(changes: int, told: bool) -> None:
+    KINDS.update(c=np.full(200, 1520.0), m=np.minimum(np.arange(200) // 4, changes))
+    if told:
+        assert find_roles(table(t="t", a="c", b="m"), Said()).pairs == (Pair("", "a", "b"),)
+        return
+    with pytest.raises(RecordingError, match="voltage or duty"):
+        find_roles(table(t="t", a="c", b="m"), Said())
+
+
 @pytest.mark.parametrize(
     ("columns", "complaint"),
     [

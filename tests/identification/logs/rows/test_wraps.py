@@ -70,8 +70,28 @@ def test_a_reset_begins_a_run_and_a_second_one_from_the_same_place_is_a_wrap() -
         split_at_resets(rows(again), form("deg"), whole)
 
 
-def test_a_jump_to_somewhere_else_is_refused() -> None:
-    there = 10.0 * np.arange(60)
-    there[30:] += 5000.0
-    with pytest.raises(RecordingError, match="line 32: y jumps from 290 to 5300: the counter wrapped or was reset"):
-        split_at_resets(rows(there), form("deg"), whole)
+def with_jumps(number: int) -> Floats:
+    there = 10.0 * np.arange(900)
+    for k in range(number):
+        there[60 * (k + 1) :] += 5000.0 + 700.0 * k
+    return there
+
+
+def test_a_jump_to_somewhere_else_begins_a_run() -> None:
+    signals, said = split_at_resets(rows(with_jumps(8)), form("deg"), whole)
+    assert [run.stop - run.start for run in signals.runs.values()] == [60] * 8 + [420]
+    assert list(signals.runs) == [str(k) for k in range(1, 10)]
+    assert said[0].startswith("Caution: y jumps 8 times, at line 62, 122, 182, 242,") and "9 runs, a bag each" in said[0]
+    with pytest.raises(RecordingError, match=r"jumps from -?\d+ to -?\d+, as in more than 8 places: say where it wraps"):
+        split_at_resets(rows(with_jumps(9)), form("deg"), whole)
+
+
+@pytest.mark.parametrize(("length", "runs"), [(1, [300, 599]), (3, [300, 597]), (19, [300, 581])])
+def test_values_that_are_misread_are_left_out(length: int, runs: list[int]) -> None:
+    there = 10.0 * np.arange(900)
+    there[300 : 300 + length] += 4000.0
+    signals, said = split_at_resets(rows(there), form("deg"), whole)
+    assert [run.stop - run.start for run in signals.runs.values()] == runs
+    assert said == [
+        "Caution: y jumps once, at line 302, further than the motor goes: 2 runs, a bag each (where it wraps: --wrap R)."
+    ]

@@ -1,0 +1,54 @@
+"""What columns are by how their numbers behave, where their names tell nothing or two things."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import permutations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.vocabulary import MOVES, Quantity
+from motor_identification.logs.csv.table import Table
+
+Floats = NDArray[np.float64]
+
+INTEGRAL = 0.9  # correlation of a position's steps with its speed, both over some rows, as one row is coarse
+PARTS, FEWEST_PARTS = 40, 5  # of a log, over which they are compared
+
+
+def find_position(table: Table, names: Sequence[str], time: str | None) -> str:
+    """The position among two columns of which one is the other's derivative; empty where that is not so.
+
+    Without a column of times rows are taken for regular.
+    """
+    steps = np.ones(len(table)) if time is None else np.diff(table.numbers(time), append=np.nan)
+    steps[~(steps >= 0.0)] = 0.0  # where time begins again
+    pairs = {(one, other): _agreement(table, one, other, steps) for one, other in permutations(names, 2)}
+    best = max(pairs, key=lambda pair: pairs[pair])
+    return best[0] if pairs[best] > INTEGRAL else ""
+
+
+def _agreement(table: Table, position: str, speed: str, steps: Floats) -> float:
+    """Correlation of a column's way with another's integral, over parts of the log."""
+    angle, travel = table.numbers(position), np.cumsum(table.numbers(speed) * steps)
+    ends = np.unique(np.linspace(0, len(angle) - 1, min(PARTS, len(angle) // 3) + 1).astype(np.int64))
+    way, integral = np.diff(angle[ends]), np.diff(travel[ends])
+    if len(way) < FEWEST_PARTS or np.ptp(way) == 0.0 or np.ptp(integral) == 0.0:
+        return 0.0
+    return float(np.corrcoef(way, integral)[0, 1])
+
+
+def present_values(headings: list[Heading]) -> list[Heading]:
+    """`current` beside a target, where nothing else moves and no unit says ampere, is what is present: it moves."""
+    if not any(one.quantity is Quantity.REFERENCE for one in headings) or _any_moves(headings):
+        return headings
+    return [replace(one, quantity=Quantity.POSITION) if _is_present(one) else one for one in headings]
+
+
+def _any_moves(headings: Sequence[Heading]) -> bool:
+    return any(one.quantity in MOVES for one in headings)
+
+
+def _is_present(heading: Heading) -> bool:
+    return heading.quantity is Quantity.CURRENT and not heading.unit and "current" in heading.words
