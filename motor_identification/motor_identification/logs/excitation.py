@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.log import Log, Run
+from motor_identification.logs.log import Log
+from motor_identification.logs.run import Run
 from motor_model.sample import Measurement
 
 STANDING = 0.01  # of the largest speed: below, the motor stands

@@ -19,26 +19,15 @@ from motor_identification.logs.rows.parts import (
     split_by_column,
 )
 from motor_identification.logs.rows.stamps import separate_stamps, unwrap_clock
+from motor_identification.logs.run import Run
 from motor_identification.logs.signals import Floats, Integers, Signals, read_signals
 from motor_identification.logs.steady import read_steady
+from motor_identification.logs.still_runs import leave_out_still_runs
 from motor_model.errors import RecordingError
 from motor_model.sample import RANGES, Info, Sample
 
 FROM_THEN = "Assumed: a row's voltage is applied from its time until the next row (otherwise: --voltage-before)."
 BEFORE = "A row's voltage is applied from the time of the row before until its own."
-
-
-@dataclass(frozen=True)
-class Run:
-    """One recording; `label` is what tells it from others made fit for a file name, empty without others."""
-
-    label: str
-    samples: tuple[Sample, ...]
-
-    @property
-    def duration(self) -> float:
-        """[s] from the first sample to the last."""
-        return (self.samples[-1].sample_time - self.samples[0].sample_time) * 1e-9
 
 
 @dataclass(frozen=True)
@@ -107,12 +96,10 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     about = f"{table.path}: {_about_time(signals)}, up to {info.max_voltage:.4g} V."
     applied = BEFORE if form.voltage_before else FROM_THEN
     rest = () if form.rest_until is None else (_about_rest(form.rest_until, len(signals.runs)),)
-    runs = signals.runs.items()
-    return Log(
-        info=motion.info,
-        runs=tuple(Run(label, _from_rest(samples[rows], form, signals.voltage[rows.start])) for label, rows in runs),
-        findings=(about, *said, *motion.findings, applied, *rest),
-    )
+    parts = signals.runs.items()
+    made = [Run(label, _from_rest(samples[rows], form, signals.voltage[rows.start])) for label, rows in parts]
+    runs, still = leave_out_still_runs(made)
+    return Log(motion.info, runs, (about, *said, *motion.findings, applied, *rest, *still))
 
 
 def _samples(motion: Motion, held: Floats) -> tuple[Sample, ...]:

@@ -1,7 +1,9 @@
 """Find held samples: a slow sensor in a fast log repeats its value until it has a new one.
 
 A value that repeats because the motor turns evenly changes whenever it likes; one that is held changes no sooner than
-after the sensor's own period, row for row.
+after the sensor's own period, row for row. Where the two clocks slip, as a robot's loop and its bus do, there is no
+even grid: values that stay for several rows and then change by many of their steps are held all the same
+(`slipping_frames`).
 """
 
 from dataclasses import dataclass
@@ -9,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from motor_identification.recording import Floats, Integers
+from motor_identification.sensor.slipping_frames import find_slipping_frames
 
 QUANTILES = (0.05, 0.25, 0.5)  # of the times between changes: one of them is a frame, the longer ones skip some
 EARLY = 0.12  # share of changes that may come after less than LEAST_GAP of a frame: rows are late now and then
@@ -40,6 +43,9 @@ def find_frames(time: Floats, values: Floats) -> Frames | None:
             grid = _fit_grid(seen, float(np.mean(gaps[np.abs(gaps - guess) < 1.5 * row])), row)
             if grid is not None:
                 return _make_frames(time, *grid, row)
+            slipping = find_slipping_frames(time, values, changed, float(guess))
+            if slipping is not None:
+                return Frames(*slipping)
     return None
 
 

@@ -7,7 +7,7 @@ import pytest
 from motor_identification.bag import read_recording
 from motor_identification.cli._log_bags import write_bags
 from motor_identification.cli.import_log import main
-from motor_identification.logs.log import Run
+from motor_identification.logs.run import Run
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Sample
 

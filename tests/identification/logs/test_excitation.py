@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from motor_identification.logs.excitation import describe_excitation, measure_excitation
-from motor_identification.logs.log import Log, Run
+from motor_identification.logs.log import Log
+from motor_identification.logs.run import Run
 from motor_model.sample import Info, Measurement, Sample
 
 

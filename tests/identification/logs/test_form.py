@@ -87,7 +87,9 @@ def test_a_static_curve_is_a_stair_whose_ends_are_compared(tmp_path: Path) -> No
 def test_positions_that_wrap_or_jump(tmp_path: Path) -> None:
     angle = np.arange(120) * 7
     byte = [(f"{0.005 * k:.3f}", 5, value) for k, value in enumerate(angle % 256)]
-    with pytest.raises(RecordingError, match=r"line \d+: y jumps from \d+ to \d+, and not for the first time: say") as bad:
+    with pytest.raises(
+        RecordingError, match=r"line \d+: y jumps from \d+ to \d+, and not for the first time: say"
+    ) as bad:
         read(tmp_path, byte, ANGLE)
     assert str(bad.value).endswith(".") and "\n" not in str(bad.value)
     once = [(f"{0.005 * k:.3f}", 5, 9999 if k == 60 else value) for k, value in enumerate(angle)]

@@ -16,6 +16,9 @@ Floats = NDArray[np.float64]
 INTEGRAL = 0.9  # correlation of a position's steps with its speed, both over some rows, as one row is coarse
 PARTS, FEWEST_PARTS = 40, 5  # of a log, over which they are compared
 
+FIRST_VALUES = 3  # of a run, that tell whether the motor turned already
+AGAINST = 0.25  # of a run's largest speed, which noise may seem to turn against the voltage
+
 
 def find_position(table: Table, names: Sequence[str], time: str | None) -> str:
     """The position among two columns of which one is the other's derivative; empty where that is not so.
@@ -52,3 +55,16 @@ def _any_moves(headings: Sequence[Heading]) -> bool:
 
 def _is_present(heading: Heading) -> bool:
     return heading.quantity is Quantity.CURRENT and not heading.unit and "current" in heading.words
+
+
+def can_have_stood(speed: Floats, voltage: float) -> bool:
+    """Whether a run's speeds, shape (K,), in any unit, can be those of a motor that stood when its voltage came.
+
+    One that still turns against its voltage, or faster than it will in the end, did not.
+    """
+    if len(speed) < 2 * FIRST_VALUES:
+        return True
+    top, end = float(np.max(np.abs(speed))), float(np.mean(speed[-len(speed) // 4 :]))
+    begin = float(np.median(speed[:FIRST_VALUES]))
+    way = np.sign(voltage)
+    return bool(begin * way >= -AGAINST * top and abs(begin) <= abs(end) + AGAINST * top)

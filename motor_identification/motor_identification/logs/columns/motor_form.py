@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.behaviour import can_have_stood
 from motor_identification.logs.columns.clock import row_period
 from motor_identification.logs.columns.direction import guess_direction
 from motor_identification.logs.columns.drive import Drive, duty_drive, supply_scale, voltage_drive
@@ -67,7 +68,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
         unit=unit.name or ASKED.get(kind, ("count",))[0],
         voltage_scale=scale,
         split=said.split,
-        rest_until=_rest(table, rows, pair, said, notes),
+        rest_until=_rest(table, rows, pair, kind, said, notes),
         voltage_before=said.voltage_before,
         name=said.name if said.name != "motor" or not pair.label else pair.label,
         max_voltage=said.max_voltage or (said.supply_voltage if drive.full else None),
@@ -169,8 +170,8 @@ def _kind_of(heading: Heading) -> Kind | None:
     return _KINDS[heading.quantity] if heading.quantity in MOVES else None
 
 
-def _rest(table: Table, rows: Rows, pair: Pair, said: Said, notes: Notes) -> float | None:
-    """0, where every run's clock begins with its voltage, shortly before its first row."""
+def _rest(table: Table, rows: Rows, pair: Pair, kind: Kind, said: Said, notes: Notes) -> float | None:
+    """0, where every run's clock begins with its voltage, just before its first row, and the motor may have stood."""
     if rows.time is None or said.rest_until is not None:
         return said.rest_until
     stamps = np.asarray(table.nanoseconds(rows.time, TIME_UNITS[rows.unit]) * 1e-9, dtype=np.float64)
@@ -181,6 +182,10 @@ def _rest(table: Table, rows: Rows, pair: Pair, said: Said, notes: Notes) -> flo
     runs = [slice(start, stop) for start, stop in zip(begins[:-1], begins[1:], strict=True) if stop - start > 1]
     even = all(np.all(volts[run] == volts[run.start]) for run in runs)
     if not even or not all(0.0 < stamps[run.start] < FIRST_ROWS * period for run in runs):
+        return None
+    values = table.numbers(pair.motion)
+    speeds = [values[run] if kind is Kind.SPEED else np.diff(values[run]) for run in runs]
+    if not all(can_have_stood(speed, float(volts[run.start])) for speed, run in zip(speeds, runs, strict=True)):
         return None
     notes.findings.append(
         "Every run has one voltage, and its clock begins just before its first row: the voltage is taken to come upon "

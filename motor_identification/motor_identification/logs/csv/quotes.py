@@ -1,4 +1,4 @@
-"""Takes the quotes off rows that stand in quotes as a whole, as a program writes that takes a table's rows for one text."""
+"""Takes the quotes off rows that stand in quotes as a whole, as a program leaves them that takes a row for a text."""
 
 import re
 from collections.abc import Sequence

@@ -1,7 +1,7 @@
-"""Read the real matrices of a MATLAB 4 file, which Simulink's block To File and Octave's -v4 write: no header, sizes only.
+"""Read the real matrices of a MATLAB 4 file, as Simulink's block To File and Octave's -v4 write it: sizes, no header.
 
-Each variable is five whole numbers (type MOPT, rows, columns, whether complex, length of the name), the name with a zero
-behind it, and the numbers column by column, as MathWorks' "MAT-File Format", chapter version 4, says.
+Each variable is five whole numbers (type MOPT, rows, columns, whether complex, length of the name), the name with a
+zero behind it, and the numbers column by column, as MathWorks' "MAT-File Format", chapter version 4, says.
 """
 
 from struct import unpack_from

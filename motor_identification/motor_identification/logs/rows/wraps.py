@@ -6,7 +6,7 @@ from math import tau
 
 import numpy as np
 
-from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.form import CsvForm
 from motor_identification.logs.rows.held import find_fresh_rows
 from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.measurement.sanity_checks import find_count_jump

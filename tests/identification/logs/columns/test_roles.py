@@ -70,7 +70,9 @@ def test_without_names_a_position_and_its_speed() -> None:
     KINDS.update(c=np.full(200, 100.0), v=np.round(1.0 - np.exp(-TIME), 2), p=np.floor(np.cumsum(1.0 - np.exp(-TIME))))
     roles = find_roles(table(**{"column 1": "c", "column 2": "t", "column 3": "v", "column 4": "p"}), Said())
     assert (roles.time, roles.pairs) == ("column 2", (Pair("", "column 1", "column 4"),))
-    with pytest.raises(RecordingError, match="voltage or duty\\? Say --voltage and one of column 1, column 3, column 4"):
+    with pytest.raises(
+        RecordingError, match="voltage or duty\\? Say --voltage and one of column 1, column 3, column 4"
+    ):
         find_roles(table(**{"column 1": "c", "column 2": "t", "column 3": "v", "column 4": "u"}), Said())
     with pytest.raises(RecordingError, match="--voltage and one of c0, .*, c11 and 2 more"):
         find_roles(table(t="t", **{f"c{k}": "y" for k in range(14)}), Said())

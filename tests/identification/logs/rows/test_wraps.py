@@ -81,8 +81,12 @@ def test_a_jump_to_somewhere_else_begins_a_run() -> None:
     signals, said = split_at_resets(rows(with_jumps(8)), form("deg"), whole)
     assert [run.stop - run.start for run in signals.runs.values()] == [60] * 8 + [420]
     assert list(signals.runs) == [str(k) for k in range(1, 10)]
-    assert said[0].startswith("Caution: y jumps 8 times, at line 62, 122, 182, 242,") and "9 runs, a bag each" in said[0]
-    with pytest.raises(RecordingError, match=r"jumps from -?\d+ to -?\d+, as in more than 8 places: say where it wraps"):
+    assert (
+        said[0].startswith("Caution: y jumps 8 times, at line 62, 122, 182, 242,") and "9 runs, a bag each" in said[0]
+    )
+    with pytest.raises(
+        RecordingError, match=r"jumps from -?\d+ to -?\d+, as in more than 8 places: say where it wraps"
+    ):
         split_at_resets(rows(with_jumps(9)), form("deg"), whole)
 
 
@@ -93,5 +97,6 @@ def test_values_that_are_misread_are_left_out(length: int, runs: list[int]) -> N
     signals, said = split_at_resets(rows(there), form("deg"), whole)
     assert [run.stop - run.start for run in signals.runs.values()] == runs
     assert said == [
-        "Caution: y jumps once, at line 302, further than the motor goes: 2 runs, a bag each (where it wraps: --wrap R)."
+        "Caution: y jumps once, at line 302, further than the motor goes: 2 runs, a bag each "
+        "(where it wraps: --wrap R)."
     ]
