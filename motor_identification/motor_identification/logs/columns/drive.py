@@ -16,6 +16,8 @@ _PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
 REACHED = 0.5  # of a register of 16 bits, below which a largest duty tells nothing of it: 5,299 is of 5,319 or of 6,000
+FEWEST_MILLIVOLTS = 2000.0  # of what is called a voltage: fewer may be a duty of 255 or 1,023
+VOLTAGE_WORDS = frozenset({"voltage", "volt", "volts", "voltaje", "spannung", "tension", "tensión"})
 LARGEST_VOLTS = 60.0  # whole numbers beyond are a duty
 
 
@@ -36,6 +38,8 @@ def voltage_drive(heading: Heading, values: Floats) -> Drive:
         return Drive(scale, f"in {heading.unit}")
     largest = float(np.max(np.abs(values), initial=0.0))
     if largest > LARGEST_VOLTS and not np.any(values % 1.0):
+        if FEWEST_MILLIVOLTS <= largest <= 1e3 * LARGEST_VOLTS and set(heading.words) & VOLTAGE_WORDS:
+            return Drive(1e-3, "in mV (assumed; otherwise: --full-duty, --voltage-scale)")
         return duty_drive(heading, values)
     return Drive(1.0, "in V (assumed; otherwise: --full-duty, --voltage-scale)")
 

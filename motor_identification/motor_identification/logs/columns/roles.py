@@ -10,7 +10,7 @@ from motor_identification.logs.columns.clock import runs_forward
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.vocabulary import MOVES, Quantity
+from motor_identification.logs.columns.vocabulary import MOVES, SIDES, Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.row_times import ROW_TIMES
 from motor_model.errors import RecordingError
@@ -51,11 +51,18 @@ def find_roles(table: Table, said: Said) -> Roles:
 
 def _of_a_loop(headings: list[Heading]) -> list[Heading]:
     """Input and output side by side: of a controller where a set point stands there too, else of the motor."""
-    words = [one.words for one in headings]
-    if ("input",) not in words or ("output",) not in words:
+    words = {_without_side(one) for one in headings}
+    if not {("input",), ("output",)} <= words:
         return headings
     moves = ("input",) if any(one.quantity is Quantity.REFERENCE for one in headings) else ("output",)
-    return [replace(one, quantity=None) if one.words == moves else one for one in headings]
+    sides = sum(_without_side(one) == moves for one in headings) > 1
+    found = Quantity.POSITION if sides else None  # of which kind, its numbers tell
+    return [replace(one, quantity=found) if _without_side(one) == moves else one for one in headings]
+
+
+def _without_side(heading: Heading) -> tuple[str, ...]:
+    """The words of a name but for which motor it is of: `outputL`."""
+    return tuple(word for word in heading.words if word not in SIDES and word != "r")
 
 
 def _is_numeric(table: Table, name: str) -> bool:

@@ -10,11 +10,12 @@ from motor_identification.logs.formats.mat_elements import BrokenFileError, TooL
 from motor_identification.logs.formats.mat_version_4 import is_version_4, read_matrices
 from motor_model.errors import RecordingError
 
+SIGNALS = 3  # time, voltage and motion: vectors of one length, of which more tell nothing
 MOST_COLUMNS = 64  # of a matrix of signals: a wider one is a picture or a model
 
 
 def read_matlab(path: Path) -> Table:
-    """The vectors of the length that most have, by name; a struct's fields as `struct.field`.
+    """The vectors of one length by name, the longest of which there are three; a struct's fields as `struct.field`.
 
     Raises:
         RecordingError: the file is damaged, too large, or has no two vectors of one length.
@@ -34,7 +35,7 @@ def read_matlab(path: Path) -> Table:
     lengths = [len(vector) for vector in vectors.values() if len(vector) >= 2]
     if not lengths:
         raise RecordingError(f"{path} has no vectors of numbers: save time, voltage and motion as vectors.")
-    length = max(set(lengths), key=lambda n: (lengths.count(n), n))
+    length = max(set(lengths), key=lambda n: (min(lengths.count(n), SIGNALS), n))
     fitting = {name: vector for name, vector in vectors.items() if len(vector) == length}
     if len(fitting) < 2:
         raise RecordingError(f"{path} has no two vectors of one length: save time, voltage and motion with one.")

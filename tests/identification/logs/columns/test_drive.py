@@ -40,6 +40,14 @@ def test_a_timer_that_counts_to_a_number_of_its_own(top: float, sure: bool) -> N
     assert duty_drive(read_heading("pwm"), values, 20_000.0).sure
 
 
+@pytest.mark.parametrize(("top", "millivolts"), [(1999.0, False), (2000.0, True), (60_000.0, True), (60_001.0, False)])
+def test_a_voltage_of_thousands_is_in_millivolts(top: float, millivolts: bool) -> None:
+    values = np.rint(top * WAVE)
+    values[3] = top
+    assert (voltage_drive(read_heading("Voltage"), values).scale == 1e-3) == millivolts
+    assert voltage_drive(read_heading("u"), values).scale is None
+
+
 @pytest.mark.parametrize(("top", "scale"), [(60.0, 1.0), (61.0, None)])
 def test_whole_numbers_beyond_a_small_motors_volts_are_a_duty(top: float, scale: float | None) -> None:
     values = np.rint(top * WAVE)

@@ -78,6 +78,13 @@ def test_without_names_a_position_and_its_speed() -> None:
         find_roles(table(t="t", **{f"c{k}": "y" for k in range(14)}), Said())
 
 
+def test_the_outputs_of_one_input() -> None:
+    both = find_roles(table(t="t", input="u", outputL="y", outputR="y"), Said())
+    assert both.pairs == (Pair("left", "input", "outputL"), Pair("right", "input", "outputR"))
+    loop = find_roles(table(t="t", setpoint="r", input="y", output="u"), Said())
+    assert loop.pairs == (Pair("", "output", "input"),)
+
+
 def test_current_beside_a_target_is_what_is_present() -> None:
     roles = find_roles(table(t="t", target="r", current="y", pwm="u"), Said())
     assert (roles.pairs, roles.current) == ((Pair("", "pwm", "current"),), None)

@@ -53,3 +53,13 @@ def test_damage_is_a_sentence(tmp_path: Path) -> None:
             assert len(read_matlab(path)) >= 2
         except RecordingError as error:
             assert "\n" not in str(error) and str(error).endswith(".")
+
+
+def test_the_longest_three_vectors_are_the_log(tmp_path: Path) -> None:
+    """Beside the samples lie the few points of a table, or a pair from elsewhere."""
+    few = {name: np.arange(11.0) for name in ("x", "y", "xtest", "ytest", "ztest")}
+    log = {name: np.arange(500.0) for name in ("t", "u", "w")}
+    savemat(tmp_path / "log.mat", {**few, **log, "long": np.arange(9000.0), "other": np.arange(9000.0)})
+    table = read_matlab(tmp_path / "log.mat")
+    assert (len(table), table.names) == (500, ["t", "u", "w"])
+    assert table.notes[0].startswith("Left out, as they have other lengths: x, y,")
