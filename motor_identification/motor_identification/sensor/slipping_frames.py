@@ -11,6 +11,8 @@ from motor_identification.recording import Bools, Floats, Integers
 
 MANY = 8.0  # smallest steps by which typical changes differ: what turns by so much within rows does not stay for them
 FEWEST = 20  # changes that tell
+LEVELS = 12  # different changes: a speed that was computed from a few counts has few, whatever rows it is held for
+SHORTEST = 3.5  # rows in a frame: a row more or less is half of shorter ones, and any change seems regular
 REGULAR = 0.7  # share of the times between changes that are one frame, within a row
 AROUND = 9  # changes whose middle says when one frame was made
 MOVING = 3  # frames without a change, up to which the motor went on and frames were lost
@@ -33,22 +35,21 @@ def find_slipping_frames(
     row = float(np.median(np.diff(time)))
     gaps = np.diff(time[changed])
     one = np.abs(gaps - guess) < 1.5 * row
-    if len(changed) < FEWEST or np.median(change) < MANY * _smallest_step(change) or np.mean(one) < REGULAR:
+    different = np.unique(change)
+    if guess < SHORTEST * row or len(changed) < FEWEST or np.mean(one) < REGULAR or len(different) < LEVELS:
+        return None
+    if np.median(change) < MANY * min(different[0], float(np.min(np.diff(different)))):
         return None
     period = float(np.mean(gaps[one]))
-    number = np.concatenate([[0.0], np.rint(gaps / period).cumsum()])
+    number = np.concatenate([[0.0], np.maximum(np.rint(gaps / period), 1.0).cumsum()])
     slip = time[changed] - number * period
     local = np.median(sliding_window_view(np.pad(slip, AROUND // 2, mode="edge"), AROUND), axis=1)
     made = local + number * period
+    forward = made > np.maximum.accumulate(np.append(-np.inf, made[:-1]))
+    changed, made, number = changed[forward], made[forward], number[forward]
     kept = ~mark_late_frames(made, values[changed])
     rows, made, number = changed[kept], made[kept], number[kept]
     return _with_standstill(time, rows, made, number, period)
-
-
-def _smallest_step(change: Floats) -> float:
-    """By how little changes differ, or the least of them: one count, where a coarse encoder shows one at a time."""
-    different = np.unique(change)
-    return float(min(different[0], np.min(np.diff(different), initial=np.inf)))
 
 
 def mark_late_frames(made: Floats, values: Floats) -> Bools:

@@ -5,7 +5,7 @@ import pytest
 
 from motor_identification.recording import Floats
 from motor_identification.sensor.held_samples import find_frames
-from motor_identification.sensor.slipping_frames import mark_late_frames
+from motor_identification.sensor.slipping_frames import find_slipping_frames, mark_late_frames
 
 ROW, FRAME = 0.005, 0.02
 
@@ -45,6 +45,24 @@ def test_one_count_at_a_time_is_not_held() -> None:
     turned = time + 0.03 * np.sin(time)
     assert find_frames(time, np.floor(turned / 0.0203)) is None
     assert find_frames(time, 3.0 * np.floor(turned / 0.0203)) is None
+
+
+def test_the_sum_of_the_latest_rows_is_not_held() -> None:
+    """Counts of the latest 32 rows, rounded to whole ones a second: levels 31 or 32 apart, at irregular rows."""
+    time = np.arange(0.0, 1.5, 0.001)
+    counts = np.floor(angle(time + 1.0) * 20.0)
+    latest = counts - np.concatenate([np.zeros(32), counts[:-32]])
+    assert find_frames(time, np.floor(latest * 31.25) * 1.24) is None
+
+
+@pytest.mark.parametrize(("levels", "held"), [(11, False), (12, True)])
+def test_a_few_levels_are_counts(levels: int, held: bool) -> None:
+    step = 40.0 + np.concatenate([np.arange(levels), np.arange(200) % levels])
+    row = np.cumsum(4 + (np.arange(len(step)) % 7 == 0) - (np.arange(len(step)) % 7 == 3))
+    time = np.arange(row[-1] + 4) * ROW
+    values = np.cumsum(np.bincount(row, step, len(time)))
+    assert (find_slipping_frames(time, values, row, 4 * ROW) is not None) == held
+    assert find_slipping_frames(time * 3.0, values, row, 3.4 * ROW * 3.0) is None  # frames too short to tell
 
 
 @pytest.mark.parametrize(
