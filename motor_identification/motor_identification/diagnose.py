@@ -28,9 +28,8 @@ from motor_identification.diagnosis.forward_selection import (
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.verdict import conclude
 from motor_identification.estimation.global_search import search_globally
-from motor_identification.estimation.multistart import SearchReport
 from motor_identification.estimation.problem import make_problem
-from motor_identification.estimation.request import Request
+from motor_identification.estimation.request import Request, SearchReport
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.progress import ProgressReporter, Stage, Stopped, TimeLimit

@@ -6,9 +6,8 @@ from time import perf_counter
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.miscounts import exclude_miscounts
-from motor_identification.estimation.multistart import SearchReport
 from motor_identification.estimation.problem import Problem, make_problem
-from motor_identification.estimation.request import PhysicalRequest, Request, SearchConfig
+from motor_identification.estimation.request import PhysicalRequest, Request, SearchConfig, SearchReport
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
@@ -17,7 +16,8 @@ from motor_identification.physical.measured_current import identify_with_current
 from motor_identification.progress import Heartbeat
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
-from motor_identification.uncertainty.result import Fit, summarise_fit
+from motor_identification.uncertainty.result import Fit
+from motor_identification.uncertainty.summary import summarise_fit
 from motor_model.effects import normalised
 from motor_model.errors import RecordingError
 

@@ -12,14 +12,14 @@ from motor_identification.estimation.direction_correction import correct_directi
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.miscounts import find_miscounts
-from motor_identification.estimation.multistart import SearchReport
-from motor_identification.estimation.multistart_stop import Descent
 from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.request import Descent, SearchReport
 from motor_identification.estimation.whitened_fit import make_whitened
 from motor_identification.noise.likelihood import estimate_noise
 from motor_identification.recording import check
-from motor_identification.uncertainty.result import Fit, summarise_fit
+from motor_identification.uncertainty.result import Fit
+from motor_identification.uncertainty.summary import summarise_fit
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut, make_hold_out
 from motor_model.effects import EFFECT_BY_NAME

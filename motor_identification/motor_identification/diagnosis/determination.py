@@ -9,8 +9,8 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.effect_test import likelihood_threshold, sort_by_table, try_effects
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
-from motor_identification.uncertainty.result import find_bounds_hit
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
+from motor_identification.uncertainty.summary import find_bounds_hit
 from motor_identification.validation.instants import needs_instant
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 

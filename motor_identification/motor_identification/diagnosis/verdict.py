@@ -11,10 +11,11 @@ from motor_identification.diagnosis.detectability import find_undetectable
 from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Verdict
 from motor_identification.discrepancy.region_text import describe_error
-from motor_identification.estimation.multistart import SearchReport
+from motor_identification.estimation.request import SearchReport
 from motor_identification.recording import Recording
 from motor_identification.uncertainty.identifiability import suggest_profile
-from motor_identification.uncertainty.result import Fit, summarise_fit
+from motor_identification.uncertainty.result import Fit
+from motor_identification.uncertainty.summary import summarise_fit
 from motor_model.effects import EFFECT_BY_NAME
 
 

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.estimation.least_squares import Box, Tolerance, minimise_squares
-from motor_identification.estimation.multistart_stop import Descent, meets_stopping_rule, select_agreeing
+from motor_identification.estimation.multistart_stop import meets_stopping_rule, select_agreeing
 from motor_identification.estimation.objective import Objective
-from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.request import Descent, SearchConfig, SearchReport
 from motor_identification.estimation.swarm import SwarmConfig, SwarmResult, minimise
 from motor_model.errors import MotorError
 
@@ -28,26 +28,6 @@ START_DISTANCE = 0.1  # of the box: particles closer than this in every unknown 
 SWARM_STALL, SWARM_TOLERANCE = 25, 1e-3  # a swarm ends after so many epochs without a relative improvement by this
 DIFFERENCE_STEP = 1e-6  # of the box: step of forward differences
 DESCENT_TOLERANCE = Tolerance(cost=1e-6, unknowns=1e-9, gradient=1e-14, iterations=60)  # of a descent
-
-
-@dataclass(frozen=True)
-class SearchReport:
-    """The best θ of a global search, what it took, and how far it is to be trusted."""
-
-    theta: Floats  # (D,)
-    cost: float
-    evaluations: int  # simulations of one motor, those for derivatives included
-    trace: Floats  # best cost after each epoch of a swarm and each descent
-    spent: NDArray[np.int64]  # evaluations until then
-    descents: tuple[Descent, ...]  # best first
-    agreeing: int  # how many of them ended at the best cost
-    swarms: int  # each from a seed of its own
-    agreed: bool  # whether that was the reason to stop; else the evaluations were used up
-
-    @property
-    def rms(self) -> Floats:
-        """The trace as root mean squares: of an output error [rad/s]."""
-        return np.asarray(np.sqrt(self.trace))
 
 
 def search(objective: Objective, config: SearchConfig, progress: Progress | None = None) -> SearchReport:

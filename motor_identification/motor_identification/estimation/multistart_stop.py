@@ -1,22 +1,12 @@
 """Decide when a multi-start search stops: descents agree, and hardly a local minimum is left unseen."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
-from motor_identification.estimation.objective import Floats, Objective
+from motor_identification.estimation.objective import Objective
+from motor_identification.estimation.request import Descent
 
 SAME_COST = 0.01  # of the cost: descents this close ended in one local minimum
 UNSEEN_SHARE = 0.05  # of further descents that would end in a local minimum not seen yet, at which the search is over
-
-
-@dataclass(frozen=True)
-class Descent:
-    """The local minimum in which least squares ended."""
-
-    theta: Floats  # (D,)
-    cost: float
-    evaluations: int
-    swarm: int  # number of the swarm from whose particles it began
 
 
 def select_agreeing(descents: Sequence[Descent], objective: Objective) -> list[Descent]:

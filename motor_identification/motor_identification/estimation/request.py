@@ -1,8 +1,12 @@
-"""A request: which effects to fit, how hard to search, on how many cores; the only home of a search's defaults."""
+"""Requests of fits, with the only home of a search's defaults, and the report of a search: data alone."""
 
 from dataclasses import dataclass
 from math import inf
 
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.recording import Floats
 from motor_model.errors import MotorError
 
 
@@ -65,3 +69,33 @@ class Request:
     def __post_init__(self) -> None:
         if not self.time_limit > 0.0:
             raise MotorError(f"the time limit must be a positive number of seconds: {self.time_limit:g} is none.")
+
+
+@dataclass(frozen=True)
+class Descent:
+    """The local minimum in which least squares ended."""
+
+    theta: Floats  # (D,)
+    cost: float
+    evaluations: int
+    swarm: int  # number of the swarm from whose particles it began
+
+
+@dataclass(frozen=True)
+class SearchReport:
+    """The best θ of a global search, what it took, and how far it is to be trusted."""
+
+    theta: Floats  # (D,)
+    cost: float
+    evaluations: int  # simulations of one motor, those for derivatives included
+    trace: Floats  # best cost after each epoch of a swarm and each descent
+    spent: NDArray[np.int64]  # evaluations until then
+    descents: tuple[Descent, ...]  # best first
+    agreeing: int  # how many of them ended at the best cost
+    swarms: int  # each from a seed of its own
+    agreed: bool  # whether that was the reason to stop; else the evaluations were used up
+
+    @property
+    def rms(self) -> Floats:
+        """The trace as root mean squares: of an output error [rad/s]."""
+        return np.asarray(np.sqrt(self.trace))

@@ -10,8 +10,9 @@ from motor_identification.physical.joint_fit import INDUCTANCE, LAG, JointFit, a
 from motor_identification.physical.propagation import Values, propagate_errors
 from motor_identification.physical.warm_winding import describe_warm_winding
 from motor_identification.uncertainty.identifiability import PRESENT_SIGMA
-from motor_identification.uncertainty.result import Fit, find_bounds_hit
+from motor_identification.uncertainty.result import Fit
 from motor_identification.uncertainty.standard_errors import Uncertainty, estimate_uncertainty
+from motor_identification.uncertainty.summary import find_bounds_hit
 from motor_model.effects import ELECTRICAL, SPEC_BY_NAME
 from motor_model.physical.quantities import CONSTANT, RESISTANCE, physical_values
 from motor_model.physical.quantities import INDUCTANCE as INDUCTANCE_SPEC

@@ -7,7 +7,7 @@ from rclpy.action import ActionServer, CancelResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.node import Node
 
-from motor_identification.diagnose import Stage
+from motor_identification.progress import Stage
 from motor_identification.service.job import DiagnosisJob, Reported, run_reported
 from motor_identification.service.messages import feedback_message, result_message
 from motor_identification.service.worker import Call, Worker

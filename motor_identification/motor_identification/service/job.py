@@ -8,13 +8,13 @@ from os.path import realpath
 from typing import TYPE_CHECKING
 
 from motor_identification.bag import Source, Window
-from motor_identification.identify import Request, identify
+from motor_identification.estimation.request import Request
+from motor_identification.progress import Stage, Stopped
 from motor_identification.recording import Recording
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import RecordingError
 
 if TYPE_CHECKING:
-    from motor_identification.diagnose import Stage
     from motor_identification.diagnosis.result import Diagnosis
 
 
@@ -26,6 +26,13 @@ class Job:
     request: Request = Request()
 
 
+def prepare() -> None:
+    """Load what every fit needs, as a worker does before its first job; whoever hands out jobs needs none of it."""
+    from motor_identification.service import warm_up
+
+    warm_up.prepare()
+
+
 def run_job(job: Job, progress: Callable[[str, float], None] | None = None) -> Fit:
     """Read the bags and fit.
 
@@ -34,6 +41,8 @@ def run_job(job: Job, progress: Callable[[str, float], None] | None = None) -> F
         ModelError: an effect is not in the table.
     """
     refuse_repeats(job.source.uris)
+    from motor_identification.identify import identify
+
     return identify([job.source.read(uri) for uri in job.source.uris], job.request, progress)
 
 
@@ -70,7 +79,7 @@ class Reported:
 
 def run_diagnosis(
     job: DiagnosisJob,
-    progress: "Callable[[Stage], None] | None" = None,
+    progress: Callable[[Stage], None] | None = None,
     stopped: Callable[[], bool] | None = None,
 ) -> "Diagnosis":
     """Read the bags and diagnose.
@@ -80,7 +89,7 @@ def run_diagnosis(
         ModelError: a known effect is not in the table.
         Stopped: `stopped` said so.
     """
-    from motor_identification.diagnose import Stage, Stopped, diagnose
+    from motor_identification.diagnose import diagnose
 
     refuse_repeats(job.source.uris)
     refuse_repeats(job.validation)
@@ -105,7 +114,7 @@ def run_reported(
     job: DiagnosisJob,
     report: str,
     model: str,
-    progress: "Callable[[Stage], None] | None" = None,
+    progress: Callable[[Stage], None] | None = None,
     stopped: Callable[[], bool] | None = None,
 ) -> Reported:
     """Diagnose and write the report to a file (none where `report` is empty); one that cannot be written loses nothing.
@@ -115,7 +124,6 @@ def run_reported(
     Raises:
         MotorError: as `run_diagnosis`.
     """
-    from motor_identification.diagnose import Stage
     from motor_identification.reporting.html import Files, write_report
 
     diagnosis = run_diagnosis(job, progress, stopped)

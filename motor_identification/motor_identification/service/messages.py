@@ -3,9 +3,8 @@
 from builtin_interfaces.msg import Time
 
 from motor_identification.bag import Source, Window
-from motor_identification.diagnose import Stage
-from motor_identification.identify import Request, SearchConfig
-from motor_identification.reporting.diagnosis_text import summarize_diagnosis
+from motor_identification.estimation.request import Request, SearchConfig
+from motor_identification.progress import Stage
 from motor_identification.reporting.fit_text import summarize_fit
 from motor_identification.service.job import DiagnosisJob, Job, Reported, notes_of
 from motor_identification.service.limits import MOST_EPOCHS, MOST_PARTICLES
@@ -81,6 +80,8 @@ def feedback_message(stage: Stage, progress: float) -> Diagnose.Feedback:
 
 def result_message(reported: Reported, model: MotorModel, trouble: str = "") -> Diagnose.Result:
     """A diagnosis, and the message of its model, as the action's result; `trouble` is what else went wrong."""
+    from motor_identification.reporting.diagnosis_text import summarize_diagnosis
+
     diagnosis = reported.diagnosis
     return Diagnose.Result(
         success=True,

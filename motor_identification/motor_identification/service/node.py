@@ -13,11 +13,10 @@ from std_srvs.srv import Trigger
 from motor_identification.bag import Source
 from motor_identification.mapping import make_reader
 from motor_identification.reporting.fit_model_file import save_model
-from motor_identification.service import warm_up
 from motor_identification.service.call_waiter import CallWaiter
 from motor_identification.service.diagnose_action import DiagnoseAction
 from motor_identification.service.fit_queue import FitQueue
-from motor_identification.service.job import DiagnosisJob, Job
+from motor_identification.service.job import DiagnosisJob, Job, prepare
 from motor_identification.service.messages import diagnosis_job_of, fill_response, job_of, model_message
 from motor_identification.service.parameters import PARAMETERS, PROGRAM
 from motor_identification.service.places import Places
@@ -39,7 +38,7 @@ class MotorIdentification(Node):
         super().__init__("motor_identification")
         declare(self, PARAMETERS)
         self._waiter = CallWaiter()
-        self._worker = Worker(warm_up.prepare)
+        self._worker = Worker(prepare)
         self._model = self.create_publisher(MotorModel, "motor/model", qos.MODEL)
         self._places = Places(*map(self._value, ("bag_directory", "report_directory", "absolute_uris")))
         self._reader = make_reader(self._value("mapping"))

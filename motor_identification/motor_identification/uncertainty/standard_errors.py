@@ -8,7 +8,8 @@ from scipy.special import ndtri, stdtrit
 from motor_identification.estimation.whitened_fit import WhitenedFit
 from motor_identification.recording import Bools, Floats, Integers
 from motor_identification.uncertainty.identifiability import mark_visible, measure_independence, scale_unknowns
-from motor_identification.uncertainty.whiteness import Series, Whiteness, analyse_whiteness
+from motor_identification.uncertainty.result import Whiteness
+from motor_identification.uncertainty.whiteness import Series, analyse_whiteness
 
 JACKKNIFE_BLOCKS = (20, 10)  # of equal time; the fewer where the more are not independent
 DEPENDENT_SIGMA = 1.645  # standard deviations of the products of neighbours, from which on blocks are not independent

@@ -14,6 +14,7 @@ from scipy.linalg import solve_banded
 from scipy.special import chdtrc, ndtr
 
 from motor_identification.recording import Bools, Floats
+from motor_identification.uncertainty.result import Whiteness
 
 CORRELATION_LAGS = 20  # intervals over which residuals may repeat themselves
 VOLTAGE_DELAYS = (0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0)  # sample periods before a residual
@@ -31,22 +32,6 @@ class Series:
     command_time: Floats  # [s] ascending; the command holds from each of them on
     command: Floats  # [V]
     sample_period: float  # [s]
-
-
-@dataclass(frozen=True)
-class Whiteness:
-    """What is left of regularity in white residuals; NaN where there are too few of them.
-
-    The p-values are the chances of this much or more in the residuals of a right model. With many residuals any trifle
-    is significant: judge by the correlations as well.
-    """
-
-    p_value: float  # of the portmanteau test
-    autocorrelation: float  # the one of largest size
-    lag: int  # in intervals, of that one
-    input_p_value: float
-    input_correlation: float  # of largest size between residual and voltage, its size or its sign
-    input_lag: float  # [s] by which the residual follows
 
 
 def analyse_whiteness(series: tuple[Series, ...]) -> Whiteness:

@@ -6,11 +6,11 @@ import pytest
 from motor_identification.estimation.multistart_stop import (
     SAME_COST,
     UNSEEN_SHARE,
-    Descent,
     meets_stopping_rule,
     select_agreeing,
 )
 from motor_identification.estimation.objective import Objective
+from motor_identification.estimation.request import Descent
 
 
 def objective(noise_cost: float = 0.0, negligible: float = 0.0) -> Objective:

@@ -7,10 +7,9 @@ import pytest
 from small import THETA, TRUE, small_estimate
 
 from motor_identification.estimation.least_squares import fit_speeds
-from motor_identification.estimation.multistart import SearchReport
-from motor_identification.estimation.multistart_stop import Descent
+from motor_identification.estimation.request import Descent, SearchReport
 from motor_identification.estimation.whitened_fit import WhitenedFit, make_whitened
-from motor_identification.uncertainty.result import ON_BOUND, _suggest_experiment, find_bounds_hit, summarise_fit
+from motor_identification.uncertainty.summary import ON_BOUND, _suggest_experiment, find_bounds_hit, summarise_fit
 
 SEARCH = SearchReport(
     THETA, 1.0, 10, np.array([4.0, 1.0]), np.array([5, 10]), (Descent(THETA, 1.0, 5, 0),), 1, 1, agreed=True
