@@ -20,13 +20,9 @@ from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.noise.error_model import (
-    Disturbance,
-    ErrorModel,
-    estimate_disturbance,
-    learn_error_model,
-    make_error_data,
-)
+from motor_identification.noise.error_data import make_error_data
+from motor_identification.noise.error_learning import estimate_disturbance, learn_error_model
+from motor_identification.noise.error_model import Disturbance, ErrorModel
 from motor_identification.noise.likelihood import Noise, estimate_noise
 from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.validation.held_out import HeldOut

@@ -10,13 +10,8 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_residuals
 from motor_identification.estimation.whitened_fit import FilteredResiduals
-from motor_identification.noise.error_model import (
-    ErrorData,
-    ErrorModel,
-    TorqueWhitening,
-    make_error_data,
-    make_whitening,
-)
+from motor_identification.noise.error_data import ErrorData, TorqueWhitening, make_error_data, make_whitening
+from motor_identification.noise.error_model import ErrorModel
 
 ITERATIONS, TOLERANCE = 8, 1e-6  # it begins at the minimum of ordinary least squares
 

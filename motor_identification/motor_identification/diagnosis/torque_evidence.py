@@ -16,7 +16,8 @@ import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.noise.error_model import ErrorData, ErrorModel, log_likelihood, make_error_data
+from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Bools, Floats, Integers
 from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, HeldOut, mix_likelihoods
 from motor_identification.validation.hold_out import HoldOut

@@ -21,7 +21,8 @@ from motor_identification.discrepancy.free_curves import (
     respond,
 )
 from motor_identification.discrepancy.motion_history import MotionHistory
-from motor_identification.noise.error_model import ErrorData, ErrorModel
+from motor_identification.noise.error_data import ErrorData
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Bools, Floats
 
 CERTAIN = log(len(FAMILIES) / 0.01)  # [nat] likelihood ratio that chance exceeds in 1 % of complete models (Markov)

@@ -25,7 +25,8 @@ from motor_identification.discrepancy.structure import (
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.multistart import SearchConfig
 from motor_identification.estimation.problem import make_problem
-from motor_identification.noise.error_model import ErrorData, ErrorModel
+from motor_identification.noise.error_data import ErrorData
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import check
 from motor_identification.validation.hold_out import make_hold_out
 

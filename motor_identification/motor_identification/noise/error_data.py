@@ -1,0 +1,112 @@
+"""Filter the increments that a model leaves in a recording under an error model: likelihood and white residuals."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+
+from motor_identification.measurement.intervals import Intervals
+from motor_identification.noise.error_filter import GAINS, fill_white, run_filter
+from motor_identification.noise.error_model import ErrorModel
+from motor_identification.recording import Bools, Floats
+
+SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
+
+_NO_GAINS = np.empty((0, GAINS))
+
+
+@dataclass(frozen=True)
+class ErrorData:
+    """One recording's increments [rad] with all that the filter has to know of its intervals; arrays of shape (I,)."""
+
+    fresh: Bools
+    still: Bools
+    pause: Floats  # [s] from the end of the run before
+    duration: Floats  # [s]
+    blur: Floats  # [rad] standard deviation of the angle that timer or counting leave
+    slack: Floats  # [rad]
+    unit: float  # [rad] what a share is a share of
+    increments: Floats  # [rad] simulated minus measured
+    counted: Bools
+
+    def whiten(
+        self, model: ErrorModel, rate: float, ka: float, more: Floats | None = None, gains: Floats = _NO_GAINS
+    ) -> tuple[float, Floats]:
+        """Compute the log likelihood of what counts, and white residuals (1 + C, I) of the increments and C more rows.
+
+        rate: kv/ka [1/s] of the motor, ka [V·s²/rad]. more: responses [rad] that pass the same filter, shape (C, I).
+        """
+        value, white, _density = self._filter(model, rate, ka, more, gains)
+        return value, white
+
+    def densities(self, model: ErrorModel, rate: float, ka: float) -> Floats:
+        """Compute the log likelihood of every interval, shape (I,); 0 where it does not count."""
+        return self._filter(model, rate, ka, None, _NO_GAINS)[2]
+
+    def _filter(
+        self, model: ErrorModel, rate: float, ka: float, more: Floats | None, gains: Floats
+    ) -> tuple[float, Floats, Floats]:
+        sensor = self.blur**2 + (model.share * self.unit) ** 2
+        end = np.where(self.still, (SLACK_BLUR * self.slack) ** 2, sensor)
+        rows = self.increments[None] if more is None else np.concatenate([self.increments[None], more])
+        white, density = np.empty_like(rows), np.empty(len(self.fresh))
+        value = run_filter(
+            self.fresh, self.still, self.pause, self.duration, sensor, end,
+            rate, 1.0 / model.correlation_time, (model.rms_voltage / ka) ** 2, model.white,
+            rows, self.counted, white, gains, density,
+        )  # fmt: skip
+        return float(value), white, density
+
+
+@dataclass(frozen=True)
+class TorqueWhitening:
+    """The filter's gains for one recording: linear, and the same for every increment; arrays over I intervals."""
+
+    fresh: Bools
+    still: Bools
+    gains: Floats  # (I, GAINS)
+
+    def white(self, increments: Floats) -> Floats:
+        """Whiten angle increments [rad], shape (I,)."""
+        white = np.empty(len(increments))
+        fill_white(self.fresh, self.still, self.gains, np.ascontiguousarray(increments), white)
+        return white
+
+
+def make_whitening(data: ErrorData, model: ErrorModel, rate: float, ka: float) -> TorqueWhitening:
+    """Make the whitening of increments like those of `data`; rate is kv/ka [1/s], ka [V·s²/rad]."""
+    gains = np.empty((len(data.fresh), GAINS))
+    data.whiten(model, rate, ka, gains=gains)
+    return TorqueWhitening(data.fresh, data.still, gains)
+
+
+def unit_of(data: Intervals) -> float:
+    """[rad] what a sensor's error is a share of: a slot, or the typical travel where nothing is known of slots."""
+    return data.slot if data.slot > 0.0 else float(np.median(np.abs(data.speed * data.duration))) or 1.0
+
+
+def make_error_data(data: Intervals, increments: Floats, counted: Bools | None = None) -> ErrorData:
+    """Prepare one recording's increments [rad] (I,) for the filter; `counted`: those whose likelihood is wanted."""
+    still = data.slack > 0.0
+    start, end = data.time[data.first], data.time[data.last]
+    pause = np.full(len(start), inf)
+    moving = np.flatnonzero(~still)
+    pause[moving[1:]] = np.maximum(start[moving[1:]] - end[moving[:-1]], 0.0)
+    unit = unit_of(data)
+    return ErrorData(
+        fresh=data.fresh,
+        still=still,
+        pause=pause,
+        duration=data.duration,
+        blur=np.maximum(data.blur, 1e-4 * unit + 1e-12),
+        slack=data.slack,
+        unit=unit,
+        increments=np.ascontiguousarray(increments),
+        counted=np.ones(len(still), dtype=bool) if counted is None else counted,
+    )
+
+
+def log_likelihood(rows: Sequence[ErrorData], model: ErrorModel, rate: float, ka: float) -> float:
+    """Compute the log likelihood of what counts in all recordings."""
+    return sum(row.whiten(model, rate, ka)[0] for row in rows)

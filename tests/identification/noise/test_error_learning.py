@@ -1,0 +1,59 @@
+"""A random torque is learned with its strength and correlation time, and not where there is none."""
+
+import numpy as np
+import pytest
+from plant import profiles, record
+
+from motor_identification.estimation.direction_correction import correct_directions
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.problem import make_problem
+from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data
+from motor_identification.noise.error_learning import estimate_disturbance, learn_error_model
+from motor_identification.noise.error_model import ErrorModel
+from motor_identification.recording import check
+
+KV, KA = 0.07, 0.0055
+RATE = KV / KA
+
+
+def leave(torque: float, time: float, irregularity: float) -> list[ErrorData]:
+    """What the true motor leaves in a recording beside a random torque."""
+    values = {"kv": KV, "ka": KA, "random_torque": torque, "random_torque_time": time, "random_torque_seed": 4.0}
+    drive = profiles.random(12.0, 20.0, 5)
+    recording, _truth = record(values, *drive, seed=5, irregularity=irregularity, disc_seed=5)
+    problem = make_problem([check(recording)], ())
+    specs = problem.unknowns.specs
+    theta = np.array([np.log(x) if spec.logarithmic else x for x, spec in zip((KV, KA), specs, strict=True)])
+    estimate = correct_directions(Estimate(problem, theta))
+    return [make_error_data(*row) for row in zip(estimate.problem.intervals, estimate.increments, strict=True)]
+
+
+@pytest.mark.parametrize(("torque", "time", "share"), [(0.15, 0.05, 0.01), (0.03, 0.05, 0.005), (0.1, 0.015, 0.0)])
+def test_strength_and_time_are_learned_within_their_errors(torque: float, time: float, share: float) -> None:
+    rows = leave(torque, time, share)
+    model = learn_error_model(rows, RATE, KA)
+    found = estimate_disturbance(rows, model, RATE, KA)
+    assert found is not None
+    assert 0.8 * torque < found.rms_voltage < 1.2 * torque
+    assert 0.6 * time < found.correlation_time < 1.6 * time
+    assert abs(found.rms_voltage - torque) < 3.5 * found.rms_error < torque
+    assert abs(found.correlation_time - time) < 3.5 * found.time_error
+    assert model.share == pytest.approx(share, abs=0.0015)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.01])
+def test_a_perfect_motor_has_no_random_torque(share: float) -> None:
+    rows = leave(0.0, 0.05, share)
+    model = learn_error_model(rows, RATE, KA)
+    assert model.rms_voltage < 1e-3
+    assert estimate_disturbance(rows, ErrorModel(share, 0.0, 0.0, 1.0), RATE, KA) is None
+    assert model.share == pytest.approx(share, abs=0.0015)
+
+
+def test_the_learned_model_is_more_likely_than_its_neighbours() -> None:
+    rows = leave(0.1, 0.05, 0.005)
+    model = learn_error_model(rows, RATE, KA)
+    best = log_likelihood(rows, model, RATE, KA)
+    for factor in (0.7, 1.4):
+        other = ErrorModel(model.share, 0.0, factor * model.rms_voltage, model.correlation_time)
+        assert log_likelihood(rows, other, RATE, KA) < best - 5.0
