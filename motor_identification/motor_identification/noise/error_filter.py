@@ -16,68 +16,18 @@ contaminated: with a probability of ε the innovation comes from a Cauchy densit
 ratios mean what they say; a clipped square is none.
 """
 
-from math import exp, expm1, log, pi, sqrt
+from math import exp, log, pi, sqrt
 
 import numpy as np
 
+from motor_identification.noise.torque_response import angle_response, fill_growth, lag_response, ramp
 from motor_identification.recording import Bools, Floats
 from motor_model.compiled import compiled
 
 OUTLIERS = 1e-4  # ε: share of intervals whose error is none of the noise
 WIDTH = 10.0  # scale of their density, in standard deviations of the others
-_PANEL = 0.5  # of the faster time constant: first panel of a quadrature, the next ones are twice as long each
-_NODES = (0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970262)  # Gauss-Legendre on 0..1
-_WEIGHTS = (0.17392742256872692, 0.32607257743127305, 0.32607257743127305, 0.17392742256872692)
 GAINS = 12  # numbers of an interval that the filter of other increments needs
 _LONG = 40.0  # time constants after which nothing is remembered
-
-
-@compiled
-def _ramp(x: float) -> float:
-    """(1 − e^(−x))/x."""
-    return -expm1(-x) / x if x > 1e-12 else 1.0
-
-
-@compiled
-def _lag_response(alpha: float, beta: float, s: float) -> float:
-    """(e^(−β s) − e^(−α s))/(α − β): what is left in a lag α, s after an impulse in a lag β."""
-    difference = (alpha - beta) * s
-    return exp(-beta * s) * s * _ramp(difference) if difference >= 0.0 else exp(-alpha * s) * s * _ramp(-difference)
-
-
-@compiled
-def _angle_response(alpha: float, beta: float, s: float) -> float:
-    """∫ of `_lag_response` from 0 to s; by quadrature where its difference of two ramps would cancel."""
-    if max(alpha, beta) * s > 1e-2 and abs(alpha - beta) > 1e-3 * max(alpha, beta):
-        return s * (_ramp(beta * s) - _ramp(alpha * s)) / (alpha - beta)
-    total = 0.0
-    for i in range(4):
-        total += _WEIGHTS[i] * s * _lag_response(alpha, beta, _NODES[i] * s)
-    return total
-
-
-@compiled
-def _fill_growth(alpha: float, beta: float, duration: float, growth: Floats) -> None:
-    """∫ g gᵀ over a duration [s] for g = (angle, speed, torque) after an impulse of torque: bb, bd, bT, dd, dT, TT.
-
-    Panels that double resolve the fast part at the beginning and the slow one at the end.
-    """
-    for i in range(6):
-        growth[i] = 0.0
-    begin, length = 0.0, _PANEL / max(alpha, beta)
-    while begin < duration:
-        panel = min(length, duration - begin)
-        for i in range(4):
-            s, weight = begin + _NODES[i] * panel, _WEIGHTS[i] * panel
-            angle, speed, torque = _angle_response(alpha, beta, s), _lag_response(alpha, beta, s), exp(-beta * s)
-            growth[0] += weight * angle * angle
-            growth[1] += weight * angle * speed
-            growth[2] += weight * angle * torque
-            growth[3] += weight * speed * speed
-            growth[4] += weight * speed * torque
-            growth[5] += weight * torque * torque
-        begin += panel
-        length = begin  # doubles
 
 
 @compiled
@@ -143,8 +93,8 @@ def run_filter(  # noqa: C901, PLR0915
                 elif pause[k] > 0.0:
                     if pause[k] != of_pause:
                         of_pause = pause[k]
-                        _fill_growth(alpha, beta, of_pause, p)
-                    fd, ft, by = exp(-alpha * of_pause), exp(-beta * of_pause), _lag_response(alpha, beta, of_pause)
+                        fill_growth(alpha, beta, of_pause, p)
+                    fd, ft, by = exp(-alpha * of_pause), exp(-beta * of_pause), lag_response(alpha, beta, of_pause)
                     for c in range(rows):
                         d[c], t[c] = fd * d[c] + by * t[c], ft * t[c]
                     dd, dt, tt = (
@@ -158,9 +108,9 @@ def run_filter(  # noqa: C901, PLR0915
         if strength > 0.0:
             if h != of_interval:
                 of_interval = h
-                _fill_growth(alpha, beta, h, q)
-                phi_d, phi_t, by_t = exp(-alpha * h), exp(-beta * h), _lag_response(alpha, beta, h)
-                angle_d, angle_t = h * _ramp(alpha * h), _angle_response(alpha, beta, h)
+                fill_growth(alpha, beta, h, q)
+                phi_d, phi_t, by_t = exp(-alpha * h), exp(-beta * h), lag_response(alpha, beta, h)
+                angle_d, angle_t = h * ramp(alpha * h), angle_response(alpha, beta, h)
             for c in range(rows):
                 b[c] += angle_d * d[c] + angle_t * t[c]
                 d[c], t[c] = phi_d * d[c] + by_t * t[c], phi_t * t[c]

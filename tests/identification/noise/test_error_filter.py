@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 from scipy.linalg import expm
 from scipy.stats import multivariate_normal
 
@@ -138,10 +137,3 @@ def test_without_a_torque_it_is_a_drift_of_the_angle() -> None:
         exact -= 0.5 * ((level - mean) ** 2 / total + np.log(2.0 * np.pi * total))
         mean, spread = mean + spread / total * (level - mean), spread * variance / total
     assert value == pytest.approx(exact + 50 * np.log(1.0 - OUTLIERS), abs=1e-9)
-
-
-def test_responses_integrate_as_they_should() -> None:
-    """Variance of the speed after long, and growth of the angle, by independent quadrature."""
-    lag = lambda s: (np.exp(-s / TIME) - np.exp(-RATE * s)) / (RATE - 1.0 / TIME)  # noqa: E731
-    variance = 2.0 * STRENGTH / TIME * quad(lambda s: lag(s) ** 2, 0.0, 5.0)[0]
-    assert variance == pytest.approx(STRENGTH / (RATE * (RATE + 1.0 / TIME)), rel=1e-6)
