@@ -7,7 +7,7 @@ from motor_board.build import FirmwareConfig
 from motor_board.chip import FREQUENCY, InterruptLoad, Line
 from motor_driver.frames import Command, Ping, Setup
 
-TWO = FirmwareConfig(channels=2)
+TWO, TWO_MEGA = FirmwareConfig(channels=2), FirmwareConfig(channels=2, chip="atmega2560")
 # Both lines: A rises, B rises, A falls, B falls; a sensor with duty cycles of 44 % and 54 % and a phase of 61°.
 QUARTERS = np.array(
     [Line.A_STAYS, Line.B_ALONE | Line.B_HIGH, Line.A_FALLS | Line.B_HIGH, Line.B_ALONE], dtype=np.uint8
@@ -17,9 +17,11 @@ UNEVEN = np.array([0.0, 0.17, 0.44, 0.71])
 ROOM = 4_000  # edges given to the chip at once
 
 
-def folded(fold: int, cycles: np.ndarray, what: np.ndarray) -> tuple[Link, dict[str, InterruptLoad], int, int]:
+def folded(
+    fold: int, cycles: np.ndarray, what: np.ndarray, config: FirmwareConfig = TWO
+) -> tuple[Link, dict[str, InterruptLoad], int, int]:
     """A board that counts `fold` edges in a period of A through these line events, under full traffic at 1 kHz."""
-    link = Link(KHZ, TWO)
+    link = Link(KHZ, config)
     link.run(4, link.encoder.send(Setup(fold, 0)))
     plan = link.emulator.shaft.plan
     link.emulator._plan = lambda until: plan(until)  # type: ignore[method-assign,assignment,return-value]
@@ -40,11 +42,11 @@ def folded(fold: int, cycles: np.ndarray, what: np.ndarray) -> tuple[Link, dict[
     return link, loads, slept, ran
 
 
-def turning(fold: int, rate: int) -> tuple[str, list[str]]:
+def turning(fold: int, rate: int, config: FirmwareConfig = TWO) -> tuple[str, list[str]]:
     """A row on what came of so many line edges a second (four in a period of A), and the interrupts' table."""
     periods = np.arange(EDGES / 4) + 1e-3 * np.sin(np.arange(EDGES / 4))
     cycles = ((periods[:, None] + UNEVEN).ravel() * 4 * FREQUENCY / rate).astype(np.int64)
-    link, loads, slept, ran = folded(fold, cycles, np.tile(QUARTERS, EDGES // 4))
+    link, loads, slept, ran = folded(fold, cycles, np.tile(QUARTERS, EDGES // 4), config)
     lost = EDGES * fold // 4 - link.telemetry.edge_count
     due = round(ran / MS)
     share = sum(load.cycles for load in loads.values()) / ran
@@ -76,6 +78,18 @@ def dithering(seconds: float) -> list[str]:
     return [*rows, ""]
 
 
+HEAD = [
+    "| counts | line edges/s | counts/s | counts lost | errors told | frames not sent | interrupts | asleep |",
+    "|---|---:|---:|---:|---:|---:|---:|---:|",
+]
+
+
+def quadrature_on_mega() -> list[str]:
+    """The same on the second chip."""
+    rates = ((4, 10_000), (4, 14_000), (2, 14_000), (1, 14_000), (4, 16_000), (4, 20_000), (2, 20_000), (1, 20_000))
+    return [*HEAD, *(turning(fold, rate, TWO_MEGA)[0] for fold, rate in rates), ""]
+
+
 def quadrature() -> list[str]:
     """The part of the page on both channels."""
     row, table = turning(4, 20_000)
@@ -85,8 +99,7 @@ def quadrature() -> list[str]:
         "An uneven sensor (flanks at 0, 17, 44 and 71 % of a period), commands and telemetry at 1 kHz. ×1 counts one",
         "polarity of A with B's level, as before.",
         "",
-        "| counts | line edges/s | counts/s | counts lost | errors told | frames not sent | interrupts | asleep |",
-        "|---|---:|---:|---:|---:|---:|---:|---:|",
+        *HEAD,
         row,
     ]
     for fold, rate in ((2, 20_000), (1, 20_000), (4, 22_000), (4, 25_000), (4, 30_000), (2, 30_000), (2, 40_000)):

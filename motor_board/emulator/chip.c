@@ -10,12 +10,10 @@
 #include "inside.h"
 
 #define FREQUENCY 16000000
+#define MCUSR 0x54
+#define EXTERNAL_RESET 0x02
 #define SETTLE 80         /* cycles from the first change of a pin to the last one of the same write */
 #define RUN_LIMIT 1000000 /* cycles that simavr may run without looking up; falls back to 1 at every reset */
-
-/* Addresses in data space (ATmega328P data sheet, chapter 30). */
-enum { DDRB = 0x24, PORTB = 0x25, DDRD = 0x2A, PORTD = 0x2B, TCCR0A = 0x44, OCR0A = 0x47, OCR0B = 0x48, TIMSK1 = 0x6F, TCCR1B = 0x81, TCCR2A = 0xB0, TCCR2B = 0xB1, OCR2A = 0xB3, OCR2B = 0xB4 };
-enum { COMXA1 = 0x80, COMXB1 = 0x20, WGM22 = 8, OCIE1A = 2, PIN_ENABLE = 3, PIN_FORWARD = 5, PIN_REVERSE = 6 };
 
 static void touch(struct chip *chip)
 {
@@ -82,6 +80,22 @@ static void on_reset(avr_io_t *io)
     touch(chip);
 }
 
+/* simavr tells of two compare registers of a timer; the third has to be watched like a mode register, of which it lets four
+ * be watched by somebody besides itself. */
+static void watch_output(struct chip *chip, const struct pulsed_pin *at)
+{
+    avr_t *avr = chip->avr;
+    avr_irq_t *port = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ(at->pin.port), 0);
+    avr_irq_register_notify(port + IOPORT_IRQ_REG_PORT, on_pin, chip);
+    avr_irq_register_notify(port + IOPORT_IRQ_DIRECTION_ALL, on_pin, chip);
+    if (at->pwm < 2) {
+        avr_irq_t *timer = avr_io_getirq(avr, AVR_IOCTL_TIMER_GETIRQ(at->timer), TIMER_IRQ_OUT_PWM0 + at->pwm);
+        avr_irq_register_notify(timer, on_pin, chip);
+    } else {
+        avr_register_io_write(avr, at->compare, on_register, chip);
+    }
+}
+
 static void connect(struct chip *chip)
 {
     avr_t *avr = chip->avr;
@@ -90,15 +104,13 @@ static void connect(struct chip *chip)
     chip->sense = avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_ADC1);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_OUT_TRIGGER), on_conversion, chip);
     avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &no_flags);
-    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), IOPORT_IRQ_REG_PORT), on_pin, chip);
-    avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), IOPORT_IRQ_DIRECTION_ALL), on_pin, chip);
-    for (int pwm = 0; pwm < 2; pwm++) {
-        avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_TIMER_GETIRQ('0'), TIMER_IRQ_OUT_PWM0 + pwm), on_pin, chip);
-        avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_TIMER_GETIRQ('2'), TIMER_IRQ_OUT_PWM0 + pwm), on_pin, chip);
-    }
-    avr_register_io_write(avr, TCCR0A, on_register, chip);
-    avr_register_io_write(avr, TCCR2A, on_register, chip);
-    avr_register_io_write(avr, TCCR1B, on_clock_start, chip);
+    const struct layout *at = chip->layout;
+    watch_output(chip, &at->enable);
+    watch_output(chip, &at->forward);
+    watch_output(chip, &at->reverse);
+    avr_register_io_write(avr, at->enable.mode, on_register, chip);
+    avr_register_io_write(avr, at->forward.mode, on_register, chip); /* of the reverse pin, too */
+    avr_register_io_write(avr, at->clock_control, on_clock_start, chip);
     traffic_connect(chip);
     load_connect(chip);
 }
@@ -117,12 +129,14 @@ struct chip *chip_open(const char *elf)
     struct chip *chip = calloc(1, sizeof *chip);
     avr_global_logger_set(be_quiet);
     memset(&firmware, 0, sizeof firmware);
-    avr_t *avr = chip ? avr_make_mcu_by_name("atmega328p") : NULL;
+    const struct layout *layout = layout_of(elf);
+    avr_t *avr = chip && layout ? avr_make_mcu_by_name(layout->name) : NULL;
     if (!avr || elf_read_firmware(elf, &firmware) != 0) {
         free(chip);
         return NULL;
     }
     chip->avr = avr;
+    chip->layout = layout;
     chip->until = UINT64_MAX / 2;
     avr_init(avr);
     avr->custom.data = chip;
@@ -159,35 +173,55 @@ uint64_t chip_cycle(const struct chip *chip)
     return chip->avr->cycle;
 }
 
-static uint16_t level(const uint8_t *data, int pin, int control, int bit, int compare)
+static int is_high(const uint8_t *data, struct pin pin)
 {
-    if (!(data[DDRD] & 1 << pin)) {
+    return data[pin.out] >> pin.bit & 1;
+}
+
+static int is_driven(const uint8_t *data, struct pin pin)
+{
+    return data[pin.ddr] >> pin.bit & 1;
+}
+
+/* counts: of a period of the timer that pulses the pin */
+static uint16_t level(const uint8_t *data, const struct pulsed_pin *at, int counts)
+{
+    if (!is_driven(data, at->pin)) {
         return 0;
     }
-    if (data[control] & bit) {
-        int counts = control == TCCR2A && data[TCCR2B] & WGM22 ? data[OCR2A] + 1 : 256;
-        int high = data[compare] + 1 > counts ? counts : data[compare] + 1;
-        high = data[control] & bit >> 1 ? counts - high : high; /* inverting */
+    if (data[at->mode] & at->connected) {
+        int high = data[at->compare] + 1 > counts ? counts : data[at->compare] + 1;
+        high = data[at->mode] & at->connected >> 1 ? counts - high : high; /* inverting */
         return (uint16_t)((high * 256 + counts / 2) / counts);
     }
-    return data[PORTD] & 1 << pin ? 256 : 0;
+    return is_high(data, at->pin) ? 256 : 0;
 }
 
 struct chip_pins chip_pins(const struct chip *chip)
 {
     const uint8_t *data = chip->avr->data;
+    const struct layout *at = chip->layout;
     return (struct chip_pins){
-        .enable = level(data, PIN_ENABLE, TCCR2A, COMXB1, OCR2B),
-        .forward = level(data, PIN_FORWARD, TCCR0A, COMXB1, OCR0B),
-        .reverse = level(data, PIN_REVERSE, TCCR0A, COMXA1, OCR0A),
+        .enable = level(data, &at->enable, data[at->top_control] & at->top_bits ? data[at->top] + 1 : 256),
+        .forward = level(data, &at->forward, 256),
+        .reverse = level(data, &at->reverse, 256),
     };
+}
+
+static int is_pulled_up(const uint8_t *data, struct pin pin)
+{
+    return !is_driven(data, pin) && is_high(data, pin);
 }
 
 int chip_pull_ups(const struct chip *chip)
 {
     const uint8_t *data = chip->avr->data;
-    int a = !(data[DDRB] & 1) && (data[PORTB] & 1), b = !(data[DDRD] & 1 << 7) && (data[PORTD] & 1 << 7);
-    return a | b << 1;
+    return is_pulled_up(data, chip->layout->a) | is_pulled_up(data, chip->layout->b) << 1;
+}
+
+const char *chip_name(const struct chip *chip)
+{
+    return chip->layout->name;
 }
 
 uint64_t chip_written(const struct chip *chip)
@@ -228,7 +262,7 @@ void chip_reset(struct chip *chip)
     avr_t *avr = chip->avr;
     chip->feed_out = chip->feed_in;
     avr_reset(avr);
-    avr->data[0x54] = 0x02; /* MCUSR: external reset */
+    avr->data[MCUSR] = EXTERNAL_RESET;
 }
 
 uint32_t chip_resets(const struct chip *chip)
@@ -245,7 +279,7 @@ void chip_hang(struct chip *chip, int how)
 {
     avr_t *avr = chip->avr;
     if (how == CHIP_TICKLESS) {
-        avr->data[TIMSK1] &= (uint8_t)~OCIE1A;
+        avr->data[chip->layout->clock_interrupts] &= (uint8_t)~chip->layout->tick_interrupt;
         return;
     }
     avr_flashaddr_t end = avr->flashend - 1;

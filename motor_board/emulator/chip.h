@@ -1,4 +1,4 @@
-/* An ATmega328P that runs the firmware's ELF, in lockstep with whoever calls: libsimavr behind a few plain functions.
+/* An ATmega328P or ATmega2560 that runs the firmware's ELF, in lockstep with whoever calls: libsimavr behind a few plain functions.
  *
  * Time is counted in clock cycles (16 MHz) since power-up and goes on through resets. */
 #ifndef CHIP_H
@@ -12,7 +12,7 @@ struct chip;
 /* Why chip_run came back. */
 enum { CHIP_REACHED, CHIP_OUTPUT_CHANGED, CHIP_CRASHED };
 
-/* Mean level of the bridge's pins in 1/256: D3, D5, D6. An undriven pin counts as low (the bridge pulls it down). */
+/* Mean level of the bridge's pins in 1/256. An undriven pin counts as low (the bridge pulls it down). */
 struct chip_pins {
     uint16_t enable, forward, reverse;
 };
@@ -23,9 +23,12 @@ struct chip_load {
     uint64_t calls, cycles, longest, waited;
 };
 
-/* 0 if the file cannot be read or is no ATmega328P program. */
+/* The chip that the program is for; 0 if the file cannot be read or is for none that is emulated. */
 struct chip *chip_open(const char *elf);
 void chip_close(struct chip *chip);
+
+/* As the compiler calls it. */
+const char *chip_name(const struct chip *chip);
 
 uint64_t chip_cycle(const struct chip *chip);
 
@@ -37,7 +40,7 @@ struct chip_pins chip_pins(const struct chip *chip);
 /* The cycle at which the program last wrote to the pins' registers: some 80 before chip_run comes back for it. */
 uint64_t chip_written(const struct chip *chip);
 
-/* What the encoder's lines do: channel B (D7) is high or low, and channel A (D8) rises for a moment, rises, falls, or
+/* What the encoder's lines do: channel B is high or low, and channel A rises for a moment, rises, falls, or
  * stays as it is. */
 enum { CHIP_B_HIGH = 1, CHIP_A_STAYS = 2, CHIP_A_FALLS = 4, CHIP_B_ALONE = 8 };
 
@@ -45,7 +48,7 @@ enum { CHIP_B_HIGH = 1, CHIP_A_STAYS = 2, CHIP_A_FALLS = 4, CHIP_B_ALONE = 8 };
  * at exactly its cycle. Returns how many there was room for. */
 size_t chip_edges(struct chip *chip, uint64_t after, const uint64_t *cycles, const uint8_t *what, size_t count);
 
-/* Whether the program has switched on the pull-ups of D8 (bit 0) and D7 (bit 1). */
+/* Whether the program has switched on the pull-ups of A (bit 0) and B (bit 1). */
 int chip_pull_ups(const struct chip *chip);
 
 /* Bytes for the serial port's input; returns how many there was room for. They go in at the baud rate. */
@@ -60,7 +63,7 @@ void chip_reset(struct chip *chip);
 /* How often the chip was reset since power-up, for whatever reason. */
 uint32_t chip_resets(const struct chip *chip);
 
-/* The cycle at which the program last started its clock (timer 1), which counts from 0 there. */
+/* The cycle at which the program last started its clock, which counts from 0 there. */
 uint64_t chip_clock_zero(const struct chip *chip);
 
 /* [mV] at the supply input A0, 0 to 5000. */
@@ -76,7 +79,9 @@ void chip_sense(struct chip *chip, uint32_t millivolts);
 enum { CHIP_HALTED, CHIP_LOOPING, CHIP_TICKLESS };
 void chip_hang(struct chip *chip, int how);
 
-/* Interrupt load by vector number (0 to 31), and the cycles that the program slept; all since the last call. */
-uint64_t chip_load(struct chip *chip, struct chip_load loads[32]);
+#define CHIP_VECTORS 64
+
+/* Interrupt load by vector number, and the cycles that the program slept; all since the last call. */
+uint64_t chip_load(struct chip *chip, struct chip_load loads[CHIP_VECTORS]);
 
 #endif

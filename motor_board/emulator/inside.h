@@ -6,15 +6,17 @@
 #include <stdint.h>
 
 #include "chip.h"
+#include "layout.h"
 
-#define VECTORS 32
+#define VECTORS CHIP_VECTORS
 #define EDGES 8192u /* powers of two */
 #define BYTES 8192u
 
 struct chip {
     avr_t *avr;
+    const struct layout *layout;
     avr_io_t io; /* to be told of resets */
-    avr_irq_t *edge, *direction, *input, *supply, *sense;
+    avr_irq_t *edge, *edge_too, *direction, *input, *supply, *sense;
 
     struct { uint64_t cycle; uint8_t what; } edges[EDGES];
     size_t edge_out, edge_in;

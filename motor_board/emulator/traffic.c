@@ -1,4 +1,5 @@
 /* Edges and bytes that go in at given cycles, and bytes that come out. */
+#include <simavr/avr_extint.h>
 #include <simavr/avr_ioport.h>
 #include <simavr/avr_uart.h>
 #include <simavr/sim_cycle_timers.h>
@@ -34,22 +35,53 @@ void traffic_arm(struct chip *chip)
     avr_cycle_timer_register(chip->avr, next > now ? next - now : 1, on_timer, chip);
 }
 
-/* Timers come up to 3 cycles late: the pin changes as if it were `cycle`. */
-static void raise_at(struct chip *chip, avr_irq_t *irq, uint32_t value, uint64_t cycle)
+/* Channel A, on all pins that it is wired to. */
+static void raise_a(struct chip *chip, uint32_t value)
+{
+    avr_raise_irq(chip->edge, value);
+    if (chip->edge_too) {
+        avr_raise_irq(chip->edge_too, value);
+    }
+}
+
+/* Timers come up to 3 cycles late: the line changes as if it were `cycle`. */
+static void raise_a_at(struct chip *chip, uint32_t value, uint64_t cycle)
 {
     uint64_t now = chip->avr->cycle;
     chip->avr->cycle = cycle;
-    avr_raise_irq(irq, value);
+    raise_a(chip, value);
     chip->avr->cycle = now;
+}
+
+static avr_ioport_external_t with(avr_ioport_external_t lines, struct pin pin, int high)
+{
+    if (pin.port == lines.name) {
+        lines.mask |= (uint8_t)(1u << pin.bit);
+        lines.value |= (uint8_t)((high ? 1u : 0u) << pin.bit);
+    }
+    return lines;
+}
+
+/* Before a program has said that it wants changes, simavr takes a low pin for an interrupt again and again, and does not stop
+ * when the program has said it. Every reset brings that back. */
+static void forget_low_levels(struct chip *chip)
+{
+    for (uint8_t interrupt = 0; chip->edge_too && interrupt < 4; interrupt++) {
+        avr_extint_set_strict_lvl_trig(chip->avr, interrupt, 0);
+    }
 }
 
 /* What the encoder drives, against pull-ups, which simavr would let act again at every write to the port. */
 static void drive_lines(struct chip *chip, int a_high, int b_high)
 {
-    avr_ioport_external_t a = {.name = 'B', .mask = 1, .value = a_high ? 1 : 0};
-    avr_ioport_external_t b = {.name = 'D', .mask = 1 << 7, .value = b_high ? 1 << 7 : 0};
-    avr_ioctl(chip->avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('B'), &a);
-    avr_ioctl(chip->avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('D'), &b);
+    const struct layout *at = chip->layout;
+    forget_low_levels(chip);
+    const char ports[] = {at->a.port, at->b.port}; /* a_too is on B's, if on any */
+    for (int i = 0; i < 2; i++) {
+        avr_ioport_external_t lines = {.name = (unsigned char)ports[i]};
+        lines = with(with(with(lines, at->a, a_high), at->a_too, a_high), at->b, b_high);
+        avr_ioctl(chip->avr, AVR_IOCTL_IOPORT_SET_EXTERNAL(ports[i]), &lines);
+    }
     if (chip->b_high != (b_high != 0)) {
         avr_raise_irq(chip->direction, b_high != 0);
     }
@@ -64,14 +96,14 @@ static void pass_edge(struct chip *chip, uint64_t cycle, uint8_t what)
         return;
     }
     if (what & CHIP_A_FALLS) {
-        raise_at(chip, chip->edge, 0, cycle);
+        raise_a_at(chip, 0, cycle);
         return;
     }
     if (!(what & CHIP_A_STAYS)) {
-        avr_raise_irq(chip->edge, 0);
+        raise_a(chip, 0);
         chip->fall = cycle + PULSE;
     }
-    raise_at(chip, chip->edge, 1, cycle);
+    raise_a_at(chip, 1, cycle);
 }
 
 static void pass_edges(struct chip *chip)
@@ -82,7 +114,7 @@ static void pass_edges(struct chip *chip)
         chip->edge_out++;
     }
     if (chip->fall && chip->fall <= now) {
-        avr_raise_irq(chip->edge, 0);
+        raise_a(chip, 0);
         chip->fall = 0;
     }
 }
@@ -137,8 +169,10 @@ static void on_flow_again(avr_irq_t *irq, uint32_t value, void *param)
 void traffic_connect(struct chip *chip)
 {
     avr_t *avr = chip->avr;
-    chip->edge = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('B'), 0);
-    chip->direction = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ('D'), 7);
+    const struct layout *at = chip->layout;
+    chip->edge = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ(at->a.port), at->a.bit);
+    chip->edge_too = at->a_too.port ? avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ(at->a_too.port), at->a_too.bit) : NULL;
+    chip->direction = avr_io_getirq(avr, AVR_IOCTL_IOPORT_GETIRQ(at->b.port), at->b.bit);
     avr_raise_irq(chip->direction, 0);
     drive_lines(chip, 0, 0);
     chip->input = avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT);

@@ -15,7 +15,8 @@ from motor_board.places import share
 BRIDGES = {"l298n": 1, "tb6612": 2, "drv8871": 3}
 WARNINGS = ("-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wsign-conversion", "-Wshadow")
 STRICT = ("-Werror",)  # in tests; another version of the compiler may warn of more, and shall still build
-AVR = ("-std=gnu99", "-mmcu=atmega328p", "-DF_CPU=16000000UL", "-O2", "-flto")
+CHIPS = ("atmega328p", "atmega2560")  # an Arduino Uno or Nano, a Mega
+AVR = ("-std=gnu99", "-DF_CPU=16000000UL", "-O2", "-flto")
 MOST_KEPT = 20  # results of a kind, for as many settings and states of the sources
 PACKAGES = "sudo apt install gcc-avr avr-libc libsimavr-dev libelf-dev gcc"
 
@@ -30,6 +31,7 @@ class FirmwareConfig:
     channels: int = 1  # of the encoder
     supply_full_scale: int = 0  # [mV] supply that puts 5 V on A0; 0: not measured
     current_sense: bool = False  # A1 has a voltage that follows the motor's current
+    chip: str = "atmega328p"  # | atmega2560
 
     def defines(self) -> tuple[str, ...]:
         """As the compiler takes them.
@@ -39,6 +41,8 @@ class FirmwareConfig:
         """
         if self.bridge not in BRIDGES:
             raise BoardError(f"there is no bridge '{self.bridge}': choose one of {', '.join(BRIDGES)}.")
+        if self.chip not in CHIPS:
+            raise BoardError(f"there is no firmware for '{self.chip}': choose one of {', '.join(CHIPS)}.")
         if self.channels not in (1, 2):
             raise BoardError(f"an encoder has 1 or 2 channels, not {self.channels}.")
         values = {
@@ -74,7 +78,8 @@ def firmware(config: FirmwareConfig | None = None, strict: bool = False) -> Path
     """
     folders = ("firmware/core", "firmware/board")
     include = [f"-I{share() / folder}" for folder in folders]
-    options = [*AVR, *WARNINGS, *(STRICT if strict else ()), *(config or FirmwareConfig()).defines(), *include]
+    config = config or FirmwareConfig()
+    options = [f"-mmcu={config.chip}", *AVR, *WARNINGS, *(STRICT if strict else ()), *config.defines(), *include]
     return _built("firmware.elf", "avr-gcc", options, folders, ())
 
 

@@ -15,16 +15,27 @@ from motor_board.errors import BoardError
 
 FREQUENCY = 16_000_000  # [Hz]
 MOST_BYTES = 4096  # taken out at once
-VECTORS = {
-    1: "INT0",
-    3: "change",
-    5: "channel B",
-    10: "capture",
-    11: "compare",
-    13: "overflow",
-    18: "receive",
-    19: "transmit",
+VECTORS = {  # what the program's interrupts are for, by their number
+    "atmega328p": {
+        3: "change",
+        5: "channel B",
+        10: "capture",
+        11: "compare",
+        13: "overflow",
+        18: "receive",
+        19: "transmit",
+    },
+    "atmega2560": {
+        4: "change",
+        3: "channel B",
+        46: "capture",
+        47: "compare",
+        50: "overflow",
+        25: "receive",
+        26: "transmit",
+    },
 }
+MOST_VECTORS = 64
 
 
 class Line(IntFlag):
@@ -57,7 +68,7 @@ class Pins:
     """Mean levels of the bridge's pins, in 1/256."""
 
     enable: int  # D3
-    forward: int  # D5
+    forward: int  # D5, on a Mega D7
     reverse: int  # D6
 
     @property
@@ -83,6 +94,7 @@ def _library() -> Any:
     signatures: dict[str, tuple[Any, list[Any]]] = {
         "open": (c_void_p, [c_char_p]),
         "close": (None, [c_void_p]),
+        "name": (c_char_p, [c_void_p]),
         "cycle": (c_uint64, [c_void_p]),
         "run": (c_int, [c_void_p, c_uint64]),
         "pins": (_Pins, [c_void_p]),
@@ -107,7 +119,7 @@ def _library() -> Any:
 
 
 class Chip:
-    """An ATmega328P with a program. Time is in clock cycles since power-up and goes on through resets."""
+    """The chip that a program is for. Time is in clock cycles since power-up and goes on through resets."""
 
     def __init__(self, elf: Path) -> None:
         """Raises: BoardError: the ELF is none for this chip, or libsimavr is missing."""
@@ -115,7 +127,8 @@ class Chip:
         self._chip = self._library.chip_open(str(elf).encode())
         if not self._chip:
             raise BoardError(
-                f"{elf} is no program for an ATmega328P: build it again (ros2 run motor_board flash --build)."
+                f"{elf} is no program for an ATmega328P or ATmega2560: "
+                "build it again (ros2 run motor_board flash --build)."
             )
         self._bytes = (c_uint8 * MOST_BYTES)()
         self._cycles = (c_uint64 * MOST_BYTES)()
@@ -125,6 +138,11 @@ class Chip:
         if self._chip:
             self._library.chip_close(self._chip)
             self._chip = None
+
+    @property
+    def name(self) -> str:
+        """Which chip it is, as the compiler calls it."""
+        return str(self._library.chip_name(self._chip).decode())
 
     @property
     def cycle(self) -> int:
@@ -155,7 +173,7 @@ class Chip:
 
     @property
     def pull_ups(self) -> tuple[bool, bool]:
-        """Whether those of the encoder's lines (D8, D7) are switched on."""
+        """Whether those of the encoder's lines, A and B, are switched on."""
         bits = int(self._library.chip_pull_ups(self._chip))
         return bool(bits & 1), bool(bits & 2)
 
@@ -213,9 +231,9 @@ class Chip:
 
     def load(self) -> tuple[dict[str, InterruptLoad], int]:
         """What interrupts have cost since the last call, and for how many cycles the program slept."""
-        loads = (_Load * 32)()
+        loads, names = (_Load * MOST_VECTORS)(), VECTORS[self.name]
         slept = int(self._library.chip_load(self._chip, loads))
-        rows = {VECTORS.get(i, str(i)): row for i, row in enumerate(loads) if row.calls}
+        rows = {names.get(i, str(i)): row for i, row in enumerate(loads) if row.calls}
         return {
             name: InterruptLoad(row.calls, row.cycles, row.longest, row.waited) for name, row in rows.items()
         }, slept

@@ -43,6 +43,7 @@ class BoardEmulator(Node):
         model = replace(model, max_voltage=supply) if supply > 0.0 else model
         config = FirmwareConfig(
             bridge=str(values["bridge"]),
+            chip=str(values["chip"]),
             board_id=int(values["board_id"]),
             edges_per_revolution=pulses,
             channels=channels,

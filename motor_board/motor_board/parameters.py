@@ -16,6 +16,7 @@ SET_UP = (
     Row("slot_irregularity", 0.0, "scatter of the disc's flanks, share of a slot", "", 0.0, 0.2, read_only=True),
     Row("seed", 0, "of the disc, its starting angle, missed edges and faults", "", 0, 2**31 - 1, read_only=True),
     Row("bridge", "l298n", "bridge that the firmware is built for: l298n, tb6612 or drv8871", read_only=True),
+    Row("chip", "atmega328p", "chip that the firmware is built for: atmega328p or atmega2560", read_only=True),
     Row("board_id", 0, "number that the board is flashed with; 0: none", "", 0, 65535, read_only=True),
     Row("current_sense", False, "the board senses the current, of a model that has a resistance", read_only=True),
     Row("current_gain", 0.185, "of the sensor on A1", "V/A", -10.0, 10.0, read_only=True),
@@ -53,7 +54,7 @@ FAULTS = (
 PROGRAM = Program(
     "motor_board",
     "board_emulator",
-    "The board's real firmware on an emulated ATmega328P behind a serial port, with a simulated motor on its pins.\n"
+    "The board's real firmware on an emulated chip behind a serial port, with a simulated motor on its pins.\n"
     "Faults are parameters that can be set while it runs; ~/reset presses its button, ~/hang hangs its firmware.",
     (*SET_UP, *FAULTS),
     "ros2 run motor_board board_emulator --ros-args -p link:=board -p model:=model.yaml",

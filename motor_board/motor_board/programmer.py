@@ -4,12 +4,30 @@ import glob
 import os
 import shutil
 import subprocess
+from dataclasses import dataclass
 from pathlib import Path
 
 from motor_board.errors import BoardError
 
-BAUD = {"uno": 115200, "nano": 115200, "nano-old": 57600}  # of the boards' bootloaders
 PORTS = ("/dev/ttyACM*", "/dev/ttyUSB*")
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of Arduino, and how its bootloader is spoken to."""
+
+    chip: str  # as the compiler calls it
+    part: str  # as avrdude does
+    protocol: str
+    baud: int
+
+
+KINDS = {
+    "uno": Kind("atmega328p", "m328p", "arduino", 115200),
+    "nano": Kind("atmega328p", "m328p", "arduino", 115200),
+    "nano-old": Kind("atmega328p", "m328p", "arduino", 57600),
+    "mega": Kind("atmega2560", "m2560", "wiring", 115200),
+}
 
 
 def ports() -> list[str]:
@@ -41,21 +59,9 @@ def the_port(asked: str | None) -> str:
 
 def command(elf: Path, port: str, board: str) -> list[str]:
     """What flashes the board."""
-    return [
-        "avrdude",
-        "-q",
-        "-c",
-        "arduino",
-        "-p",
-        "m328p",
-        "-P",
-        port,
-        "-b",
-        str(BAUD[board]),
-        "-D",
-        "-U",
-        f"flash:w:{elf}:e",
-    ]
+    kind = KINDS[board]
+    told = {"-c": kind.protocol, "-p": kind.part, "-P": port, "-b": str(kind.baud)}
+    return ["avrdude", "-q", *(word for pair in told.items() for word in pair), "-D", "-U", f"flash:w:{elf}:e"]
 
 
 def flash(elf: Path, port: str, board: str) -> None:

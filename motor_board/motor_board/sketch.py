@@ -10,7 +10,7 @@ from pathlib import Path
 from motor_board.build import FirmwareConfig, sources
 from motor_board.errors import BoardError
 
-INO = """// Firmware of the motor workbench for an Arduino Uno or Nano, by `ros2 run motor_board flash --sketch`.
+INO = """// Firmware of the motor workbench for an Arduino Uno, Nano or Mega, by `ros2 run motor_board flash --sketch`.
 // All of it is in the .c files beside this one; main.c brings its own main(), nothing of the Arduino library is used.
 // Settings are in config.h.
 """

@@ -39,6 +39,7 @@ class Board(IntEnum):
     """Kinds of boards."""
 
     ATMEGA328P = 1
+    ATMEGA2560 = 2
 
 
 class Flag(IntFlag):

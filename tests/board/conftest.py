@@ -1,23 +1,31 @@
 """Boards that end with the test."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from board_fixtures import live  # noqa: F401  (a fixture)
 from emulated_board import Bench, Client, need_emulator
 
+from motor_board.build import FirmwareConfig
 from motor_board.live import LiveBoard
 
 
 @pytest.fixture
-def make_bench() -> Iterator[Callable[..., Bench]]:
+def chip() -> str:
+    """What boards are built for, unless a test is `on_each_chip`."""
+    return "atmega328p"
+
+
+@pytest.fixture
+def make_bench(chip: str) -> Iterator[Callable[..., Bench]]:
     """Makes boards in lockstep."""
     need_emulator()
     made: list[Bench] = []
 
-    def make(**settings: object) -> Bench:
-        made.append(Bench(**settings))  # type: ignore[arg-type]
+    def make(config: FirmwareConfig | None = None, **settings: object) -> Bench:
+        made.append(Bench(config=replace(config or FirmwareConfig(), chip=chip), **settings))  # type: ignore[arg-type]
         return made[-1]
 
     yield make

@@ -4,21 +4,35 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from emulated_board import MS, TICK, Bench
+from emulated_board import MS, TICK, Bench, on_each_chip
 
 from motor_board.build import FirmwareConfig
 from motor_board.chip import Hang
-from motor_driver.frames import Command, Configure, Enable, Flag, Hello, Identify, Ping, Pong, ResetCause, Telemetry
+from motor_driver.frames import (
+    Board,
+    Command,
+    Configure,
+    Enable,
+    Flag,
+    Hello,
+    Identify,
+    Ping,
+    Pong,
+    ResetCause,
+    Telemetry,
+)
 from motor_driver.protocol import pack
 
 MakeBench = Callable[..., Bench]
 SLOT = 2 * np.pi / 96
 
 
-def test_says_hello_by_itself_at_power_up(bench: Bench) -> None:
+@on_each_chip
+def test_says_hello_by_itself_at_power_up(bench: Bench, chip: str) -> None:
     bench.run(4)
     hello = bench.last(Hello)
-    assert hello == Hello(1, 4, 0, 1, 0, 0, 1, 500, 256, 0, 10_000, 2_000, 100, ResetCause.POWER_ON, hello.boot, 0)
+    kind = Board[chip.upper()]
+    assert hello == Hello(1, 4, 0, kind, 0, 0, 1, 500, 256, 0, 10_000, 2_000, 100, ResetCause.POWER_ON, hello.boot, 0)
     assert bench.events[0].seq == 0 and bench.chip.pins.share == 0.0
 
 
@@ -60,6 +74,7 @@ def test_an_enable_for_another_time_does_nothing(bench: Bench, wrong: tuple[int,
     bench.enable()
 
 
+@on_each_chip
 def test_the_newest_command_is_latched_at_the_tick_and_the_pins_follow(bench: Bench) -> None:
     bench.start()
     bench.run_until(lambda: len(bench.all(Telemetry)) > 0, 6)
@@ -93,6 +108,7 @@ def test_every_duty_in_both_decays_on_both_bridges(make_bench: MakeBench, bridge
         assert (pins.enable, pins.forward, pins.reverse) == (256, max(limited, 0), max(-limited, 0))
 
 
+@on_each_chip
 @pytest.mark.parametrize("timeout", [20, 100])
 def test_without_commands_the_pins_go_to_0_v_and_stay_there(bench: Bench, timeout: int) -> None:
     bench.start(timeout=timeout)
@@ -132,6 +148,7 @@ def test_off_does_not_wait_for_a_slow_sample(bench: Bench) -> None:
     assert bench.chip.pins.share == 0.0
 
 
+@on_each_chip
 @pytest.mark.parametrize("how", Hang, ids=lambda how: how.name.lower())
 def test_a_program_that_hangs_is_reset_by_the_watchdog(bench: Bench, how: Hang) -> None:
     bench.start()

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from electrical import ELECTRIC, LUMPED
-from emulated_board import MS, TICK, Bench
+from emulated_board import MS, TICK, Bench, on_each_chip
 
 from motor_board.build import FirmwareConfig
 from motor_board.emulator import SENSE_NOISE
@@ -35,6 +35,7 @@ def watch(bench: Bench) -> list[tuple[int, float]]:
     return seen
 
 
+@on_each_chip
 @pytest.mark.parametrize(("decay", "period"), [(0, 10_000), (1, 2_000)])
 def test_every_frame_has_the_current_before_its_tick(make_bench: MakeBench, decay: int, period: int) -> None:
     bench = make_bench(parameters=MOTOR, config=SENSING)
@@ -91,6 +92,7 @@ def protected(make_bench: MakeBench, most: float, rated: float, seconds: float, 
     return bench
 
 
+@on_each_chip
 @pytest.mark.parametrize("period", [10_000, 2_000])
 @pytest.mark.parametrize(("most", "stops"), [(5.0, True), (5.4, False)])
 def test_a_peak_switches_off_within_three_samples(make_bench: MakeBench, period: int, most: float, stops: bool) -> None:

@@ -52,12 +52,16 @@ def test_edges_that_come_while_they_are_copied_spoil_no_period(make_bench: MakeB
         assert frame.edge_period == pytest.approx(period, abs=0.51)
 
 
+@pytest.mark.parametrize(("chip", "rate"), [("atmega328p", 5_000.0), ("atmega2560", 3_500.0)])
 @pytest.mark.parametrize("fold", [2, 4])
-def test_every_edge_is_counted_and_what_is_reported_is_exact(make_bench: MakeBench, fold: int) -> None:
-    """20,000 line edges a second, uneven; count and time of each frame are those of one edge, A's at the tick."""
+def test_every_edge_is_counted_and_what_is_reported_is_exact(make_bench: MakeBench, fold: int, rate: float) -> None:
+    """20,000 line edges a second, uneven; count and time of each frame are those of one edge, A's at the tick.
+
+    14,000 on a Mega, whose serial interrupts come before the capture's: B's level is read up to 40 us late.
+    """
     bench = make_bench(config=TWO)
     periods = np.arange(0.0, 1_500.0)
-    cycles, what, step = line_events(periods, 5_000.0 * (1.0 + 0.05 * np.sin(periods / 90.0)), UNEVEN)
+    cycles, what, step = line_events(periods, rate * (1.0 + 0.05 * np.sin(periods / 90.0)), UNEVEN)
     frames = run(bench, fold, cycles, what)
     own = step != 0 if fold == 4 else (step != 0) & counts_of(what)
     stamps = (cycles[own].astype(np.int64) - bench.chip.clock_zero) // TICK

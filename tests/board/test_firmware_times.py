@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from emulated_board import MS, TICK, Bench
+from emulated_board import MS, TICK, Bench, on_each_chip
 
 from motor_board.build import FirmwareConfig
 from motor_board.chip import Line
@@ -30,6 +30,7 @@ def test_samples_exactly_at_the_period_it_was_given(bench: Bench, period: int) -
     assert bench.decode.counters.bad == bench.decode.counters.lost == 0
 
 
+@on_each_chip
 def test_every_edge_has_its_exact_time(bench: Bench) -> None:
     """A real motor's edges, through a counter that overflows many times: stamp = ⌊cycle/8⌋, latest up to the tick."""
     edges: list[int] = []
@@ -74,6 +75,7 @@ def test_no_edge_is_lost_up_to_20_000_a_second(bench: Bench, rate: int) -> None:
     assert bench.decode.counters.bad == bench.decode.counters.lost == 0
 
 
+@on_each_chip
 def test_two_channels_count_down_backward(make_bench: MakeBench) -> None:
     bench = make_bench(config=FirmwareConfig(channels=2))
     bench.start()
@@ -132,6 +134,7 @@ def test_no_edge_of_two_channels_is_lost_up_to_10_000_a_second(make_bench: MakeB
     assert bench.decode.counters.bad == bench.decode.counters.lost == 0
 
 
+@on_each_chip
 def test_the_encoders_lines_have_pull_ups(bench: Bench) -> None:
     """What nobody drives is high: a cable that came off makes no edges."""
     assert bench.chip.pull_ups == (False, False)
@@ -142,6 +145,7 @@ def test_the_encoders_lines_have_pull_ups(bench: Bench) -> None:
     assert bench.chip.pull_ups == (True, True)
 
 
+@on_each_chip
 def test_pong_holds_the_times_of_its_first_byte_and_of_the_ping_s_last(bench: Bench) -> None:
     bench.start(2_000)
     bench.chip.drain()

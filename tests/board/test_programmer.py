@@ -38,6 +38,14 @@ def test_flashing_tells_avrdude_all_it_needs(plugged: Path) -> None:
     assert arguments[-1] == f"flash:w:{firmware(FirmwareConfig(board_id=3))}:e"
 
 
+def test_a_mega_has_another_chip_and_another_bootloader(plugged: Path) -> None:
+    need_emulator()
+    assert main(["--port", f"{plugged}/ttyACM0", "--board", "mega"]) == 0
+    arguments = (plugged / "arguments").read_text().split()
+    assert arguments[1:5] == ["-c", "wiring", "-p", "m2560"] and arguments[7:9] == ["-b", "115200"]
+    assert arguments[-1] == f"flash:w:{firmware(FirmwareConfig(chip='atmega2560'))}:e"
+
+
 def test_one_board_needs_no_port_and_two_are_listed(plugged: Path, capsys: Capture) -> None:
     need_emulator()
     assert main([]) == 1

@@ -21,7 +21,9 @@ def test_the_sketch_is_the_same_firmware(tmp_path: Path, monkeypatch: pytest.Mon
     elf = folder / "sketch.elf"
     options = [option for option in AVR if not option.startswith(("-std", "-O"))]
     files = sorted(map(str, folder.glob("*.c")))
-    subprocess.run(["avr-gcc", "-std=gnu11", "-Os", "-w", *options, *files, "-o", str(elf)], check=True)
+    subprocess.run(
+        ["avr-gcc", "-mmcu=atmega328p", "-std=gnu11", "-Os", "-w", *options, *files, "-o", str(elf)], check=True
+    )
     monkeypatch.setattr("emulated_board.firmware", lambda config: elf)
     bench = Bench()
     bench.run(4)

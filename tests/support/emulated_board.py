@@ -14,7 +14,7 @@ from typing import TypeVar
 import pytest
 from patience import PATIENCE
 
-from motor_board.build import FirmwareConfig, chip_library, firmware
+from motor_board.build import CHIPS, FirmwareConfig, chip_library, firmware
 from motor_board.emulator import Emulator
 from motor_board.errors import BoardError
 from motor_board.shaft import EncoderConfig
@@ -25,6 +25,7 @@ from motor_model.parameters import Parameters, paper_motor
 F = TypeVar("F", bound=Frame)
 MS = 16_000  # [cycle]
 TICK = 8  # [cycle]
+on_each_chip = pytest.mark.parametrize("chip", CHIPS)  # of `bench` and `make_bench`
 
 
 @cache

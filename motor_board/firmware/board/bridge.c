@@ -1,22 +1,11 @@
 #include "bridge.h"
 
-#include <avr/io.h>
-
 #include "config.h"
+#include "registers.h"
 #include "wire.h"
 
-#define ENABLE _BV(PD3)  /* D3, OC2B */
-#define FORWARD _BV(PD5) /* D5, OC0B */
-#define REVERSE _BV(PD6) /* D6, OC0A */
 #define INPUTS (FORWARD | REVERSE)
-
-#define FAST_PWM_0 (_BV(WGM01) | _BV(WGM00)) /* mode 3: 0 … 255 */
-#define FAST_PWM_2 (_BV(WGM21) | _BV(WGM20))
-#define CLOCK_0 _BV(CS01) /* 2 MHz: PWM at 7.8 kHz, which an L298N follows */
-#define CLOCK_2 _BV(CS21)
-#define SILENT_0 _BV(CS00)              /* 16 MHz: 62.5 kHz; the timer has no other above hearing with two outputs */
-#define SILENT_2 (_BV(WGM22) | _BV(CS21)) /* mode 7: 2 MHz / 100 = 20 kHz */
-#define SILENT_COUNTS_2 100
+#define SILENT_COUNTS 100 /* 2 MHz / 100 = 20 kHz on the enable */
 
 /* In the off part of a period the bridge has its enable low, or both inputs alike; which of the two brakes is the
  * bridge's. */
@@ -35,7 +24,7 @@
 
 static bool backward;
 
-static enum { NO_PULSE, PULSE_ON_0, PULSE_ON_2 } pulse; /* the timer that makes pulses slow enough to hit their middle */
+static enum { NO_PULSE, PULSE_ON_INPUT, PULSE_ON_ENABLE } pulse; /* the timer that makes pulses slow enough to hit their middle */
 static uint8_t middle;                                  /* its count there */
 
 #define EARLY 32  /* [0.5 us] the converter holds its input 12 to 20 us after it was started */
@@ -43,12 +32,11 @@ static uint8_t middle;                                  /* its count there */
 
 void bridge_start(void)
 {
-    PORTD &= (uint8_t)~(ENABLE | INPUTS);
-    DDRD |= ENABLE | INPUTS;
-    TCCR0A = FAST_PWM_0;
-    TCCR2A = FAST_PWM_2;
-    TCCR2B = CLOCK_2;
-    OCR2A = SILENT_COUNTS_2 - 1;
+    pins_start();
+    INPUT_MODE = INPUT_FAST;
+    ENABLE_MODE = ENABLE_FAST;
+    ENABLE_CONTROL = ENABLE_RUN;
+    ENABLE_TOP = SILENT_COUNTS - 1;
 }
 
 /* PWM on the enable, inputs say the direction. A compare value of n - 1 is high for n counts; as 0 is high for one, duty
@@ -56,19 +44,20 @@ void bridge_start(void)
  * next period begins, and until then would pulse with an old one: the last count of a period makes one begin now. */
 static void write_enable(uint8_t compare, bool zero, bool anew, bool silent)
 {
-    TCCR0A = FAST_PWM_0;
-    TCCR0B = 0;
+    uint8_t mode = silent ? ENABLE_SILENT : ENABLE_FAST;
+    INPUT_MODE = INPUT_FAST;
+    INPUT_CONTROL = INPUT_STOP;
     if (zero || anew) {
-        TCCR2A = FAST_PWM_2;
+        ENABLE_MODE = mode;
     }
-    PORTD = (uint8_t)((PORTD & ~(ENABLE | INPUTS)) | (backward ? REVERSE : FORWARD));
+    pins_write(false, backward ? REVERSE : FORWARD);
     if (!zero) {
-        OCR2B = compare;
+        ENABLE_COMPARE = compare;
         if (anew) {
-            TCCR2B = silent ? SILENT_2 : CLOCK_2;
-            TCNT2 = silent ? SILENT_COUNTS_2 - 1 : 0xFF;
+            ENABLE_CONTROL = silent ? ENABLE_RUN_SILENT : ENABLE_RUN;
+            ENABLE_COUNTER = silent ? SILENT_COUNTS - 1 : 0xFF;
         }
-        TCCR2A = FAST_PWM_2 | _BV(COM2B1);
+        ENABLE_MODE = (uint8_t)(mode | ENABLE_PULSED);
     }
 }
 
@@ -76,25 +65,26 @@ static void write_enable(uint8_t compare, bool zero, bool anew, bool silent)
  * both inputs have to be high in the off part, the other one is high and the pulsed one low for the duty. */
 static void write_input(uint8_t compare, bool zero, bool anew, bool silent, bool off_is_high)
 {
-    bool on_d6 = backward != off_is_high;
-    TCCR2A = FAST_PWM_2;
+    bool on_reverse = backward != off_is_high;
+    ENABLE_MODE = ENABLE_FAST;
     if (zero || anew) {
-        TCCR0A = FAST_PWM_0;
-        TCCR0B = 0;
+        INPUT_MODE = INPUT_FAST;
+        INPUT_CONTROL = INPUT_STOP;
     }
-    PORTD = (uint8_t)((PORTD & ~INPUTS) | ENABLE | (off_is_high ? INPUTS : 0));
+    pins_write(true, off_is_high ? INPUTS : 0);
     if (!zero) {
-        if (on_d6) {
-            OCR0A = compare;
+        if (on_reverse) {
+            INPUT_REVERSE = compare;
         } else {
-            OCR0B = compare;
+            INPUT_FORWARD = compare;
         }
         if (anew) {
-            TCNT0 = 0xFF;
+            INPUT_COUNTER = 0xFF;
         }
-        TCCR0A = (uint8_t)(FAST_PWM_0 | (on_d6 ? _BV(COM0A1) : _BV(COM0B1)) |
-                           (off_is_high ? (on_d6 ? _BV(COM0A0) : _BV(COM0B0)) : 0));
-        TCCR0B = silent ? SILENT_0 : CLOCK_0;
+        uint8_t pulsed = on_reverse ? INPUT_REVERSE_PULSED : INPUT_FORWARD_PULSED;
+        uint8_t inverted = on_reverse ? INPUT_REVERSE_INVERTED : INPUT_FORWARD_INVERTED;
+        INPUT_MODE = (uint8_t)(INPUT_FAST | pulsed | (off_is_high ? inverted : 0));
+        INPUT_CONTROL = silent ? INPUT_RUN_SILENT : INPUT_RUN;
     }
 }
 
@@ -113,7 +103,7 @@ void bridge_write(int16_t duty, uint8_t decay, uint8_t pwm)
     decay_before = decay;
     pwm_before = pwm;
     uint8_t compare = (uint8_t)((duty < 0 ? -duty : duty) - 1);
-    pulse = duty == 0 || pwm == WIRE_PWM_SILENT ? NO_PULSE : PULSES_ENABLE(decay) ? PULSE_ON_2 : PULSE_ON_0;
+    pulse = duty == 0 || pwm == WIRE_PWM_SILENT ? NO_PULSE : PULSES_ENABLE(decay) ? PULSE_ON_ENABLE : PULSE_ON_INPUT;
     middle = compare / 2;
     if (PULSES_ENABLE(decay)) {
         write_enable(compare, duty == 0, anew, pwm == WIRE_PWM_SILENT);
@@ -124,6 +114,6 @@ void bridge_write(int16_t duty, uint8_t decay, uint8_t pwm)
 
 bool bridge_in_middle(void)
 {
-    uint8_t counter = pulse == PULSE_ON_2 ? TCNT2 : TCNT0;
+    uint8_t counter = (uint8_t)(pulse == PULSE_ON_ENABLE ? ENABLE_COUNTER : INPUT_COUNTER);
     return pulse == NO_PULSE || (uint8_t)(counter - middle + EARLY) < WINDOW;
 }

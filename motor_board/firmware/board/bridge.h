@@ -1,4 +1,4 @@
-/* The pins of the H-bridge: D3 (OC2B) its enable or PWM input, D5 (OC0B) and D6 (OC0A) its two direction inputs. */
+/* The pins of the H-bridge: its enable or PWM input, and its two direction inputs. */
 #ifndef BRIDGE_H
 #define BRIDGE_H
 
@@ -9,7 +9,7 @@
 
 #define BRIDGE_TOP 256 /* duty of full voltage */
 
-/* With silent PWM, by decay (brake, coast); 0: not to be had. On the enable (D3) it is 20 kHz in 100 steps; on the inputs
+/* With silent PWM, by decay (brake, coast); 0: not to be had. On the enable it is 20 kHz in 100 steps; on the inputs
  * 62.5 kHz in 256, which an L298N (at most 40 kHz) does not follow. */
 #if MOTOR_BRIDGE == BRIDGE_L298N
 #define BRIDGE_SILENT_TOP {0, 100}

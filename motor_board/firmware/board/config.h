@@ -19,7 +19,7 @@
 #endif
 
 #ifndef MOTOR_CHANNELS
-#define MOTOR_CHANNELS 1 /* 2: the second encoder channel is on D7 and tells the direction; the driver may have both counted */
+#define MOTOR_CHANNELS 1 /* 2: the second encoder channel is connected and tells the direction; the driver may have both counted */
 #endif
 
 #ifndef MOTOR_SUPPLY_FULL_SCALE

@@ -1,23 +1,21 @@
-/* The encoder's lines: A on D8, which is also the capture unit's, and B on D7. */
+/* The encoder's lines: A, which is also the capture unit's, and B. */
 #ifndef LINES_H
 #define LINES_H
 
-#include <avr/io.h>
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "config.h"
 #include "quadrature.h"
+#include "registers.h"
 
 /* Pull-ups: a line that nobody drives (an open collector, a cable that came off) is high and counts nothing. */
 static inline void lines_start(void)
 {
-    PORTB |= _BV(PB0);
-    PORTD |= _BV(PD7);
+    lines_pull_up();
 #if MOTOR_CHANNELS == 2
-    PCMSK0 = _BV(PCINT0);
-    PCMSK2 = _BV(PCINT23);
-    PCICR = _BV(PCIE0);
+    lines_watch_changes();
+    LINES_INTERRUPTS = LINES_A_CHANGES;
 #endif
 }
 
@@ -25,17 +23,7 @@ static inline void lines_start(void)
 /* Which line interrupts on every change: A's falls for one count in a period, none for two, B for four. */
 static inline void lines_interrupt(uint8_t fold)
 {
-    PCICR = fold == 1 ? _BV(PCIE0) : fold == 4 ? _BV(PCIE2) : 0;
-}
-
-static inline bool lines_a_is_high(void)
-{
-    return PINB & _BV(PB0);
-}
-
-static inline bool lines_b_is_high(void)
-{
-    return PIND & _BV(PD7);
+    LINES_INTERRUPTS = fold == 1 ? LINES_A_CHANGES : fold == 4 ? LINES_B_CHANGES : 0;
 }
 
 /* Both, as `quadrature` has them. */

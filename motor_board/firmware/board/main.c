@@ -17,17 +17,13 @@
 #include "frame.h"
 #include "lines.h"
 #include "quadrature.h"
+#include "registers.h"
 #include "sense.h"
 #include "serial.h"
 #include "supply.h"
 
-/* Measured in the emulator [tick]. */
-#define SEAL_TICKS 254u /* from a pong's time being taken to its first byte going out */
-#define B_LATE 5u       /* from a flank of B to its interrupt's reading the clock, at least */
-#define LEAD 32u        /* from the compare match to the pins following it (222 to 274 cycles) */
-
 static const struct device_config config = {
-    .board = WIRE_BOARD_ATMEGA328P,
+    .board = CHIP_BOARD,
     .board_id = MOTOR_BOARD_ID,
     .edges_per_revolution = MOTOR_EDGES_PER_REVOLUTION,
     .channels = MOTOR_CHANNELS,
@@ -36,7 +32,7 @@ static const struct device_config config = {
     .ticks_per_ms = CLOCK_TICKS_PER_MS,
     .shortest_period = CLOCK_TICKS_PER_MS,
     .first_period = 5 * CLOCK_TICKS_PER_MS,
-    .lead = LEAD,
+    .lead = CHIP_LEAD,
     .first_timeout = 100,
     .first_decay = WIRE_DECAY_BRAKE,
     .silent_top = BRIDGE_SILENT_TOP,
@@ -77,14 +73,14 @@ static inline void see_a(uint16_t counter)
         if (!((lines_read() ^ lines) & QUADRATURE_A)) {
             return;
         }
-        counter = TCNT1;
+        counter = CLOCK_COUNTER;
     }
 }
 
 static inline void see_fall(void)
 {
     if (!lines_a_is_high()) {
-        uint16_t counter = TCNT1;
+        uint16_t counter = CLOCK_COUNTER;
         device_fall(&device, counter, clock_overflow_pending(), lines_b_is_high());
     }
 }
@@ -106,9 +102,9 @@ static void follow_quadrature(void)
 #endif
 }
 
-ISR(TIMER1_CAPT_vect)
+ISR(CLOCK_CAPTURE_vect)
 {
-    uint16_t counter = ICR1;
+    uint16_t counter = CLOCK_CAPTURED;
 #if MOTOR_CHANNELS == 1
     device_capture(&device, counter, clock_overflow_pending());
 #else
@@ -122,26 +118,26 @@ ISR(TIMER1_CAPT_vect)
 }
 
 #if MOTOR_CHANNELS == 2
-/* D8 has changed; its rising edges are captured. */
-ISR(PCINT0_vect)
+/* A has changed; its rising edges are captured. */
+ISR(LINES_A_vect)
 {
     see_fall();
 }
 
-/* D7 has changed. */
-ISR(PCINT2_vect)
+/* B has changed. */
+ISR(LINES_B_vect)
 {
-    uint16_t counter = TCNT1;
+    uint16_t counter = CLOCK_COUNTER;
     bool pending = clock_overflow_pending();
     uint8_t lines = lines_read();
-    quadrature_see_b(&device.edges, counter, pending, lines, B_LATE);
+    quadrature_see_b(&device.edges, counter, pending, lines, CHIP_B_LATE);
     if (!((device.edges.lines ^ lines) & QUADRATURE_A)) { /* also after an error: A's flank has been taken note of */
         clock_capture(!(lines & QUADRATURE_A));
     }
 }
 #endif
 
-ISR(TIMER1_OVF_vect)
+ISR(CLOCK_OVERFLOW_vect)
 {
     device_overflow(&device);
 }
@@ -160,13 +156,13 @@ static void copy_edges(struct edge_timer *edges)
 
 /* Only its beginning keeps captures waiting: edges may come every 50 us. The next compare interrupt is at least 1 ms
  * away, so that this one is over before it. */
-ISR(TIMER1_COMPA_vect)
+ISR(CLOCK_TICK_vect)
 {
     bool ticks = device_latch(&device);
     bridge_write(device.output.duty, device.output.decay, device.output.pwm);
-    OCR1A = device_next(&device); /* before sei: 16-bit registers share their temporary byte */
+    CLOCK_TICK = device_next(&device); /* before sei: 16-bit registers share their temporary byte */
     if (MOTOR_CURRENT_SENSE) {
-        OCR1B = (uint16_t)(device.tick - SENSE_LEAD);
+        CLOCK_SENSE = (uint16_t)(device.tick - SENSE_LEAD);
     }
     ticking = true;
     main_woken = true;
@@ -185,9 +181,9 @@ ISR(TIMER1_COMPA_vect)
 
 #if MOTOR_CURRENT_SENSE
 /* Before a tick. Edges come first; the tick itself is further away than this lasts. */
-ISR(TIMER1_COMPB_vect)
+ISR(CLOCK_SENSE_vect)
 {
-    uint16_t latest = (uint16_t)(OCR1B + SENSE_WAIT);
+    uint16_t latest = (uint16_t)(CLOCK_SENSE + SENSE_WAIT);
     sei();
     sense_take_supply(&device.supply);
     while (!bridge_in_middle() && !clock_is_past(latest)) {
@@ -218,7 +214,7 @@ static void send(void)
         bool quiet = serial_quiet(), taken;
         ATOMIC_BLOCK(ATOMIC_RESTORESTATE)
         {
-            taken = device_take(&device, &frame, quiet, main_now() + SEAL_TICKS, reader.bad);
+            taken = device_take(&device, &frame, quiet, main_now() + CHIP_SEAL_TICKS, reader.bad);
         }
         if (!taken) {
             return;

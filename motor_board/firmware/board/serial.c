@@ -5,6 +5,7 @@
 #include <util/atomic.h>
 
 #include "main.h"
+#include "registers.h"
 
 #define DIVISOR (F_CPU / 8 / WIRE_BAUD - 1) /* with U2X; exact for 500 kbaud at 16 MHz */
 #define RECEIVED 64u                        /* bytes, a power of two */
@@ -34,7 +35,7 @@ void serial_start(void)
     UDR0 = 0;                  /* ends whatever frame the reset cut short */
 }
 
-ISR(USART_RX_vect)
+ISR(SERIAL_RECEIVED_vect)
 {
     uint8_t byte = UDR0;
     uint8_t at = written_to, next = (uint8_t)(at + 1) & (RECEIVED - 1), out = read_to;
@@ -66,7 +67,7 @@ bool serial_read(uint8_t *byte, uint32_t *time)
     return true;
 }
 
-ISR(USART_UDRE_vect)
+ISR(SERIAL_EMPTY_vect)
 {
     UDR0 = *sending;
     if (--left) {

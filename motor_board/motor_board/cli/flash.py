@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from motor_board.build import BRIDGES, FirmwareConfig, firmware
-from motor_board.programmer import BAUD, flash, the_port
+from motor_board.programmer import KINDS, flash, the_port
 from motor_board.sketch import write_sketch
 from motor_model.errors import MotorError
 from motor_ros.command import CommandParser
@@ -14,10 +14,10 @@ from motor_ros.command import CommandParser
 def parser() -> argparse.ArgumentParser:
     """The command line."""
     parser = CommandParser(
-        "motor_board", "flash", "Build the firmware and flash it onto an Arduino Uno or Nano (ATmega328P, 16 MHz)."
+        "motor_board", "flash", "Build the firmware and flash it onto an Arduino Uno, Nano or Mega 2560."
     )
     parser.add_argument("--port", metavar="PORT", help="the board's serial port (default: the only one there is)")
-    parser.add_argument("--board", choices=list(BAUD), default="uno", help="default uno; nano-old: its old bootloader")
+    parser.add_argument("--board", choices=list(KINDS), default="uno", help="default uno; nano-old: its old bootloader")
     parser.add_argument("--bridge", choices=list(BRIDGES), default="l298n", help="default l298n")
     parser.add_argument("--board-id", type=int, default=0, metavar="N", help="which of several boards, default 0")
     parser.add_argument(
@@ -53,6 +53,7 @@ def main(args: list[str] | None = None) -> int:
         options.channels,
         options.supply_full_scale,
         options.current_sense,
+        KINDS[options.board].chip,
     )
     try:
         if options.sketch is not None:

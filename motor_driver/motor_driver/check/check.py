@@ -15,7 +15,7 @@ class Check:
     """Passes samples to the script and what it wants through the guard; after the end, and after a stop, 0 V."""
 
     def __init__(self, settings: Settings, board: Hello) -> None:
-        self.settings, self.board, self.record = settings, board, Record()
+        self.settings, self.board, self.record = settings, board, Record(board.board)
         self._steps = run_script(settings, board, self.record)
         self._guard = Guard(settings)
         self._started = self.done = False

@@ -1,9 +1,11 @@
 """What a first run has found so far, and its result."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import nan
 
 from motor_driver.check.findings import Finding, finding
+from motor_driver.check.pins import name_pins
+from motor_driver.frames import Board
 
 OK, WRONG, CURED, UNKNOWN = "ok", "wrong", "cured", "not known"
 
@@ -35,6 +37,7 @@ class Measured:
 class Record:
     """Written as the run goes on."""
 
+    board: int = Board.ATMEGA328P  # whose pins are named
     rows: list[Row] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
     measured: Measured = Measured()
@@ -50,6 +53,8 @@ class Record:
     def add(self, step: str, found: Finding) -> None:
         """Something is wrong; each thing once."""
         if found.code not in self.codes:
+            sentence, cure = name_pins(found.sentence, self.board), name_pins(found.cure, self.board)
+            found = replace(found, sentence=sentence, cure=cure)
             self.findings.append(found)
             self.rows.append(Row(step, CURED if found.cured else WRONG, f"{found.sentence} {found.cure}"))
 

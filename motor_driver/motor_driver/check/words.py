@@ -2,6 +2,7 @@
 
 from motor_driver.check.check import Check
 from motor_driver.check.look import Prompt
+from motor_driver.check.pins import name_board
 from motor_driver.check.record import CURED, OK, UNKNOWN, WRONG, Row
 from motor_driver.check.settings import Settings
 from motor_driver.frames import Hello
@@ -33,7 +34,7 @@ def board_row(board: Hello, port: str) -> Row:
     """Which board was found."""
     number = f"board_id {board.board_id}" if board.board_id else "no board_id"
     channels = "one channel" if board.channels == 1 else "two channels"
-    return Row("board", OK, f"firmware {board.firmware} on an ATmega328P at {port}, {number}, {channels}")
+    return Row("board", OK, f"firmware {board.firmware} on {name_board(board.board)} at {port}, {number}, {channels}")
 
 
 def line_of(row: Row) -> str:
