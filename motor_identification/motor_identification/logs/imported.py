@@ -10,6 +10,7 @@ from motor_identification.logs.excitation import describe_excitation
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
 from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows
+from motor_identification.logs.still_runs import moves
 from motor_model.errors import RecordingError
 
 
@@ -54,10 +55,24 @@ def import_source(source: Source, said: Said) -> Imported:
     for form in guess.forms:
         log = read_motor(replace(table, notes=()), form)
         motors.append(Motor(form.label, replace(log, findings=(*log.findings, *describe_excitation(log)))))
+    motors, still = _without_still(motors)
     if not any(motor.log.runs for motor in motors):
         raise RecordingError(f"{table.path} holds no recording: give a log with at least 2 samples.")
     about = f"{table.path}: a {source.format} with the columns {_listed(source.table.names)}."
-    return Imported(tuple(motors), (about, *table.notes, *guess.findings))
+    return Imported(tuple(motors), (about, *table.notes, *guess.findings, *still))
+
+
+def _without_still(motors: list[Motor]) -> tuple[list[Motor], list[str]]:
+    """The motors but for those that were not driven and never move, beside one that does, and a finding for each."""
+    still = [motor for motor in motors if not any(map(moves, motor.log.runs)) and not _is_driven(motor)]
+    if not still or len(still) == len(motors):
+        return motors, []
+    said = [f"Left out: motor {motor.label}, which is not driven and never moves." for motor in still]
+    return [motor for motor in motors if motor not in still], said
+
+
+def _is_driven(motor: Motor) -> bool:
+    return any(sample.voltage != 0.0 for run in motor.log.runs for sample in run.samples)
 
 
 def _listed(names: list[str]) -> str:

@@ -12,6 +12,7 @@ from motor_identification.logs.rows.count_rate import count_rates
 from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.wraps import split_at_resets, unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
+from motor_identification.sensor.speed_sensor import find_noise
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_model.errors import RecordingError
 from motor_model.gearing.gear import edge_angle
@@ -66,24 +67,28 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     findings = (
         f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",
         f"The middle of that window is {lag * 1e3:.4g} ms before the row's time{placed}.",
-        _about_count(form, values, edges, window * unit),
+        _about_count(form, signals, edges, window),
     )
     return Motion(signals, values * unit, np.zeros(len(values), np.int64), info, findings)
 
 
-def _about_count(form: CsvForm, values: Floats, edges: int, angle: float) -> str:
-    """One count in the form's unit, said or seen; `angle` [rad] is what the unit turns within the window."""
+def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> str:
+    """One count in the form's unit, said or seen by whoever reads the bag, within a window [s]."""
+    unit = form.unit_size or 1.0
     if edges:
-        size = edge_angle(edges, form.gear) / angle
+        size = edge_angle(edges, form.gear) / window / unit
         return f"One count ({edges} per revolution) within the window is {size:.4g} {form.unit}."
-    step = find_lattice(values)
+    step, noise, _ = find_noise(signals.motion * unit, signals.voltage, 0, window)
     if step > 0.0:
-        counts = tau / (step * angle) / float(form.gear)
+        counts = tau / (step * window) / float(form.gear)
         return (
-            f"Values are multiples of {step:.4g} {form.unit}: one count within the window if the encoder has "
+            f"Values are multiples of {step / unit:.4g} {form.unit}: one count within the window if the encoder has "
             f"{counts:.5g} per revolution (assumed; otherwise: --edges-per-revolution)."
         )
-    return "Speeds show no counts; their noise is estimated from neighbours (otherwise: --edges-per-revolution)."
+    return (
+        f"Speeds show no counts: noise of {noise / unit:.2g} {form.unit}, as between neighbours, is assumed "
+        "(otherwise: --edges-per-revolution)."
+    )
 
 
 def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> None:

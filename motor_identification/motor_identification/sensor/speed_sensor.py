@@ -58,7 +58,7 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
             window, lag = frame, lag * frame / window
     right = ~mark_wrong_speeds(speed[row], recording.voltage[row])
     wrong, row, made = int(np.count_nonzero(~right)), row[right], made[right]
-    step, sigma, edges = _find_noise(speed[row], recording.voltage[row], recording.info.edges_per_revolution, window)
+    step, sigma, edges = find_noise(speed[row], recording.voltage[row], recording.info.edges_per_revolution, window)
     return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong)
 
 
@@ -80,7 +80,7 @@ def _is_assumed(info: Info) -> bool:
     return abs((info.speed_window or info.sample_period) - info.sample_period) <= SAME_PERIOD * info.sample_period
 
 
-def _find_noise(values: Floats, voltage: Floats, edges: int, window: float) -> tuple[float, float, int]:
+def find_noise(values: Floats, voltage: Floats, edges: int, window: float) -> tuple[float, float, int]:
     """Step [rad/s], white noise [rad/s] and counts a turn of the values; one of the first two is 0."""
     if edges:
         return tau / edges / window, 0.0, edges

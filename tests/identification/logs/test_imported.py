@@ -40,6 +40,17 @@ def read(name: str, **said: object) -> Imported:
     return import_log(DATA / name, Said(**said))  # type: ignore[arg-type]
 
 
+def test_a_motor_that_is_not_driven_is_left_out(tmp_path: Path) -> None:
+    rows = [f"{10 * k},200,{round(30 * (1 - np.exp(-k / 9)))},0,0" for k in range(99)]
+    (tmp_path / "log.csv").write_text("\n".join(["t,pwmL,velL,pwmR,velR", *rows]) + "\n")
+    imported = import_log(tmp_path / "log.csv", Said(supply_voltage=7.4, unit="rad/s"))
+    assert [motor.label for motor in imported.motors] == ["left"]
+    assert imported.findings[-1] == "Left out: motor right, which is not driven and never moves."
+    stuck = [row[:-1].replace(",0,", ",90,") + "0" for row in rows]  # driven, and does not move: worth a word
+    (tmp_path / "log.csv").write_text("\n".join(["t,pwmL,velL,pwmR,velR", *stuck]) + "\n")
+    assert len(import_log(tmp_path / "log.csv", Said(supply_voltage=7.4, unit="rad/s")).motors) == 2
+
+
 def test_the_table_names_every_log() -> None:
     there = {path.relative_to(DATA).as_posix() for path in DATA.glob("*/*") if path.suffix in (".csv", ".json")}
     assert there == set(LINES)

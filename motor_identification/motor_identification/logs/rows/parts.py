@@ -12,6 +12,8 @@ from motor_identification.logs.signals import Bools, Integers, Signals
 from motor_model.errors import RecordingError
 
 GAP = 20.0  # sample periods without a row: what was commanded meanwhile is not known any more
+BURSTS, FEWEST_ROWS = 10, 20  # gaps, and rows between them: so many short pieces are no recordings
+COMPUTERS = 10**18  # [ns] since 1970, in 2001: a later clock is a computer's
 LATE = 5.0  # sample periods from the first row to the second: it was logged before the recording began
 MOST_RUNS = 1000  # bags that one log may become; a column that is none to split by makes more
 
@@ -91,14 +93,33 @@ def split_at_gaps(signals: Signals) -> tuple[Signals, list[str]]:
     gap = _inside(signals, np.diff(signals.time, prepend=signals.time[:1]) > GAP * _period(signals))
     if not gap.any():
         return signals, []
-    if gap.sum() >= MOST_RUNS:
-        return signals, [f"Caution: {gap.sum()} gaps of more than {GAP:g} sample periods; none is cut out."]
+    number = int(gap.sum())
+    short = number >= BURSTS and len(signals) < FEWEST_ROWS * (number + 1)
+    if short:
+        _check_clock(signals, number)
+    if short or number >= MOST_RUNS:
+        return signals, [f"Caution: {number} gaps of more than {GAP:g} sample periods; none is cut out."]
     lost = float(np.diff(signals.time, prepend=signals.time[:1])[gap].sum()) * 1e-9
     parts = signals.split(gap)
     if not parts.runs:
         return signals, []
     said = f"Rows are missing {_times(int(gap.sum()))} ({lost:.3g} s in all): {len(parts.runs)} runs, a bag each"
     return parts, [f"{said}{_alone(signals, parts)}."]
+
+
+def _check_clock(signals: Signals, gaps: int) -> None:
+    """Refuse a computer's stamps of rows that came in bursts: they tell when a link handed them on.
+
+    Raises:
+        RecordingError: the stamps count from 1970; a board's own clock tells of pauses that there were.
+    """
+    if np.median(signals.time) < COMPUTERS:
+        return
+    rows, even = len(signals) / (gaps + 1), float(signals.steps().mean()) * 1e-9
+    raise RecordingError(
+        f"{signals.path}: rows come in bursts, about {rows:.2g} at a time, as a link hands them on that stores them: "
+        f"their times tell nothing. Say how far rows are apart: --sample-period S ({even:.3g} s on average)."
+    )
 
 
 def drop_first_rows(signals: Signals) -> tuple[Signals, list[str]]:

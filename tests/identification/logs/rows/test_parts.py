@@ -42,6 +42,20 @@ def test_a_run_is_as_long_as_its_value_and_one_that_comes_again_gets_a_number() 
     assert split_by_column(rows, "d") == {"10__": slice(0, 2), "-5": slice(2, 5), "10___2": slice(5, 7)}
 
 
+@pytest.mark.parametrize(("rows", "gaps", "cut"), [(19, 11, False), (20, 11, True), (6, 9, True)])
+def test_bursts_are_no_runs(rows: int, gaps: int, cut: bool) -> None:
+    """A board that pauses now and then has a clock of its own; a computer's tells when its link handed on what."""
+    times = np.concatenate([0.5 * k + 0.001 * np.arange(rows) for k in range(gaps + 1)])
+    parts, said = split_at_gaps(timed(*times))
+    assert len(parts.runs) == (gaps + 1 if cut else 1)
+    if cut:
+        assert len(split_at_gaps(timed(*(times + 1.77e9)))[0].runs) == gaps + 1
+        return
+    assert said == [f"Caution: {gaps} gaps of more than 20 sample periods; none is cut out."]
+    with pytest.raises(RecordingError, match=r"in bursts, about 19 at a time.* --sample-period S \(0.02[0-9]* s on"):
+        split_at_gaps(timed(*(times + 1.77e9)))
+
+
 def test_a_run_of_a_single_row_is_refused_with_its_line() -> None:
     with pytest.raises(RecordingError, match="log.csv, line 4: the run with d = b has a single row"):
         split_by_column(table(d=["a", "a", "b", "c", "c"]), "d")
