@@ -51,7 +51,7 @@ def test_speeds_are_means_over_the_period_before_the_stamp_unless_said_otherwise
     text = " ".join(log.findings)
     assert "3 rows, 0.04 s, sample period 20 ms (20 to 20 ms), up to 3 V" in text
     assert "mean over 20 ms (assumed: one sample period; otherwise: --speed-window)" in text
-    assert "10 ms before the row's time (assumed" in text and "Speeds show no counts; their noise is estimated" in text
+    assert "10 ms before the row's time (assumed" in text and "Speeds show no counts: noise of" in text
 
 
 def test_what_is_said_is_not_assumed(read: Read) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from motor_identification.logs.form import CsvForm
 from motor_identification.logs.rows.held import find_fresh_rows
-from motor_identification.logs.signals import Floats, Integers, Signals
+from motor_identification.logs.signals import Bools, Floats, Integers, Signals
 from motor_identification.measurement.sanity_checks import find_count_jump
 from motor_model.errors import RecordingError
 
@@ -23,6 +23,7 @@ SLACK = 1.02  # of its range: how far values may reach that wrap there (a turn o
 REACHED = 0.75  # of its range that values have to cover, before they are said to wrap at it
 USUAL = 3.0  # times the largest other step by which an unwrapped one may differ from 0
 AMBIGUOUS = 0.45  # of its range: a step that is nearly half of it could be one the other way
+FIRST_STEPS, FAR = 5, 10.0  # steps after a run's first, which is wrong where it is so many times each of them
 MOST_JUMPS = 8  # to somewhere else: as many are misread values or a potentiometer's gap, more are a range
 SCRAP = 20  # rows between two jumps, below which they are no recording
 BACK_STEPS = 1.5  # usual steps a row that the motor has gone on meanwhile
@@ -95,7 +96,9 @@ def split_at_resets(
     Raises:
         RecordingError: a position wraps at a size that is not known.
     """
-    whole, begins = signals, np.zeros(len(signals), np.bool_)
+    whole, begins = signals, _mark_wrong_first_rows(signals, count_of)
+    left_out = int(begins.sum())
+    signals = whole.split(begins)
     resets = 0
     tops: list[float] = []
     jumps: list[int] = []  # lines
@@ -117,10 +120,23 @@ def split_at_resets(
         begins[np.searchsorted(whole.lines, signals.lines[[row, right]])] = True
         signals = whole.split(begins)
     said = [f"{form.motion} is reset {resets} times: {len(signals.runs)} runs, a bag each."] if resets else []
+    if left_out:
+        said.insert(0, f"Left out: {left_out} first rows, whose {form.motion} is that of something before.")
     if jumps:
         signals = _without_scraps(signals)
         said.append(_about_jumps(signals, form, jumps))
-    return signals, [line.replace(" 1 times", " once") for line in said]
+    return signals, [line.replace(" 1 times", " once").replace("1 first rows", "1 first row") for line in said]
+
+
+def _mark_wrong_first_rows(signals: Signals, count_of: Callable[[Floats], Integers]) -> Bools:
+    """Mark the second rows (K,) of runs whose first is far from it, as it is from nothing that follows."""
+    begins = np.zeros(len(signals), np.bool_)
+    counts = count_of(signals.motion)
+    for run in signals.runs.values():
+        steps = np.abs(np.diff(counts[run])).astype(np.float64)
+        if len(steps) > FIRST_STEPS and steps[0] > FAR * max(np.max(steps[1 : 1 + FIRST_STEPS]), 1.0):
+            begins[run.start + 1] = steps[0] > np.max(steps[1:])
+    return begins
 
 
 def _row_back(motion: Floats, row: int, stop: int, usual: float) -> int:

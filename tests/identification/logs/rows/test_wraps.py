@@ -90,6 +90,16 @@ def test_a_jump_to_somewhere_else_begins_a_run() -> None:
         split_at_resets(rows(with_jumps(9)), form("deg"), whole)
 
 
+@pytest.mark.parametrize(("first", "left_out"), [(-101.0, True), (-99.0, False)])
+def test_a_first_row_of_something_before_is_left_out(first: float, left_out: bool) -> None:
+    """The motor goes 10 a row; the buffer of the program still had the end of the run before."""
+    signals, said = split_at_resets(rows(np.append(first, 10.0 * np.arange(200))), form("deg"), whole)
+    assert [run.stop - run.start for run in signals.runs.values()] == [200 if left_out else 201]
+    assert said == (["Left out: 1 first row, whose y is that of something before."] if left_out else [])
+    quick = np.cumsum(np.concatenate([[0.0, 500.0], np.zeros(20), np.full(50, 600.0)]))  # it moves so later on, too
+    assert len(split_at_resets(rows(quick), form("deg"), whole)[0]) == len(quick)
+
+
 @pytest.mark.parametrize(("length", "runs"), [(1, [300, 599]), (3, [300, 597]), (19, [300, 581])])
 def test_values_that_are_misread_are_left_out(length: int, runs: list[int]) -> None:
     there = 10.0 * np.arange(900)
