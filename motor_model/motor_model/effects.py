@@ -114,13 +114,6 @@ EFFECTS = (
         (P("sag", "–", 0.0, 0.0, 1.0, starts=(0.05,)),),
     ),
     Effect(
-        "armature_inductance",
-        "first-order lag of the drive (L/R)",
-        "prbs",
-        "the inductance (armature_inductance)",
-        (P("electrical_time_constant", "s", 0.0, 2e-3, 6.0, SAMPLE, True, starts=(0.1, 0.8), usual=(1e-5, 0.03)),),
-    ),
-    Effect(
         "transport_delay",
         "dead time between command and output",
         "prbs",
@@ -138,6 +131,13 @@ EFFECTS = (
                 most_duration=0.1,
             ),
         ),  # fmt: skip
+    ),
+    Effect(
+        "armature_inductance",
+        "first-order lag of the drive (L/R)",
+        "prbs",
+        "the inductance (armature_inductance)",
+        (P("electrical_time_constant", "s", 0.0, 2e-3, 6.0, SAMPLE, True, starts=(0.1, 0.8), usual=(1e-5, 0.03)),),
     ),
     Effect(
         "torque_ripple",

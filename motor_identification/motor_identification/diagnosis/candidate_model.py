@@ -23,7 +23,7 @@ from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_data import make_error_data
 from motor_identification.noise.error_learning import estimate_disturbance, learn_error_model
 from motor_identification.noise.error_model import Disturbance, ErrorModel
-from motor_identification.noise.likelihood import Noise, estimate_noise
+from motor_identification.noise.likelihood import Noise, estimate_noise, log_likelihood
 from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
@@ -38,6 +38,7 @@ class Model:
     held: HeldOut
     noise: Noise  # what it leaves in the training data
     likelihood: float  # logarithm, of the held-out data; beside a random torque of all data, less the unknowns' price
+    training: float = 0.0  # logarithm of the likelihood of the data it was fitted to, where that is not part of it
     learned: ErrorModel | None = None  # of what it leaves, where it is judged beside a random torque
     held_out: float = 0.0  # the held-out data's part of that likelihood
     scored: int = 0  # intervals that it is of
@@ -190,8 +191,10 @@ def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = N
     like: a similar model; where that is judged beside a random torque, so is this one.
     """
     held = hold_out.validate(estimate)
-    noise = estimate_noise(list(zip(estimate.problem.intervals, estimate.increments, strict=True)))
-    model = Model(estimate, held, noise, held.log_likelihood(noise))
+    rows = list(zip(estimate.problem.intervals, estimate.increments, strict=True))
+    noise = estimate_noise(rows)
+    training = sum(log_likelihood(data, increments, noise) for data, increments in rows)
+    model = Model(estimate, held, noise, held.log_likelihood(noise), training)
     if like is None or not like.beside_torque:
         return model
     return judge_beside_torque(model, hold_out, like.learned, thresholds.CANDIDATE_EVALUATIONS)
@@ -206,6 +209,7 @@ def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | Non
         model,
         learned=errors,
         likelihood=held.likelihood + training.likelihood,
+        training=0.0,
         held_out=held.likelihood,
         scored=sum(map(np.count_nonzero, mark_common_set(hold_out))),
         moments=np.concatenate([held.moments, training.moments]),

@@ -35,6 +35,11 @@ class CandidateTest:
         return self.model.likelihood - self.before.likelihood
 
     @property
+    def evidence_of_all(self) -> float:
+        """The same of all data, which flatters a fit by its parameters: to tell effects with as many parameters."""
+        return self.evidence + self.model.training - self.before.training
+
+    @property
     def steadiness(self) -> float:
         """Evidence without the few moments that speak most for it, beside a random torque."""
         return measure_steadiness(self.before.moments, self.model.moments)

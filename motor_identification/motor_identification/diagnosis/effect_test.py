@@ -66,19 +66,22 @@ def likelihood_threshold() -> float:
 def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
     """Choose the finding among tests, best first, if there is one: likely, and relevant; of equals the most common.
 
-    What needs an instant, or one for every recording, has to be more likely than what needs none.
+    Of what held-out data hardly tell apart, all data choose: there are several times as many. What needs an instant, or
+    one for every recording, has to be more likely than what needs none.
     """
     best = next((test for test in tests if _is_finding(test)), None)
     if best is None:
         return None
-    margin = thresholds.RIVAL_MARGIN if needs_instant(best.effect) else thresholds.TIE_LIKELIHOOD
-    equals = [
+    alike = [
         test
         for test in tests
-        if test.evidence > best.evidence - (thresholds.TIE_LIKELIHOOD if needs_instant(test.effect) else margin)
+        if test.evidence > best.evidence - thresholds.RIVAL_MARGIN
         and count_parameters(test.effect) <= count_parameters(best.effect)
         and _is_finding(test)
     ]
+    alike = [test for test in alike if not needs_instant(test.effect)] or alike
+    most = max(test.evidence_of_all for test in alike)
+    equals = [test for test in alike if test.evidence_of_all >= most - thresholds.COMMON_LIKELIHOOD]
     return min(equals, key=lambda test: EFFECT_ORDER[test.effect])
 
 
