@@ -9,6 +9,7 @@ import numpy as np
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.disturbed_fit import fit_beside_torque, list_error_data
 from motor_identification.diagnosis.torque_evidence import (
+    compute_price,
     mark_common_set,
     score_held_out,
     score_training,
@@ -20,6 +21,7 @@ from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.intervals import Intervals
+from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.noise.error_data import make_error_data
 from motor_identification.noise.error_learning import estimate_disturbance, learn_error_model
 from motor_identification.noise.error_model import Disturbance, ErrorModel
@@ -29,6 +31,8 @@ from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
 
+CURVE_BLOCKS = TimeBlocks(4)  # that curves are judged by where nothing is held out
+
 
 @dataclass(frozen=True)
 class Model:
@@ -37,7 +41,7 @@ class Model:
     estimate: Estimate  # on its training data
     held: HeldOut
     noise: Noise  # what it leaves in the training data
-    likelihood: float  # logarithm, of the held-out data; beside a random torque of all data, less the unknowns' price
+    likelihood: float  # logarithm, of unseen data; beside a random torque, or where none is, of all less a price
     training: float = 0.0  # logarithm of the likelihood of the data it was fitted to, where that is not part of it
     learned: ErrorModel | None = None  # of what it leaves, where it is judged beside a random torque
     held_out: float = 0.0  # the held-out data's part of that likelihood
@@ -170,7 +174,11 @@ class Model:
             simulated = partial(make_history, recording, data, angle, *motor, speeds)
             return Rest(make_error_data(data, increments), history, simulated, ~judged, judged)
 
-        rows = zip(held.recordings, held.intervals, held.angles, held.increments, held.scored, strict=True)
+        judged = held.scored
+        if held.seen:  # by the fit, not by a curve
+            blocks = CURVE_BLOCKS.mark_each(held.intervals, problem.sample_period)
+            judged = tuple(block & scored for block, scored in zip(blocks, held.scored, strict=True))
+        rows = zip(held.recordings, held.intervals, held.angles, held.increments, judged, strict=True)
         own = [rest(*row) for row in rows]
         nothing = [np.zeros(len(data.first), dtype=bool) for data in problem.intervals]
         training = zip(
@@ -194,7 +202,10 @@ def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = N
     rows = list(zip(estimate.problem.intervals, estimate.increments, strict=True))
     noise = estimate_noise(rows)
     training = sum(log_likelihood(data, increments, noise) for data, increments in rows)
-    model = Model(estimate, held, noise, held.log_likelihood(noise), training)
+    if held.seen:
+        model = Model(estimate, held, noise, training - compute_price(estimate))
+    else:
+        model = Model(estimate, held, noise, held.log_likelihood(noise), training)
     if like is None or not like.beside_torque:
         return model
     return judge_beside_torque(model, hold_out, like.learned, thresholds.CANDIDATE_EVALUATIONS)
@@ -205,14 +216,15 @@ def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | Non
     rows, lag = list_error_data(model.estimate), model.estimate.lag
     errors = learn_error_model(rows, *lag, guess, evaluations)
     held, training = score_held_out(hold_out, model.held, errors, lag), score_training(model.estimate, rows, errors)
+    parts = (training,) if model.held.seen else (held, training)
     return replace(
         model,
         learned=errors,
-        likelihood=held.likelihood + training.likelihood,
+        likelihood=sum(part.likelihood for part in parts),
         training=0.0,
         held_out=held.likelihood,
         scored=sum(map(np.count_nonzero, mark_common_set(hold_out))),
-        moments=np.concatenate([held.moments, training.moments]),
+        moments=np.concatenate([part.moments for part in parts]),
     )
 
 

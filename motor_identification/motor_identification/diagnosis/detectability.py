@@ -25,7 +25,8 @@ def find_undetectable(model: Model) -> tuple[str, ...]:
         larger = add_noticeable_effect(model.estimate, effect)
         trace = larger.problem.residuals(larger.theta) - without
         left = remove_imitation(columns, trace, problem.weight)
-        if _expect_evidence(model, left) < likelihood_threshold():
+        untold = EFFECT_BY_NAME[effect].anywhere and model.held.seen
+        if untold or _expect_evidence(model, left) < likelihood_threshold():
             hidden.append(effect)
     return tuple(hidden)
 

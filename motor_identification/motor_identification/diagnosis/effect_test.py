@@ -17,12 +17,18 @@ EFFECT_ORDER = {name: number for number, name in enumerate(EFFECT_BY_NAME)}  # t
 Heard = Callable[[CandidateTest], None]  # told of each test as it is done
 
 
-def list_candidates(effects: Sequence[str]) -> list[str]:
-    """List the effects a model can be given next: what it does not have, whose own condition it has."""
+def list_candidates(effects: Sequence[str], seen: bool = False) -> list[str]:
+    """List the effects a model can be given next: what it does not have, whose own condition it has.
+
+    seen: whether it is judged by what it was fitted to; then nothing that happens once, which some instant fits.
+    """
     return [
         effect.name
         for effect in EFFECT_BY_NAME.values()
-        if effect.name not in effects and effect.fitted and (effect.implies is None or effect.implies in effects)
+        if effect.name not in effects
+        and effect.fitted
+        and not (effect.anywhere and seen)
+        and (effect.implies is None or effect.implies in effects)
     ]
 
 

@@ -41,8 +41,13 @@ def score_training(estimate: Estimate, rows: Sequence[ErrorData], errors: ErrorM
     rows: of every training recording, what the estimate leaves.
     """
     moments = _add_moments(estimate.problem.intervals, rows, errors, estimate.lag)
-    count = sum(len(row.fresh) for row in rows)
-    return Score(float(moments.sum()) - 0.5 * log(count) * len(estimate.theta), moments)
+    return Score(float(moments.sum()) - compute_price(estimate), moments)
+
+
+def compute_price(estimate: Estimate) -> float:
+    """Compute what the unknowns of an estimate cost it in log likelihood of the motion that it was fitted to."""
+    count = sum(len(data.first) for data in estimate.problem.intervals)
+    return 0.5 * log(count) * len(estimate.theta)
 
 
 def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: tuple[float, float]) -> Score:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.recording import Bools, Integers
+from motor_identification.recording import Bools, Floats, Integers
 
 USUAL_BLOCK = 0.5  # [s]: most motors' time constants are shorter, so that a block shows what the motor does
 BLOCK_SAMPLES = (25.0, 100.0)  # sample periods that a block has in any case: how fast a motor is sampled tells its own
@@ -14,22 +14,15 @@ NEAR_A_BLOCK = 0.1  # of a block: what begins so near to its end may as well hav
 LEAST_BLOCKS = 12  # of a short recording: enough for three blocks of every fourth
 
 
-def compute_block_length(data: Intervals, sample_period: float) -> float:
-    """Compute how long [s] the blocks of a recording are, sampled with this period [s]."""
+def compute_block_length(data: Intervals, sample_period: float, stretch: float = 1.0) -> float:
+    """Compute how long [s] the blocks of a recording are, sampled with this period [s]; stretch: of the usual ones."""
     shortest, longest = (samples * sample_period for samples in BLOCK_SAMPLES)
-    return float(min(max(shortest, min(USUAL_BLOCK, longest)), data.time[-1] / LEAST_BLOCKS))
+    return float(min(stretch * max(shortest, min(USUAL_BLOCK, longest)), data.time[-1] / LEAST_BLOCKS))
 
 
-def number_blocks(data: Intervals, length: float) -> Integers:
-    """Number the blocks of a length [s] that the intervals begin in, shape (I,)."""
-    return np.asarray((data.time[data.first] // length).astype(np.int64))
-
-
-def mark_blocks_of(data: Intervals, sample_period: float, times: Sequence[float]) -> Bools:
-    """Mark the intervals that begin in the blocks of some times [s], or in the next one's where that is near, (I,)."""
-    length = compute_block_length(data, sample_period)
-    near = [int(time / length + share) for time in times for share in (-NEAR_A_BLOCK, NEAR_A_BLOCK)]
-    return np.asarray(np.isin(number_blocks(data, length), near))
+def number_blocks(times: Floats, length: float) -> Integers:
+    """Number the blocks of a length [s] that times [s] are in."""
+    return np.asarray((times // length).astype(np.int64))
 
 
 @dataclass(frozen=True)
@@ -40,6 +33,7 @@ class TimeBlocks:
     """
 
     every: int
+    stretch: float = 1.0  # of the usual length
 
     def mark_each(self, intervals: Sequence[Intervals], sample_period: float) -> tuple[Bools, ...]:
         """Mark the intervals of every recording that begin in these blocks."""
@@ -50,6 +44,19 @@ class TimeBlocks:
 
         None where they would be all: nothing of a recording that is within one block serves another purpose.
         """
-        block = number_blocks(data, compute_block_length(data, sample_period))
-        marks = np.asarray((block + number) % self.every == self.every - 1)
-        return marks & ~marks.all()
+        marks = self.find_times(data.time[data.first], data, sample_period, number)
+        return marks & (not marks.all() or self.every == 1)
+
+    def find_times(self, times: Floats, data: Intervals, sample_period: float, number: int = 0) -> Bools:
+        """Find which times [s] of a recording are in these blocks."""
+        block = number_blocks(times, compute_block_length(data, sample_period, self.stretch))
+        return np.asarray((block + number) % self.every == self.every - 1)
+
+    def mark_near(self, times: Sequence[float], data: Intervals, sample_period: float) -> Bools:
+        """Mark the intervals that begin in a block, of whatever purpose, with one of some times [s], shape (I,).
+
+        Those of the block before or after it, too, where that is near.
+        """
+        length = compute_block_length(data, sample_period, self.stretch)
+        near = [int(time / length + share) for time in times for share in (-NEAR_A_BLOCK, NEAR_A_BLOCK)]
+        return np.asarray(np.isin(number_blocks(data.time[data.first], length), near))

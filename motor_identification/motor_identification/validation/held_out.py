@@ -32,6 +32,7 @@ class HeldOut:
     scored: tuple[Bools, ...]
     miscounted: int  # intervals left out because edges were missed or counted twice
     instants: tuple[Bools, ...] = ()  # left out of the gap: an instant is in these blocks, which nobody could foresee
+    seen: bool = False  # the fit has seen what counts
 
     @cached_property
     def residuals_of(self) -> tuple[Floats, ...]:

@@ -1,4 +1,8 @@
-"""Hold data out of the fits to validate them on: other recordings, or blocks of the same ones."""
+"""Hold data out of the fits to validate them on: other recordings, or blocks of the same ones.
+
+Where the command hardly swings in any blocks, as in a recording of a single step, they would show a motor that turns,
+and nothing of its response: then nothing is held out, and every unknown has its price instead.
+"""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
@@ -11,7 +15,8 @@ from motor_identification.estimation.direction_correction import correct_directi
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.miscounts import mark_miscounts
 from motor_identification.estimation.problem import Problem, make_problem
-from motor_identification.measurement.time_blocks import TimeBlocks, mark_blocks_of
+from motor_identification.measurement.command_swing import measure_swings
+from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.recording import Bools, Recording
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.instants import list_instants
@@ -19,6 +24,13 @@ from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
 
 # Of what counts in a recording: more is not left out, however unforeseen. One block of three would be a third of it.
 MOST_LEFT_OUT = 0.25
+
+# How much the command swings in blocks that a motor can be judged by: a step up, down and up again, and half of what
+# they would have by chance. Measured: real logs of one to twenty steps have 0 to 0.4 of up to 9 in every fourth of the
+# usual blocks, those of a random or a controlled voltage 20 % and more.
+LEAST_SWING, LEAST_SWING_SHARE = 3.0, 0.5
+# Of the usual length, of blocks that are tried: no period of a command divides them all.
+STRETCHES = (1.0, 1.37, 1.9, 2.6, 3.6, 5.0)
 
 Self = TypeVar("Self", bound="HoldOut")
 
@@ -28,7 +40,8 @@ class HoldOut(ABC):
     """Recordings to validate a fitted motor on, and the blocks of them that count in the gap."""
 
     problem: Problem  # of these recordings, without effects
-    scored_blocks: ClassVar[TimeBlocks]
+    scored_blocks: TimeBlocks  # which count in the gap
+    seen: ClassVar[bool] = False  # whether the fit has seen them
 
     @abstractmethod
     def apply(self, fitted: Estimate) -> Estimate:
@@ -46,12 +59,13 @@ class HoldOut(ABC):
         blocks = self.scored_blocks.mark_each(intervals, here.problem.sample_period)
         counted = tuple(block & ~marks for block, marks in zip(blocks, bad, strict=True))
         instants = tuple(
-            _leave_out_few(block, mark_blocks_of(data, here.problem.sample_period, times))
+            _leave_out_few(block, self.scored_blocks.mark_near(times, data, here.problem.sample_period))
             for block, data, times in zip(counted, intervals, list_instants(here), strict=True)
         )
         scored = tuple(block & ~instant for block, instant in zip(counted, instants, strict=True))
         miscounted = int(sum(marks.sum() for marks in bad))
-        return HeldOut(here.problem.recordings, intervals, here.angles, here.parameters, scored, miscounted, instants)
+        motion = here.problem.recordings, intervals, here.angles
+        return HeldOut(*motion, here.parameters, scored, miscounted, instants, self.seen)
 
     def correct_directions(self: Self, fitted: Estimate) -> Self:
         """Read the held-out recordings again, with directions by the motion of a fitted motor."""
@@ -69,8 +83,6 @@ def _leave_out_few(counted: Bools, instants: Bools) -> Bools:
 class OtherRecordings(HoldOut):
     """Other recordings of the motor: every other block is for their nuisance parameters, the rest counts."""
 
-    scored_blocks = TimeBlocks(2)
-
     def apply(self, fitted: Estimate) -> Estimate:
         """Fit what belongs to these recordings on the blocks that do not count; the motor stays as it is."""
         blocks = self.scored_blocks.mark_each(self.problem.intervals, self.problem.sample_period)
@@ -85,16 +97,25 @@ class OtherRecordings(HoldOut):
 class BlocksOfSame(HoldOut):
     """Every fourth block of the training recordings themselves: what belongs to them is known from the fit."""
 
-    scored_blocks = TimeBlocks(4)
-
     def apply(self, fitted: Estimate) -> Estimate:
         """Apply the same unknowns to all blocks."""
         here = replace(self.problem, unknowns=fitted.problem.unknowns, tracks=fitted.problem.tracks)
         return fitted.on(here)
 
     def restrict(self, training: Problem) -> Problem:
-        """Take every fourth block out."""
+        """Take these blocks out."""
         return training.keeping_out(self.scored_blocks)
+
+
+@dataclass(frozen=True)
+class WholeRecordings(BlocksOfSame):
+    """The training recordings themselves, nothing held out: the fit has seen all that it is judged by."""
+
+    seen: ClassVar[bool] = True
+
+    def restrict(self, training: Problem) -> Problem:
+        """Keep all of the training recordings."""
+        return training
 
 
 def make_hold_out(
@@ -102,11 +123,27 @@ def make_hold_out(
     validation: Sequence[Recording],
     stopped: Callable[[], bool] | None = None,
 ) -> HoldOut:
-    """Hold out `validation`, or every fourth block of the recordings themselves.
+    """Hold out `validation`, or every fourth block of the recordings themselves, if the command swings in these.
 
     Raises:
         RecordingError: a recording has no usable motion.
     """
     if validation:
-        return OtherRecordings(make_problem(validation, (), stopped=stopped))
-    return BlocksOfSame(make_problem(recordings, (), stopped=stopped))
+        return OtherRecordings(make_problem(validation, (), stopped=stopped), TimeBlocks(2))
+    problem = make_problem(recordings, (), stopped=stopped)
+    for stretch in STRETCHES:
+        blocks = TimeBlocks(4, stretch)
+        held, every = measure_held_swing(problem, blocks)
+        if held >= max(LEAST_SWING, LEAST_SWING_SHARE * every / blocks.every):
+            return BlocksOfSame(problem, blocks)
+    return WholeRecordings(problem, TimeBlocks(1))
+
+
+def measure_held_swing(problem: Problem, blocks: TimeBlocks) -> tuple[float, float]:
+    """Measure by how much the command swings in some blocks, and in all, each recording in units of its largest."""
+    held = every = 0.0
+    for number, (recording, data) in enumerate(zip(problem.recordings, problem.intervals, strict=True)):
+        swings = measure_swings(recording)
+        inside = blocks.find_times(recording.time, data, problem.sample_period, number)
+        held, every = held + float(swings[inside].sum()), every + float(swings.sum())
+    return held, every

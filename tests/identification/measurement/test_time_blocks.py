@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from motor_identification.measurement.intervals import Intervals, exclude_intervals, index_intervals
-from motor_identification.measurement.time_blocks import LEAST_BLOCKS, USUAL_BLOCK, TimeBlocks, mark_blocks_of
+from motor_identification.measurement.time_blocks import LEAST_BLOCKS, USUAL_BLOCK, TimeBlocks
 
 PERIOD = 0.005  # [s]
 
@@ -60,5 +60,5 @@ def test_a_recording_within_one_block_is_left_whole(count: int) -> None:
 )
 def test_the_blocks_of_a_time_and_of_what_is_near_their_ends(time: float, blocks: list[int]) -> None:
     data = intervals(12.0)
-    marks = mark_blocks_of(data, PERIOD, [time])
+    marks = TimeBlocks(4).mark_near([time], data, PERIOD)
     assert np.array_equal(np.unique(np.floor(data.time[data.first][marks] / USUAL_BLOCK + 1e-9)), blocks)

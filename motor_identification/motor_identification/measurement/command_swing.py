@@ -1,0 +1,32 @@
+"""Measure how a command swings: what makes a motor show more of itself than that it turns."""
+
+import numpy as np
+
+from motor_identification.recording import Floats, Recording
+from motor_model.compiled import compiled
+
+PLAY = 0.05  # of the largest voltage: what a measured supply, or a controller that holds a speed, moves to and fro
+
+
+def measure_swings(recording: Recording) -> Floats:
+    """Measure by how much a command swings at each sample, in units of its largest voltage, shape (K,).
+
+    From 0 V before the first sample. What it moves to and fro within a small play is no swing: the sum over a step is
+    its size, that over a sine is four times its amplitude a period.
+    """
+    largest = float(np.abs(recording.voltage).max())
+    if largest == 0.0:
+        return np.zeros(len(recording))
+    followed = np.empty(len(recording))
+    _follow(recording.voltage / largest, PLAY, followed)
+    return np.asarray(np.abs(np.diff(followed, prepend=0.0)))
+
+
+@compiled
+def _follow(values: Floats, play: float, followed: Floats) -> None:
+    """Follow values as a part with play does: by the rest of what is beyond it, and a step by all of it."""
+    last = 0.0
+    for k in range(len(values)):
+        if abs(values[k] - last) > play:
+            last = values[k]
+        followed[k] = last
