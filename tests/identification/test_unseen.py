@@ -13,6 +13,7 @@ from motor_identification.diagnosis.forward_selection import begin_beside_torque
 from motor_identification.estimation.request import SearchConfig
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.initial_speed import estimate_initial_speed
+from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.recording import Recording, check
 from motor_identification.validation.hold_out import BlocksOfSame, HoldOut, OtherRecordings, make_hold_out
 from motor_model.parameters import PAPER_KA, PAPER_KV
@@ -27,10 +28,10 @@ def made(drive: profiles.Profile, seed: int) -> Recording:
     return check(record(TRUE, *drive, seed=seed, irregularity=0.003, disc_seed=3, name=f"{seed}.bag")[0])
 
 
-def corrupt(recording: Recording, rule: type[HoldOut]) -> Recording:
+def corrupt(recording: Recording, blocks: TimeBlocks) -> Recording:
     """The recording with every other count off by one, where no interval begins or ends that a fit may see."""
     data = make_intervals(recording)
-    held = rule.scored_blocks.mark(data, recording.sample_period)
+    held = blocks.mark(data, recording.sample_period)
     seen = np.unique(np.concatenate([data.time[data.first[~held]], data.time[data.last[~held]]]))
     latest = (recording.edge_time - recording.sample_time[0]) * 1e-9 + 0.5 * recording.info.edge_resolution
     tick = 0.1 * recording.info.edge_resolution
@@ -53,13 +54,14 @@ def list_fits(train: Recording, hold_out: HoldOut) -> tuple[list[Any], int]:
 
 @pytest.mark.parametrize("rule", [BlocksOfSame, OtherRecordings])
 def test_corrupted_held_out_samples_change_no_fit(rule: type[HoldOut]) -> None:
-    train, other = made(profiles.staircase(10.0, 3, 0.3), 1), made(profiles.random(9.0, 5.0), 2).between(1.0, 0.0)
+    swinging = profiles.joined(*[profiles.staircase(10.0, 3, 0.3)] * 4)  # enough for blocks of it to be held out
+    train, other = made(swinging, 1), made(profiles.random(9.0, 5.0), 2).between(1.0, 0.0)
     assert estimate_initial_speed(other) != 0.0  # a nuisance parameter of its own
     if rule is BlocksOfSame:
-        spoilt = corrupt(train, rule)
+        spoilt = corrupt(train, TimeBlocks(4))
         (fits, few), (again, many) = (list_fits(one, make_hold_out([one], [])) for one in (train, spoilt))
     else:
-        spoilt = corrupt(other, rule)
+        spoilt = corrupt(other, TimeBlocks(2))
         (fits, few), (again, many) = (list_fits(train, make_hold_out([train], [one])) for one in (other, spoilt))
     assert few < 5 and many > 20  # what was corrupted is seen where the model is judged
     assert all(np.array_equal(*pair) for pair in zip(fits, again, strict=True))

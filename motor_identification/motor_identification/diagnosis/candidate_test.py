@@ -73,8 +73,7 @@ class CandidateTest:
             return False
         near = before.gap < thresholds.NEAR_FLOOR * floor or self.has_instants
         least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE
-        seen = self.model.held.gap < (1.0 - thresholds.LEAST_DROP) * self.held_before.gap
-        return seen and share_explained(before.gap, after.gap, floor) > least
+        return self.model.held.gap < self.held_before.gap and share_explained(before.gap, after.gap, floor) > least
 
 
 def share_explained(before: float, after: float, floor: float) -> float:

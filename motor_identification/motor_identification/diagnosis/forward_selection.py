@@ -193,7 +193,9 @@ def _find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: P
     """Find the two effects that explain most together where neither does alone, as two steps, if there are such."""
     current, found = selection.model, []
     for i, first in enumerate(list_partners(tests)):
-        left = [effect for effect in list_candidates(first.model.effects, current.held.seen) if not _is_periodic(effect)]
+        left = [
+            effect for effect in list_candidates(first.model.effects, current.held.seen) if not _is_periodic(effect)
+        ]
 
         def heard(test: CandidateTest, first: CandidateTest = first) -> None:
             reporter.report(f"{first.effect} with {test.effect}", 0.5, test.effect, test.model.held.gap)

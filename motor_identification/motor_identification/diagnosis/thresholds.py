@@ -23,8 +23,7 @@ LASTING_GAP = 2.0
 # Chance that a complete model is given any effect that it does not have. By Markov's inequality a likelihood ratio on
 # unseen data exceeds n/rate with a chance of at most rate/n for each of n effects, see `noise/likelihood.py`.
 FALSE_ALARM_RATE = 0.01
-# Of log likelihood: a ratio of e^0.5 = 1.6 is no evidence; the effect that is earlier in the table, and therefore more
-# common, is taken.
+# Of log likelihood: a ratio of e^0.5 = 1.6 is no evidence. In backward elimination, and of which partners are tried.
 TIE_LIKELIHOOD = 0.5
 # The same where all data choose between what held-out data hardly tell apart: e^3 = 20 is called strong evidence (R.
 # Kass, A. Raftery, "Bayes factors", J. Am. Stat. Assoc. 90, 1995), and the more common effect is that much likelier
@@ -59,8 +58,6 @@ WORSE_GAP = 1.5
 CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120
 # How often a model is fitted again from where the best finding leads, beside a random torque.
 VERIFICATIONS = 3
-# Of the gap itself that goes in any case: a user sees three digits of it.
-LEAST_DROP = 0.0
 # Times the standard deviation that random slots give to sine and cosine of their first harmonic, which an eccentricity
 # has to exceed: the amplitude has a Rayleigh distribution, beyond 5 with a chance of e^-12.5 = 4e-6.
 CHANCE_HARMONIC = 5.0

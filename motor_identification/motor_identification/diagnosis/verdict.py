@@ -156,4 +156,6 @@ def decide(
         return Verdict.UNDECIDED, unclear
     if hidden and not findings:
         return Verdict.UNDECIDED, EFFECT_BY_NAME[hidden[0]].shown_by  # the table begins with what is most common
+    if findings and not last.held.confirms:
+        return Verdict.UNDECIDED, EFFECT_BY_NAME[findings[0].effect].shown_by
     return (Verdict.EXPLAINED if findings else Verdict.NOTHING_MISSING), ""

@@ -21,6 +21,7 @@ def diagnosis_to_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "structure": [_structure_to_json(one) for one in diagnosis.structure],
         "gap_before": to_number(diagnosis.gap_before),
         "gap_after": to_number(diagnosis.gap_after),
+        "held_out": not diagnosis.after.seen,
         "verdict": diagnosis.verdict.value,
         "undetectable": list(diagnosis.undetectable),
         "not_testable": list(diagnosis.undetectable),

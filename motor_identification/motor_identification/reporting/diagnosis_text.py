@@ -9,10 +9,14 @@ from motor_identification.reporting.numbers import format_change, format_measure
 from motor_identification.uncertainty.result import Fit
 from motor_model.text_table import align_columns
 
-GAP = "validation RMS error (gap)"
+GAP, FITTED_GAP = "validation RMS error (gap)", "RMS error (gap)"
 TOO_SHORT = "The recording is too short to keep a part of it for validation: record more motion."
 OUT_OF_TIME = "The time limit of {:g} s ended the search: what follows is the best so far; allow more with --budget."
 UNDETERMINED = "this recording determines nothing of it."
+SEEN = (
+    "The command changes too seldom to hold any of it out: this gap is of the motion that was fitted; --validate BAG "
+    "tests it on another."
+)
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
 
 STRUCTURE_NAMES = {
@@ -29,17 +33,22 @@ STRUCTURE_NAMES = {
 
 def summarize_diagnosis(diagnosis: Diagnosis) -> str:
     """Say what was missing, what it explains and what is left, in one to three sentences, then what to do."""
-    return " ".join(part for part in (_SUMMARIES[diagnosis.verdict](diagnosis), _next_step(diagnosis)) if part)
+    seen = SEEN if diagnosis.after.seen else ""
+    return " ".join(part for part in (_SUMMARIES[diagnosis.verdict](diagnosis), seen, _next_step(diagnosis)) if part)
 
 
 def describe_gap_reduction(diagnosis: Diagnosis) -> str:
     """Say by how much the gap falls, beside the noise floor."""
     change = format_change(diagnosis.gap_before, diagnosis.gap_after)
-    text = f"the {GAP} falls from {change} rad/s ({compare_with_floor(diagnosis)})"
+    text = f"the {_name_gap(diagnosis)} falls from {change} rad/s ({compare_with_floor(diagnosis)})"
     if diagnosis.gap_before > EXPLAINED_GAP * diagnosis.noise_floor:
         return text
     lasting = format_change(*(held.joined(LASTING_INTERVAL).gap for held in (diagnosis.before, diagnosis.after)))
     return f"{text}; averaged over {LASTING_INTERVAL:g} s, which smooths the encoder's steps, from {lasting} rad/s"
+
+
+def _name_gap(diagnosis: Diagnosis) -> str:
+    return FITTED_GAP if diagnosis.after.seen else GAP
 
 
 def compare_with_floor(diagnosis: Diagnosis) -> str:
@@ -51,12 +60,17 @@ def compare_with_floor(diagnosis: Diagnosis) -> str:
 
 
 def _describe_gap(diagnosis: Diagnosis) -> str:
-    return f"the {GAP} is {diagnosis.gap_after:.3g} rad/s, {compare_with_floor(diagnosis)}"
+    return f"the {_name_gap(diagnosis)} is {diagnosis.gap_after:.3g} rad/s, {compare_with_floor(diagnosis)}"
 
 
 def _describe_found(findings: tuple[Finding, ...]) -> str:
     each = [f"{effect_name(one.effect)} ({format_parameters(one)})" for one in findings]
     return capitalize(join_names(each) + (" was missing" if len(each) == 1 else " were missing"))
+
+
+def _describe_possible(findings: tuple[Finding, ...]) -> str:
+    each = [f"{effect_name(one.effect)} ({format_parameters(one)})" for one in findings]
+    return f"{capitalize(join_names(each))} may be missing"
 
 
 def format_parameters(finding: Finding) -> str:
@@ -113,11 +127,13 @@ def _unexplained(diagnosis: Diagnosis) -> str:
 def _describe_findings(diagnosis: Diagnosis) -> str:
     """Say what is missing, and what this recording cannot distinguish."""
     clear = tuple(one for one in diagnosis.findings if not one.ambiguous_with)
-    parts = [f"{_describe_found(clear)}."] if clear else []
+    sure = diagnosis.after.confirms
+    parts = [f"{_describe_found(clear) if sure else _describe_possible(clear)}."] if clear else []
     for one in diagnosis.findings:
         if one.ambiguous_with:
             names = join_names([effect_name(name) for name in (one.effect, *one.ambiguous_with)], "or")
-            parts.append(f"{capitalize(names)} is missing; this recording cannot distinguish them.")
+            missing = "is missing" if sure else "may be missing"
+            parts.append(f"{capitalize(names)} {missing}; this recording cannot distinguish them.")
     return " ".join(parts)
 
 

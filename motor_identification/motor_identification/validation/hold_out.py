@@ -7,6 +7,7 @@ and nothing of its response: then nothing is held out, and every unknown has its
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from math import inf
 from typing import ClassVar, TypeVar
 
 import numpy as np
@@ -18,17 +19,17 @@ from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.measurement.command_swing import measure_swings
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.recording import Bools, Recording
-from motor_identification.validation.held_out import HeldOut
+from motor_identification.validation.held_out import LEAST_SWING, HeldOut
 from motor_identification.validation.instants import list_instants
 from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
 
 # Of what counts in a recording: more is not left out, however unforeseen. One block of three would be a third of it.
 MOST_LEFT_OUT = 0.25
 
-# How much the command swings in blocks that a motor can be judged by: a step up, down and up again, and half of what
-# they would have by chance. Measured: real logs of one to twenty steps have 0 to 0.4 of up to 9 in every fourth of the
-# usual blocks, those of a random or a controlled voltage 20 % and more.
-LEAST_SWING, LEAST_SWING_SHARE = 3.0, 0.5
+# Of how much the command would swing in held-out blocks by chance, at least. Measured: of up to 9 times its largest
+# voltage, real logs of one to twenty steps have 0 to 0.4 in every fourth of the usual blocks, those of a random or a
+# controlled voltage 20 % and more.
+LEAST_SWING_SHARE = 0.5
 # Of the usual length, of blocks that are tried: no period of a command divides them all.
 STRETCHES = (1.0, 1.37, 1.9, 2.6, 3.6, 5.0)
 
@@ -41,7 +42,8 @@ class HoldOut(ABC):
 
     problem: Problem  # of these recordings, without effects
     scored_blocks: TimeBlocks  # which count in the gap
-    seen: ClassVar[bool] = False  # whether the fit has seen them
+    swing: float = inf  # of the command in all blocks, where none could be held out
+    seen: ClassVar[bool] = False  # whether the fit has seen what counts
 
     @abstractmethod
     def apply(self, fitted: Estimate) -> Estimate:
@@ -65,7 +67,7 @@ class HoldOut(ABC):
         scored = tuple(block & ~instant for block, instant in zip(counted, instants, strict=True))
         miscounted = int(sum(marks.sum() for marks in bad))
         motion = here.problem.recordings, intervals, here.angles
-        return HeldOut(*motion, here.parameters, scored, miscounted, instants, self.seen)
+        return HeldOut(*motion, here.parameters, scored, miscounted, instants, self.seen, self.swing)
 
     def correct_directions(self: Self, fitted: Estimate) -> Self:
         """Read the held-out recordings again, with directions by the motion of a fitted motor."""
@@ -136,7 +138,7 @@ def make_hold_out(
         held, every = measure_held_swing(problem, blocks)
         if held >= max(LEAST_SWING, LEAST_SWING_SHARE * every / blocks.every):
             return BlocksOfSame(problem, blocks)
-    return WholeRecordings(problem, TimeBlocks(1))
+    return WholeRecordings(problem, TimeBlocks(1), every)
 
 
 def measure_held_swing(problem: Problem, blocks: TimeBlocks) -> tuple[float, float]:

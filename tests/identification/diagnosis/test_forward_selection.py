@@ -109,7 +109,9 @@ class Fake:
         self.gaps, self.tried = gaps, list[tuple[str, ...]]()
         monkeypatch.setattr(forward_selection, "try_effects", self.try_effects)
         monkeypatch.setattr(Selection, "add", added)
-        monkeypatch.setattr(forward_selection, "list_candidates", lambda effects: ["coulomb_friction", "load_bias"])
+        monkeypatch.setattr(
+            forward_selection, "list_candidates", lambda effects, seen: ["coulomb_friction", "load_bias"]
+        )
         monkeypatch.setattr(Model, "effects", ())
 
     def try_effects(self, current: Model, hold_out: Any, effects: list[str], *rest: Any) -> list[CandidateTest]:
@@ -147,7 +149,7 @@ def test_nothing_begins_anew_without_a_step_or_at_the_floor() -> None:
 
 def test_friction_is_selected_from_a_recording_that_hides_it(monkeypatch: pytest.MonkeyPatch) -> None:
     names = ("coulomb_friction", "quadratic_drag", "load_bias")
-    lacking = lambda effects: [name for name in names if name not in effects]  # noqa: E731
+    lacking = lambda effects, seen: [name for name in names if name not in effects]  # noqa: E731
     monkeypatch.setattr(forward_selection, "list_candidates", lacking)
     estimate, hold_out = fitted(ks=0.4)
     start = begin_selection(estimate, hold_out, 1)

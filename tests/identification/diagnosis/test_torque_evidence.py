@@ -19,7 +19,6 @@ from motor_identification.diagnosis.torque_evidence import (
 )
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.noise.error_model import ErrorModel
-from motor_identification.validation.hold_out import OtherRecordings
 
 ERRORS = ErrorModel(0.003, 0.0, 0.1, 0.05)
 
@@ -33,7 +32,7 @@ def test_an_unknown_costs_half_the_logarithm_of_the_intervals() -> None:
     assert smaller - other == pytest.approx(price, abs=0.01)
 
 
-def test_only_blocks_of_the_common_set_are_scored(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_blocks_of_the_common_set_are_scored() -> None:
     """Half as many blocks say half as much."""
     estimate, hold_out = fitted()
     (data,) = hold_out.problem.intervals
@@ -41,7 +40,7 @@ def test_only_blocks_of_the_common_set_are_scored(monkeypatch: pytest.MonkeyPatc
     assert np.array_equal(marks, hold_out.scored_blocks.mark(data, hold_out.problem.sample_period))
     score = score_held_out(hold_out, hold_out.validate(estimate), ERRORS, estimate.lag)
     assert len(score.moments) == MOMENTS
-    monkeypatch.setattr(OtherRecordings, "scored_blocks", TimeBlocks(4))
+    hold_out = replace(hold_out, scored_blocks=TimeBlocks(4))
     assert (
         0.4
         < score_held_out(hold_out, hold_out.validate(estimate), ERRORS, estimate.lag).moments.sum()

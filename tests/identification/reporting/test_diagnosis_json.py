@@ -17,8 +17,8 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     content = json.loads(json.dumps(diagnosis_to_json(nameless), allow_nan=False))
     assert list(content) == [
         "bags", "validation", "noise_floor", "sensor_floor", "disturbance", "structure", "gap_before", "gap_after",
-        "verdict", "undetectable", "not_testable", "undetermined", "suggested_experiment", "time_limit", "baseline",
-        "findings", "model", "notes",
+        "held_out", "verdict", "undetectable", "not_testable", "undetermined", "suggested_experiment", "time_limit",
+        "baseline", "findings", "model", "notes",
     ]  # fmt: skip
     assert content["bags"] == ["train.bag"] and content["validation"] == ["held_out.bag"]
     assert content["gap_before"] == found.gap_before and content["noise_floor"] == found.noise_floor

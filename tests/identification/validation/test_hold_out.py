@@ -1,4 +1,4 @@
-"""Two ways to hold data out: other recordings, or every fourth block of the same; one interface."""
+"""Ways to hold data out, with one interface: other recordings, every fourth block of the same, or nothing."""
 
 from dataclasses import replace
 
@@ -10,17 +10,21 @@ from small import THETA, TRUE, small_recording
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
+from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.noise.likelihood import Noise
-from motor_identification.recording import check
+from motor_identification.recording import Recording, check
+from motor_identification.validation.held_out import LEAST_SWING
 from motor_identification.validation.hold_out import (
     BlocksOfSame,
     HoldOut,
     OtherRecordings,
+    WholeRecordings,
     _leave_out_few,
     make_hold_out,
+    measure_held_swing,
 )
 
-TRAINING = check(record(TRUE, *profiles.staircase(10.0, 3, 0.3), seed=1, irregularity=0.005, name="training")[0])
+TRAINING = check(record(TRUE, *profiles.random(10.0, 10.0), seed=1, irregularity=0.005, name="training")[0])
 OTHER = check(record(TRUE, *profiles.random(9.0, 4.0), seed=2, irregularity=0.005, name="other")[0])
 WRONG = THETA + np.array([0.02, 0.0, 0.0])
 
@@ -120,8 +124,48 @@ def test_directions_are_those_of_the_fitted_motion() -> None:
     assert again.validate(training(again)).gap < 1.2 * again.validate(training(again)).floor(0.005)
 
 
+def drive(*volts: float) -> Recording:
+    """A motor under voltages that are each held for half a second."""
+    return check(record(TRUE, *profiles.pieces(volts, 0.5), seed=3, name="driven")[0])
+
+
+STEP = drive(0.0, *[8.0] * 11)
+
+
+@pytest.mark.parametrize(
+    ("recordings", "kind"),
+    [
+        ([STEP], WholeRecordings),  # a step
+        ([drive(*[8.0, 0.0] * 5)], WholeRecordings),  # many, all in the blocks that are not held out
+        ([drive(*[8.0, 0.0] * 12)], BlocksOfSame),
+        ([STEP] * 6, WholeRecordings),  # one of six would be held out
+        ([STEP] * 11, BlocksOfSame),
+        ([drive(*[8.0, 7.7] * 40)], WholeRecordings),  # a controller that holds a speed
+    ],
+    ids=["step", "few steps", "steps", "few runs", "runs", "held speed"],
+)
+def test_nothing_is_held_out_where_the_command_hardly_swings_there(recordings: list[Recording], kind: type) -> None:
+    hold_out = make_hold_out(recordings, [])
+    assert type(hold_out) is kind and hold_out.seen == (kind is WholeRecordings)
+    held, every = measure_held_swing(hold_out.problem, hold_out.scored_blocks)
+    assert held == pytest.approx(every) if hold_out.seen else LEAST_SWING <= held < 0.5 * every
+
+
+def test_where_nothing_is_held_out_all_is_fitted_and_counts() -> None:
+    hold_out = make_hold_out([STEP], [])
+    problem = make_problem([STEP], ("coulomb_friction",))
+    assert hold_out.restrict(problem) is problem
+    held = hold_out.validate(Estimate(problem, THETA))
+    assert held.counted.all() and held.seen and not held.confirms
+    assert (
+        make_hold_out([STEP, STEP], [])
+        .validate(Estimate(make_problem([STEP] * 2, ("coulomb_friction",)), THETA))
+        .confirms
+    )
+
+
 def test_small_recordings_have_blocks_too() -> None:
-    hold_out = make_hold_out([small_recording()], [])
+    hold_out = BlocksOfSame(make_problem([small_recording()], ()), TimeBlocks(4))
     held = hold_out.validate(
         Estimate(hold_out.restrict(make_problem([small_recording()], ("coulomb_friction",))), THETA)
     )

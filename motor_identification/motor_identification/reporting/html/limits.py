@@ -1,6 +1,7 @@
 """The limits of a diagnosis in sentences: what the recording could not show, what was left out, the noise floor."""
 
 from motor_identification.diagnosis.result import Diagnosis
+from motor_identification.reporting.diagnosis_text import SEEN
 from motor_identification.reporting.names import effect_name, join_names
 from motor_model.effects import EFFECT_BY_NAME
 from motor_model.sample import Measurement
@@ -62,6 +63,8 @@ def _noise_floor(diagnosis: Diagnosis) -> list[str]:
 def _validated_by(diagnosis: Diagnosis) -> str:
     if diagnosis.validation:
         return f"Validated on {join_names(diagnosis.validation)}; no physical parameter was fitted to this motion."
+    if diagnosis.after.seen:
+        return SEEN
     return (
         "Validated on a quarter of the recorded motion, which was kept out of every fit; a second recording "
         "(--validate) is a stronger test."

@@ -1,0 +1,38 @@
+"""By how much a command swings: a step by its size, a sine by its ways, and what a controller holds by nothing."""
+
+import numpy as np
+import pytest
+from plant import profiles, record
+
+from motor_identification.measurement.command_swing import PLAY, measure_swings
+from motor_identification.recording import Floats, check
+
+
+def measure(volts: Floats) -> Floats:
+    driven, _ = record({"kv": 0.07, "ka": 0.006}, 0.005 * np.arange(len(volts)), volts, seed=1, name="driven")
+    return measure_swings(check(driven))
+
+
+def test_a_step_swings_by_its_size_when_it_comes() -> None:
+    swings = measure(np.repeat([0.0, 8.0, -4.0], 100))
+    assert np.flatnonzero(swings).tolist() == [100, 200] and swings[[100, 200]] == pytest.approx([1.0, 1.5])
+
+
+def test_one_that_is_on_from_the_beginning_counts() -> None:
+    assert measure(np.repeat([8.0, 4.0], 100)).sum() == pytest.approx(1.5)
+
+
+def test_a_sine_swings_by_four_amplitudes_a_period() -> None:
+    swing = measure(6.0 * np.sin(np.linspace(0.0, 10 * np.pi, 1000))).sum()
+    assert swing == pytest.approx(20.0, rel=0.1)  # what is within the play is not followed at once
+
+
+@pytest.mark.parametrize(("share", "moves"), [(0.49, False), (0.53, True)])
+def test_what_moves_to_and_fro_within_the_play_does_not(share: float, moves: bool) -> None:
+    held = np.where(np.arange(400) % 2 == 0, 1.0 + share * PLAY, 1.0 - share * PLAY) * 5.0
+    assert (measure(held)[1:].sum() > 1.0) == moves
+
+
+def test_no_voltage_swings_by_nothing() -> None:
+    driven, _ = record({"kv": 0.07, "ka": 0.006}, *profiles.pieces([0.0], 1.0), seed=1, name="at rest")
+    assert not measure_swings(driven).any()
