@@ -238,14 +238,18 @@ def test_diagnosis_of_a_coasting_bridge_predicts_its_static_curve() -> None:
         assert low < float(np.sqrt(np.mean(np.square(errors)))) < high
 
 
-def test_diagnosis_of_steps_both_ways_by_a_coarse_encoder() -> None:
-    """Dead band, asymmetry and lag of the EV3 motor, under a floor that hides them from sample to sample."""
-    found, named = found_in(ev3())
-    assert found.verdict is Verdict.UNDECIDED
-    lag = {"armature_inductance": ("transport_delay",)}
+@pytest.mark.parametrize("order", [1, -1])
+def test_diagnosis_of_steps_both_ways_by_a_coarse_encoder(order: int) -> None:
+    """Dead band, asymmetry and lag of the EV3 motor, under a floor that hides them from sample to sample.
+
+    Its runs are 10 to 34 ms late, its time constant is 56 to 75 ms in fits of one run each; in whatever order they are.
+    """
+    found, named = found_in(ev3()[::order])
+    assert found.verdict is Verdict.UNDECIDED and found.after.seen and found.after.confirms
+    lag = {"transport_delay": ("armature_inductance",)}
     assert named == {"coulomb_friction": ("dead_zone",), "direction_asymmetry": (), **lag}
     values = found.model.parameters.values
     assert 0.22 < values["ks"] < 0.30 and 0.94 < values["reverse_gain"] < 0.97
-    assert 0.010 < values["electrical_time_constant"] < 0.020
+    assert 0.010 < values["delay"] < 0.034 and 0.056 < values["ka"] / values["kv"] < 0.075
     before, after = (held.joined(LASTING_INTERVAL).gap for held in (found.before, found.after))
     assert 0.42 < before < 0.50 and 0.20 < after < 0.28

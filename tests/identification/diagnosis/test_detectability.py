@@ -40,3 +40,4 @@ def test_a_single_step_does_not_show_friction() -> None:
     hidden = find_undetectable(validate_model(hold_out, estimate))
     assert {"coulomb_friction", "load_bias", "dead_zone", "direction_asymmetry"} <= set(hidden)
     assert "transport_delay" not in hidden  # of a step it is the first that one sees
+    assert {"load_step", "warm_up"} <= set(hidden)  # which would be judged by what they were fitted to

@@ -43,6 +43,16 @@ def test_how_it_ended(
     assert decide(findings, stub_model(gap, 0.0), hidden) == (verdict, profile)
 
 
+@pytest.mark.parametrize(
+    ("swing", "verdict", "profile"), [(2.9, Verdict.UNDECIDED, "ramps"), (3.0, Verdict.EXPLAINED, "")]
+)
+def test_one_response_explains_nothing(swing: float, verdict: Verdict, profile: str) -> None:
+    model = stub_model(AT, 0.0)
+    model = replace(model, held=replace(model.held, swing=swing))
+    assert decide((finding(),), model, ()) == (verdict, profile)
+    assert decide((), model, ()) == (Verdict.NOTHING_MISSING, "")
+
+
 @pytest.mark.parametrize("gap", [AT, OVER])
 def test_what_is_not_determined_is_undecided_and_no_finding(gap: float) -> None:
     verdict, profile = decide((finding(),), stub_model(gap, 0.0), (), ("transport_delay",))

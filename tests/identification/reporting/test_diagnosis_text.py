@@ -6,7 +6,7 @@ from dataclasses import replace
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
-from motor_identification.reporting.diagnosis_text import format_diagnosis, summarize_diagnosis
+from motor_identification.reporting.diagnosis_text import SEEN, format_diagnosis, summarize_diagnosis
 from motor_identification.reporting.names import capitalize, join_effects
 from motor_model.effects import EFFECTS
 
@@ -35,6 +35,27 @@ def test_an_undecided_recording_without_findings_says_what_it_hides(variants: di
     assert "Nothing is missing that this recording could show" in summarize_diagnosis(one)
     assert summarize_diagnosis(one).endswith("This recording could not show dead zone or backlash.")
     assert join_effects(tuple(effect.name for effect in EFFECTS)).endswith(f" and {len(EFFECTS) - 6} others")
+
+
+def test_where_nothing_was_held_out_the_gap_is_no_validation(variants: dict[Verdict, Diagnosis]) -> None:
+    for verdict, one in variants.items():
+        said = summarize_diagnosis(replace(one, after=replace(one.after, seen=True, swing=8.0)))
+        assert (
+            "validation RMS" not in said
+            and "the RMS error (gap) " in said.replace("The RMS", "the RMS")
+            and SEEN in said
+        )
+        assert "may be" not in said and SEEN not in summarize_diagnosis(variants[verdict])
+
+
+def test_what_one_response_shows_may_be_missing(variants: dict[Verdict, Diagnosis]) -> None:
+    once = {verdict: replace(one, after=replace(one.after, seen=True, swing=2.9)) for verdict, one in variants.items()}
+    clear = replace(once[Verdict.EXPLAINED], verdict=Verdict.UNDECIDED)
+    assert re.match(
+        r"Coulomb friction \(ks = 0\.4\d* ± [\d.e-]+ V\) may be missing\. The RMS", summarize_diagnosis(clear)
+    )
+    rivals = summarize_diagnosis(once[Verdict.UNDECIDED])
+    assert rivals.startswith("Coulomb friction, dead zone or load bias may be missing; this recording cannot")
 
 
 def test_the_table_has_the_numbers(found: Diagnosis) -> None:
