@@ -86,10 +86,10 @@ def test_two_at_once_and_what_first_stood_in_for_both_is_replaced() -> None:
     assert 0.8 < found.gap_after / found.noise_floor < 1.15
 
 
-def simulated(motor: Parameters, name: str, irregularity: float) -> Recording:
-    """One of our own profiles, as `experiment --model` records it."""
-    config = BoardConfig(slot_irregularity=irregularity)
-    plan = make_plan(profile(name), 10.0 if irregularity == 0.0 else None, 12.0, 1.0 / config.sample_rate)
+def simulated(motor: Parameters, name: str) -> Recording:
+    """One of our own profiles on a perfect disc, as `experiment --model` records it."""
+    config = BoardConfig()
+    plan = make_plan(profile(name), 10.0, 12.0, 1.0 / config.sample_rate)
     samples = [sample for _, sample in simulate_plan(plan, motor, config)]
     return check(recording_of(samples, config.info(motor), name))
 
@@ -99,8 +99,10 @@ def test_two_that_hide_each_other_are_found_beside_a_third() -> None:
     """Friction lifts a static curve at its beginning, drag at its end: a line with another gain is near to both."""
     hidden = {"ks": 0.3, "breakaway_voltage": 0.8, "stribeck_speed": 4.0, "drag": 5e-5, "delay": 0.006}
     names = {"coulomb_friction", "static_friction", "quadratic_drag", "transport_delay"}
-    motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA} | hidden, tuple(sorted(names - {"coulomb_friction"})))
-    found = diagnose([simulated(motor, "rich", 0.005)], request=Request(workers=2))
+    tried: list[str] = []
+    recording = made({"kv": PAPER_KV, "ka": PAPER_KA} | hidden, profiles.compact(12.0, 1), 1)
+    found = diagnose([recording], request=Request(workers=2), progress=lambda stage: tried.append(stage.text))
+    assert any(" with " in text for text in tried)  # pairs: none of what is left is a finding alone
     assert {one.effect for one in found.findings} == names and found.verdict is Verdict.EXPLAINED
     for name, value in hidden.items():
         assert found.model.parameters.value(name) == pytest.approx(value, rel=1e-3)
@@ -110,7 +112,7 @@ def test_two_that_hide_each_other_are_found_beside_a_third() -> None:
 def test_a_friction_that_is_a_hair_off_is_no_second_effect() -> None:
     """A fit just below the true friction creeps where the motor was held, and what stops it there is not missing."""
     motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.45}, ("coulomb_friction",))
-    found = diagnose([simulated(motor, name, 0.0) for name in ("step", "ramps")])
+    found = diagnose([simulated(motor, name) for name in ("step", "ramps")])
     assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED
     assert found.model.parameters.value("ks") == pytest.approx(0.45, rel=1e-4)
 

@@ -32,7 +32,7 @@ BASE = {"kv": PAPER_KV, "ka": PAPER_KA}
 def fitted(**hidden: float) -> tuple[Estimate, HoldOut]:
     """The two-coefficient motor fitted to a plant that hides something, and what is held out."""
     disc = {"disc_seed": 1, "irregularity": 0.003}
-    train = check(record(BASE | hidden, *profiles.rich(12.0), seed=1, name="train.bag", **disc)[0])
+    train = check(record(BASE | hidden, *profiles.compact(12.0), seed=1, name="train.bag", **disc)[0])
     other = check(record(BASE | hidden, *profiles.rich(9.0, seed=5), seed=2, name="held_out.bag", **disc)[0])
     hold_out = make_hold_out([train], [other])
     estimate = fit_speeds(Estimate(make_problem([train], ()), np.log([PAPER_KV, PAPER_KA])))

@@ -70,7 +70,9 @@ SWINGING = {"kv": 0.071, "ka": 0.0056, "ripple_voltage": 0.39, "ripple_cycles": 
 def test_a_ripple_is_followed_through_every_standstill(friction: float) -> None:
     """Without friction the shaft swings where it should stand, no edge says which way, and a fit takes it for noise."""
     values = SWINGING | ({"ks": friction} if friction else {})
-    recording = check(record(values, *profiles.compact(12.0, 3), seed=3, irregularity=0.005)[0])
+    parts = [profiles.staircase(12.0, 4, 0.4), profiles.ramps(12.0, 1.2), profiles.reversals(12.0, 6)]
+    drive = profiles.joined(*parts, profiles.coast(12.0, 2, 0.6), profiles.random(12.0, 4.0, 3))
+    recording = check(record(values, *drive, seed=3, irregularity=0.005)[0])
     bare, guess = without_ripple(recording, values)
     line = find_ripples(bare, measure_angles(bare, bare.problem.unknowns.effects))[0]
     assert abs(line.cycles - 10.866) < 0.01
