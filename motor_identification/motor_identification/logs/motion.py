@@ -10,6 +10,7 @@ from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID
 from motor_identification.logs.rows.count_rate import count_rates
 from motor_identification.logs.rows.flicker import remove_flicker
+from motor_identification.logs.rows.speed_sign import give_signs
 from motor_identification.logs.rows.wraps import split_at_resets, unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.sensor.speed_sensor import find_noise
@@ -52,6 +53,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         raise RecordingError(
             f"{form.motion} is in {form.unit}: say how many there are in a turn (--edges-per-revolution)."
         )
+    signals, signs = give_signs(signals)
     values = signals.motion
     window = form.speed_window or info.sample_period
     lag = 0.5 * window if form.speed_lag is None else form.speed_lag
@@ -68,6 +70,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",
         f"The middle of that window is {lag * 1e3:.4g} ms before the row's time{placed}.",
         _about_count(form, signals, edges, window),
+        *signs,
     )
     return Motion(signals, values * unit, np.zeros(len(values), np.int64), info, findings)
 
