@@ -11,6 +11,7 @@ from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID
 from motor_identification.logs.rows.count_rate import count_rates
 from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.speed_sign import give_signs
+from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import split_at_resets, unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.sensor.speed_sensor import find_noise
@@ -54,6 +55,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
             f"{form.motion} is in {form.unit}: say how many there are in a turn (--edges-per-revolution)."
         )
     signals, signs = give_signs(signals)
+    signals, turned = turn_round(signals, is_speed=True)
     values = signals.motion
     window = form.speed_window or info.sample_period
     lag = 0.5 * window if form.speed_lag is None else form.speed_lag
@@ -71,6 +73,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         f"The middle of that window is {lag * 1e3:.4g} ms before the row's time{placed}.",
         _about_count(form, signals, edges, window),
         *signs,
+        *turned,
     )
     return Motion(signals, values * unit, np.zeros(len(values), np.int64), info, findings)
 
@@ -106,6 +109,7 @@ def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> Non
 
 def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     signals, wrapped = unwrap(signals, form)
+    signals, turned = turn_round(signals, is_speed=False)
     count = count_size(form, signals.motion, signals.voltage)
     largest = float(np.max(np.abs(signals.motion))) / count.size
     if not largest < LARGEST_COUNT:
@@ -126,6 +130,7 @@ def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     per_turn = f"{count.edges}" if count.per_turn == count.edges else f"{count.per_turn:.6g}"
     findings = [
         *wrapped,
+        *turned,
         *reset,
         f"Sampled counts without time stamps: one count is {count.size:.6g} {form.unit}, {per_turn} per "
         f"revolution{count.how}.",

@@ -1,0 +1,42 @@
+"""A motion that goes against its voltage."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.rows.swapped_sign import turn_round
+from motor_identification.logs.signals import Floats, Signals
+
+VOLTAGE = np.repeat([5.0, -5.0, 0.0, 3.0], 50)
+
+
+def signals(motion: Floats) -> Signals:
+    count, unknown = len(motion), np.full(len(motion), np.nan)
+    time, runs = np.arange(count) * 10_000_000, {"1": slice(0, 100), "2": slice(100, count)}
+    return Signals(Path("log.csv"), np.arange(count), time, VOLTAGE, motion, unknown, unknown, runs)
+
+
+@pytest.mark.parametrize("is_speed", [True, False])
+def test_exchanged_wires(is_speed: bool) -> None:
+    speed = 10.0 * np.convolve(VOLTAGE, np.exp(-np.arange(40) / 6.0))[:200] / 6.5
+    motion = speed if is_speed else 1000.0 + np.cumsum(speed)
+    turned, said = turn_round(signals(-motion), is_speed)
+    np.testing.assert_array_equal(turned.motion, motion)
+    assert said[0].startswith("Caution: the motion goes against the voltage") and len(said) == 1
+    kept, said = turn_round(signals(motion), is_speed)
+    assert np.array_equal(kept.motion, motion) and said == []
+    assert turn_round(signals(0.0 * motion), is_speed)[1] == []
+
+
+@pytest.mark.parametrize(("share", "turned"), [(0.74, False), (0.76, True)])
+def test_so_much_of_it(share: float, turned: bool) -> None:
+    against = np.where(np.arange(200) % 50 < 50 * share, -1.0, 1.0) * VOLTAGE
+    assert bool(turn_round(signals(against), True)[1]) == turned
+
+
+def test_a_few_rows_tell_nothing() -> None:
+    for rows, turned in ((19, False), (20, True)):
+        few = replace(signals(-VOLTAGE), runs={"": slice(0, 200)}).only(np.arange(200) < rows)
+        assert bool(turn_round(few, True)[1]) == turned
