@@ -64,6 +64,7 @@ def config_of(
     faults = FaultConfig(
         float(values["stall_time"]),
         slot=slot_of(info),
+        even=info is None or info.quadrature <= 1,
         tick=info.edge_resolution if info is not None else 0.0,
         spare=SPARE_SINGLE if single else SPARE,
     )

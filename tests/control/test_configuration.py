@@ -40,6 +40,11 @@ def test_the_observer_needs_to_know_the_encoder() -> None:
     assert known.note == "" and known.observer is not None
 
 
+@pytest.mark.parametrize(("quadrature", "even"), [(0, True), (1, True), (2, False), (4, False)])
+def test_edges_are_even_where_one_flank_a_period_is_counted(quadrature: int, even: bool) -> None:
+    assert config_of(DEFAULTS, Info(quadrature=quadrature), None).faults.even == even
+
+
 def test_the_plants_voltage_replaces_the_models() -> None:
     config = config_of({**DEFAULTS, "speed_source": "observer", "feedforward": True}, Info(max_voltage=6.0), motor())
     assert config.voltage_limit == 6.0 and config.observer is not None and config.feedforward is not None

@@ -25,6 +25,7 @@ class Config:
     stall_time: float = 0.5  # [s] 0: never
     fastest: float = inf  # [rad/s] by the model; infinite without one
     slot: float = 0.0  # [rad] between edges; 0: they are not counted
+    even: bool = True  # one flank a period is counted; several are as uneven as the sensor
     tick: float = 0.0  # [s] to which the period between edges is known
     kv: float = 0.0  # [V·s/rad] by the model; 0: there is none
     time_constant: float = 0.0  # [s] ka/kv, and delay

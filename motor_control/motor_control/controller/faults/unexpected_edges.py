@@ -10,7 +10,9 @@ what counts of an edge is
 and it is summed up less `ORDINARY`; the sum does not fall below 0 (Page, "Continuous inspection schemes", Biometrika
 41, 1954). This tells noise where edges are too few for their periods to be judged (`irregular_edges`).
 
-An edge that ends a turn, or has no period, does not count: where the shaft was before is a guess.
+An edge that ends a turn, or has no period, does not count: where the shaft was before is a guess. Nor is anything known
+where several flanks a period are counted (`Config.even`): they are off by up to half a slot, in turn, for the sensor's
+sake (duty cycles of 44 and 54 % and 61° between the channels are 0.2 slots); edges are many there, and have periods.
 """
 
 from dataclasses import dataclass
@@ -43,7 +45,7 @@ class State:
 
 def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     """Check one sample: a sentence if the motor has to stop, else ""."""
-    if not seen.motion.edges or config.slot == 0.0 or not isfinite(seen.innovation):
+    if not (seen.motion.edges and config.slot > 0.0 and config.even and isfinite(seen.innovation)):
         return "", state
     state = follow_innovation(
         state,

@@ -48,6 +48,13 @@ def test_noise_is_told_after_some_ten_edges() -> None:
     assert 9 <= np.median(counts) <= 16
 
 
+def test_flanks_of_a_sensor_are_uneven_and_a_motors() -> None:
+    """Four a period at 0, 10, 44 and 54 % of it: every gearmotor would have been stopped."""
+    uneven = np.tile([0.48, -0.12, 0.24, -0.6], 500)
+    assert needed_edges(Config(slot=SLOT, even=False), uneven) is None
+    assert needed_edges(TWO, uneven) is not None
+
+
 @pytest.mark.parametrize(("voltage", "period"), [(0.0, 0.05), (6.0, 0.0)], ids=["not driven", "no period"])
 def test_a_shaft_turned_by_hand_and_an_edge_without_a_period_prove_nothing(voltage: float, period: float) -> None:
     assert needed_edges(ONE, 0.9 * (-1.0) ** np.arange(100), voltage, period) is None
