@@ -37,18 +37,26 @@ WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.SUPPLY: _row("supply battery batt bat vbat vbatt vbus bus akku bateria batería batterie vcc vdd vin"),
     Quantity.TIME: _row(
         "t time times timestamp stamp tiempo zeit temps tempo tid clock elapsed seconds secs sec millis micros nanos "
-        "milliseconds microseconds ms us ns"
+        "milliseconds microseconds ms us ns tijd czas čas cas idő zaman время 时间 時間"
     ),
     Quantity.DUTY: _row("duty pwm dutycycle throttle power command cmd effort ctrl control output"),
     Quantity.COUNT: _row("count counts tick ticks encoder enc pulses pulse edges qei"),
     Quantity.SPEED: _row(
-        "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w rpm rps dps"
+        "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w rpm rps dps "
+        "velocita snelheid toerental hastighed hastighet prędkość predkosc obroty rychlost otáčky otacky hız hiz скорость "
+        "обороты 速度 转速 角速度 回転数"
     ),
     Quantity.POSITION: _row(
-        "position pos posición posicion posizione angle angulo ángulo theta θ winkel distance dist phi"
+        "position pos posición posicion posizione angle angulo ángulo theta θ winkel distance dist phi posição posicao "
+        "ângulo angolo hoek pozycja kąt kat poloha úhel uhel konum açı aci угол положение 位置 角度"
     ),
-    Quantity.VOLTAGE: _row("voltage volt volts voltaje spannung tension tensión tensão u v vm vmotor input applied"),
-    Quantity.CURRENT: _row("current curr amps amp i corriente strom courant"),
+    Quantity.VOLTAGE: _row(
+        "voltage volt volts voltaje spannung tension tensión tensão u v vm vmotor input applied tensao tensione spanning "
+        "spænding spänning napięcie napiecie napětí napeti gerilim voltaj напряжение 电压 電圧"
+    ),
+    Quantity.CURRENT: _row(
+        "current curr amps amp i corriente strom courant corrente stroom prąd proud akım ток 电流 電流"
+    ),
 }
 MOVES = frozenset({Quantity.SPEED, Quantity.POSITION, Quantity.COUNT})
 

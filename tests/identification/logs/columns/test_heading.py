@@ -44,6 +44,11 @@ velocityRadPerSec | speed          | rad/s |
 omega_degPerSec   | speed          | deg/s |
 wheel turns per minute | speed     | rpm   |
 theta_dot         | speed          |       |
+Tensão (V)        | voltage        | V     |
+Prędkość [rpm]    | speed          | rpm   |
+время             | time           |       |
+转速 (rpm)        | speed          | rpm   |
+Hoek (deg)        | position       | deg   |
 speed_cmd         | reference      |       |
 r                 | reference      |       |
 temperature       | other          |       |
