@@ -43,16 +43,16 @@ WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.COUNT: _row("count counts tick ticks encoder enc pulses pulse edges qei"),
     Quantity.SPEED: _row(
         "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w rpm rps dps "
-        "velocita snelheid toerental hastighed hastighet prędkość predkosc obroty rychlost otáčky otacky hız hiz скорость "
-        "обороты 速度 转速 角速度 回転数"
+        "velocita snelheid toerental hastighed hastighet prędkość predkosc obroty rychlost otáčky otacky hız hiz "
+        "скорость обороты 速度 转速 角速度 回転数"
     ),
     Quantity.POSITION: _row(
         "position pos posición posicion posizione angle angulo ángulo theta θ winkel distance dist phi posição posicao "
         "ângulo angolo hoek pozycja kąt kat poloha úhel uhel konum açı aci угол положение 位置 角度"
     ),
     Quantity.VOLTAGE: _row(
-        "voltage volt volts voltaje spannung tension tensión tensão u v vm vmotor input applied tensao tensione spanning "
-        "spænding spänning napięcie napiecie napětí napeti gerilim voltaj напряжение 电压 電圧"
+        "voltage volt volts voltaje spannung tension tensión tensão u v vm vmotor input applied tensao tensione "
+        "spanning spænding spänning napięcie napiecie napětí napeti gerilim voltaj напряжение 电压 電圧"
     ),
     Quantity.CURRENT: _row(
         "current curr amps amp i corriente strom courant corrente stroom prąd proud akım ток 电流 電流"
