@@ -10,19 +10,21 @@ what counts of an edge is
 and it is summed up less `ORDINARY`; the sum does not fall below 0 (Page, "Continuous inspection schemes", Biometrika
 41, 1954). This tells noise where edges are too few for their periods to be judged (`irregular_edges`).
 
-An edge that ends a turn, or has no period, does not count: where the shaft was before is a guess. Nor is anything known
-where several flanks a period are counted (`Config.even`): they are off by up to half a slot, in turn, for the sensor's
-sake (duty cycles of 44 and 54 % and 61° between the channels are 0.2 slots); edges are many there, and have periods.
+An edge that ends a turn, or has no period, does not count: where the shaft was before is a guess. Nor does one after a
+period t in which a random torque T may move a motor of top speed w and time constant τ by `ORDINARY`, T w t²/2τ. Nor is
+anything known where several flanks a period are counted (`Config.even`): they are off by up to half a slot, in turn,
+for the sensor's sake; edges are many there, and have periods.
 """
 
 from dataclasses import dataclass
-from math import isfinite
+from math import isfinite, sqrt
 
 from motor_control.controller.faults.evidence import SPARE_SINGLE, Config, Seen
 from motor_control.controller.faults.irregular_edges import LEAST_VOLTAGE
 
 ORDINARY = 0.25  # of a slot: what edges of a motor stay below, also with a model some per cent off
 LARGEST = 1.0  # of a slot: one edge proves little
+TORQUE = 0.02  # of the stall torque, that no model knows of: 0.05 of it at random stopped one motor of 34, crawling
 # [slots] of the sum. Of 860,000 edges of 401 random motors (4 hours) it was at most 1.05 with one channel, and 2.9 with
 # two, where a load drags the motor through standstills: by the tail, one false stop in 100 hours each. Noise has it
 # after 12 edges as a rule (half of 24 cases): so many are needed for that rate of false stops.
@@ -51,12 +53,17 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
         state,
         seen.innovation / config.slot,
         seen.speed < 0.0,
-        known=seen.speed != 0.0 and seen.sample.edge_period > 0.0,
+        known=seen.speed != 0.0 and 0.0 < seen.sample.edge_period <= longest_period(config),
     )
     most = MOST_SINGLE if config.spare == SPARE_SINGLE else MOST
     driven = seen.motion.slow_voltage >= LEAST_VOLTAGE * seen.voltage_limit > 0.0
     wrong = config.stall_time > 0.0 and driven and state.excess >= most
     return (SENTENCE.format(state.mean) if wrong else ""), state
+
+
+def longest_period(config: Config) -> float:
+    """Find the longest period [s] over which the model's motor can be predicted."""
+    return sqrt(2.0 * ORDINARY * config.slot * config.time_constant / (TORQUE * config.fastest))
 
 
 def follow_innovation(state: State, innovation: float, backward: bool, known: bool = True) -> State:

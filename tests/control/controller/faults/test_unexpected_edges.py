@@ -1,17 +1,19 @@
 """Edges at angles where the model's motor is not."""
 
+from dataclasses import replace
 from math import nan, tau
 
 import numpy as np
 import pytest
 
 from motor_control.controller.faults.evidence import SPARE_SINGLE, Config, Seen
-from motor_control.controller.faults.unexpected_edges import State, check, follow_innovation
+from motor_control.controller.faults.unexpected_edges import State, check, follow_innovation, longest_period
 from motor_control.controller.motion import Motion
 from motor_model.sample import Sample
 
 SLOT = tau / 96
-ONE, TWO = Config(slot=SLOT, spare=SPARE_SINGLE), Config(slot=SLOT)
+TWO = Config(slot=SLOT, fastest=6.0, time_constant=0.08, kv=2.0)
+ONE = replace(TWO, spare=SPARE_SINGLE)
 
 
 def needed_edges(config: Config, innovations: np.ndarray, voltage: float = 6.0, period: float = 0.05) -> int | None:
@@ -42,6 +44,15 @@ def test_a_motors_edges_are_expected(config: Config) -> None:
     assert needed_edges(config, load) is None
 
 
+@pytest.mark.parametrize(("top", "longest"), [(6.0, 0.1477), (30.0, 0.0661), (20_000.0, 0.00256)])
+def test_over_a_long_period_a_little_torque_moves_a_fast_motor_anywhere(top: float, longest: float) -> None:
+    """It dithers about a standstill: 10 edges a second, of the 300,000 at its top speed."""
+    config, to_and_fro = replace(ONE, fastest=top), 0.75 * (-1.0) ** np.arange(30)
+    assert longest_period(config) == pytest.approx(longest, rel=0.01)
+    assert needed_edges(config, to_and_fro, period=0.99 * longest) == 3
+    assert needed_edges(config, to_and_fro, period=1.01 * longest) is None
+
+
 def test_noise_is_told_after_some_ten_edges() -> None:
     rng = np.random.default_rng(3)
     counts = [needed_edges(ONE, rng.uniform(-1.0, 1.0, 400)) or 400 for _ in range(200)]
@@ -51,7 +62,7 @@ def test_noise_is_told_after_some_ten_edges() -> None:
 def test_flanks_of_a_sensor_are_uneven_and_a_motors() -> None:
     """Four a period at 0, 10, 44 and 54 % of it: every gearmotor would have been stopped."""
     uneven = np.tile([0.48, -0.12, 0.24, -0.6], 500)
-    assert needed_edges(Config(slot=SLOT, even=False), uneven) is None
+    assert needed_edges(replace(TWO, even=False), uneven) is None
     assert needed_edges(TWO, uneven) is not None
 
 
