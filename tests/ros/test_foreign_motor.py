@@ -10,12 +10,14 @@ import pytest
 from bags_over_dds import Start
 from foreign_bags import KS, KV
 from plant_user import count_stop
+from rclpy.action import ActionClient
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 from workbench import Bench, end
 
 from motor_identification.bag import messages
+from motor_msgs.action import Diagnose
 from motor_msgs.srv import Identify
 from motor_ros import qos
 from motor_ros.messages import time_message
@@ -27,6 +29,7 @@ position: {from: '/joint_states:position[right_wheel]'}
 """
 
 
+FOUND, PATIENCE = 0.6, 120.0  # [s] two announcements and a bit; for a diagnosis
 LATE = 0.02  # [s] between commands and what a recorder says of when they came: more, and the motor looks slow
 
 
@@ -81,6 +84,31 @@ def test_what_record_wrote_of_other_topics_is_identified_by_the_node(
     found = dict(zip(response.model.parameter_names, response.model.parameter_values, strict=True))
     assert found["kv"] == pytest.approx(KV, rel=0.02) and found["ks"] == pytest.approx(KS, abs=0.1)
     assert np.isfinite(list(found.values())).all()
+
+
+@pytest.mark.long
+def test_a_bag_of_other_topics_is_diagnosed_by_the_node(bench: Bench, start: Start, tmp_path: Path) -> None:
+    foreign_bags.write_joint_states(tmp_path / "robot", foreign_bags.move())
+    (tmp_path / "mapping.yaml").write_text(MAPPING)
+    parameters = ["-p", f"bag_directory:={tmp_path}", "-p", f"mapping:={tmp_path / 'mapping.yaml'}"]
+    start("motor_identification", "motor_identification", "--ros-args", *parameters)
+    result = diagnosed(bench, "robot")
+    assert result.success and result.effects == ["coulomb_friction"], result.message
+    assert (tmp_path / "robot_diagnosis.html").exists()
+
+
+def diagnosed(bench: Bench, bag: str) -> Diagnose.Result:
+    """What the action says of a bag."""
+    client = ActionClient(bench.node, Diagnose, "motor/diagnose")
+    bench.wait(client.server_is_ready, "motor/diagnose")
+    begun = time.monotonic()
+    bench.wait(lambda: time.monotonic() - begun > FOUND, "the server to find its client")
+    sent = client.send_goal_async(Diagnose.Goal(bag_uris=[bag]))
+    bench.wait(sent.done, "the goal's acceptance")
+    answer = sent.result().get_result_async()
+    bench.wait(answer.done, "a result", PATIENCE)
+    client.destroy()
+    return answer.result().result
 
 
 def test_a_mapping_that_is_none_ends_the_start_with_a_sentence(start: Start, tmp_path: Path) -> None:
