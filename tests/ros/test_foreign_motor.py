@@ -88,7 +88,7 @@ def test_what_record_wrote_of_other_topics_is_identified_by_the_node(
 
 @pytest.mark.long
 def test_a_bag_of_other_topics_is_diagnosed_by_the_node(bench: Bench, start: Start, tmp_path: Path) -> None:
-    foreign_bags.write_joint_states(tmp_path / "robot", foreign_bags.move())
+    foreign_bags.write_joint_states(tmp_path / "robot", foreign_bags.move(8.0))
     (tmp_path / "mapping.yaml").write_text(MAPPING)
     parameters = ["-p", f"bag_directory:={tmp_path}", "-p", f"mapping:={tmp_path / 'mapping.yaml'}"]
     start("motor_identification", "motor_identification", "--ros-args", *parameters)
