@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import TypeGuard
 
@@ -64,6 +65,12 @@ ROOMS = {
 MOST_MODULES = 15  # in one folder of a package
 
 
+@cache
+def list_modules() -> tuple[tuple[str, Path, set[str]], ...]:
+    """List them; they are read where that is asked for, because every worker of the tests imports this file."""
+    return tuple(sources())
+
+
 def sources() -> Iterator[tuple[str, Path, set[str]]]:
     """Every module of our packages with the top-level packages it imports."""
     for package in PACKAGES:
@@ -77,18 +84,17 @@ def sources() -> Iterator[tuple[str, Path, set[str]]]:
             yield package, path, names
 
 
-MODULES = list(sources())
 STAND_IN = {path.parent for path in (ROOT / "ros2_stand_in").rglob("*.py")}  # folders of the `ros2` command
 
 
 def test_all_packages_are_known() -> None:
     assert set(PACKAGES) == set(BELOW)
-    assert len(MODULES) > 50
+    assert len(list_modules()) > 50
 
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_imports_only_what_is_below(package: str) -> None:
-    for owner, path, names in MODULES:
+    for owner, path, names in list_modules():
         if owner == package:
             ours = names & set(PACKAGES) - {package}
             assert ours <= BELOW[package], f"{path.relative_to(ROOT)} imports {ours - BELOW[package]}"
@@ -119,13 +125,13 @@ def test_rooms_import_only_what_is_below(package: str) -> None:
 
 
 def test_no_folder_holds_more_than_fifteen_modules() -> None:
-    for folder in {path.parent for _, path, _ in MODULES} | STAND_IN:
+    for folder in {path.parent for _, path, _ in list_modules()} | STAND_IN:
         modules = [path for path in folder.glob("*.py") if path.name != "__init__.py"]
         assert len(modules) <= MOST_MODULES, f"{folder.relative_to(ROOT)} holds {len(modules)} modules: group them"
 
 
 def test_every_folder_says_what_it_is_for() -> None:
-    for folder in {path.parent for _, path, _ in MODULES} | STAND_IN:
+    for folder in {path.parent for _, path, _ in list_modules()} | STAND_IN:
         said = ast.get_docstring(ast.parse((folder / "__init__.py").read_text(encoding="utf-8")))
         assert said and len(said) > 40, f"{folder.relative_to(ROOT)}/__init__.py does not say what it is for"
 
@@ -144,7 +150,7 @@ def is_algorithmic(path: Path, imported: set[str]) -> bool:
 def test_every_algorithmic_module_has_a_test_file_of_its_own_name() -> None:
     """In the folder that mirrors its own. Those that have none yet are listed one by one; the list only shrinks."""
     without = set()
-    for package, path, imported in MODULES:
+    for package, path, imported in list_modules():
         inside = path.relative_to(ROOT / package / package)
         mirrored = ROOT / "tests" / package.removeprefix("motor_") / inside.with_name(f"test_{inside.name}")
         if is_algorithmic(path, imported) and not mirrored.exists():
@@ -155,7 +161,7 @@ def test_every_algorithmic_module_has_a_test_file_of_its_own_name() -> None:
 
 
 def test_ros_stays_in_the_shells() -> None:
-    for _, path, names in MODULES:
+    for _, path, names in list_modules():
         if names & ROS:
             assert SHELLS.search(path.as_posix()), f"{path.relative_to(ROOT)} imports {names & ROS}"
 
@@ -163,7 +169,7 @@ def test_ros_stays_in_the_shells() -> None:
 def test_effects_are_known_by_name_in_their_table_only() -> None:
     """Whoever adds an effect edits its row and its term: nothing else asks what an effect is called."""
     special = set()
-    for _, path, _ in MODULES:
+    for _, path, _ in list_modules():
         if path.parts[-2:] == ("motor_model", "effects.py"):
             continue
         texts = {node.value for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if _is_text(node)}
@@ -178,13 +184,13 @@ def _is_text(node: ast.AST) -> TypeGuard[ast.Constant]:
 
 
 def test_bags_are_known_in_one_place() -> None:
-    for _, path, names in MODULES:
+    for _, path, names in list_modules():
         if names & {"rosbags", "mcap", "apsw"}:
             assert BAGS.search(path.as_posix()), f"{path.relative_to(ROOT)} knows bags"
 
 
 def test_serial_ports_are_opened_in_one_place() -> None:
-    users = [path for _, path, names in MODULES if names & {"serial", "termios"}]
+    users = [path for _, path, names in list_modules() if names & {"serial", "termios"}]
     ports = [path for path in users if path.name == "link.py" and path.parent.name == "motor_driver"]
     pseudo = [path for path in users if path.name == "port.py" and path.parent.name == "motor_board"]  # the other end
     assert len(ports) == 1 and users == pseudo + ports
@@ -200,7 +206,7 @@ def test_package_xml_names_what_is_imported(package: str) -> None:
     keys |= {"matplotlib": "python3-matplotlib", "serial": "python3-serial"}
     rows = re.findall(r"from PyPI[^:]*: ([^>]*?) -->", text)
     from_pypi = {name.strip().split(".")[0] for row in rows for name in row.split(",")}
-    for owner, path, names in MODULES:
+    for owner, path, names in list_modules():
         if owner != package:
             continue
         for name in names - set(sys.stdlib_module_names) - {package}:

@@ -10,6 +10,12 @@ import pytest
 import workbench
 from workbench import Bench
 
+import motor_board.node
+import motor_control.node
+import motor_driver.node
+import motor_examples.diff_drive.node
+import motor_identification.service.node
+import motor_sim.node
 from motor_board.parameters import PROGRAM as EMULATOR
 from motor_control.parameters import PROGRAM as CONTROL
 from motor_driver.parameters import PROGRAM as DRIVER
@@ -19,7 +25,14 @@ from motor_ros.program import Program
 from motor_sim.parameters import PROGRAM as SIM
 
 ROOT = Path(__file__).resolve().parents[2]
-PROGRAMS = [SIM, DRIVER, CONTROL, IDENTIFICATION, EMULATOR, DIFF_DRIVE]
+NODES = {  # what the executable of each calls
+    SIM: motor_sim.node.main,
+    DRIVER: motor_driver.node.main,
+    CONTROL: motor_control.node.main,
+    IDENTIFICATION: motor_identification.service.node.main,
+    EMULATOR: motor_board.node.main,
+    DIFF_DRIVE: motor_examples.diff_drive.node.main,
+}
 Start = Callable[..., "subprocess.Popen[str]"]
 
 
@@ -28,13 +41,17 @@ def run(program: Program, *words: str) -> "subprocess.CompletedProcess[str]":
     return subprocess.run(command, env=workbench.ENVIRONMENT, capture_output=True, text=True, timeout=120.0)
 
 
-@pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.name)
-def test_help_says_what_it_is_and_every_parameter_with_its_default(program: Program) -> None:
-    done = run(program, "--help")
-    assert (done.returncode, done.stderr) == (0, "")
-    assert done.stdout.startswith(f"usage: ros2 run {program.package} {program.name} [--help]")
-    assert program.about in done.stdout and f"example:\n  ros2 run {program.package} {program.name} " in done.stdout
-    lines = {line.split()[0]: line for line in done.stdout.splitlines() if line.startswith("  ")}
+@pytest.mark.parametrize("program", NODES, ids=lambda program: program.name)
+def test_help_says_what_it_is_and_every_parameter_with_its_default(
+    program: Program, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        NODES[program](["--help"])
+    printed, errors = capsys.readouterr()
+    assert (ended.value.code, errors) == (0, "")
+    assert printed.startswith(f"usage: ros2 run {program.package} {program.name} [--help]")
+    assert program.about in printed and f"example:\n  ros2 run {program.package} {program.name} " in printed
+    lines = {line.split()[0]: line for line in printed.splitlines() if line.startswith("  ")}
     for row in program.rows:
         line = lines[row.name]
         default = str(row.default).lower() if isinstance(row.default, bool) else repr(row.default)

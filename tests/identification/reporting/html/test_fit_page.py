@@ -26,6 +26,12 @@ def html(found: Diagnosis) -> str:
     return render_fit(replace(found.model, notes=("<the bag> was cut off.",)), recordings, Files("found.yaml"))
 
 
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pages without pictures, where only the text matters."""
+    monkeypatch.setattr("motor_identification.reporting.html.pictures.draw_overlay", lambda *how: "")
+
+
 def test_the_page_has_the_numbers(found: Diagnosis, html: str) -> None:
     text, fit = text_of(html), found.model
     assert f"{fit.residual_rms:.3g} rad/s" in text and f"{fit.noise_floor:.3g} rad/s" in text
@@ -51,12 +57,14 @@ def test_the_page_has_the_pictures(html: str) -> None:
     assert all(inside.startswith("#") for inside in re.findall(r"url\(([^)]*)\)", html))
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_it_is_written_where_it_was_asked_for(found: Diagnosis, tmp_path: Path) -> None:
     recordings = fitted(ks=0.4)[0].problem.recordings
     path = write_fit_report(found.model, recordings, tmp_path / "new")
     assert path == tmp_path / "new" / "report.html" and path.read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_without_noise_and_variance_there_are_no_numbers(found: Diagnosis) -> None:
     one = replace(found.model, noise_floor=0.0, r_squared=float("nan"))
     text = text_of(render_fit(one, fitted(ks=0.4)[0].problem.recordings, NO_FILES))
