@@ -52,9 +52,9 @@ ENCODERS = """\
 one. Where fewer than 10 edges a second are all that there is (6 rad/s, 8 edges), every plant reports a
 standstill: with a model the motor is refused, without one it is stopped as stalled, or at a
 speed that stray edges decide. With 24 and 96 edges at 15 % of 6 rad/s (3 and 14 edges a second) 5 stray edges a second
-look like the speed that is asked for, and exchanged channels take 0.8 to 1.6 s with a model: a load of a quarter of the
-voltage may drive a motor with two channels backward, so that only more than half of the voltage tells. 2,880 edges at
-300 rad/s come every 7 us, and the timer ticks every 4."""
+look like the speed that is asked for, and exchanged channels take 0.4 and, with 24 edges, 1.5 s with a model: a load of
+a quarter of the voltage may drive a motor with two channels backward, so that only a voltage beyond that tells. 2,880
+edges at 300 rad/s come every 7 us, and the timer ticks every 4."""
 
 
 @dataclass(frozen=True)
