@@ -9,6 +9,7 @@ from motor_identification.logs.csv.mending import mend_table
 from motor_identification.logs.excitation import describe_excitation
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
+from motor_identification.logs.rows.constant_voltage import CONSTANT, give_voltage
 from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows
 from motor_identification.logs.still_runs import moves
 from motor_model.errors import RecordingError
@@ -50,6 +51,9 @@ def import_source(source: Source, said: Said) -> Imported:
     else:
         table = give_times(mend_table(number_rows(source.table)), said.sample_period)
         said = replace(said, time=ROW_TIMES, time_unit="ns")
+    if said.constant_voltage is not None:
+        table = give_voltage(table, said.constant_voltage)
+        said = replace(said, voltage=CONSTANT)
     guess = guess_forms(table, source.with_said(said))
     motors = []
     for form in guess.forms:

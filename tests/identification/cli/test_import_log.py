@@ -68,3 +68,12 @@ def test_what_breaks_in_the_middle_leaves_no_bag(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
     write_bags({tmp_path / "a": (run, Info())}, 10**18)
     assert len(list(tmp_path.iterdir())) == 1
+
+
+@pytest.mark.parametrize(
+    "other", [["--motor", "a:x,y"], ["--steady"], ["--full-duty", "255"], ["--voltage", "u"], ["--direction", "d"]]
+)
+def test_a_constant_voltage_takes_nothing_beside_it(capsys: pytest.CaptureFixture[str], other: list[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["log.csv", "--dry-run", "--constant-voltage", "9", *other])
+    assert caught.value.code == 2 and "--constant-voltage" in capsys.readouterr().err.splitlines()[-1]

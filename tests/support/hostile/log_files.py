@@ -24,6 +24,7 @@ OPTIONS = (
     ["--voltage", "u", "--position", "w", "--unit", "rad"],
     ["--voltage", "u", "--count", "n", "--edges-per-revolution", "96"],
     ["--sample-period", "0.005"],
+    ["--constant-voltage", "6"],
     ["--split", "n"],
     ["--time-unit", "ms"],
     ["--motor", "left:u,w", "--motor", "right:u,n"],
@@ -53,8 +54,22 @@ def columns() -> dict[str, Any]:
 
 def matlab(draw: Draw, random: Random, folder: Path) -> list[str]:
     """A MATLAB file with odd variables, or with odd elements."""
-    (folder / "input.mat").write_bytes(_changed_elements(_odd_variables(draw, random), random))
+    content = _version_4(random) if random.random() < 0.25 else _changed_elements(_odd_variables(draw, random), random)
+    (folder / "input.mat").write_bytes(content)
     return importing(random, "input.mat", USUAL)
+
+
+def _version_4(random: Random) -> bytes:
+    """The file as version 4 has it, with other numbers in the heads of its variables, or cut off."""
+    from scipy.io import savemat
+
+    file = io.BytesIO()
+    savemat(file, columns(), format="4")
+    data = bytearray(file.getvalue())
+    for _ in range(random.choice((0, 1, 1, 2))):
+        at = random.randrange(len(columns())) * (len(data) // len(columns())) + 4 * random.randrange(6)
+        data[at : at + 4] = pack("<I", random.choice(mcap_mutation.INTEGERS) % 2**32)
+    return bytes(data[: random.choice((len(data), len(data), random.randrange(len(data))))])
 
 
 def _odd_variables(draw: Draw, random: Random) -> bytes:

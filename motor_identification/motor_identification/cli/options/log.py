@@ -40,7 +40,14 @@ def _add_columns(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help="rows are S seconds apart; the log has no times",
     )
-    group.add_argument("--voltage", metavar="COL", help="column of voltages or duties")
+    drive = group.add_mutually_exclusive_group()
+    drive.add_argument("--voltage", metavar="COL", help="column of voltages or duties")
+    drive.add_argument(
+        "--constant-voltage",
+        type=between(-RANGES["max_voltage"][1], RANGES["max_voltage"][1]),
+        metavar="V",
+        help="a log of one step has no such column: V volts in every row",
+    )
     kind = group.add_mutually_exclusive_group()
     kind.add_argument("--speed", metavar="COL", help="column of speeds")
     kind.add_argument("--position", metavar="COL", help="column of positions")
@@ -147,8 +154,7 @@ def read_log_options(parser: argparse.ArgumentParser, options: argparse.Namespac
         parser.error("counts have a size only with --edges-per-revolution")
     if options.sample_period and options.time_unit:
         parser.error("--sample-period is in seconds, and takes no --time-unit")
-    if options.voltage_scale and (options.full_duty or options.supply or options.supply_voltage):
-        parser.error("--voltage-scale does not go with --full-duty, --supply and --supply-voltage")
+    _check_drive(parser, options)
     if not options.output and not options.dry_run:
         parser.error("say where the bag goes (--output BAG), or --dry-run")
     same = set(Said.__dataclass_fields__) - {"motion", "kind", "motors"}
@@ -156,6 +162,16 @@ def read_log_options(parser: argparse.ArgumentParser, options: argparse.Namespac
     if len({pair.label for pair in pairs}) < len(pairs):
         parser.error("every --motor needs a NAME of its own")
     return Said(motion=motion, kind=kind, motors=pairs, **{name: getattr(options, name) for name in same})
+
+
+def _check_drive(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
+    """Refuse what does not go together of how a column of voltages or duties is to be read."""
+    if options.voltage_scale and (options.full_duty or options.supply or options.supply_voltage):
+        parser.error("--voltage-scale does not go with --full-duty, --supply and --supply-voltage")
+    of_columns = ("voltage_scale", "full_duty", "supply", "supply_voltage", "direction")
+    said = options.motor or options.steady or any(getattr(options, name) is not None for name in of_columns)
+    if options.constant_voltage is not None and said:
+        parser.error("--constant-voltage is in volts, of one motor in motion: leave out --motor, --steady and duties")
 
 
 def _pair(parser: argparse.ArgumentParser, text: str) -> Pair:

@@ -88,6 +88,8 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
 def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> tuple[Drive, float, str | None]:
     """How the driving column becomes volts: in words, per unit, by which supply."""
     heading, values = read_heading(pair.voltage), table.numbers(pair.voltage)
+    if said.constant_voltage is not None:
+        return Drive(1.0, f"is {said.constant_voltage:g} V in every row, as said"), 1.0, None
     if said.voltage_scale is not None:
         return Drive(said.voltage_scale, f"times {said.voltage_scale:g} V"), said.voltage_scale, None
     if said.full_duty or heading.quantity is Quantity.DUTY:

@@ -110,7 +110,7 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
     rest = [one for one in headings if one.name not in (motion, voltage)]
     if not voltage and not motion and not any(map(drives, rest)) and not any(one.quantity in MOVES for one in rest):
         return _by_behaviour(table, rest, time)
-    motion = motion or _moving(table, rest, "")
+    motion = motion or _moving(table, rest, "", time)
     voltage = voltage or _driving(table, [one for one in rest if one.name != motion], "", ("",))
     return Pair("", voltage, motion)
 
@@ -132,7 +132,7 @@ def _unnamed(table: Table, headings: Sequence[Heading]) -> list[str]:
     return [one.name for one in headings if one.quantity is None and np.any(table.numbers(one.name))]
 
 
-def _moving(table: Table, headings: Sequence[Heading], side: str) -> str:
+def _moving(table: Table, headings: Sequence[Heading], side: str, time: str | None = None) -> str:
     for quantity in _BEST_FIRST:
         found = [one.name for one in headings if one.quantity is quantity and one.side == side]
         found = found or [one.name for one in headings if one.quantity is quantity]
@@ -143,6 +143,8 @@ def _moving(table: Table, headings: Sequence[Heading], side: str) -> str:
     unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
     if len(unnamed) == 1:
         return unnamed[0]
+    if len(unnamed) == 2 and (position := find_position(table, unnamed, time)):
+        return position
     raise _ask(table, "motion", "--speed, --position or --count", unnamed or table.names)
 
 
@@ -161,7 +163,13 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
     unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
     if len(unnamed) == 1 and others:
         return unnamed[0]
-    raise _ask(table, "voltage or duty", "--voltage", _unnamed(table, headings) or table.names)
+    candidates = _unnamed(table, headings)
+    if not candidates:
+        raise RecordingError(
+            f"{table.path}: no column is the voltage or duty: say which one is (--voltage COL), or --constant-voltage "
+            "V for a log of one step."
+        )
+    raise _ask(table, "voltage or duty", "--voltage", candidates)
 
 
 def _supply_of(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair]) -> str | None:

@@ -26,6 +26,7 @@ class Said:
     motion: str | None = None
     kind: Kind | None = None
     unit: str | None = None
+    constant_voltage: float | None = None  # [V] in every row of a log without a column of it
     voltage_scale: float | None = None
     full_duty: float | None = None  # what the voltage column shows at full voltage
     supply: str | None = None

@@ -112,7 +112,7 @@ def test_a_motion_changes_more_than_a_few_times(changes: int, told: bool) -> Non
     [
         ({"t": "t", "speed_a": "y", "speed_b": "y", "u": "u"}, "the speed? Say --speed and one of speed_a, speed_b."),
         ({"t": "t", "x": "y", "z": "y", "u": "u"}, "the motion? Say --speed, --position or --count and one of x, z."),
-        ({"t": "t", "speed": "y"}, "which column is the voltage or duty? Say --voltage and one of"),
+        ({"t": "t", "speed": "y"}, "no column is the voltage or duty: say which one is (--voltage COL), or --c"),
         ({"a": "y", "b": "y", "c": "t"}, "which column is the voltage or duty? Say --voltage and one of a, b."),
     ],
 )  # fmt: skip

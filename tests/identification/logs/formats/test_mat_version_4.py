@@ -57,6 +57,22 @@ def test_a_file_that_was_cut_off(tmp_path: Path) -> None:
         read_matrices(data + b"rest")
 
 
+def test_damage_is_a_sentence(tmp_path: Path) -> None:
+    path = tmp_path / "log.mat"
+    savemat(path, {"t": TIME, "data": np.stack([TIME, TIME * 2.0])}, format="4")
+    whole = path.read_bytes()
+    generator = np.random.default_rng(4)
+    for _ in range(150):
+        data = bytearray(whole)
+        for place in generator.integers(0, 60, 2):
+            data[place] = int(generator.integers(0, 256))
+        path.write_bytes(bytes(data[: int(generator.integers(30, len(whole) + 1))]))
+        try:
+            assert len(read_source(path).table) >= 2
+        except RecordingError as error:
+            assert "\n" not in str(error) and str(error).endswith(".")
+
+
 def test_version_7_3_is_named(tmp_path: Path) -> None:
     (tmp_path / "log.mat").write_bytes(b"MATLAB 7.3 MAT-file, Platform".ljust(512, b"\0") + b"\x89HDF\r\n\x1a\n")
     with pytest.raises(RecordingError, match="is a MATLAB 7.3 or HDF5 file: save it with -v7"):

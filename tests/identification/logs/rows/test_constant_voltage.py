@@ -1,0 +1,46 @@
+"""Logs of one step that have no column of what drove the motor."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.imported import import_log
+from motor_identification.logs.rows.constant_voltage import CONSTANT, give_voltage
+from motor_model.errors import RecordingError
+
+TIME = np.arange(200) * 0.01
+SPEED = np.round(300.0 * (1.0 - np.exp(-TIME / 0.1)))
+
+
+def test_every_row_has_it() -> None:
+    table = give_voltage(Table(Path("log.csv"), np.arange(3), {"t": np.arange(3.0)}), -7.4)
+    np.testing.assert_array_equal(table.numbers(CONSTANT), [-7.4] * 3)
+
+
+def test_time_and_speed_alone(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text(
+        "\n".join(["time_ms,speed_rpm", *(f"{1000 * t:.0f},{v:g}" for t, v in zip(TIME, SPEED, strict=True))])
+    )
+    with pytest.raises(
+        RecordingError, match="no column is the voltage or duty: .*--constant-voltage V for a log of one"
+    ):
+        import_log(path, Said())
+    imported = import_log(path, Said(constant_voltage=9.0))
+    (run,) = imported.motors[0].log.runs
+    assert {sample.voltage for sample in run.samples} == {9.0} and len(run.samples) == 200
+    assert "Voltage: (constant voltage) is 9 V in every row, as said." in imported.findings
+    assert imported.findings[0].endswith("with the columns time_ms, speed_rpm.")
+
+
+def test_without_names_the_position_is_found_beside_its_speed(tmp_path: Path) -> None:
+    """As small computers write it: time, position, speed."""
+    path = tmp_path / "data_100.txt"
+    degrees = np.floor(np.cumsum(SPEED * 6.0 * 0.01))
+    rows = [f"{t:.4f} {p:.4f} {v:.4f}" for t, p, v in zip(TIME, degrees, SPEED * 6.0, strict=True)]
+    path.write_text("\n".join(rows))
+    imported = import_log(path, Said(constant_voltage=-8.0, unit="deg"))
+    assert "Motion: column 2, a position in deg." in imported.findings
