@@ -44,8 +44,8 @@ a motor of 12 edges a second at its top speed under a load, which is let run: su
 
 Exchanged channels at 5 % of 6 rad/s with a model: 4.6 edges a second, and a load of a quarter of the voltage may drive
 a motor with two channels backward, so that only a voltage beyond that tells, which a gentle loop takes its time to
-reach. At 3 % of 174 rad/s and more without one they are not noticed at all, at 26 % of the top speed: the loop pushes
-in pulses of 0.3 of the voltage in the mean."""
+reach. At 3 % of 174 rad/s and more without one they are not noticed at all, at 26 % of the top speed: the plug
+limit leaves 0.296 of the voltage against the motion, and up to 0.3 may be what holds a load."""
 
 ENCODERS = """\
 8 to 2,880 edges a turn on the slowest and the fastest motor, simulated, at 200 Hz; [ms] without a model / with
