@@ -20,8 +20,8 @@ QUICK = 1.0 / 300.0  # [s] between edges; to stop within the next slot takes 300
 SLOWER = 0.98  # of the speed at the beginning; a motor that is braked by STRONG keeps more only if its time constant
 # is over 50 times the stall time: du/dt = -(0.5 + 1)·speed/time constant at least, from top speed down
 # A loop that pushes the wrong way may do so in pulses, because it lets a fast motor coast. What is strong in the mean
-# is so, too: beyond PRESSING of the motor's voltage, more than a load of a quarter of it asks a brake for (of 132 random
-# motors with such loads the sum was 0.014 s at most).
+# is so, too: beyond PRESSING of the motor's voltage, more than a load of a quarter of it asks a brake for (of 132
+# random motors with such loads the sum was 0.014 s at most).
 PRESSING = 0.3
 PRESSED = 0.04  # [s] of the motor's voltage beyond that; 0.2 s of STRONG
 # A plant reports 0 rad/s where edges are further apart than SLOW; the count of two channels still says which way they
