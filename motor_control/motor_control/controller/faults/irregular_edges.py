@@ -32,6 +32,7 @@ STANDSTILL = 0.1  # [s] without an edge
 # [edges/s] A plant reports a standstill after 0.1 s without an edge, and a loop answers that with a push: below this
 # rate the swing of an ordinary loop has mean jumps of up to 0.4, above it none of 400 random motors passes 0.2.
 LEAST_RATE = 35.0
+RATE_EDGES = 5.0  # over which the periods are averaged for that: counted edges alone tell of a faster motion before
 LEAST_VOLTAGE = 0.02  # of the voltage limit, on average: without a voltage nothing is driven, and a hand may shake it
 SENTENCE = (
     "Edges do not fit a motor: their periods jump back and forth by a factor of {:.2g} on average. See whether the "
@@ -48,6 +49,7 @@ class State:
     jump: float = 0.0  # mean
     patterned: float = 0.0  # mean over periods of the same flank
     flanks: tuple[tuple[float, float], ...] = ((0.0, 0.0),) * FLANKS  # period and step of each
+    mean_period: float = 0.0  # [s] over the latest few
     count: int = 0  # of edges
     backward: bool = False  # a second channel counts down
     steps: int = 0  # periods since it began anew
@@ -72,7 +74,8 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     if not state.irregular or config.stall_time == 0.0:
         return "", state
     driven = seen.motion.slow_voltage >= LEAST_VOLTAGE * seen.voltage_limit > 0.0
-    if not driven or seen.motion.slow_speed < LEAST_RATE * config.slot:
+    slow = seen.motion.slow_speed < LEAST_RATE * config.slot or state.mean_period > 1.0 / LEAST_RATE
+    if slow or not driven:
         return "", state
     return SENTENCE.format(exp(state.jump)), state
 
@@ -95,6 +98,7 @@ def follow_period(state: State, period: float, backward: bool = False, count: in
         state.jump + (jump - state.jump) / EDGES,
         state.patterned + (flank_jump - state.patterned) / EDGES,
         (*state.flanks[: count % FLANKS], (period, flank_step), *state.flanks[count % FLANKS + 1 :]),
+        state.mean_period + (period - state.mean_period) / RATE_EDGES,
         state.count,
         backward,
         state.steps + 1,

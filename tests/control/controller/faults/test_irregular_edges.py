@@ -114,3 +114,16 @@ def test_what_is_no_fault() -> None:
     assert noisy(8.0) is None  # an ordinary loop may make a slow motor swing
     assert noisy(100.0, voltage=0.1) is None  # nothing is driven
     assert noisy(100.0, stall_time=0.0) is None
+
+
+@pytest.mark.parametrize(("faster", "stops"), [(1.0, False), (4.0, True)])
+def test_the_rate_is_that_of_the_edges_that_jump(faster: float, stops: bool) -> None:
+    """A fast motor is braked into the swing of a slow one: its counted edges still told of its speed (seed 91142)."""
+    state, reasons = State(), []
+    swing = [0.052, 0.092, 0.023, 0.013, 0.030, 0.012, 0.089, 0.046, 0.02, 0.08, 0.03, 0.09, 0.02, 0.07]
+    for count, period in enumerate([0.001] * 20 + [one / faster for one in swing]):
+        sample = Sample(0, 3.0, 6.0, count, edge_period=period)
+        motion = Motion(edges=1, slow_speed=200.0 * SLOT, slow_voltage=6.0)
+        reason, state = check(Config(slot=SLOT), state, Seen(sample, 3.0, motion, 3.0, 0.005, 12.0))
+        reasons.append(reason)
+    assert state.irregular and any(reasons) == stops
