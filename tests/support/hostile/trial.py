@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from random import Random
 from typing import Any
@@ -18,6 +19,21 @@ from hostile import sandbox
 from hostile.bags import FIT
 from hostile.inputs import main_of
 from hostile.kind import ROOT, Kind
+
+
+# What commands import once they have work to do, beside what fits and experiments need.
+NEEDED = (
+    "motor_control.configuration",
+    "motor_control.controller.observer",
+    "motor_control.tuning.gain_file",
+    "motor_control.tuning.table",
+    "motor_identification.live.playback",
+    "motor_identification.logs.formats.matlab",
+    "motor_identification.logs.imported",
+    "motor_identification.mapping.candidates",
+    "ros2_stand_in.verbs.bag",
+    "scipy.io",
+)
 
 
 @dataclass(frozen=True)
@@ -35,6 +51,8 @@ def warm_up() -> None:
 
     from motor_identification.live import publishers
 
+    for module in NEEDED:
+        import_module(module)
     publishers._PATIENCE = 0.2  # nobody listens here
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder)
