@@ -20,7 +20,6 @@ from hostile.bags import FIT
 from hostile.inputs import main_of
 from hostile.kind import ROOT, Kind
 
-
 # What commands import once they have work to do, beside what fits and experiments need.
 NEEDED = (
     "motor_control.configuration",
