@@ -18,14 +18,9 @@ from motor_identification.diagnosis.backward_elimination import (
     keep_confirmed,
 )
 from motor_identification.diagnosis.determination import drop_undetermined
-from motor_identification.diagnosis.forward_selection import (
-    Selection,
-    begin_beside_torque,
-    begin_selection,
-    retry_with_another_first,
-    select_forward,
-)
+from motor_identification.diagnosis.forward_selection import retry_with_another_first, select_forward
 from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.diagnosis.selection import Selection, begin_beside_torque, begin_selection
 from motor_identification.diagnosis.verdict import conclude
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem

@@ -18,7 +18,7 @@ from motor_identification.diagnosis.effect_test import (
     sort_by_table,
     try_effects,
 )
-from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
+from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.diagnosis.standstill_evidence import explains_standstills
 from motor_identification.discrepancy.free_curves import PAST, REPEATING
 from motor_identification.progress import ProgressReporter

@@ -7,7 +7,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward, replace_step
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.effect_test import likelihood_threshold, sort_by_table, try_effects
-from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
+from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_identification.uncertainty.summary import find_bounds_hit

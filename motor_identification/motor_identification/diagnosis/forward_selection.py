@@ -5,19 +5,13 @@ Forward selection is the first half of a stepwise selection (M. Efroymson, Multi
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from math import sqrt
+from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import (
-    Model,
-    judge_beside_torque,
-    learn_errors,
     refit_without,
-    validate_model,
 )
 from motor_identification.diagnosis.candidate_test import CandidateTest, share_explained
-from motor_identification.diagnosis.disturbed_fit import fit_beside_torque
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
     choose_finding,
@@ -28,82 +22,9 @@ from motor_identification.diagnosis.effect_test import (
     sort_by_table,
     try_effects,
 )
-from motor_identification.estimation.direction_correction import correct_directions
-from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.least_squares import fit_speeds, measure_scatter
-from motor_identification.estimation.miscounts import exclude_miscounts, find_miscounts, fit_robustly
+from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_selection
 from motor_identification.progress import ProgressReporter
-from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
-
-
-@dataclass(frozen=True)
-class SelectionStep:
-    """One effect that was selected."""
-
-    before: Model
-    found: CandidateTest
-    tests: tuple[CandidateTest, ...]  # of all effects that were tried there, best first
-    rivals: tuple[str, ...]  # effects that would do as well
-    explains: float  # share of the excess over the floor that it takes away; of two that were found together, both do
-
-
-@dataclass(frozen=True)
-class Selection:
-    """The steps of a stepwise selection, the model they lead to, and what it is judged by."""
-
-    steps: tuple[SelectionStep, ...]
-    model: Model
-    hold_out: HoldOut
-    workers: int  # effects that are tried at a time
-
-    def add(self, steps: Sequence[SelectionStep]) -> "Selection":
-        """Add steps, and fit the model that they lead to once more on corrected recordings."""
-        last, every = steps[-1].found.model, (*self.steps, *steps)
-        if last.beside_torque:
-            return begin_beside_torque(last, self.hold_out, self.workers, every)
-        return begin_selection(last.estimate, self.hold_out, self.workers, every)
-
-
-def begin_beside_torque(
-    model: Model, hold_out: HoldOut, workers: int, steps: tuple[SelectionStep, ...] = ()
-) -> Selection:
-    """Correct directions by a model, and fit, learn and judge it again beside a random torque.
-
-    Nothing is left out: the density of what is left has wide tails.
-    """
-    errors = model.learned or learn_errors(model.estimate)
-    estimate = fit_beside_torque(correct_directions(model.estimate), errors)
-    hold_out = hold_out.correct_directions(estimate)
-    again = judge_beside_torque(validate_model(hold_out, estimate), hold_out, errors, thresholds.FINAL_EVALUATIONS)
-    return Selection(steps, again, hold_out, workers)
-
-
-def begin_selection(
-    estimate: Estimate, hold_out: HoldOut, workers: int, steps: tuple[SelectionStep, ...] = ()
-) -> Selection:
-    """Correct directions by an estimate, exclude miscounted intervals, fit again, and validate that.
-
-    As long as the model lacks more, only few intervals are plainly off by whole slots. Where nothing else is left once
-    all that look like it have gone, they were miscounted.
-    """
-    directed = correct_directions(estimate)
-    careful = fit_speeds(directed.on(directed.problem.without(find_miscounts(directed))))
-    hold_out = hold_out.correct_directions(careful)
-    model = validate_model(hold_out, careful)
-    robust = fit_robustly(careful.on(directed.problem))
-    if robust is not None and may_be_miscounted(robust, model.floor):
-        clean = exclude_miscounts(robust)
-        rest = validate_model(hold_out, clean)
-        if rest.at_floor:
-            return Selection(steps, rest, hold_out.correct_directions(clean), workers)
-    return Selection(steps, model, hold_out, workers)
-
-
-def may_be_miscounted(robust: Estimate, floor: float) -> bool:
-    """Decide whether most intervals of a robust fit are near the floor [rad/s]: a few miscounted ones may be all."""
-    scatter = measure_scatter(robust).robust * sqrt(len(robust.problem.weight))  # of unweighted residuals
-    return scatter < thresholds.MISCOUNTED_GAP * floor
 
 
 def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool = True) -> Selection:

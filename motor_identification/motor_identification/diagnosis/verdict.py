@@ -8,8 +8,8 @@ import numpy as np
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.detectability import find_undetectable
-from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Verdict
+from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.estimation.request import SearchReport
 from motor_identification.recording import Recording

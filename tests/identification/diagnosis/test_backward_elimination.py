@@ -25,7 +25,7 @@ from motor_identification.diagnosis.candidate_model import Model, validate_model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.diagnosis.effect_test import likelihood_threshold
-from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
+from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import Floats

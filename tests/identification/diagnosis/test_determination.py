@@ -20,8 +20,8 @@ from motor_identification.diagnosis.determination import (
     is_chance_size,
     is_undetermined,
 )
-from motor_identification.diagnosis.forward_selection import Selection, SelectionStep
 from motor_identification.diagnosis.result import Verdict
+from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta

@@ -13,17 +13,14 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import choose_finding, likelihood_threshold
 from motor_identification.diagnosis.forward_selection import (
-    Selection,
-    SelectionStep,
-    begin_selection,
     list_other_firsts,
     list_partners,
-    may_be_miscounted,
     may_hide_pair,
     retry_with_another_first,
     select_forward,
     verify_findings,
 )
+from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_selection
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter, Stage
 
@@ -69,15 +66,6 @@ def test_other_first_effects_are_nearly_as_likely() -> None:
     weak = stub_test("load_bias", before, 5.0, likelihood_threshold() * 1.1)
     by_chance = stub_test("dead_zone", before, 5.0, likelihood_threshold() * BELOW)
     assert list_other_firsts(step_of(weak, by_chance)) == []
-
-
-@pytest.mark.parametrize("times", [BELOW, ABOVE])
-def test_miscounts_may_be_all_where_most_intervals_are_near_the_floor(times: float) -> None:
-    estimate, _ = fitted()
-    problem = estimate.problem
-    residuals = problem.residuals(estimate.theta) * np.sqrt(problem.weight * len(problem.weight))
-    typical = 1.4826 * float(np.median(np.abs(residuals)))
-    assert may_be_miscounted(estimate, times * typical / thresholds.MISCOUNTED_GAP) == (times == ABOVE)
 
 
 @pytest.mark.parametrize("better", [True, False])

@@ -1,0 +1,34 @@
+"""A stepwise selection begins with a model fitted again, and is fitted again with every step."""
+
+import numpy as np
+import pytest
+from diagnosed import fitted, with_effect
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import validate_model
+from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.selection import SelectionStep, begin_selection, may_be_miscounted
+
+BELOW, ABOVE = 0.999, 1.001
+
+
+def test_steps_are_added_and_the_model_is_fitted_again() -> None:
+    estimate, hold_out = fitted(ks=0.4)
+    start = begin_selection(estimate, hold_out, 3)
+    assert start.steps == () and start.model.above_floor and start.workers == 3
+    more = with_effect(estimate, "coulomb_friction", {"ks": 0.1})
+    test = CandidateTest("coulomb_friction", start.model, validate_model(hold_out, more))
+    found = start.add([SelectionStep(start.model, test, (test,), (), test.explains)])
+    assert [step.found.effect for step in found.steps] == ["coulomb_friction"] and found.workers == 3
+    assert found.model.effects == ("coulomb_friction",) and found.model.at_floor
+    assert found.model.estimate.parameters.value("ks") == pytest.approx(0.4, rel=1e-3)
+    assert found.model.estimate.simulations > more.simulations
+
+
+@pytest.mark.parametrize("times", [BELOW, ABOVE])
+def test_miscounts_may_be_all_where_most_intervals_are_near_the_floor(times: float) -> None:
+    estimate, _ = fitted()
+    problem = estimate.problem
+    residuals = problem.residuals(estimate.theta) * np.sqrt(problem.weight * len(problem.weight))
+    typical = 1.4826 * float(np.median(np.abs(residuals)))
+    assert may_be_miscounted(estimate, times * typical / thresholds.MISCOUNTED_GAP) == (times == ABOVE)
