@@ -12,8 +12,9 @@ import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.parameter_space import SLOW_SPEED
-from motor_identification.estimation.whitened_fit import Encoder, learn_encoders
+from motor_identification.estimation.whitened_fit import learn_encoders
 from motor_identification.measurement.measured_angle import Track
+from motor_identification.noise.encoder import Encoder
 from motor_identification.periodic.autoregression import Autoregression, fit_autoregression
 from motor_identification.periodic.linear_response import Course
 from motor_identification.recording import Floats, Integers

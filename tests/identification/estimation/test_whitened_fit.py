@@ -59,15 +59,6 @@ def test_the_jacobian_is_whitened_column_by_column() -> None:
         assert column == pytest.approx(residuals.white(expected))
 
 
-def test_the_pull_is_the_transpose() -> None:
-    """Of what is left beside a table whose own prior is not counted."""
-    (encoder,) = learn_encoders(at_truth())
-    count, random = len(at_truth().problem.weight), np.random.default_rng(0)
-    bare = replace(encoder, projection=None)
-    x, z = random.standard_normal((2, count))
-    assert z @ bare.white(x) == pytest.approx(bare.pull(z) @ x, rel=1e-9)
-
-
 def test_white_residuals_are_worth_more_than_speeds() -> None:
     start = replace(at_truth(), theta=THETA + [0.01, -0.01, 0.02])
     speeds = fit_speeds(start)

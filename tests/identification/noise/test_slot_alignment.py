@@ -10,8 +10,9 @@ from motor_identification.estimation.direction_correction import correct_directi
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
-from motor_identification.estimation.whitened_fit import Encoder, learn_encoders
+from motor_identification.estimation.whitened_fit import learn_encoders
 from motor_identification.noise.angle_noise import whiten
+from motor_identification.noise.encoder import Encoder
 from motor_identification.noise.slot_alignment import FARTHEST, align_slots
 from motor_identification.noise.slot_table import SlotTable
 from motor_identification.recording import check
@@ -71,9 +72,7 @@ def test_slots_are_learned_through_swings_that_no_channel_counts(monkeypatch: py
     estimate = swinging(0.01)
     (encoder,) = learn_encoders(estimate)
     assert 0.009 < encoder.irregularity < 0.011
-    monkeypatch.setattr(
-        "motor_identification.estimation.whitened_fit.align_slots", lambda table, white, offsets: table.index
-    )
+    monkeypatch.setattr("motor_identification.noise.encoder.align_slots", lambda table, white, offsets: table.index)
     (blurred,) = learn_encoders(estimate)
     assert blurred.irregularity < 0.8 * encoder.irregularity  # it takes the rest for drift
     assert blurred.drift > encoder.drift
