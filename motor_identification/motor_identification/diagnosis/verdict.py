@@ -150,12 +150,12 @@ def decide(
     if undetermined:
         return Verdict.UNDECIDED, EFFECT_BY_NAME[undetermined[0]].shown_by
     unclear = next((finding.suggested_experiment for finding in findings if finding.ambiguous_with), "")
-    if not last.complete:
+    if not last.complete and last.held.confirms:
         return Verdict.UNEXPLAINED, unclear or ("rich" if hidden else "")
     if unclear:
         return Verdict.UNDECIDED, unclear
     if hidden and not findings:
         return Verdict.UNDECIDED, EFFECT_BY_NAME[hidden[0]].shown_by  # the table begins with what is most common
-    if findings and not last.held.confirms:
-        return Verdict.UNDECIDED, EFFECT_BY_NAME[findings[0].effect].shown_by
+    if not last.held.confirms and (findings or not last.complete):
+        return Verdict.UNDECIDED, EFFECT_BY_NAME[findings[0].effect].shown_by if findings else "rich"
     return (Verdict.EXPLAINED if findings else Verdict.NOTHING_MISSING), ""

@@ -51,6 +51,11 @@ def _name_gap(diagnosis: Diagnosis) -> str:
     return FITTED_GAP if diagnosis.after.seen else GAP
 
 
+def is_at_floor(diagnosis: Diagnosis) -> bool:
+    """Decide whether the noise leaves as much as is left."""
+    return diagnosis.gap_after <= EXPLAINED_GAP * diagnosis.noise_floor
+
+
 def compare_with_floor(diagnosis: Diagnosis) -> str:
     """Write the final gap as a multiple of the noise floor."""
     floor = diagnosis.noise_floor
@@ -146,6 +151,8 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts = [f"No effect was found until then: {_describe_gap(diagnosis)}."]
     elif diagnosis.undetermined:
         parts = [f"Something is missing that this recording does not determine: {_describe_gap(diagnosis)}."]
+    elif not diagnosis.after.confirms and not is_at_floor(diagnosis):
+        parts = [f"Something may be missing that one response does not tell: {_describe_gap(diagnosis)}."]
     else:
         parts = [f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."]
     if diagnosis.time_limit:

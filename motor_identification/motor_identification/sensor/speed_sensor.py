@@ -21,6 +21,9 @@ COUNT_NOISE = sqrt(20.0 / 6.0 / 12.0)
 UNTOLD = 0.01  # of the typical speed: the noise of values too few to tell it, such as those of a static curve
 PRINTED_UNITS = (1.0, radians(1.0), tau / 60.0, tau)  # rad/s, deg/s, rpm, turns/s
 SAME_DIGIT = 1e-3  # of a decade
+# A converter's last bit: its range is one of these volts, or ten times them, in 2^n or 2^n − 1 steps; such as a
+# tachogenerator's. A step by chance is as near to one of them in 1 % of the cases.
+RANGES, BITS, SAME_RANGE = (1.0, 2.0, 2.5, 3.3, 5.0), (8, 10, 12, 13, 14, 16), 1e-4
 OTHER_ROWS = 0.1  # relative: rows of one run that are not those of the log's typical one
 SAME_PERIOD = 1e-6  # relative: a window that was not said is set to the sample period
 
@@ -86,7 +89,7 @@ def find_noise(values: Floats, voltage: Floats, edges: int, window: float) -> tu
         return tau / edges / window, 0.0, edges
     moving = _mark_motion(values)
     step, noise = find_lattice(values), estimate_white_noise(values[moving], voltage[moving])
-    beyond = NOISE_BEYOND_DIGITS if _is_last_digit(step) else NOISE_BEYOND
+    beyond = NOISE_BEYOND_DIGITS if _is_last_digit(step) or _is_last_bit(step) else NOISE_BEYOND
     if step > 0.0 and noise < beyond * COUNT_NOISE * step:
         return step, 0.0, round(tau / (step * window))
     typical = sqrt(float(np.mean(values**2)))
@@ -99,6 +102,14 @@ def _is_last_digit(step: float) -> bool:
         return False
     places = [log10(step / unit) for unit in PRINTED_UNITS]
     return any(place < 0.5 and abs(place - round(place)) < SAME_DIGIT for place in places)
+
+
+def _is_last_bit(step: float) -> bool:
+    """Whether a step is what a converter resolves of a usual range in volts."""
+    if step <= 0.0:
+        return False
+    ratios = [step * (2**bits - less) / range_ for bits in BITS for less in (0, 1) for range_ in RANGES]
+    return any(abs(ratio / one - 1.0) < SAME_RANGE for ratio in ratios for one in (1.0, 10.0))
 
 
 def _mark_motion(values: Floats) -> Bools:

@@ -51,6 +51,9 @@ def test_one_response_explains_nothing(swing: float, verdict: Verdict, profile: 
     model = replace(model, held=replace(model.held, swing=swing))
     assert decide((finding(),), model, ()) == (verdict, profile)
     assert decide((), model, ()) == (Verdict.NOTHING_MISSING, "")
+    more = stub_model(OVER, 0.0)
+    left = decide((), replace(more, held=replace(more.held, swing=swing)), ())
+    assert left == ((Verdict.UNDECIDED, "rich") if swing < 3.0 else (Verdict.UNEXPLAINED, ""))
 
 
 @pytest.mark.parametrize("gap", [AT, OVER])

@@ -54,6 +54,8 @@ def test_what_one_response_shows_may_be_missing(variants: dict[Verdict, Diagnosi
     assert re.match(
         r"Coulomb friction \(ks = 0\.4\d* ± [\d.e-]+ V\) may be missing\. The RMS", summarize_diagnosis(clear)
     )
+    more = replace(once[Verdict.UNEXPLAINED], verdict=Verdict.UNDECIDED, findings=())
+    assert summarize_diagnosis(more).startswith("Something may be missing that one response does not tell: the RMS")
     rivals = summarize_diagnosis(once[Verdict.UNDECIDED])
     assert rivals.startswith("Coulomb friction, dead zone or load bias may be missing; this recording cannot")
 

@@ -41,6 +41,19 @@ def test_printed_digits_are_no_counts() -> None:
     assert NOISE_BEYOND_DIGITS * COUNT_NOISE < 1.0 and (coarse.step == 1.0 or coarse.sigma > 1.0 / sqrt(12.0))
 
 
+@pytest.mark.parametrize(
+    ("step", "counts"),
+    [(50.0 / 1023, False), (50.0 / 1024, False), (33.0 / 1023, False), (0.04871, True)],
+    ids=["5 V in 10 bits", "5 V in 1,024 parts", "3.3 V", "no converter"],
+)
+def test_a_converters_bits_are_no_counts(step: float, counts: bool) -> None:
+    """A tachogenerator's noise of two bits is noise, though as much between neighbours may be a motor's motion."""
+    recording = noisy(2.0 * step)
+    bits = replace(recording, speed=step * np.round(recording.speed / step))
+    found = find_speed_sensor(bits)
+    assert (found.step > 0.0) == counts and (counts or 1.8 * step < found.sigma < 2.2 * step + 0.08)
+
+
 def test_held_speeds_have_the_times_of_their_frames() -> None:
     """A speed of 20 ms in a log of 5 ms: the intervals are those of the sensor."""
     slow = without_count(as_speed(recorded(sample_rate=50.0)))
