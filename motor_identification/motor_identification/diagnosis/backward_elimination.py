@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import Model, refit_without
+from motor_identification.diagnosis.candidate_model import Model, judge_beside_torque, refit_without
 from motor_identification.diagnosis.candidate_test import CandidateTest, share_explained
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
@@ -21,7 +21,9 @@ from motor_identification.diagnosis.effect_test import (
 from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.diagnosis.standstill_evidence import explains_standstills
 from motor_identification.discrepancy.free_curves import PAST, REPEATING
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
+from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -30,14 +32,17 @@ def drop_stand_ins(selection: Selection) -> Selection:
 
     That is every finding that leaves a visible part of what it should explain, and what was found after it; a line in
     the spectrum over the angle is its own evidence, and so is a standstill under a voltage. Where what is left comes
-    and goes whatever the motor does, no finding that answers its motion stands in for that.
+    and goes whatever the motor does, no finding that answers its motion stands in for that; and no friction for what
+    goes with the past, such as a sensor's filter.
     """
     if selection.model.complete:
         return selection
-    apart = leaves_another_variable(selection.model)
+    apart, past = leaves_another_variable(selection.model), leaves_past(selection.model)
     for i, step in enumerate(selection.steps):
-        answers = apart and step.explains > thresholds.APART_SHARE and not EFFECT_BY_NAME[step.found.effect].anywhere
-        if step.explains < thresholds.STAND_IN_SHARE and not answers and not _is_own_evidence(selection, i):
+        effect = EFFECT_BY_NAME[step.found.effect]
+        answers = (apart and not effect.anywhere) or (past and effect.holds)
+        stays = step.explains > (thresholds.APART_SHARE if answers else thresholds.STAND_IN_SHARE)
+        if not stays and not _is_own_evidence(selection, i):
             return replace(selection, steps=selection.steps[:i], model=step.before)
     return selection
 
@@ -46,6 +51,17 @@ def leaves_another_variable(model: Model) -> bool:
     """Decide whether all that can be predicted of what is left goes with the angle or the time alone."""
     certain = [one.variable for one in model.structure if one.certain]
     return bool(certain) and all(name in REPEATING for name in certain)
+
+
+def leaves_past(model: Model) -> bool:
+    """Decide whether what can be predicted of what is left goes with the past, or the angle or the time, for the most.
+
+    A curve over speed, voltage or drive predicts a small part of what any unmodelled lag leaves.
+    """
+    certain = [one for one in model.structure if one.certain]
+    own = [one.share for one in certain if one.variable in (PAST, *REPEATING)]
+    others = [one.share for one in certain if one.variable not in (PAST, *REPEATING)]
+    return bool(own) and max(others, default=0.0) < thresholds.MINOR_SHARE * max(own)
 
 
 def _is_own_evidence(selection: Selection, number: int) -> bool:
@@ -105,6 +121,8 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     """Test one finding against the model without it, and against others instead of it."""
     effect, current = step.found.effect, selection.model
     without = refit_without(selection.model, effect, selection.hold_out)
+    if without.learned is not None and without.likelihood > current.likelihood:  # by errors that it does not know
+        current = _judge_by_errors_of(without.learned, current, selection.hold_out)
     if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
         return replace_step(selection, step, None, without)
     if EFFECT_BY_NAME[effect].after_reversals and stands_in_for_curve(without, current):
@@ -127,6 +145,12 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     alike = [test.effect for test in tests if find_loss(test, effect, current) < thresholds.RIVAL_MARGIN]
     rivals = sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
     return replace_step(selection, step, replace(step, rivals=rivals), current)
+
+
+def _judge_by_errors_of(other: ErrorModel, model: Model, hold_out: HoldOut) -> Model:
+    """Judge a model again from the errors of one without an effect, which describe its own at least as well."""
+    again = judge_beside_torque(model, hold_out, other, thresholds.FINAL_EVALUATIONS)
+    return again if again.likelihood > model.likelihood else model
 
 
 def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequence[str]) -> list[str]:

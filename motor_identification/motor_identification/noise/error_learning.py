@@ -48,7 +48,7 @@ def learn_error_model(
         np.log([share, gap * ka * sqrt(rate * (rate + 1.0 / time)) * part, time])
         for time in np.geomspace(shortest, longest, 5)[1:-1]
         for part in (1.0, 0.1)
-        for share in (max(min(quiet.share, 0.005), 1e-3),)
+        for share in sorted({max(min(quiet.share, 0.005), 1e-3), max(0.7 * quiet.share, 1e-3)})
     ]
     if guess is not None and guess.rms_voltage > 0.0:
         scale = gap * ka * sqrt(rate * (rate + 1.0 / guess.correlation_time))

@@ -27,8 +27,10 @@ from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.diagnosis.effect_test import likelihood_threshold
 from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.discrepancy.structure import Structure
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import Floats
+from motor_identification.validation.hold_out import HoldOut
 
 BELOW, ABOVE = 0.999, 1.001
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
@@ -91,6 +93,44 @@ def test_what_only_angle_or_time_predict_is_nothing_that_a_finding_stands_in_for
     rest = tuple(Structure(name, 0.5, 100.0) for name in left)
     model = cast(Model, SimpleNamespace(complete=False, structure=rest))
     assert len(drop_stand_ins(replace(selection, model=model)).steps) == kept
+
+
+@pytest.mark.parametrize(
+    ("effect", "explains", "drive", "kept"),
+    [
+        ("coulomb_friction", ABOVE * thresholds.APART_SHARE, BELOW * thresholds.MINOR_SHARE, 1),
+        ("coulomb_friction", BELOW * thresholds.APART_SHARE, BELOW * thresholds.MINOR_SHARE, 0),
+        ("coulomb_friction", 0.9, ABOVE * thresholds.MINOR_SHARE, 0),
+        ("quadratic_drag", 0.9, BELOW * thresholds.MINOR_SHARE, 0),
+    ],
+)
+def test_friction_stands_in_for_nothing_that_goes_with_the_past(
+    monkeypatch: pytest.MonkeyPatch, effect: str, explains: float, drive: float, kept: int
+) -> None:
+    monkeypatch.setattr(backward_elimination, "explains_standstills", lambda *models: False)
+    rest = (Structure("past", 0.8, 100.0), Structure("drive", 0.8 * drive, 100.0))
+    model = cast(Model, SimpleNamespace(complete=False, structure=rest))
+    assert len(drop_stand_ins(replace(selection_of(5.0, step_of(effect, explains)), model=model)).steps) == kept
+    left = replace(rest[0], significance=0.0)  # no curve over the past is certain
+    model = cast(Model, SimpleNamespace(complete=False, structure=(left, rest[1])))
+    assert not drop_stand_ins(replace(selection_of(5.0, step_of(effect, explains)), model=model)).steps
+
+
+@pytest.mark.parametrize(("likelihood", "better"), [(90.0, False), (110.0, True)])
+def test_a_model_is_judged_by_the_errors_of_one_without_an_effect_too(
+    monkeypatch: pytest.MonkeyPatch, likelihood: float, better: bool
+) -> None:
+    """Their search may end in another place, where the larger model is likelier, too."""
+    model, other = replace(stub_model(2.0), likelihood=100.0), ErrorModel(0.003, 0.0, 0.1, 0.05)
+    again, asked = replace(model, likelihood=likelihood), []
+
+    def judged(one: Model, hold_out: HoldOut, guess: ErrorModel, evaluations: int) -> Model:
+        asked.append((one, guess))
+        return again
+
+    monkeypatch.setattr(backward_elimination, "judge_beside_torque", judged)
+    chosen = backward_elimination._judge_by_errors_of(other, model, fitted()[1])
+    assert chosen is (again if better else model) and asked == [(model, other)]
 
 
 @pytest.mark.parametrize(
