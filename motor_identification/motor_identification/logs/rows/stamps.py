@@ -8,6 +8,7 @@ from motor_identification.logs.signals import Floats, Integers, Signals
 
 COARSE = 0.02  # of a sample period: a finer resolution of the stamps is no matter
 REGULAR = 1.0  # resolutions by which stamps may lie beside regular rows: rounding and truncation are within
+SELDOM = 0.01  # of the rows: so few may lie twice as far, within half a row: a board's or a link's late moments
 LACKING = 0.05  # of the rows: more gaps of a regular log than this are its rhythm
 CONTINUES = 3.0  # usual steps, within which a clock that was full goes on
 _REGISTERS = (2**32 * 10**3, 2**32 * 10**6, 24 * 3600 * 10**9)  # [ns] 32 bits of µs and of ms; the time of day
@@ -56,7 +57,7 @@ def separate_stamps(signals: Signals) -> tuple[Signals, list[str]]:
     regular = 0
     for run in signals.runs.values():
         even = _even_times(time[run])
-        if even is not None and np.max(np.abs(even - time[run])) <= REGULAR * coarse:
+        if even is not None and _are_regular(even, time[run], coarse):
             time[run] = np.rint(even).astype(np.int64)
             regular += 1
         elif np.any(np.diff(time[run]) == 0):
@@ -100,6 +101,14 @@ def _lacks_rows(steps: Integers) -> bool:
         return False
     between = np.diff(longer)
     return len(between) < 2 or bool(np.ptp(between) > max(2.0, 0.1 * float(np.median(between))))
+
+
+def _are_regular(even: Floats, time: Integers, coarse: int) -> bool:
+    """Whether stamps [ns], shape (K,), lie as near to even times as those of regular rows do, save a few."""
+    far = np.abs(even - time)
+    half_row = 0.5 * (even[-1] - even[0]) / (len(even) - 1)
+    farthest = max(REGULAR * coarse, min(2.0 * REGULAR * coarse, half_row))
+    return bool(np.max(far) <= farthest and np.mean(far > REGULAR * coarse) <= SELDOM)
 
 
 def _even_times(time: Integers) -> Floats | None:

@@ -31,6 +31,21 @@ def test_whole_milliseconds_of_regular_rows_become_regular() -> None:
     assert "multiples of 1 ms; the rows are regular, 2.3" in said[0] and "take those times" in said[0]
 
 
+@pytest.mark.parametrize(
+    ("period", "late", "by", "regular"),
+    [(10, 5, 2, True), (10, 15, 2, False), (10, 1, 3, False), (3, 5, 2, False), (3, 5, 1, True)],
+    ids=["half a percent", "more than one", "three stamps", "more than half a row", "one stamp"],
+)
+def test_a_few_late_stamps_leave_rows_regular(period: int, late: int, by: int, regular: bool) -> None:
+    """1000 rows in whole milliseconds, a few of them late by so many."""
+    true = np.arange(1000) * period * 10**6
+    stamps = true.copy()
+    stamps[np.linspace(20, 980, late).astype(int)] += by * 10**6
+    signals, said = separate_stamps(rows(stamps))
+    assert ("the rows are regular" in said[0]) == regular != ("not regular: times are that uncertain" in said[0])
+    assert not regular or np.max(np.abs(signals.time - true)) < 10**5
+
+
 def test_rows_faster_than_their_stamps_get_a_time_each() -> None:
     true = np.arange(400) * 400_000
     signals, _ = separate_stamps(rows(true // 10**6 * 10**6))
