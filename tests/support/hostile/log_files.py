@@ -92,7 +92,7 @@ def _odd_variables(draw: Draw, random: Random) -> bytes:
     file = io.BytesIO()
     try:
         savemat(file, content, do_compression=random.random() < 0.5)
-    except (TypeError, ValueError, OverflowError, UnicodeError, KeyError):
+    except (TypeError, ValueError, OverflowError, UnicodeError, LookupError):  # such as a name without a letter
         file = io.BytesIO()
         savemat(file, columns())
     return file.getvalue()
