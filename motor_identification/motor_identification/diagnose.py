@@ -118,7 +118,8 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
 
     From what was found without it, and where that leads nowhere from the beginning.
     """
-    line = any(EFFECT_BY_NAME[step.found.effect].periodic for step in plain.steps)  # its own evidence
+    # A line of many turns is its own evidence; what repeats once in a turn, a slow torque does by chance.
+    line = any(row.periodic and not row.on_disc for row in (EFFECT_BY_NAME[step.found.effect] for step in plain.steps))
     if not (plain.model.above_floor or (plain.model.lasts and not line)):
         return None
     for begin in (plain, start) if plain.steps else (start,):

@@ -69,7 +69,7 @@ class CandidateTest:
             return shrinks and 2.0 * self.steadiness > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
         before, after = self._lasting_before, self.model.lasting
         floor = after.floor(self.model.noise.share)
-        if before.gap < thresholds.RELEVANT_GAP * floor:
+        if before.gap < (thresholds.SEEN_GAP if before.seen else thresholds.RELEVANT_GAP) * floor:
             return False
         near = before.gap < thresholds.NEAR_FLOOR * floor or self.has_instants
         least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE

@@ -102,6 +102,13 @@ def test_relevant_gap(times: float, passes: bool) -> None:
 
 
 @SIDES
+def test_relevant_gap_of_what_the_fit_has_seen(times: float, passes: bool) -> None:
+    before = stub_model(5.0, times * thresholds.SEEN_GAP * LASTING_FLOOR)
+    seen = replace(before, held=replace(before.held, seen=True))
+    assert stub_test("load_bias", seen, 4.9, 100.0, LASTING_FLOOR).relevant is passes
+
+
+@SIDES
 @pytest.mark.parametrize(
     ("gap", "lasting", "share"),
     [

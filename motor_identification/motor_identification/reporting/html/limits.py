@@ -37,8 +37,9 @@ def _left_out(diagnosis: Diagnosis) -> list[str]:
         (diagnosis.left_out, "contain a reversal, or their direction is unknown (one encoder channel)"),
         (diagnosis.miscounted, "are off by whole slots: edges were missed or counted twice"),
     )
+    unseen = "the fits have seen, too" if diagnosis.after.seen else "no fit has seen"
     said = [f"{number} intervals were left out because they {why}." for number, why in rows if number]
-    return [f"The gap is computed over {counted} intervals that no fit has seen.", *said]
+    return [f"The gap is computed over {counted} intervals that {unseen}.", *said]
 
 
 def _noise_floor(diagnosis: Diagnosis) -> list[str]:

@@ -79,7 +79,7 @@ def explain_rejection(other: Alternative, finding: Finding) -> str:
         return f"gap {format_ratio(other.gap_after / finding.gap_after)} times as large"
     if behind <= 0.0:
         return "explains as much alone, but not together with the other effects"
-    return f"validation data 10^{behind / log(10.0):.0f} times less likely"
+    return f"10^{behind / log(10.0):.0f} times less likely"
 
 
 def list_parameters(fit: Fit, baseline: Fit | None = None) -> list[ParameterRow]:

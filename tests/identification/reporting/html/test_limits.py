@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from motor_identification.diagnosis.result import Diagnosis
+from motor_identification.reporting.diagnosis_text import SEEN
 from motor_identification.reporting.html.limits import NO_NOISE, list_limits
 from motor_model.sample import Measurement
 
@@ -11,6 +12,8 @@ def test_every_limit_has_its_sentence(found: Diagnosis) -> None:
     said = list_limits(replace(found, miscounted=7))
     assert said[0].startswith("This recording could not show warm up (") and said[0].endswith("' would.")
     assert f"The gap is computed over {int(found.after.counted.sum())} intervals that no fit has seen." in said
+    seen = list_limits(replace(found, validation=(), after=replace(found.after, seen=True)))
+    assert SEEN in seen and any(one.endswith("intervals that the fits have seen, too.") for one in seen)
     assert any(
         one.startswith(f"{found.left_out} intervals were left out because they contain a reversal") for one in said
     )
