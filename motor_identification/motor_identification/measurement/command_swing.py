@@ -1,11 +1,14 @@
 """Measure how a command swings: what makes a motor show more of itself than that it turns."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from motor_identification.recording import Floats, Recording
 from motor_model.compiled import compiled
 
 PLAY = 0.05  # of the largest voltage: what a measured supply, or a controller that holds a speed, moves to and fro
+LEVELS, LEVEL_SAMPLES = 10, 3  # up to the largest voltage; samples at one that is no chance
 
 
 def measure_swings(recording: Recording) -> Floats:
@@ -20,6 +23,13 @@ def measure_swings(recording: Recording) -> Floats:
     followed = np.empty(len(recording))
     _follow(recording.voltage / largest, PLAY, followed)
     return np.asarray(np.abs(np.diff(followed, prepend=0.0)))
+
+
+def count_levels(recordings: Sequence[Recording]) -> int:
+    """Count the levels, tenths of the largest voltage, at which recordings of one motor have some samples; not 0 V."""
+    volts = np.concatenate([recording.voltage for recording in recordings])
+    levels, counts = np.unique(np.rint(LEVELS * volts / np.abs(volts).max()), return_counts=True)
+    return int(np.count_nonzero((levels != 0.0) & (counts >= LEVEL_SAMPLES)))
 
 
 @compiled

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf, log
+from math import log
 
 import numpy as np
 
@@ -16,8 +16,6 @@ from motor_model.parameters import Parameters
 # Of a slot squared, a second: drifts of the simulated angle that held-out motion may have beyond the training data's.
 # From one that is hardly seen within a second to one that loses a third of a slot in it.
 UNFORESEEN_DRIFTS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
-# How much a command swings where a motor can be judged by its responses: a step up, down and up again.
-LEAST_SWING = 3.0
 
 
 @dataclass(frozen=True)
@@ -35,12 +33,7 @@ class HeldOut:
     miscounted: int  # intervals left out because edges were missed or counted twice
     instants: tuple[Bools, ...] = ()  # left out of the gap: an instant is in these blocks, which nobody could foresee
     seen: bool = False  # the fit has seen what counts
-    swing: float = inf  # where it has: by how much the command swings in all, in units of its largest
-
-    @property
-    def confirms(self) -> bool:
-        """Whether there is more than one response, by which a finding can be confirmed."""
-        return self.swing >= LEAST_SWING
+    confirms: bool = True  # there is more than a step, by which a finding can be confirmed
 
     @cached_property
     def residuals_of(self) -> tuple[Floats, ...]:

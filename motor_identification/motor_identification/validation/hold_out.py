@@ -7,7 +7,6 @@ and nothing of its response: then nothing is held out, and every unknown has its
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import inf
 from typing import ClassVar, TypeVar
 
 import numpy as np
@@ -16,16 +15,20 @@ from motor_identification.estimation.direction_correction import correct_directi
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.miscounts import mark_miscounts
 from motor_identification.estimation.problem import Problem, make_problem
-from motor_identification.measurement.command_swing import measure_swings
+from motor_identification.measurement.command_swing import count_levels, measure_swings
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.recording import Bools, Recording
-from motor_identification.validation.held_out import LEAST_SWING, HeldOut
+from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.instants import list_instants
 from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
 
 # Of what counts in a recording: more is not left out, however unforeseen. One block of three would be a third of it.
 MOST_LEFT_OUT = 0.25
 
+# How much a command swings where a motor can be judged by its responses: a step up, down and up again.
+LEAST_SWING = 3.0
+# Levels of the command, or as much swing, from which on a recording is more than a step.
+LEAST_LEVELS = 3
 # Of how much the command would swing in held-out blocks by chance, at least. Measured: of up to 9 times its largest
 # voltage, real logs of one to twenty steps have 0 to 0.4 in every fourth of the usual blocks, those of a random or a
 # controlled voltage 20 % and more.
@@ -42,7 +45,7 @@ class HoldOut(ABC):
 
     problem: Problem  # of these recordings, without effects
     scored_blocks: TimeBlocks  # which count in the gap
-    swing: float = inf  # of the command in all blocks, where none could be held out
+    confirms: bool = True  # there is more than a step
     seen: ClassVar[bool] = False  # whether the fit has seen what counts
 
     @abstractmethod
@@ -67,7 +70,7 @@ class HoldOut(ABC):
         scored = tuple(block & ~instant for block, instant in zip(counted, instants, strict=True))
         miscounted = int(sum(marks.sum() for marks in bad))
         motion = here.problem.recordings, intervals, here.angles
-        return HeldOut(*motion, here.parameters, scored, miscounted, instants, self.seen, self.swing)
+        return HeldOut(*motion, here.parameters, scored, miscounted, instants, self.seen, self.confirms)
 
     def correct_directions(self: Self, fitted: Estimate) -> Self:
         """Read the held-out recordings again, with directions by the motion of a fitted motor."""
@@ -138,7 +141,8 @@ def make_hold_out(
         held, every = measure_held_swing(problem, blocks)
         if held >= max(LEAST_SWING, LEAST_SWING_SHARE * every / blocks.every):
             return BlocksOfSame(problem, blocks)
-    return WholeRecordings(problem, TimeBlocks(1), every)
+    several = every >= LEAST_SWING or count_levels(recordings) >= LEAST_LEVELS
+    return WholeRecordings(problem, TimeBlocks(1), several)
 
 
 def measure_held_swing(problem: Problem, blocks: TimeBlocks) -> tuple[float, float]:

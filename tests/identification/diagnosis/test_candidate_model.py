@@ -26,7 +26,7 @@ def test_a_models_noise_is_that_of_its_training_data() -> None:
 
 def test_where_nothing_is_held_out_all_motion_counts_once_less_the_price_of_the_unknowns() -> None:
     estimate, _ = fitted()
-    whole = WholeRecordings(estimate.problem, TimeBlocks(1), 2.0)
+    whole = WholeRecordings(estimate.problem, TimeBlocks(1), False)
     model = validate_model(whole, estimate)
     assert model.held.seen and model.training == 0.0 and model.held.counted.mean() > 0.99
     assert model.likelihood == pytest.approx(model.held.log_likelihood(model.noise) - compute_price(estimate), abs=1.0)

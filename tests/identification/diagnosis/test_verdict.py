@@ -44,16 +44,16 @@ def test_how_it_ended(
 
 
 @pytest.mark.parametrize(
-    ("swing", "verdict", "profile"), [(2.9, Verdict.UNDECIDED, "ramps"), (3.0, Verdict.EXPLAINED, "")]
+    ("confirms", "verdict", "profile"), [(False, Verdict.UNDECIDED, "ramps"), (True, Verdict.EXPLAINED, "")]
 )
-def test_one_response_explains_nothing(swing: float, verdict: Verdict, profile: str) -> None:
+def test_one_response_explains_nothing(confirms: bool, verdict: Verdict, profile: str) -> None:
     model = stub_model(AT, 0.0)
-    model = replace(model, held=replace(model.held, swing=swing))
+    model = replace(model, held=replace(model.held, confirms=confirms))
     assert decide((finding(),), model, ()) == (verdict, profile)
     assert decide((), model, ()) == (Verdict.NOTHING_MISSING, "")
     more = stub_model(OVER, 0.0)
-    left = decide((), replace(more, held=replace(more.held, swing=swing)), ())
-    assert left == ((Verdict.UNDECIDED, "rich") if swing < 3.0 else (Verdict.UNEXPLAINED, ""))
+    left = decide((), replace(more, held=replace(more.held, confirms=confirms)), ())
+    assert left == ((Verdict.UNDECIDED, "rich") if not confirms else (Verdict.UNEXPLAINED, ""))
 
 
 @pytest.mark.parametrize("gap", [AT, OVER])

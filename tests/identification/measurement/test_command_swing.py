@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from plant import profiles, record
 
-from motor_identification.measurement.command_swing import PLAY, measure_swings
+from motor_identification.measurement.command_swing import LEVEL_SAMPLES, PLAY, count_levels, measure_swings
 from motor_identification.recording import Floats, check
 
 
@@ -36,3 +36,10 @@ def test_what_moves_to_and_fro_within_the_play_does_not(share: float, moves: boo
 def test_no_voltage_swings_by_nothing() -> None:
     driven, _ = record({"kv": 0.07, "ka": 0.006}, *profiles.pieces([0.0], 1.0), seed=1, name="at rest")
     assert not measure_swings(driven).any()
+
+
+@pytest.mark.parametrize(("samples", "levels"), [(LEVEL_SAMPLES - 1, 1), (LEVEL_SAMPLES, 2)])
+def test_a_level_has_some_samples(samples: int, levels: int) -> None:
+    volts = np.concatenate([np.zeros(50), np.full(100, 8.0), np.full(samples, -4.0)])
+    driven, _ = record({"kv": 0.07, "ka": 0.006}, 0.005 * np.arange(len(volts)), volts, seed=1, name="driven")
+    assert count_levels([driven]) == count_levels([driven, driven.at_rows(np.arange(100))]) == levels

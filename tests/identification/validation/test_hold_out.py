@@ -13,8 +13,8 @@ from motor_identification.estimation.problem import make_problem
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.noise.likelihood import Noise
 from motor_identification.recording import Recording, check
-from motor_identification.validation.held_out import LEAST_SWING
 from motor_identification.validation.hold_out import (
+    LEAST_SWING,
     BlocksOfSame,
     HoldOut,
     OtherRecordings,
@@ -157,11 +157,17 @@ def test_where_nothing_is_held_out_all_is_fitted_and_counts() -> None:
     assert hold_out.restrict(problem) is problem
     held = hold_out.validate(Estimate(problem, THETA))
     assert held.counted.all() and held.seen and not held.confirms
-    assert (
-        make_hold_out([STEP, STEP], [])
-        .validate(Estimate(make_problem([STEP] * 2, ("coulomb_friction",)), THETA))
-        .confirms
-    )
+
+
+@pytest.mark.parametrize(
+    ("recordings", "confirms"),
+    [([STEP], False), ([STEP, STEP], True), ([drive(0.0, 8.0, 8.0, 5.0, 5.0)], False), ([drive(8.0, 5.0, 3.0)], True)],
+    ids=["step", "two", "two levels", "three levels"],
+)
+def test_more_than_a_step_confirms(recordings: list[Recording], confirms: bool) -> None:
+    hold_out = make_hold_out(recordings, [])
+    problem = make_problem(recordings, ("coulomb_friction",))
+    assert hold_out.seen and hold_out.validate(Estimate(problem, THETA)).confirms == confirms
 
 
 def test_small_recordings_have_blocks_too() -> None:
