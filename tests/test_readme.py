@@ -114,8 +114,8 @@ def test_what_the_readme_says_of_simulated_motors_is_what_the_pages_have() -> No
     )
     assert foreign is not None
     every, right, part, silent, wrong = map(int, foreign.groups())
-    assert (every, wrong) == (60, 1)  # "sixty", "one"
-    assert f"{right} were right, {part + silent} told less than all and one\ntold a wrong name" in README
+    assert (every, wrong) == (60, 0)  # "sixty", "none"
+    assert f"{right} were right, {part + silent} told less than all and none\ntold a wrong name" in README
 
 
 def test_every_command_belongs_to_a_part() -> None:

@@ -20,14 +20,15 @@ Heard = Callable[[CandidateTest], None]  # told of each test as it is done
 def list_candidates(effects: Sequence[str], seen: bool = False) -> list[str]:
     """List the effects a model can be given next: what it does not have, whose own condition it has.
 
-    seen: whether it is judged by what it was fitted to; then nothing that happens once, which some instant fits.
+    seen: whether it is judged by what it was fitted to; then nothing that happens once or repeats with the angle, for
+    which some instant or line is found in any motion.
     """
     return [
         effect.name
         for effect in EFFECT_BY_NAME.values()
         if effect.name not in effects
         and effect.fitted
-        and not (effect.anywhere and seen)
+        and not (seen and (effect.anywhere or effect.periodic))
         and (effect.implies is None or effect.implies in effects)
     ]
 

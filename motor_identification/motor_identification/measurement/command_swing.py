@@ -8,7 +8,8 @@ from motor_identification.recording import Floats, Recording
 from motor_model.compiled import compiled
 
 PLAY = 0.05  # of the largest voltage: what a measured supply, or a controller that holds a speed, moves to and fro
-LEVELS, LEVEL_SAMPLES = 10, 3  # up to the largest voltage; samples at one that is no chance
+LEVELS = 5  # up to the largest voltage; what a controller does around a speed is within one or two of them
+LEVEL_SHARE = 0.05  # of the samples, at a level where a recording stays; what it passes on the way is none
 
 
 def measure_swings(recording: Recording) -> Floats:
@@ -26,10 +27,10 @@ def measure_swings(recording: Recording) -> Floats:
 
 
 def count_levels(recordings: Sequence[Recording]) -> int:
-    """Count the levels, tenths of the largest voltage, at which recordings of one motor have some samples; not 0 V."""
+    """Count the levels, fifths of the largest voltage, at which recordings of one motor stay; 0 V is none."""
     volts = np.concatenate([recording.voltage for recording in recordings])
     levels, counts = np.unique(np.rint(LEVELS * volts / np.abs(volts).max()), return_counts=True)
-    return int(np.count_nonzero((levels != 0.0) & (counts >= LEVEL_SAMPLES)))
+    return int(np.count_nonzero((levels != 0.0) & (counts >= LEVEL_SHARE * len(volts))))
 
 
 @compiled

@@ -28,7 +28,7 @@ MOST_LEFT_OUT = 0.25
 # How much a command swings where a motor can be judged by its responses: a step up, down and up again.
 LEAST_SWING = 3.0
 # Levels of the command, or as much swing, from which on a recording is more than a step.
-LEAST_LEVELS = 3
+LEAST_LEVELS = 4
 # Of how much the command would swing in held-out blocks by chance, at least. Measured: of up to 9 times its largest
 # voltage, real logs of one to twenty steps have 0 to 0.4 in every fourth of the usual blocks, those of a random or a
 # controlled voltage 20 % and more.
