@@ -170,9 +170,12 @@ def estimate_slot_variance(table: SlotTable, white: Floats, guess: float, most: 
     """Estimate the variance σ² [rad²] of the seen slots' offsets, by expectation maximisation on white residuals (I,).
 
     It stays below `most` [rad²]: what is beyond any real disc is an error of the model, and shall not pass for noise.
+    Where no slot is seen, as in a few edges of which none follow each other, the guess is all there is.
     """
-    solver, scores = table.solver, table.scores(white)
     count = np.count_nonzero(table.seen)
+    if count == 0:
+        return guess
+    solver, scores = table.solver, table.scores(white)
     variance, coordinates = guess, None
     for _ in range(rounds):
         coordinates = solver.coordinates(scores, variance, coordinates)

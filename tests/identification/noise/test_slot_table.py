@@ -1,5 +1,8 @@
 """Irregular slots: the table is found through reversals, and with it the motor as if the disc were perfect."""
 
+from types import SimpleNamespace
+from typing import cast
+
 import numpy as np
 import pytest
 from plant import profiles, record
@@ -170,6 +173,12 @@ def test_the_flanks_variance_is_that_of_expectation_maximisation() -> None:
     assert estimate_slot_variance(table, white, 0.1 * SIGMA**2, 1.0, 6) == pytest.approx(variance, rel=1e-9)
     assert 0.1 * SIGMA**2 < variance < 4.0 * SIGMA**2
     assert estimate_slot_variance(table, white, 0.1 * SIGMA**2, 0.5 * variance, 6) == 0.5 * variance
+
+
+def test_where_no_flank_is_seen_the_guess_is_all_there_is() -> None:
+    """As in a phase that is tried on a few edges of which none follow each other."""
+    table = cast(SlotTable, SimpleNamespace(seen=np.zeros(2 * SLOTS)))
+    assert estimate_slot_variance(table, np.zeros(5), 3e-6, 1.0, 40) == 3e-6
 
 
 def test_a_disc_of_a_thousand_slots_in_a_second_that_shows_a_third_of_them() -> None:
