@@ -31,7 +31,7 @@ RESULTS = Path(__file__).with_name("results")
 DATA = Path(os.environ.get("MOTOR_LOGS", Path(__file__).resolve().parents[1] / "tests" / "data"))
 MOUSE = "--supply-voltage 7.9 --unit rpm"
 EV3 = "--supply-voltage 7.4 --rest-until 0"
-HEAD = ("log", "verdict", "named", "model", "disturbance", "floors [rad/s]", "held-out gap [rad/s]", "known of the rig")
+HEAD = ("log", "verdict", "named", "model", "disturbance", "floors [rad/s]", "gap [rad/s]", "known of the rig")
 
 
 @dataclass(frozen=True)
@@ -120,7 +120,7 @@ def row_of(case: Case, found: Diagnosis, known: str) -> str:
         strength = format_measured(found.disturbance.rms_voltage, found.disturbance.rms_error, "V")
         torque = f"{strength}, {format_measured(found.disturbance.correlation_time, found.disturbance.time_error, 's')}"
     floors = f"sensor {found.sensor_floor:.3g}, with disturbance {found.noise_floor:.3g}"
-    gap = f"{found.gap_before:.3g} → {found.gap_after:.3g}"
+    gap = f"{found.gap_before:.3g} → {found.gap_after:.3g}, {'fitted' if found.after.seen else 'held out'}"
     return " | ".join(
         (
             f"| {case.title}",

@@ -33,7 +33,8 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
         reporter.keep(selection)
         selection, tests = verify_findings(selection, _try_all_effects(selection, reporter))
         best = choose_finding(tests)
-        if len(selection.steps) >= thresholds.MOST_FINDINGS:
+        most = thresholds.MOST_FINDINGS if selection.model.held.confirms else thresholds.MOST_OF_ONE_RESPONSE
+        if len(selection.steps) >= most:
             return selection
         if best is not None:
             step = SelectionStep(selection.model, best, tuple(tests), find_rivals(best, tests), best.explains)
@@ -68,8 +69,12 @@ def verify_findings(selection: Selection, tests: list[CandidateTest]) -> tuple[S
 
 
 def may_hide_pair(selection: Selection) -> bool:
-    """Decide whether a gap is left in which two effects may hide each other, and not too much was found before."""
-    return len(selection.steps) < thresholds.PAIR_MOST_STEPS and not selection.model.complete
+    """Decide whether a gap is left in which two effects may hide each other, and not too much was found before.
+
+    One response tells no two.
+    """
+    model = selection.model
+    return len(selection.steps) < thresholds.PAIR_MOST_STEPS and not model.complete and model.held.confirms
 
 
 def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[CandidateTest]:

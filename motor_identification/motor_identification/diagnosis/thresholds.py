@@ -94,6 +94,9 @@ HOLDING_VOLTAGE = 0.01
 
 # How far is searched?
 MOST_FINDINGS = 6  # twice as many as any motor had that was measured
+# Of a step alone, or a response as short: a second effect only bends the first one's curve. Measured: drag of a motor
+# that had friction and a delay, coasting of one on a braking bridge.
+MOST_OF_ONE_RESPONSE = 1
 # Times the floor, of the middle half's scatter: where most intervals are as near, a few miscounted ones may be all that
 # is wrong. A gap of 1.3 is explained, and twice that again is left to the tails of what is half left out.
 MISCOUNTED_GAP = 3.0

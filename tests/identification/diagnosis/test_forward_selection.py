@@ -128,6 +128,16 @@ def test_no_more_findings_than_the_most(monkeypatch: pytest.MonkeyPatch) -> None
     assert len(select_forward(selection_of(stub_model(100.0)), SILENT).steps) == 4
 
 
+def test_one_response_tells_one_effect(monkeypatch: pytest.MonkeyPatch) -> None:
+    Fake(monkeypatch, [100.0 * 0.5**k for k in range(1, 5)])
+    start = stub_model(100.0)
+    once = replace(start, held=replace(start.held, seen=True, confirms=False))
+    assert may_hide_pair(selection_of(start)) and not may_hide_pair(selection_of(once))
+    assert len(select_forward(selection_of(start), SILENT).steps) > thresholds.MOST_OF_ONE_RESPONSE == 1
+    monkeypatch.setattr(thresholds, "MOST_FINDINGS", 0)  # of the stub that follows, which is more than a response
+    assert len(select_forward(selection_of(once), SILENT).steps) == 1
+
+
 def test_nothing_begins_anew_without_a_step_or_at_the_floor() -> None:
     nothing = selection_of(stub_model(9.0))
     assert retry_with_another_first(nothing, SILENT) is nothing
