@@ -37,7 +37,8 @@ def drop_stand_ins(selection: Selection) -> Selection:
     """
     if selection.model.complete:
         return selection
-    apart, past = leaves_another_variable(selection.model), leaves_past(selection.model)
+    apart = leaves_mostly(selection.model, REPEATING)
+    past = leaves_mostly(selection.model, (PAST, *REPEATING), thresholds.MINOR_SHARE)
     for i, step in enumerate(selection.steps):
         effect = EFFECT_BY_NAME[step.found.effect]
         answers = (apart and not effect.anywhere) or (past and effect.holds)
@@ -47,21 +48,12 @@ def drop_stand_ins(selection: Selection) -> Selection:
     return selection
 
 
-def leaves_another_variable(model: Model) -> bool:
-    """Decide whether all that can be predicted of what is left goes with the angle or the time alone."""
-    certain = [one.variable for one in model.structure if one.certain]
-    return bool(certain) and all(name in REPEATING for name in certain)
-
-
-def leaves_past(model: Model) -> bool:
-    """Decide whether what can be predicted of what is left goes with the past, or the angle or the time, for the most.
-
-    A curve over speed, voltage or drive predicts a small part of what any unmodelled lag leaves.
-    """
+def leaves_mostly(model: Model, variables: Sequence[str], minor: float = 0.0) -> bool:
+    """Decide whether what can be predicted of what is left goes with some variables, but for a minor share of that."""
     certain = [one for one in model.structure if one.certain]
-    own = [one.share for one in certain if one.variable in (PAST, *REPEATING)]
-    others = [one.share for one in certain if one.variable not in (PAST, *REPEATING)]
-    return bool(own) and max(others, default=0.0) < thresholds.MINOR_SHARE * max(own)
+    own = [one.share for one in certain if one.variable in variables]
+    others = [one.share for one in certain if one.variable not in variables]
+    return bool(own) and max(others, default=0.0) <= minor * max(own)
 
 
 def _is_own_evidence(selection: Selection, number: int) -> bool:

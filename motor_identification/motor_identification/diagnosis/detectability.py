@@ -18,15 +18,14 @@ def find_undetectable(model: Model) -> tuple[str, ...]:
     """
     problem, theta = model.estimate.problem, model.estimate.theta
     columns, without = problem.jacobian(theta), problem.residuals(theta)
-    hidden = []
+    hidden, judged = [], list_candidates(model.effects, model.held.seen)
     for effect in list_candidates(model.effects):
         if EFFECT_BY_NAME[effect].periodic:
             continue
         larger = add_noticeable_effect(model.estimate, effect)
         trace = larger.problem.residuals(larger.theta) - without
         left = remove_imitation(columns, trace, problem.weight)
-        untold = EFFECT_BY_NAME[effect].anywhere and model.held.seen
-        if untold or _expect_evidence(model, left) < likelihood_threshold():
+        if effect not in judged or _expect_evidence(model, left) < likelihood_threshold():
             hidden.append(effect)
     return tuple(hidden)
 

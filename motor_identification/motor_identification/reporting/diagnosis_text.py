@@ -68,14 +68,10 @@ def _describe_gap(diagnosis: Diagnosis) -> str:
     return f"the {_name_gap(diagnosis)} is {diagnosis.gap_after:.3g} rad/s, {compare_with_floor(diagnosis)}"
 
 
-def _describe_found(findings: tuple[Finding, ...]) -> str:
+def _describe_found(findings: tuple[Finding, ...], sure: bool = True) -> str:
     each = [f"{effect_name(one.effect)} ({format_parameters(one)})" for one in findings]
-    return capitalize(join_names(each) + (" was missing" if len(each) == 1 else " were missing"))
-
-
-def _describe_possible(findings: tuple[Finding, ...]) -> str:
-    each = [f"{effect_name(one.effect)} ({format_parameters(one)})" for one in findings]
-    return f"{capitalize(join_names(each))} may be missing"
+    were = " was missing" if len(each) == 1 else " were missing"
+    return capitalize(join_names(each) + (were if sure else " may be missing"))
 
 
 def format_parameters(finding: Finding) -> str:
@@ -133,7 +129,7 @@ def _describe_findings(diagnosis: Diagnosis) -> str:
     """Say what is missing, and what this recording cannot distinguish."""
     clear = tuple(one for one in diagnosis.findings if not one.ambiguous_with)
     sure = diagnosis.after.confirms
-    parts = [f"{_describe_found(clear) if sure else _describe_possible(clear)}."] if clear else []
+    parts = [f"{_describe_found(clear, sure)}."] if clear else []
     for one in diagnosis.findings:
         if one.ambiguous_with:
             names = join_names([effect_name(name) for name in (one.effect, *one.ambiguous_with)], "or")

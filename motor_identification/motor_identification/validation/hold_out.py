@@ -17,7 +17,7 @@ from motor_identification.estimation.miscounts import mark_miscounts
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.measurement.command_swing import count_levels, measure_swings
 from motor_identification.measurement.time_blocks import TimeBlocks
-from motor_identification.recording import Bools, Recording
+from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.instants import list_instants
 from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
@@ -136,20 +136,24 @@ def make_hold_out(
     if validation:
         return OtherRecordings(make_problem(validation, (), stopped=stopped), TimeBlocks(2))
     problem = make_problem(recordings, (), stopped=stopped)
+    swings = [measure_swings(recording) for recording in recordings]
+    every = sum(float(part.sum()) for part in swings)
     for stretch in STRETCHES:
         blocks = TimeBlocks(4, stretch)
-        held, every = measure_held_swing(problem, blocks)
+        held = sum_held_swing(problem, swings, blocks)
         if held >= max(LEAST_SWING, LEAST_SWING_SHARE * every / blocks.every):
             return BlocksOfSame(problem, blocks)
     several = every >= LEAST_SWING or count_levels(recordings) >= LEAST_LEVELS
     return WholeRecordings(problem, TimeBlocks(1), several)
 
 
-def measure_held_swing(problem: Problem, blocks: TimeBlocks) -> tuple[float, float]:
-    """Measure by how much the command swings in some blocks, and in all, each recording in units of its largest."""
-    held = every = 0.0
-    for number, (recording, data) in enumerate(zip(problem.recordings, problem.intervals, strict=True)):
-        swings = measure_swings(recording)
-        inside = blocks.find_times(recording.time, data, problem.sample_period, number)
-        held, every = held + float(swings[inside].sum()), every + float(swings.sum())
-    return held, every
+def sum_held_swing(problem: Problem, swings: Sequence[Floats], blocks: TimeBlocks) -> float:
+    """Sum up how much the command swings in some blocks of every recording.
+
+    swings: of its samples, in units of its largest voltage, shape (K,) each.
+    """
+    held = 0.0
+    rows = zip(problem.recordings, problem.intervals, swings, strict=True)
+    for number, (recording, data, own) in enumerate(rows):
+        held += float(own[blocks.find_times(recording.time, data, problem.sample_period, number)].sum())
+    return held

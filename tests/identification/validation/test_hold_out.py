@@ -10,6 +10,7 @@ from small import THETA, TRUE, small_recording
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
+from motor_identification.measurement.command_swing import measure_swings
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.noise.likelihood import Noise
 from motor_identification.recording import Recording, check
@@ -21,7 +22,7 @@ from motor_identification.validation.hold_out import (
     WholeRecordings,
     _leave_out_few,
     make_hold_out,
-    measure_held_swing,
+    sum_held_swing,
 )
 
 TRAINING = check(record(TRUE, *profiles.random(10.0, 10.0), seed=1, irregularity=0.005, name="training")[0])
@@ -147,7 +148,8 @@ STEP = drive(0.0, *[8.0] * 11)
 def test_nothing_is_held_out_where_the_command_hardly_swings_there(recordings: list[Recording], kind: type) -> None:
     hold_out = make_hold_out(recordings, [])
     assert type(hold_out) is kind and hold_out.seen == (kind is WholeRecordings)
-    held, every = measure_held_swing(hold_out.problem, hold_out.scored_blocks)
+    swings = [measure_swings(recording) for recording in recordings]
+    held, every = sum_held_swing(hold_out.problem, swings, hold_out.scored_blocks), sum(map(np.sum, swings))
     assert held == pytest.approx(every) if hold_out.seen else LEAST_SWING <= held < 0.5 * every
 
 
