@@ -7,6 +7,7 @@ from motor_board.parameters import FAULTS, SET_UP
 from motor_control.parameters import ROWS as CONTROL
 from motor_driver.parameters import ROWS as DRIVER
 from motor_examples.diff_drive.parameters import ROWS as DIFF_DRIVE
+from motor_identification.live.monitor_parameters import PARAMETERS as MONITOR
 from motor_identification.service.parameters import PARAMETERS as IDENTIFICATION
 from motor_ros.parameters import SHARED_PARAMETERS, Row, max_voltage_row
 from motor_sim.parameters import PARAMETERS as SIM
@@ -40,7 +41,10 @@ FILES: dict[str, tuple[str, dict[str, tuple[Row, ...]]]] = {
     ),
     "control.yaml": ("The speed controller.", {"/**/motor_control": tuple(CONTROL)}),
     "robot.yaml": ("The differential drive of motor_examples.", {"/**/diff_drive": tuple(DIFF_DRIVE)}),
-    "identification.yaml": ("The node that fits models to bags.", {"/**/motor_identification": tuple(IDENTIFICATION)}),
+    "identification.yaml": (
+        "The node that fits models to bags, and the one that compares a running motor with its model.",
+        {"/**/motor_identification": tuple(IDENTIFICATION), "/**/monitor": tuple(MONITOR)},
+    ),
 }
 
 

@@ -12,6 +12,7 @@ from motor_board.parameters import PROGRAM as BOARD
 from motor_control.parameters import PROGRAM as CONTROL
 from motor_driver.parameters import PROGRAM as DRIVER
 from motor_examples.diff_drive.parameters import PROGRAM as DIFF_DRIVE
+from motor_identification.live.monitor_parameters import PROGRAM as MONITOR
 from motor_identification.service.parameters import PROGRAM as IDENTIFICATION
 from motor_ros.program import Program
 from motor_ros.topics import SERVICES, TOPICS
@@ -25,7 +26,7 @@ OF_PARAMETERS = (
     "describe_parameters", "get_parameter_types", "get_parameters", "list_parameters", "set_parameters",
     "set_parameters_atomically", "get_type_description",
 )  # fmt: skip
-NODES = ("motor_sim", "motor_driver", "motor_control", "motor_identification", "diff_drive")
+NODES = ("motor_sim", "motor_driver", "motor_control", "motor_identification", "monitor", "diff_drive")
 HEAD = """\
 <?xml version="1.0" encoding="UTF-8"?>
 <!-- Who may say and hear what, by role; everything else is denied. Written by docs/make_policy.py.
@@ -64,6 +65,7 @@ ROLES = (
     of_program("/motor/plant", BOARD),
     of_program("/motor/control", CONTROL),
     of_program("/motor/identification", IDENTIFICATION),
+    of_program("/motor/monitor", MONITOR),
     replace(
         of_program("/motor/robot", DIFF_DRIVE),
         requests=(*DIFF_DRIVE.requests, *(f"{side}/motor_control/get_parameters" for side in ("left", "right"))),

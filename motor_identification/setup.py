@@ -38,6 +38,7 @@ setup(
             "experiment = motor_identification.cli.experiment:main",
             "record = motor_identification.cli.record:main",
             "play = motor_identification.cli.play:main",
+            "monitor = motor_identification.live.monitor_node:main",
             "import_csv = motor_identification.cli.import_csv:main",
             "inspect = motor_identification.cli.inspect:main",
             "import_log = motor_identification.cli.import_log:main",

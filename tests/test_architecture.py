@@ -59,7 +59,7 @@ ROOMS = {
     ),
     "motor_identification": (
         "recording progress experiment bag sensor measurement noise estimation periodic uncertainty physical "
-        "validation discrepancy diagnosis identify diagnose reporting logs mapping service live cli"
+        "validation discrepancy diagnosis identify diagnose reporting logs mapping monitoring service live cli"
     ),
 }
 MOST_MODULES = 15  # in one folder of a package

@@ -64,6 +64,18 @@ def load_errors(path: str | Path) -> dict[str, float]:
     return {name: nan if error is None else _number(name, error) for name, error in errors.items()}
 
 
+def load_residual_rms(path: str | Path) -> float:
+    """Read how far [rad/s] an identified motor was from the motion it was fitted to; NaN where a file does not say.
+
+    Raises:
+        ModelError: as `load`.
+    """
+    load(path)
+    origin = yaml_file.read(path).get("origin")
+    residual = origin.get("residual_rms") if isinstance(origin, Mapping) else None
+    return nan if residual is None else _number("residual_rms", residual)
+
+
 def _parameters(content: Any, default_name: str) -> Parameters:
     if not isinstance(content, Mapping) or not isinstance(content.get("parameters"), Mapping):
         raise ModelError("a model file has 'effects' and 'parameters'; write one with 'identify --output model.yaml'.")

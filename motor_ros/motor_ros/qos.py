@@ -19,6 +19,7 @@ COMMANDS = _reliable(10)  # of motor/voltage, at the plant: a second sender does
 REFERENCE = _reliable(1)
 CONTROL_STATE = _reliable(100)
 MODEL = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
+HEALTH = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
 JOINT_STATES = _reliable(10)
 DIAGNOSTICS = _reliable(10)
 ODOMETRY = _reliable(10)

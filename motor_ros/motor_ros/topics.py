@@ -50,6 +50,7 @@ TOPICS = (
     ),
     Topic("motor/control_state", "motor_msgs/msg/ControlState", qos.CONTROL_STATE, "controller → all, every sample"),
     Topic("motor/model", "motor_msgs/msg/MotorModel", qos.MODEL, "identification → all, after each success"),
+    Topic("motor/health", "motor_msgs/msg/MotorHealth", qos.HEALTH, "monitor → all, every half window"),
     Topic("joint_states", "sensor_msgs/msg/JointState", qos.JOINT_STATES, "plant → all, every sample"),
     Topic("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", qos.DIAGNOSTICS, "plant, controller → all, 1 Hz"),
 )

@@ -9,7 +9,7 @@ import numpy as np
 
 from motor_identification.bag.cdr import INFO_TYPE, ROW, SPEED_TYPE, Rows, SpeedDecoder, Undecodable, decode_info
 from motor_identification.bag.definition import installed
-from motor_identification.bag.storage import Bag, tell_damage
+from motor_identification.bag.storage import Bag, Messages, tell_damage
 from motor_identification.bag.topic import Topic, absolute_name
 from motor_identification.recording import Recording, check
 from motor_model.errors import RecordingError
@@ -34,7 +34,15 @@ def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.
     Raises:
         RecordingError: no such bag, no bag, an empty one, one without this motor, one that identification cannot use.
     """
-    bag = Bag(uri)
+    return check(read_motor(Bag(uri), topic_namespace).between(start, stop))
+
+
+def read_motor(bag: Messages, topic_namespace: str) -> Recording:
+    """Read the same out of messages, wherever they are; not checked.
+
+    Raises:
+        RecordingError: none is of this motor, or they cannot be understood.
+    """
     rows, infos, info_topic = _motor(bag, topic_namespace)
     notes: list[str] = []
     only = _only_namespace(bag)
@@ -47,18 +55,20 @@ def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.
     notes = [*repeats, *notes]
     if bag.cut:
         span = float(kept["sample_time"][-1] - kept["sample_time"][0]) * 1e-9
-        notes = [f"{uri} is cut off: {len(kept)} samples, {span:.2f} s up to the cut.", *notes]
-    if damage := tell_damage(bag, str(uri)):
+        notes = [f"{bag.uri} is cut off: {len(kept)} samples, {span:.2f} s up to the cut.", *notes]
+    if damage := tell_damage(bag, bag.uri):
         notes.append(damage)
     if bag.garbled:
-        notes.append(f"{uri}: {bag.garbled} messages are garbled and were left out.")
+        notes.append(f"{bag.uri}: {bag.garbled} messages are garbled and were left out.")
     if bag.missing:
-        notes.append(f"{uri} lacks {', '.join(bag.missing)}, which its metadata.yaml lists: those samples are missing.")
+        notes.append(
+            f"{bag.uri} lacks {', '.join(bag.missing)}, which its metadata.yaml lists: those samples are missing."
+        )
     info = _info(infos, kept, info_topic, bag.uri, notes)
-    return check(_recording(bag.uri, info, kept, tuple(notes)).between(start, stop))
+    return _recording(bag.uri, info, kept, tuple(notes))
 
 
-def _motor(bag: Bag, namespace: str) -> tuple[Rows, list[Info], str]:
+def _motor(bag: Messages, namespace: str) -> tuple[Rows, list[Info], str]:
     """Samples and infos of the motor in a namespace, and the name of its info's topic."""
     info_topic = absolute_name(namespace, _INFO)
     try:
@@ -69,7 +79,7 @@ def _motor(bag: Bag, namespace: str) -> tuple[Rows, list[Info], str]:
         ) from error
 
 
-def _read(bag: Bag, speed_topic: str, info_topic: str) -> tuple[Rows, list[Info]]:
+def _read(bag: Messages, speed_topic: str, info_topic: str) -> tuple[Rows, list[Info]]:
     """All samples, and all different infos in the order of their latest appearance."""
     batches: list[Rows] = []
     pending: list[bytes] = []
@@ -93,7 +103,7 @@ def _read(bag: Bag, speed_topic: str, info_topic: str) -> tuple[Rows, list[Info]
     return (np.concatenate(batches) if batches else np.zeros(0, ROW)), list(infos)
 
 
-def _decoded(decoder: SpeedDecoder, pending: list[bytes], bag: Bag) -> Rows:
+def _decoded(decoder: SpeedDecoder, pending: list[bytes], bag: Messages) -> Rows:
     rows = decoder.rows(pending)
     bag.garbled += len(pending) - len(rows)
     return rows
@@ -121,7 +131,7 @@ def _definition(topic: Topic) -> str:
     return topic.definition or installed(topic.type_name).text
 
 
-def _nothing(bag: Bag, speed_topic: str) -> RecordingError:
+def _nothing(bag: Messages, speed_topic: str) -> RecordingError:
     """Why there is no sample, and what to do."""
     if bag.damaged and speed_topic not in bag.topics:
         return RecordingError(f"{bag.uri} is damaged before the first sample on {speed_topic}: restore it from a copy.")
@@ -140,7 +150,7 @@ def _namespaces(topics: Iterable[Topic]) -> list[str]:
     return sorted(topic.name[: -len(suffix)] or "/" for topic in topics if topic.name.endswith(suffix))
 
 
-def _only_namespace(bag: Bag) -> str:
+def _only_namespace(bag: Messages) -> str:
     """The namespace of the only motor in a bag that has been read; empty where there are several, or none."""
     there = _namespaces(bag.topics.values())
     return there[0] if len(there) == 1 else ""

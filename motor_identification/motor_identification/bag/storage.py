@@ -44,6 +44,21 @@ class _File(Protocol):
 _FORMATS: dict[str, Callable[[Path], _File]] = {".mcap": McapFile, ".db3": SqliteFile}
 
 
+class Messages(Protocol):
+    """What messages are read from: a bag, or what was just heard; see `Bag`."""
+
+    uri: str
+    cut: bool
+    damaged: int
+    lost: int
+    garbled: int
+    topics: dict[str, Topic]
+    missing: list[str]
+
+    def messages(self, wanted: Container[str] | None = None) -> Iterator[Stored]:
+        """Messages of the wanted topics (None: of all)."""
+
+
 class Bag:
     """A rosbag2 directory (with or without its metadata.yaml) or a single storage file.
 
@@ -98,7 +113,7 @@ class Bag:
         return False
 
 
-def tell_damage(bag: Bag, uri: str, done: str = "used") -> str:
+def tell_damage(bag: Messages, uri: str, done: str = "used") -> str:
     """What a bag that was read has lost, and what was done with the rest; empty where nothing is."""
     if not (bag.damaged or bag.lost):
         return ""

@@ -30,6 +30,7 @@ def parser() -> CommandParser:
     )
     parser.add_argument("bag", metavar="BAG", help="where the bag goes; must not exist")
     parser.add_argument("topics", metavar="TOPIC", nargs="*", help="relative names are in --topic-namespace")
+    parser.add_argument("--mapping", metavar="FILE", help="the topics of another robot's motor, as `inspect` writes it")
     parser.add_argument("--all", action="store_true", help="every topic that there is or will be")
     parser.add_argument(
         "--topic-namespace", default="", metavar="NS", help="the namespace of the motor (default: none)"
@@ -44,6 +45,8 @@ def main(args: list[str] | None = None) -> int:
     options = parser().parse_args(args)
     if options.all and options.topics:
         parser().error("--all and TOPIC do not go together")
+    if options.mapping and (options.all or options.topics):
+        parser().error("--mapping names the topics: it goes together neither with TOPIC nor with --all")
     return shell(lambda: _record(options))
 
 
@@ -52,6 +55,10 @@ def _record(options: argparse.Namespace) -> int:
     from motor_ros.run import Interrupt
 
     known = {absolute_name(options.topic_namespace, topic.name): topic for topic in TOPICS}
+    if options.mapping:
+        from motor_identification.mapping import load_mapping
+
+        options.topics = list(load_mapping(options.mapping).topics)
     named = [absolute_name(options.topic_namespace, name) for name in options.topics]
     topics = None if options.all else named or list(known)
     expected = {name: (topic.type_name, topic.qos) for name, topic in known.items() if name in (topics or known)}

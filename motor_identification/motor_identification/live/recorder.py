@@ -6,13 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from operator import itemgetter
 from types import MappingProxyType
+from typing import Protocol
 
 from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 
-from motor_identification.bag import FLUSH_EVERY, BagWriter
+from motor_identification.bag import FLUSH_EVERY, Qos
 from motor_identification.live.qos_profiles import DEPTH, offered, to_hear
 from motor_model.errors import RecordingError
 from motor_model.printable import escape
@@ -20,6 +21,21 @@ from motor_ros.interface_types import NotInstalled, load_message
 
 LOOK_EVERY = 0.2  # [s] how long a topic that appears later may go unheard
 DRAIN_EVERY = 0.02  # [s] how long a message waits in DDS, which stamps it and has room for a thousand
+
+
+class Sink(Protocol):
+    """Where messages go, such as a bag."""
+
+    counts: Counter[str]  # messages by topic
+
+    def topic(self, name: str, type_name: str, qos: tuple[Qos, ...]) -> int:
+        """Open a channel for a topic, or find the one there is."""
+
+    def write(self, channel: int, log_time: int, data: bytes, publish_time: int | None = None) -> None:
+        """Take a serialised message: when it was received and sent [ns]."""
+
+    def flush(self) -> None:
+        """Make sure that what was taken is kept."""
 
 
 class _NotWaitedFor(CallbackGroup):
@@ -34,7 +50,7 @@ def _not_called(data: bytes) -> None:
 
 
 class Recorder:
-    """Writes every message on the topics to the bag from now until `close`; runs on the node's own executor.
+    """Hands every message on the topics to a bag, or another sink, until `close`; runs on the node's own executor.
 
     Topics need not exist yet. `topics` are absolute names; None is every topic that is not hidden. `expected` has the
     type and QoS of topics whose first message must not be missed, such as one that is published once by a program that
@@ -47,7 +63,7 @@ class Recorder:
     def __init__(
         self,
         node: Node,
-        writer: BagWriter,
+        writer: Sink,
         topics: Sequence[str] | None,
         expected: Mapping[str, tuple[str, QoSProfile]] = MappingProxyType({}),
     ) -> None:

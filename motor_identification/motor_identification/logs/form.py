@@ -63,6 +63,7 @@ class CsvForm:
     direction: str | None = None  # column that says which way a drive without a sign goes
     backward: tuple[str, ...] = ()  # its values that mean backward
     increments: bool = False  # a row's counts are those since the row before
+    signs_as_they_are: bool = False  # else a motion against its voltage all the time is turned round
     label: str = ""  # of this motor, where a file has several
 
     @property

@@ -55,7 +55,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
             f"{form.motion} is in {form.unit}: say how many there are in a turn (--edges-per-revolution)."
         )
     signals, signs = give_signs(signals)
-    signals, turned = turn_round(signals, is_speed=True)
+    signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=True)
     values = signals.motion
     window = form.speed_window or info.sample_period
     lag = 0.5 * window if form.speed_lag is None else form.speed_lag
@@ -109,7 +109,7 @@ def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> Non
 
 def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     signals, wrapped = unwrap(signals, form)
-    signals, turned = turn_round(signals, is_speed=False)
+    signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=False)
     count = count_size(form, signals.motion, signals.voltage)
     largest = float(np.max(np.abs(signals.motion))) / count.size
     if not largest < LARGEST_COUNT:

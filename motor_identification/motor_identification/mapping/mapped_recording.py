@@ -1,11 +1,12 @@
 """A recording out of a bag of any robot, by a mapping."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from motor_identification.bag.fields import read_fields
+from motor_identification.bag.fields import Series, read_fields
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.log import Log, read_motor
@@ -46,11 +47,15 @@ def read_mapped(uri: str | Path, mapping: Mapping) -> Recording:
     Raises:
         RecordingError: the bag, a topic or a field is not there, or the numbers are those of no motor.
     """
-    log, notes = read_mapped_log(uri, mapping)
+    return take_longest(str(uri), *read_mapped_log(uri, mapping))
+
+
+def take_longest(name: str, log: Log, notes: tuple[str, ...]) -> Recording:
+    """Take the longest part of a log as a recording."""
     run = max(log.runs, key=lambda one: one.duration)
     if len(log.runs) > 1:
-        notes = (*notes, f"{uri} is in {len(log.runs)} parts: the longest is used, {run.duration:.4g} s.")
-    return recording_of(run.samples, log.info, str(uri), notes)
+        notes = (*notes, f"{name} is in {len(log.runs)} parts: the longest is used, {run.duration:.4g} s.")
+    return recording_of(run.samples, log.info, name, notes)
 
 
 def read_mapped_log(uri: str | Path, mapping: Mapping) -> tuple[Log, tuple[str, ...]]:
@@ -59,8 +64,21 @@ def read_mapped_log(uri: str | Path, mapping: Mapping) -> tuple[Log, tuple[str, 
     Raises:
         RecordingError: as above.
     """
-    origins = [mapping.voltage, mapping.motion, *([mapping.current] if mapping.current else [])]
-    voltage, motion, *current = read_fields(uri, [origin.path for origin in origins])
+    return make_mapped_log(str(uri), read_fields(uri, mapping.paths), mapping)
+
+
+def make_mapped_log(
+    name: str, fields: Sequence[Series], mapping: Mapping, signs_as_they_are: bool = False
+) -> tuple[Log, tuple[str, ...]]:
+    """Make a log of the fields at a mapping's `paths`, and what a user has to know of them.
+
+    A motion against its voltage is turned round, unless signs are to stay as they are: a motor that is watched may do
+    so because something broke.
+
+    Raises:
+        RecordingError: they do not overlap, or the numbers are those of no motor.
+    """
+    voltage, motion, *current = fields
     rows = align(voltage, motion, current[0] if current else None)
     cells = {
         "time": rows.time,
@@ -70,8 +88,9 @@ def read_mapped_log(uri: str | Path, mapping: Mapping) -> tuple[Log, tuple[str, 
     measured = mapping.current is not None and bool(np.all(np.isfinite(rows.current)))
     if measured:
         cells[str(mapping.current)] = rows.current
-    table = Table(Path(uri), np.arange(1, len(rows.time) + 1), cells)
-    log = read_motor(table, _form(mapping, str(mapping.current) if measured else None))
+    table = Table(Path(name), np.arange(1, len(rows.time) + 1), cells)
+    form = _form(mapping, str(mapping.current) if measured else None)
+    log = read_motor(table, replace(form, signs_as_they_are=signs_as_they_are))
     return log, (*rows.notes, *log.findings)
 
 

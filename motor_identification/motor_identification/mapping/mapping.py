@@ -50,6 +50,16 @@ class Mapping:
         if self.voltage.path == self.motion.path:
             raise RecordingError(f"{self.voltage.path} cannot be both voltage and {self.kind.value}: name two fields.")
 
+    @property
+    def paths(self) -> tuple[FieldPath, ...]:
+        """The fields it reads: voltage, motion and, where there is one, current."""
+        return tuple(one.path for one in (self.voltage, self.motion, self.current) if one is not None)
+
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """The topics that they are on, each once."""
+        return tuple(dict.fromkeys(path.topic for path in self.paths))
+
 
 def parse_origin(text: str, kind: Kind | None = None) -> Origin:
     """Read `TOPIC:FIELD[@UNIT][*SCALE]`, such as `/left/command:data*0.047` or `/wheel:speed@rpm`.

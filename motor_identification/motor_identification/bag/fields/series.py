@@ -1,6 +1,6 @@
 """The values of fields over the time of a bag."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -50,10 +50,23 @@ def read_fields(uri: str | Path, paths: Sequence[FieldPath]) -> list[Series]:
         RecordingError: no such bag, topic or field, or its messages cannot be understood.
     """
     bag = Bag(uri)
+    return collect_fields(bag.messages({path.topic for path in paths}), paths, bag.uri, bag.topics)
+
+
+def collect_fields(
+    messages: Iterable[tuple[Topic, int, bytes]], paths: Sequence[FieldPath], name: str, topics: Iterable[str]
+) -> list[Series]:
+    """Collect fields of messages: topic, when it was received [ns], serialised; from a bag or just heard.
+
+    name: what they are from; topics: which ones that has, asked for once all messages are read.
+
+    Raises:
+        RecordingError: no message on a topic, no such field, or the messages cannot be understood.
+    """
     rows: dict[FieldPath, list[Row]] = {path: [] for path in paths}
     last: dict[str, Any] = {}
     garbled: dict[str, int] = {}
-    for topic, received, data in bag.messages({path.topic for path in paths}):
+    for topic, received, data in messages:
         try:
             message = make_decoder(topic)(data)
         except Garbled:
@@ -64,7 +77,7 @@ def read_fields(uri: str | Path, paths: Sequence[FieldPath]) -> list[Series]:
             value = read_value(message, path.steps) if path.topic == topic.name else None
             if value is not None:
                 rows[path].append((received, stamp, value))
-    return [_series(bag, path, rows[path], last, garbled.get(path.topic, 0)) for path in paths]
+    return [_series(name, topics, path, rows[path], last, garbled.get(path.topic, 0)) for path in paths]
 
 
 def sample_topics(uri: str | Path, most: int) -> list[Sampled]:
@@ -91,10 +104,12 @@ def sample_topics(uri: str | Path, most: int) -> list[Sampled]:
     return sorted(sampled.values(), key=lambda one: one.topic.name)
 
 
-def _series(bag: Bag, path: FieldPath, rows: Sequence[Row], last: Mapping[str, Any], garbled: int) -> Series:
+def _series(
+    name: str, topics: Iterable[str], path: FieldPath, rows: Sequence[Row], last: Mapping[str, Any], garbled: int
+) -> Series:
     if not rows:
         raise RecordingError(
-            f"{bag.uri} has no number at {path}: {_instead(bag, path, last.get(path.topic), garbled)}."
+            f"{name} has no number at {path}: {_instead(topics, path, last.get(path.topic), garbled)}."
         )
     received, stamp = (np.array([row[k] for row in rows], np.int64) for k in (0, 1))
     values = np.array([value for _, _, value in rows], dtype=np.float64)
@@ -102,10 +117,10 @@ def _series(bag: Bag, path: FieldPath, rows: Sequence[Row], last: Mapping[str, A
     return Series(path, received, stamp if has_header else received, values, has_header, garbled)
 
 
-def _instead(bag: Bag, path: FieldPath, message: Any, garbled: int) -> str:
+def _instead(topics: Iterable[str], path: FieldPath, message: Any, garbled: int) -> str:
     """What there is instead."""
     if garbled and message is None:
         return f"none of the {garbled} messages on {path.topic} can be decoded"
     if message is None:
-        return f"it has the topics {', '.join(sorted(bag.topics)[:12]) or '(none)'}"
+        return f"it has the topics {', '.join(sorted(topics)[:12]) or '(none)'}"
     return f"{path.topic} has {', '.join(list_fields(message)[:12]) or 'no numbers'}"
