@@ -10,6 +10,7 @@ Whatever is in doubt, the robot stands:
 While it moves, the wheels are kept to what they should have turned by now: `travel_gain` times what a wheel is behind
 is added to its reference. So what a start or a stop has left, the next motion makes up for, and the robot goes straight
 although its motors differ. At rest nothing is added: friction would hold a wheel short of a slot's way, and let go.
+A velocity counts from when it comes, not from the next step: 20 ms at 45°/s are nearly a degree.
 
 After a trouble, velocities have to begin again, with 0 or after a silence as long as the timeout: who went on sending
 through it has not seen it.
@@ -85,7 +86,7 @@ class Decision:
 def take_command(config: Config, state: State, twist: Twist, now: float, age: float = 0.0) -> State:
     """Take a velocity that comes at `now` [s]; one that is not a number, or old by its stamp (age [s]), is a stop."""
     silence = state.commanded is None or now - state.commanded > config.cmd_vel_timeout > 0.0
-    state = replace(state, commanded=now)
+    state = replace(_advance(config, state, now), commanded=now)
     if not (isfinite(twist.linear) and isfinite(twist.angular)):
         return replace(state, command=None, trouble=NOT_A_NUMBER)
     if not abs(age) <= (config.cmd_vel_timeout or inf):
@@ -101,15 +102,11 @@ def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) 
     trouble = next(filter(None, (find_trouble(wheel, now, driven) for wheel in wheels)), "")
     if trouble:
         state = replace(state, command=None, trouble=trouble, twist=STILL)
-    state = _drop_stale(config, state, now)
-    dt = 0.0 if state.stepped is None else min(max(now - state.stepped, 0.0), LONGEST_STEP)
-    wanted = STILL if state.command is None else limit_twist(config.geometry, config.limits, state.command)
-    twist = approach_twist(config.limits, state.twist, wanted, dt)
-    state = _follow_travel(config, replace(state, stepped=now), twist, wheels, dt)
+    state = _follow_travel(_advance(config, _drop_stale(config, state, now), now), wheels)
     healthy, reason = not state.trouble, BEGIN.format(state.trouble) if state.trouble else state.reason
     if state.command is None and state.since is None:
         return Decision(None, False, reason, healthy), replace(state, twist=STILL, behind=Wheels(0.0, 0.0))
-    still_since = (now if state.still_since is None else state.still_since) if twist == STILL else None
+    still_since = (now if state.still_since is None else state.still_since) if state.twist == STILL else None
     state = replace(state, since=now if state.since is None else state.since, still_since=still_since)
     if state.command is None and _stands(state, wheels, now):
         return Decision(None, True, reason, healthy), replace(state, since=None, still_since=None)
@@ -117,12 +114,21 @@ def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) 
     return Decision(_references(config, state), False, reason, healthy), state
 
 
-def _follow_travel(config: Config, state: State, twist: Twist, wheels: tuple[Wheel, Wheel], dt: float) -> State:
-    """Follow what each wheel should have turned and has; `twist` is the velocity from here on."""
-    wanted, angles = wheel_speeds(config.geometry, state.twist), Wheels(wheels[0].angle, wheels[1].angle)
-    rows = zip(state.behind, wanted, angles, state.angles, strict=True)
-    behind = Wheels(*(min(max(b + w * dt - (a - was), -MOST_BEHIND), MOST_BEHIND) for b, w, a, was in rows))
-    return replace(state, twist=twist, behind=behind, angles=angles)
+def _advance(config: Config, state: State, now: float) -> State:
+    """Approach the velocity in force up to `now` [s]; what the wheels should have turned meanwhile they are behind."""
+    dt = 0.0 if state.stepped is None else min(max(now - state.stepped, 0.0), LONGEST_STEP)
+    command = STILL if state.command is None else limit_twist(config.geometry, config.limits, state.command)
+    speeds, twist = wheel_speeds(config.geometry, state.twist), approach_twist(config.limits, state.twist, command, dt)
+    behind = Wheels(*(b + w * dt for b, w in zip(state.behind, speeds, strict=True)))
+    return replace(state, stepped=now, twist=twist, behind=behind)
+
+
+def _follow_travel(state: State, wheels: tuple[Wheel, Wheel]) -> State:
+    """Follow what each wheel has turned of what it should have."""
+    angles = Wheels(wheels[0].angle, wheels[1].angle)
+    rows = zip(state.behind, angles, state.angles, strict=True)
+    behind = Wheels(*(min(max(b - (a - was), -MOST_BEHIND), MOST_BEHIND) for b, a, was in rows))
+    return replace(state, behind=behind, angles=angles)
 
 
 def _references(config: Config, state: State) -> Wheels:

@@ -152,3 +152,17 @@ def test_a_wheel_that_stays_behind_makes_up_for_it_and_no_more_than_a_little() -
     assert max(one.references.left for one in robot.decisions if one.references) < 10.1
     assert robot.run(2.0, SPEED).references == pytest.approx((12.0, 10.0), abs=0.3)
     assert robot.run(DT, STILL).references == (0.0, 0.0)  # at rest nothing is added
+
+
+@pytest.mark.parametrize(("begin", "end"), [(0.0, 0.9), (0.9, 0.0), (0.5, 0.5)])
+def test_a_velocity_counts_from_when_it_comes(begin: float, end: float) -> None:
+    """45°/s for so long turn by so much, whenever in a step they begin and end; by whole steps 0.8° more or less."""
+    robot = Robot(Limits(angular_acceleration=4.0), timeout=0.0)
+    robot.run(DT, STILL)
+    for share, twist in ((begin, Twist(0.0, 3.141592653589793 / 4.0)), (end, STILL)):
+        robot.now -= (1.0 - share) * DT  # so long before the next step
+        robot.send(twist)
+        robot.now += (1.0 - share) * DT
+        robot.run(2.0)
+    turned = (robot.edges[1] - robot.edges[0]) * 360e-6 * ROBOT.wheel_radius / ROBOT.wheel_separation
+    assert turned == pytest.approx(45.0 * (2.0 + (end - begin) * DT), abs=0.1)
