@@ -19,10 +19,12 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matric
 
 import numpy as np
 from machine import commit, machine
+from no_false_stops_conditions import NAMES, Setup, put, random_torque
 
 from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.parameters import ROWS
+from motor_model.effects import INDEX
 from motor_model.parameters import Parameters
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_model.sensing.motion_check import MotionCheck
@@ -35,17 +37,6 @@ EDGE_RATES = (90.0, 10_000.0)  # [edges/s] at top speed: 96 edges on a motor of 
 
 
 @dataclass(frozen=True)
-class Setup:
-    """One random motor with its encoder, loop and references."""
-
-    plant: Parameters
-    model: Parameters | None
-    board: BoardConfig
-    values: dict[str, object]
-    references: list[tuple[float, float]]  # [s] from when, [rad/s]
-
-
-@dataclass(frozen=True)
 class Result:
     """What became of it."""
 
@@ -53,6 +44,7 @@ class Result:
     single: bool
     stop: str  # the sentence of a latched stop; "": there was none
     time: float  # [s] of it, or the whole run
+    condition: str = NAMES[0]
 
 
 def draw(seed: int, rate: float, seconds: float, edge_rate: float) -> Setup:
@@ -95,24 +87,26 @@ def draw(seed: int, rate: float, seconds: float, edge_rate: float) -> Setup:
     return Setup(plant, model if observed or rng.integers(2) else None, board, loop, references)
 
 
-def run(seed: int, rate: float, seconds: float, edge_rate: float = EDGE_RATES[1]) -> Result:
+def run(seed: int, rate: float, seconds: float, edge_rate: float = EDGE_RATES[1], condition: str = NAMES[0]) -> Result:
     """Run one setup."""
-    setup = draw(seed, rate, seconds, edge_rate)
+    setup = put(condition, draw(seed, rate, seconds, edge_rate), seed)
     config = config_of(DEFAULTS | setup.values, setup.board.info(setup.plant), setup.model)  # type: ignore[operator]
     board, state, voltage = SimulatedBoard(setup.plant, setup.board), controller.State(), 0.0
     check = MotionCheck(setup.board.info(setup.plant).max_voltage, setup.board.single_channel)
-    coming, source = list(setup.references), str(setup.values["speed_source"])
+    coming, source, single = list(setup.references), str(setup.values["speed_source"]), setup.board.single_channel
+    torque, load = random_torque(setup, seed, rate), board._p[INDEX["bias_voltage"]]
     for k in range(round(seconds * rate)):
         time, fresh = k / rate, None
         while coming and coming[0][0] <= time:
             fresh = coming.pop(0)[1]
+        board._p[INDEX["bias_voltage"]] = load + torque.next()
         sample = board.sample(voltage)
         check = check.see(sample)
         output, state = controller.update(config, state, sample, fresh, time)
         voltage = output.terms.voltage
         if state.latched or check.stop:
-            return Result(source, setup.board.single_channel, state.latched or check.stop, time)
-    return Result(source, setup.board.single_channel, "", seconds)
+            return Result(source, single, state.latched or check.stop, time, condition)
+    return Result(source, single, "", seconds, condition)
 
 
 def table(results: dict[float, list[Result]]) -> list[str]:

@@ -1,7 +1,7 @@
 """What a fault is told by: what is known of the motor, and what a sample shows."""
 
 from dataclasses import dataclass
-from math import inf, nan
+from math import inf, nan, sqrt
 
 from motor_control.checks import at_least
 from motor_control.controller.motion import Motion
@@ -12,6 +12,9 @@ FULL = 0.98  # of the voltage limit
 # the weight drives it where it falls: of a load of a quarter of the stall torque only the difference is known. With one
 # channel friction has to hold 0 rad/s, so that a load is no larger than friction.
 SPARE, SPARE_SINGLE = 0.25, 0.15
+MORE = 1.25  # times the friction of the model that may be needed without a fault
+KEPT = 0.75  # of the voltage of the last steady motion that may be needed at a standstill: the rest was back-EMF
+USUAL_TIME_CONSTANT = 0.05  # [s] of a motor of which there is no model
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,3 +55,19 @@ class Seen:
     def full(self) -> bool:
         """Whether the motor gets all that it may."""
         return abs(self.sample.voltage) >= FULL * self.voltage_limit > 0.0
+
+
+def find_allowed_voltage(config: Config, motion: Motion, voltage_limit: float) -> float:
+    """Find the voltage [V] that a motor of this motion may need without a fault, by the model or by what was learnt."""
+    if config.kv > 0.0:
+        load = max(config.friction, motion.steady_voltage - config.kv * motion.steady_speed)
+        return MORE * load + config.kv * motion.speed + config.spare * voltage_limit
+    return KEPT * motion.steady_voltage + config.spare * voltage_limit
+
+
+def find_push_time(config: Config, top_speed: float, torque: float, slots: float) -> float:
+    """Find the time [s] in which a torque, a share of the stall torque, moves the motor from rest by some slots.
+
+    With a top speed w and a time constant τ it is sqrt(2 slots τ/(torque w)).
+    """
+    return sqrt(2.0 * slots * config.slot * (config.time_constant or USUAL_TIME_CONSTANT) / (torque * top_speed))

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import copysign, exp
 
-from motor_control.controller.faults.evidence import Config, Seen
+from motor_control.controller.faults.evidence import KEPT, Config, Seen, find_allowed_voltage
 from motor_control.controller.motion import FAST
 
 FEW = 0.3  # of the expected speed; a load that slows a motor down to this takes 70 % of its stall torque
@@ -11,8 +11,6 @@ SPIN_UP = 0.3  # [s] time constant that a motor may have of which there is no mo
 FORGET = 0.3  # [s] time constant with which that is forgotten while edges fit
 BEHIND = 0.5  # of the reference: a motor that turns as it is told has no fault, whatever its load
 GROWING = 1.2  # of the average of the last 0.15 s: a heavy disc that is still being spun up
-MORE = 1.25  # times the friction of the model that may be needed without a fault
-KEPT = 0.75  # of the voltage of the last steady motion that may be needed at a standstill: the rest was back-EMF
 SILENT = 0.1  # [s] without an edge, and so many slots in which some should have come:
 SILENT_SLOTS = 5.0
 SILENT_EXCESS, FEW_EXCESS = 0.07, 0.35  # of stall_time that the whole voltage may be in excess: no edge, too few
@@ -37,13 +35,11 @@ def check(config: Config, state: State, seen: Seen, regular: bool) -> tuple[str,
     if seen.dt <= 0.0:
         return "", state
     braking = seen.sample.speed * seen.sample.voltage < 0.0
+    allowed = find_allowed_voltage(config, motion, limit)
     if config.kv > 0.0:
         foreseen = predict_speed(config, state.expected, seen)
-        load = max(config.friction, motion.steady_voltage - config.kv * motion.steady_speed)
-        allowed = MORE * load + config.kv * motion.speed + config.spare * limit
     else:
         foreseen = 0.0 if braking else extrapolate_speed(config, state.expected, seen)
-        allowed = KEPT * motion.steady_voltage + config.spare * limit
     expected = abs(foreseen)
     obeys = regular and min(motion.speed, motion.slow_speed) >= BEHIND * abs(seen.reference)
     if motion.speed >= FEW * expected or obeys or voltage <= allowed:

@@ -7,8 +7,9 @@ from motor_control.controller.faults.evidence import Config, Seen
 from motor_control.controller.motion import FAST
 
 RUNAWAY_TIME = 0.25  # [s] longer than any plant takes to see that a single channel has turned round
-GROWTH, GROWTH_UNKNOWN = 1.2, 2.0  # of the smallest speed since then, by a model and without one; and on top
-SHARE = 0.06  # of the top speed, and at least EDGES in the average's 50 ms;
+# Of the smallest speed since then, by a model and without one; and on top the share of the top speed to which a load
+# that is allowed (`spare`) drives a motor, and at least EDGES in the average's 50 ms.
+GROWTH, GROWTH_UNKNOWN = 1.2, 2.0
 EDGES = 2.0
 RATE = 150.0  # [edges/s] where the top speed is not known, at 0 V
 STRONG = 0.5  # of the voltage limit; below, and not 0 V, a loop answers a load that drives the motor
@@ -50,7 +51,7 @@ def needed_growth(config: Config, seen: Seen) -> tuple[float, float]:
     """Find the factor and the rise [rad/s] by which the speed has to grow: by the model, or by what was learnt."""
     learnt, least = seen.motion.fastest(seen.voltage_limit), EDGES / FAST * config.slot
     if config.fastest < inf:
-        return GROWTH, max(SHARE * config.fastest, least)
+        return GROWTH, max(config.spare * config.fastest, least)
     if learnt < inf or seen.sample.voltage:  # a motor only seen under a load may be much faster than that says
-        return GROWTH_UNKNOWN, max(SHARE * learnt if learnt < inf else 0.0, least)
+        return GROWTH_UNKNOWN, max(config.spare * learnt if learnt < inf else 0.0, least)
     return GROWTH_UNKNOWN, RATE * config.slot

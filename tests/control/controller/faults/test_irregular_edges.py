@@ -116,6 +116,26 @@ def test_what_is_no_fault() -> None:
     assert noisy(100.0, stall_time=0.0) is None
 
 
+@pytest.mark.parametrize(
+    ("time_constant", "voltage", "stops"), [(0.02, 2.5, False), (0.02, 4.5, True), (0.12, 2.5, True)]
+)
+def test_a_motor_that_crawls_starts_and_stops_between_its_edges(
+    time_constant: float, voltage: float, stops: bool
+) -> None:
+    """Of seven random motors that held 0 rad/s with 4000 edges a turn one was stopped (seeds 97006, 97028, 98018).
+
+    100 edges a second of the 5,000 at its top speed; a quarter of the stall torque does that in 6 ms, or in 14.
+    """
+    config, state = Config(slot=SLOT, fastest=5000.0 * SLOT, time_constant=time_constant, kv=0.01), State()
+    rng, reasons = np.random.default_rng(5), []
+    for count in range(60):
+        sample = Sample(0, 0.3, voltage, count, edge_period=0.01 * float(rng.exponential()))
+        motion = Motion(edges=1, slow_speed=100.0 * SLOT, slow_voltage=voltage)
+        reason, state = check(config, state, Seen(sample, 0.3, motion, 0.0, 0.005, 12.0))
+        reasons.append(reason)
+    assert any(reasons) == stops
+
+
 @pytest.mark.parametrize(("faster", "stops"), [(1.0, False), (4.0, True)])
 def test_the_rate_is_that_of_the_edges_that_jump(faster: float, stops: bool) -> None:
     """A fast motor is braked into the swing of a slow one: its counted edges still told of its speed (seed 91142)."""
