@@ -18,7 +18,7 @@ from motor_identification.logs.rows.parts import (
     split_at_restarts,
     split_by_column,
 )
-from motor_identification.logs.rows.stamps import separate_stamps, unwrap_clock
+from motor_identification.logs.rows.stamps import drop_stray_stamps, separate_stamps, unwrap_clock
 from motor_identification.logs.run import Run
 from motor_identification.logs.signals import Floats, Integers, Signals, read_signals
 from motor_identification.logs.steady import read_steady
@@ -82,11 +82,12 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     """Rows with a time of their own."""
     said: list[str] = []
     signals, full = unwrap_clock(signals, TIME_UNITS[form.time_unit])
+    signals, stray = drop_stray_stamps(signals)
     signals, restarts = split_at_restarts(signals, form)
     signals, stamps = separate_stamps(signals)
     signals, first = drop_first_rows(signals)
     signals, gaps = split_at_gaps(signals)
-    said += [*full, *restarts, *stamps, *first, *gaps]
+    said += [*full, *stray, *restarts, *stamps, *first, *gaps]
     check_rest(signals, table, form)
     check_steps(signals)
     info = replace(info, sample_period=float(np.median(signals.steps())) * 1e-9)

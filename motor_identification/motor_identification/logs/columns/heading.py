@@ -17,6 +17,7 @@ _PARTS = re.compile(r"[^\W\d_]+|\d+|%|°")
 _CAMEL = re.compile(r"(?<=[^\W\d_A-ZÀ-Þ])(?=[A-ZÀ-Þ])|(?<=[A-Z])(?=[A-Z][a-z])")
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
 _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
+_AXES, _JOINT_FIELDS = frozenset(["yaw", "pitch", "roll"]), frozenset(["position", "velocity", "effort"])
 _PER = {**dict.fromkeys(("s", "sec", "second"), "s"), **dict.fromkeys(("min", "minute"), "min")}
 _MOTOR_NUMBER = re.compile(r"(?:m|motor|wheel|enc|encoder)(\d)$", re.IGNORECASE)
 
@@ -47,7 +48,7 @@ def _unit_in_brackets(name: str) -> tuple[str, str]:
         unit = UNIT_BY_SPELLING.get(match[1].strip().lower().replace(" ", ""), "")
         if unit:
             return unit, name.replace(match[0], " ")
-    return "", _BRACKETS.sub(r" \1 ", name)
+    return "", _BRACKETS.sub(lambda match: " " if "/" in match[1] else f" {match[1]} ", name)  # furlongs/s: no seconds
 
 
 def _words(text: str) -> tuple[str, ...]:
@@ -89,6 +90,8 @@ def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
         for kind, known in WORDS.items()
         if known & set(words) and not (kind is Quantity.REFERENCE and _is_side(words))
     ]
+    if _is_joint(words):
+        told.remove(Quantity.OTHER)
     by_unit = UNITS[unit][0] if unit else None
     if Quantity.OTHER in told and "rate" not in words:
         return Quantity.OTHER
@@ -105,6 +108,12 @@ def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
     if Quantity.VOLTAGE in told and Quantity.DUTY in told:
         return Quantity.VOLTAGE
     return told[0] if told else None
+
+
+def _is_joint(words: tuple[str, ...]) -> bool:
+    """Whether a name is one of a joint's fields, as ROS has them: then yaw, pitch and roll are joints, not angles."""
+    others = WORDS[Quantity.OTHER] & set(words)
+    return bool(others) and others <= _AXES and bool(_JOINT_FIELDS & set(words))
 
 
 def _is_side(words: tuple[str, ...]) -> bool:

@@ -40,6 +40,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     """The form of one motor; what is guessed and what is missing goes to the notes."""
     whose = f" of {pair.label}" if pair.label else ""
     drive, scale, supply = _drive(table, pair, roles, said, notes)
+    driven = bool(pair.label or np.any(table.numbers(pair.voltage)))  # of several motors, one may not be
     volts = supply_scale(read_heading(supply), table.numbers(supply)) if supply else (1.0, "")
     beside = f", times {supply} in {volts[1]}" if supply else ""
     notes.findings.append(f"Voltage{whose}: {pair.voltage} {drive.why}{beside}.")
@@ -71,7 +72,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
         rest_until=_rest(table, rows, pair, kind, said, notes),
         voltage_before=said.voltage_before,
         name=said.name if said.name != "motor" or not pair.label else pair.label,
-        max_voltage=said.max_voltage or (said.supply_voltage if drive.full else None),
+        max_voltage=said.max_voltage or (said.supply_voltage if drive.full and driven else None),
         time_unit=rows.unit,
         supply=supply,
         supply_scale=volts[0],

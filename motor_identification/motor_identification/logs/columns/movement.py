@@ -8,16 +8,18 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.count_size import FEWEST_COUNTS
 from motor_identification.logs.form import UNITS, Kind
-from motor_identification.logs.position_lattice import position_step
+from motor_identification.logs.position_lattice import find_position_lattice
 from motor_identification.logs.rows.wraps import RANGES, REACHED, SLACK
 from motor_identification.sensor.value_lattice import find_lattice
 
 Floats = NDArray[np.float64]
 
 # How near the counts of a turn have to come to a whole number for a unit to be believed, and how far all others have
-# to be from one: of any unit 3 % come that near by chance. Of a finer encoder, printed digits leave too little.
-WHOLE = 0.015
-RELATIVE = 5e-6  # of the counts of a turn: what printed digits leave of the step
+# to be from one: of any unit 3 % come that near by chance, by steps of positions, which are known better, 1 %. Of a
+# finer encoder, printed digits leave too little.
+WHOLE, WHOLE_BY_POSITIONS = 0.015, 0.004
+RELATIVE = 5e-6  # of the counts of a turn: what printed digits leave of the step of speeds, and 3.1416 of radians
+SURE = 4.0  # standard errors of the step
 MOST_COUNTS = 10_000  # a turn
 FORGETS = 5.0  # time constants in a recording, from which on a column is a speed: a position forgets nothing
 ASKED = {Kind.SPEED: ("rad/s", "deg/s", "rpm"), Kind.POSITION: ("rad", "deg", "rev", "count")}
@@ -67,25 +69,31 @@ def guess_position_unit(values: Floats) -> Unit:
         if REACHED * size < np.ptp(values) <= SLACK * size and jumps.any():
             return Unit(name, f"they wrap at {size:.4g}; otherwise: --unit")
     asked = ASKED[Kind.POSITION]
-    step = position_step(values)
-    if step <= 0.0 or not np.any(values % 1.0):
-        return Unit("", "", ("count", "deg") if step > 0.0 else asked)
-    turns = {"rad": 2.0 * pi, "deg": 360.0, "rev": 1.0}
-    whole = [name for name, turn in turns.items() if _is_whole(turn / step) and not _is_printed(values, step)]
+    lattice = find_position_lattice(values)
+    if lattice is None or not np.any(values % 1.0):
+        return Unit("", "", ("count", "deg") if lattice else asked)
+    step, error = lattice.step, SURE * lattice.error / lattice.step
+    turns = {"rad": (2.0 * pi, RELATIVE), "deg": (360.0, 0.0), "rev": (1.0, 0.0)}
+    whole = [
+        name
+        for name, (turn, rounded) in turns.items()
+        if _is_whole(turn / step, WHOLE_BY_POSITIONS, rounded + error) and not _is_printed(values, step)
+    ]
     if len(whole) != 1:
         return Unit("", "", tuple(whole) or asked)
-    number = round(turns[whole[0]] / step)
+    number = round(turns[whole[0]][0] / step)
     why = f"steps of {step:.4g} are {number} counts a turn in {whole[0]}, and no whole number in other units"
     return Unit(whole[0], f"{why}; otherwise: --unit")
 
 
-def _is_whole(number: float) -> bool:
-    return FEWEST_COUNTS <= number <= MOST_COUNTS and abs(number - round(number)) < WHOLE + RELATIVE * number
+def _is_whole(number: float, near: float = WHOLE, relative: float = RELATIVE) -> bool:
+    return FEWEST_COUNTS <= number <= MOST_COUNTS and abs(number - round(number)) < near + relative * number
 
 
 def _is_printed(values: Floats, step: float) -> bool:
-    """Whether a step is that of the last digit that was printed."""
-    place = np.log10(step)
+    """Whether a step is that of the last digit that was printed, or of every second or fifth of them."""
+    places = [float(np.log10(step / digit)) for digit in (1.0, 2.0, 5.0)]
     return bool(
-        abs(place - round(float(place))) < 1e-3 and np.all(np.abs(values / step - np.rint(values / step)) < 1e-3)
+        any(abs(place - round(place)) < 1e-3 for place in places)
+        and np.all(np.abs(values / step - np.rint(values / step)) < 1e-3)
     )

@@ -43,6 +43,7 @@ WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.COUNT: _row("count counts tick ticks encoder enc pulses pulse edges qei"),
     Quantity.SPEED: _row(
         "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w rpm rps dps "
+        "tacho tachometer "
         "velocita snelheid toerental hastighed hastighet prędkość predkosc obroty rychlost otáčky otacky hız hiz "
         "скорость обороты 速度 转速 角速度 回転数"
     ),
@@ -97,7 +98,9 @@ _SPELLINGS = {
     "deg/s": "deg/s deg/sec °/s dps degps degrees/s deg_s deg_sec",
     "rpm": "rpm rev/min u/min tr/min 1/min min-1 r/min rev_min",
     "rev/s": "rps rev/s r/s rotations/s turns/s hz rev_s",
-    "count/s": "count/s counts/s ticks/s cps count_s counts_s ticks_s",
+    "count/s": (
+        "count/s counts/s tick/s ticks/s step/s steps/s pulse/s pulses/s edges/s cps pps count_s counts_s ticks_s"
+    ),
     "m/s": "m/s mps m_s meters/s metres/s",
     "rad": "rad radian radians",
     "deg": "deg degs degree degrees °",

@@ -12,6 +12,7 @@ _CELL = (
     r"\s{0,8}(?P<name>[^\W\d][\w /%°\[\]()]{0,40}?)\s{0,8}[:=]"
     r"\s{0,8}(?P<value>[+-]?(?:\d+(?:[.,]\d+|\.)?|\.\d+)(?:[eE][+-]?\d+)?)\s{0,8}"
 )
+_NAME, _NUMBER = re.compile(r"[^\W\d][\w /%°\[\]()]{0,40}"), re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _NAMED_CELL = re.compile(_CELL + r"(?:[,;|\t ]|$)")
 
 
@@ -33,12 +34,43 @@ def take_apart(lines: Sequence[str]) -> Lines:
         delimiter = _delimiter([match[2] for match in map(_STAMP.match, begin) if match])
         lines = [_stamp_last(line, delimiter) for line in lines]
         begin = [line.rpartition(delimiter)[0] for line in lines[:_LOOKED_AT] if line.strip()]
+    pairs = _Pairs.find(begin) if not stamped else None
+    if pairs is not None:
+        return Lines([pairs.values(line) for line in lines], pairs.names)
     named = [_named_cells(line) for line in begin]
     names = max((tuple(row) for row in named), key=len, default=())
     if len(names) < 2 or not _mostly(begin, [tuple(row) == names for row in named]):
         return Lines(lines, stamped=stamped)
     rows = [_values(line, names, delimiter if stamped else "") for line in lines]
     return Lines(rows, (*names, RECEIVED) if stamped else names, stamped)
+
+
+@dataclass(frozen=True)
+class _Pairs:
+    """Rows in which a name stands before each number, as cells of their own: `t,1023,PWM,50,speed,3.2`."""
+
+    names: tuple[str, ...]
+    delimiter: str
+
+    @staticmethod
+    def find(begin: Sequence[str]) -> "_Pairs | None":
+        """The names that most of the first lines have; None where they are written in another way."""
+        delimiter = _delimiter(begin)
+        rows = [tuple(cell.strip() for cell in line.split(None if delimiter == " " else delimiter)) for line in begin]
+        names = max((row[::2] for row in rows if len(row) % 2 == 0), key=len, default=())
+        told = len(set(names)) == len(names) > 1 and all(map(_NAME.fullmatch, names))
+        if not told or not _mostly(begin, [_is_pairs(row, names) for row in rows]):
+            return None
+        return _Pairs(names, delimiter)
+
+    def values(self, line: str) -> str:
+        """The cells of a line without their names, by semicolons; a line of other names as it is."""
+        row = tuple(cell.strip() for cell in line.split(None if self.delimiter == " " else self.delimiter))
+        return ";".join(row[1::2]) if _is_pairs(row, self.names) else line
+
+
+def _is_pairs(row: Sequence[str], names: Sequence[str]) -> bool:
+    return tuple(row[::2]) == tuple(names) and all(map(_NUMBER.fullmatch, row[1::2]))
 
 
 def _mostly(lines: Sequence[str], which: Sequence[bool]) -> bool:

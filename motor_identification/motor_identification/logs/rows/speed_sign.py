@@ -11,7 +11,7 @@ import numpy as np
 from motor_identification.logs.signals import Floats, Signals
 
 FASTER = 0.15  # of the largest speed, by which a motor speeds up again under the other sign of the voltage
-NOISE = 0.02  # of the largest speed, by which one without a sign may seem to be negative
+NOISE = 0.02  # of the largest speed, or voltage, by which one without a sign may seem to be negative
 AROUND = 5  # rows whose middle is looked at: a single low value is noise
 STARTS = 0.2  # of the largest speed, up to which a run may begin at rest
 
@@ -19,7 +19,8 @@ STARTS = 0.2  # of the largest speed, up to which a run may begin at rest
 def give_signs(signals: Signals) -> tuple[Signals, list[str]]:
     """Give speeds their signs where they have none, and the voltage has both; and a finding where they got them."""
     top = float(np.max(np.abs(signals.motion), initial=0.0))
-    both = np.any(signals.voltage < 0.0) and np.any(signals.motion != 0.0)
+    most = float(np.max(np.abs(signals.voltage), initial=0.0))
+    both = np.any(signals.voltage < -NOISE * most) and np.any(signals.motion != 0.0)
     if not both or np.min(signals.motion) < -NOISE * top:
         return signals, []
     sign = np.ones(len(signals))

@@ -39,6 +39,22 @@ def unwrap_clock(signals: Signals, unit: int) -> tuple[Signals, list[str]]:
     return replace(signals, time=time), [said]
 
 
+def drop_stray_stamps(signals: Signals) -> tuple[Signals, list[str]]:
+    """Leave out single rows whose stamp lies beyond that of a neighbour, where the neighbours are in order."""
+    stray = np.zeros(len(signals), np.bool_)
+    for run in signals.runs.values():
+        time = signals.time[run]
+        if len(time) < 4:
+            continue
+        before, here, after = time[:-2], time[1:-1], time[2:]
+        stray[run.start + 1 : run.stop - 1] = (before < after) & ((here > after) | (here < before))
+    count = int(np.count_nonzero(stray))
+    if not 0 < count <= SELDOM * len(signals):
+        return signals, []
+    which = "1 row whose stamp lies" if count == 1 else f"{count} rows whose stamps lie"
+    return signals.only(~stray), [f"Left out: {which} beyond the next row's or before the last one's."]
+
+
 def stamp_resolution(time: Integers) -> int:
     """[ns] the largest power of ten that all stamps, shape (K,), are multiples of; 0 where that is below 1 µs."""
     return next((size for size in _RESOLUTIONS if not np.any(time % size)), 0)

@@ -25,6 +25,13 @@ Spannung          | voltage        |       |
 batteryVoltage    | supply voltage |       |
 Battery [mV]      | supply voltage | mV    |
 Velocidad (rad/s) | speed          | rad/s |
+Speed (steps/s)   | speed          | count/s |
+Speed (furlongs/s) | speed         |       |
+tacho             | speed          |       |
+pitch_effort      | duty           |       |
+pitch_velocity    | speed          |       |
+pitch rate        | other          |       |
+pitch_angle       | other          |       |
 leftSpeedRpm      | speed          | rpm   | left
 r_speed           | speed          |       | right
 vel_rad_s         | speed          | rad/s |

@@ -38,6 +38,13 @@ def test_a_duty_becomes_volts(said: Said, scale: float, full: float | None) -> N
     assert (made.voltage_scale, made.max_voltage) == (pytest.approx(scale), full) and notes.questions == []
 
 
+def test_a_supply_is_no_voltage_where_the_duty_is_0_in_every_row() -> None:
+    table = Table(Path("log.csv"), np.arange(9), {"t": np.arange(9.0), "pwm": np.zeros(9), "rpm": np.arange(9.0)})
+    pair, roles = Pair("", "pwm", "rpm"), Roles("t", (), None, None)
+    for said, most in ((Said(supply_voltage=12.0), None), (Said(supply_voltage=12.0, max_voltage=9.0), 9.0)):
+        assert make_form(table, pair, roles, said, ROWS, Notes([], [])).max_voltage == most
+
+
 def test_a_duty_without_a_supply_is_asked_about_and_one_beside_a_battery_is_not() -> None:
     notes = Notes([], [])
     form(Said(), notes)

@@ -56,3 +56,19 @@ def test_the_unit_of_positions_by_wraps_and_steps() -> None:
     assert guess_position_unit(np.rint(angle * 97 / tau) * 360 / 97).name == "deg"
     assert guess_position_unit(np.rint(np.degrees(angle))).candidates == ("count", "deg")
     assert guess_position_unit(angle).candidates == ("rad", "deg", "rev", "count")
+
+
+def test_counts_that_are_nearly_whole_by_chance_tell_no_unit() -> None:
+    """A LEGO motor of 114.703 counts a turn, in rad with four digits: 6572.016 counts a turn if it were in degrees."""
+    step = 0.0547777
+    values = np.round(np.cumsum(RANDOM.integers(0, 3, 800)) * step, 4)
+    assert guess_position_unit(values).name == ""
+    right = np.round(np.cumsum(RANDOM.integers(0, 3, 800)) * 360.0 / 6572, 4)
+    assert guess_position_unit(right).name == "deg"
+
+
+def test_every_second_or_fifth_digit_is_a_printed_one_too() -> None:
+    counts = RANDOM.integers(0, 100, 800)
+    for step in (0.1, 0.2, 0.05):
+        assert guess_speed_unit(counts * step, 0.004).name == "", "0.2 rad/s in 4 ms: 7853.98 counts a turn"
+    assert guess_speed_unit(counts * tau / 2800 / 0.004, 0.004).name == "rad/s"

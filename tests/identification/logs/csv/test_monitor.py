@@ -22,6 +22,17 @@ def test_names_go_before_all_rows_and_lines_keep_their_numbers() -> None:
     assert both.names == ("pwm", "rpm", "received time") and both.lines[0] == "5;2;12:00:00.100"
 
 
+def test_names_in_cells_of_their_own_go_before_all_rows() -> None:
+    """As a robot's Arduino printed them: its first line is the terminal's, its last one cut off."""
+    rows = ["t,340,PWM,0,Enc1,-0.50"] * 9
+    taken = take_apart(["=~=~= PuTTY log 2018.05.10 =~=~=", *rows, "t,350,PW"])
+    assert taken.names == ("t", "PWM", "Enc1")
+    assert list(taken.lines) == ["=~=~= PuTTY log 2018.05.10 =~=~=", *["340;0;-0.50"] * 9, "t,350,PW"]
+    assert take_apart(["pwm 5 rpm 1e2"] * 5).names == ("pwm", "rpm")
+    for other in ("t,340,t,1", "340,t,1,x", "a,1", "a,1,b", "run,a,speed,b"):
+        assert not take_apart([other] * 9).names
+
+
 def test_other_tables_are_left_alone() -> None:
     for line in ("0,1,2", "12:00:00.5,1,2", "a:1", "a:1 b", "a=1;a=2", "x: " * 50_000):
         taken = take_apart([line] * 10)

@@ -61,3 +61,16 @@ def test_only_speeds_without_a_sign_get_one() -> None:
     assert give_signs(signals(true, voltage))[1] == []
     assert give_signs(signals(np.abs(true), np.abs(voltage)))[1] == []
     assert give_signs(signals(0.0 * true, voltage))[1] == []
+
+
+@pytest.mark.parametrize(("offset", "signs"), [(-0.01, False), (-0.03, True)])
+def test_a_converters_offset_is_no_sign_of_the_voltage(offset: float, signs: bool) -> None:
+    """A share of the largest voltage below 0, then a run the other way whose speed has no sign."""
+    voltage = np.repeat([6.0, 6.0 * offset, 6.0], 60)
+    speed = np.abs(speed_of(np.repeat([6.0, 0.0, 6.0], 60)))
+    unknown = np.full(len(voltage), np.nan)
+    rows = np.arange(len(voltage))
+    if signs:
+        speed[60:120] = 20.0 * (1.0 - np.exp(-np.arange(60) / 8.0))
+    signals = Signals(Path("log.csv"), rows, rows * 10**7, voltage, speed, unknown, unknown, {"": slice(0, len(rows))})
+    assert bool(give_signs(signals)[1]) is signs

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motor_identification.logs.rows.stamps import separate_stamps, stamp_resolution
+from motor_identification.logs.rows.stamps import drop_stray_stamps, separate_stamps, stamp_resolution
 from motor_identification.logs.signals import Signals
 
 
@@ -73,3 +73,17 @@ def test_rows_that_repeat_the_one_before_are_left_out() -> None:
     time = np.array([0, 5, 10, 10, 15, 20, 25, 30, 35, 40]) * 10**6
     signals, said = separate_stamps(rows(time, [0, 1, 2, 2, 3, 4, 5, 6, 7, 8]))
     assert signals.motion.tolist() == list(range(9)) and "Left out: 1 rows that repeat" in said[0]
+
+
+@pytest.mark.parametrize(("strays", "left"), [((50,), 199), ((50, 120), 198), ((50, 120, 150), 200)])
+def test_single_stamps_out_of_order_are_left_out_where_they_are_few(strays: tuple[int, ...], left: int) -> None:
+    """Of 200 rows; a stamp too late and one too early alike, and a clock that begins again is none."""
+    time = np.arange(200) * 1_000_000
+    for number, row in enumerate(strays):
+        time[row] += 2_500_000 if number % 2 == 0 else -2_500_000
+    signals, said = drop_stray_stamps(rows(time))
+    assert len(signals) == left
+    if left < 200:
+        assert np.all(np.diff(signals.time) > 0) and said[0].startswith(f"Left out: {200 - left} row")
+    again, _ = drop_stray_stamps(rows(np.concatenate([time[:40], time[:40]])))
+    assert len(again) == 80
