@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, field
 from math import inf
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,43 +9,21 @@ from numpy.typing import NDArray
 from motor_model.compiled import compiled
 from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.current import current_at
-from motor_model.dynamics.linear import Coefficients, relaxed
-from motor_model.dynamics.motor import advance, is_straight, straight
+from motor_model.dynamics.linear import relaxed
+from motor_model.dynamics.motor import advance
 from motor_model.dynamics.state import State, at_rest, turning
+from motor_model.dynamics.straight import find_torques, is_straight, prepare_hold, prepare_lag, turn_lagging
 from motor_model.effects import INDEX
 from motor_model.errors import ModelError
 from motor_model.parameters import Parameters
 from motor_model.sensing.encoder import shaft_angle_at
 
-DELAY = INDEX["delay"]
+DELAY, LAG = INDEX["delay"], INDEX["electrical_time_constant"]
+STEP, STEP_TIME = INDEX["step_voltage"], INDEX["step_time"]
 
 Floats = NDArray[np.float64]
 
 NOWHERE: Floats = np.empty(0)  # no measured angles
-
-
-@compiled
-def _approach(c: Coefficients) -> tuple[float, float]:
-    """dω/dt = push − rate·ω of a linear motor without inductance: push [rad/s²] and rate [1/s]."""
-    return (c.source - c.torque) / c.inertia, (c.back_emf + c.slope) / c.inertia
-
-
-class Hold(NamedTuple):
-    """The equation of a linear motor while one command holds, dω/dt = push − rate·ω, for either direction."""
-
-    ahead_push: float  # [rad/s²]
-    ahead_rate: float  # [1/s]
-    back_push: float
-    back_rate: float
-
-
-@compiled
-def _prepare_hold(p: Floats, u: float) -> Hold:
-    """Prepare the equation of a whole hold at a command u [V] once."""
-    volts = effective_voltage(p, u)
-    ahead_push, ahead_rate = _approach(straight(p, volts, 1.0))
-    back_push, back_rate = _approach(straight(p, volts, -1.0))
-    return Hold(ahead_push, ahead_rate, back_push, back_rate)
 
 
 @compiled
@@ -72,7 +49,7 @@ def roll_out(
 
 
 @compiled
-def roll_out_with_current(
+def roll_out_with_current(  # noqa: C901
     p: Floats,
     start_speed: float,
     command_time: Floats,
@@ -103,30 +80,38 @@ def roll_out_with_current(
         s = turning(p, start_speed, effective_voltage(p, u))
     _put_current(p, acted, s, t, current, 0)
     switch = command_time[j + 1] + delay if j + 1 < switches else inf
-    quick = is_straight(p)
-    hold = _prepare_hold(p, u)
+    straight, lagging = is_straight(p), prepare_lag(p)
+    quick = straight and p[LAG] == 0.0
+    hold = prepare_hold(p, u, find_torques(p, t))
+    loaded = p[STEP_TIME] if p[STEP] != 0.0 and p[STEP_TIME] > t else inf
     if len(anchor) > 0:
         s = State(s.angle, s.speed, s.drive, s.play, s.direction, shaft_angle_at(p, anchor[0]))
     for k in range(1, len(out_time)):
         until = out_time[k]
         while True:
-            stop = min(until, switch)
+            stop = min(until, switch, loaded)
             if stop > t:
-                ahead = s.speed > 0.0  # in a function of its own this step takes a quarter longer
-                push, rate = (hold.ahead_push, hold.ahead_rate) if ahead else (hold.back_push, hold.back_rate)
-                then, travel = relaxed(rate, push - rate * s.speed, s.speed, stop - t)
-                if quick and then * s.speed > 0.0:
-                    s = State(s.angle + travel, then, s.drive, s.play, 1.0 if ahead else -1.0, s.turned)
+                ahead, then, travel, drive = s.speed > 0.0, 0.0, 0.0, s.drive
+                if quick and s.play == 0.0:  # in a function of its own this step takes a quarter longer
+                    push = hold.ahead_push if ahead else hold.back_push
+                    then, travel = relaxed(hold.rate, push - hold.rate * s.speed, s.speed, stop - t)
+                elif stop - t <= lagging.longest and s.play == 0.0:
+                    then, drive, travel, lagging = turn_lagging(p, hold, s, stop - t, lagging)
+                if then * s.speed > 0.0:
+                    s = State(s.angle + travel, then, drive, s.play, 1.0 if ahead else -1.0, s.turned)
                 else:
                     s = advance(p, u, s, t, stop - t)
                 t, acted = stop, u
+            if stop == loaded:
+                loaded, hold = inf, prepare_hold(p, u, find_torques(p, t))
+                continue
             if switch > until:
                 break
             j += 1
             u = command[j]
             switch = command_time[j + 1] + delay if j + 1 < switches else inf
-            if quick:
-                hold = _prepare_hold(p, u)
+            if straight:
+                hold = prepare_hold(p, u, hold.torques)
         angle[k], speed[k] = s.angle, s.speed
         _put_current(p, acted, s, t, current, k)
         if len(anchor) > 0:

@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from motor_model.dynamics.motor import advance
+from motor_model.dynamics.state import at_rest
 from motor_model.errors import ModelError
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.simulate import roll_out, simulate
@@ -43,6 +45,23 @@ def test_looking_more_often_changes_nothing(effects: tuple[str, ...]) -> None:
     often = simulate(motor, TIME, VOLTAGE, np.arange(1991) * 0.0005)
     seldom = simulate(motor, TIME, VOLTAGE, TIME)
     assert often.angle[::10] == pytest.approx(seldom.angle, abs=1e-10)
+
+
+HAPPENING = {"step_voltage": 0.7, "step_time": 0.3217, "backlash_angle": 0.3, "load_fraction": 0.4}
+
+
+def test_what_is_straight_moves_as_the_step_of_the_motor_says() -> None:
+    """A load step between two samples, and play that is taken up after a reversal: the whole hold's equation or not."""
+    motor = Parameters(BASE | {"ks": 0.5} | HAPPENING, ("coulomb_friction", "load_step", "backlash"))
+    whole = simulate(motor, TIME, VOLTAGE, TIME)
+    s, p, stepped = at_rest(0.0), motor.vector(), [0.0]
+    for k in range(len(TIME) - 1):
+        s = advance(p, VOLTAGE[k], s, TIME[k], TIME[k + 1] - TIME[k])
+        stepped.append(s.angle)
+    assert whole.angle == pytest.approx(stepped, abs=1e-11)
+    plain = simulate(Parameters(BASE | {"ks": 0.5}, ("coulomb_friction",)), TIME, VOLTAGE, TIME)
+    assert np.array_equal(whole.angle[:64], plain.angle[:64])  # until the load comes, the play is not felt
+    assert plain.angle[90] - whole.angle[90] > 0.5
 
 
 def test_a_ripple_takes_its_phase_from_the_measured_angle_where_there_is_one() -> None:

@@ -125,6 +125,7 @@ def fit_residuals(
 ) -> Estimate:
     """Minimise the squares of `target` from an estimate, which is kept if they are not improved."""
     theta, unknowns = start.theta, start.problem.unknowns
+    before = float(np.sum(target.residuals(theta) ** 2))
     minimum = minimise_squares(
         target.residuals,
         target.jacobian,
@@ -133,7 +134,7 @@ def fit_residuals(
         Tolerance(tolerance, tolerance, 0.01 * tolerance, iterations),
         robust_scale=robust_scale,
     )
-    better = np.isfinite(robust_scale) or minimum.cost <= float(np.sum(target.residuals(theta) ** 2))
+    better = np.isfinite(robust_scale) or minimum.cost <= before
     simulations = minimum.residual_calls + 2 * len(theta) * minimum.jacobian_calls + 1
     return Estimate(start.problem, minimum.theta if better else theta, start.simulations + simulations)
 

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from motor_identification.estimation.parameter_space import Unknowns, make_unknowns
-from motor_identification.estimation.residual import simulate_residuals
+from motor_identification.estimation.residual import Latest, simulate_residuals
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.intervals import Intervals, exclude_intervals, join_intervals
 from motor_identification.measurement.measured_angle import Track, make_track
@@ -21,6 +21,7 @@ from motor_model.sensing.encoder import show
 from motor_model.simulate import NOWHERE, roll_out
 
 SEARCH_COARSENESS = 4.0  # of the motion while a swarm searches
+MOST_KEPT = 50_000  # intervals up to which the latest simulations are kept: models of an hour would fill the memory
 DERIVATIVE_STEP = 1e-7  # of the box, for derivatives: 1e-5 of it turns a ripple's phase by 0.3 rad within half a minute
 
 
@@ -125,9 +126,17 @@ class Problem:
 
     def evaluate_vectors(self, vectors: Floats, starts: Floats) -> Floats:
         """The same for parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
+        if len(self.intervals) == 1:  # an hour's residuals are not there twice
+            return self._simulate(0, vectors[:, 0], starts[:, 0])
+        every = range(len(self.intervals))
+        return np.concatenate([self._simulate(r, vectors[:, r], starts[:, r]) for r in every], axis=1)
+
+    def _simulate(self, r: int, vectors: Floats, starts: Floats) -> Floats:
+        """Residuals (S, I) [rad/s] of one recording."""
         self.raise_if_stopped()
-        vectors[:, :, INDEX["coarseness"]] = self.coarseness
-        return simulate_residuals(vectors, starts, self.commands, self.anchors, self.intervals, self.workers)
+        vectors[:, INDEX["coarseness"]] = self.coarseness
+        data, anchor = self.intervals[r], self.anchors[r]
+        return simulate_residuals(vectors, starts, self.commands[r], anchor, data, self.workers)
 
     def raise_if_stopped(self) -> None:
         """Do nothing, unless the computation was told to stop.
@@ -144,15 +153,25 @@ class Problem:
 
     def cost(self, theta: Floats) -> float:
         """[rad²/s²] of one θ (D,)."""
-        return float(self.costs(theta[None])[0])
+        return float(self.residuals(theta) ** 2 @ self.weight)
+
+    @cached_property
+    def _latest(self) -> tuple[Latest[Floats], Latest[tuple[Floats, ...]], Latest[Floats]]:
+        """Residuals, angles and derivatives at the latest θ."""
+        kept = sum(len(data.first) for data in self.intervals) <= MOST_KEPT
+        return Latest(3 * kept), Latest(2 * kept), Latest(kept)
 
     def residuals(self, theta: Floats) -> Floats:
-        """[rad/s] of one θ (D,), shape (I,)."""
-        return np.asarray(self.evaluate(theta[None])[0])
+        """[rad/s] of one θ (D,), shape (I,); not to be written to."""
+        self.raise_if_stopped()
+        return self._latest[0].find(theta, lambda: np.asarray(self.evaluate(theta[None])[0]))
 
     def angles(self, theta: Floats) -> tuple[Floats, ...]:
         """[rad] what the disc shows at the times of every recording's intervals, simulated at one θ (D,)."""
         self.raise_if_stopped()
+        return self._latest[1].find(theta, lambda: self._simulate_angles(theta))
+
+    def _simulate_angles(self, theta: Floats) -> tuple[Floats, ...]:
         vectors, starts = self.unknowns.decode(theta[None])
         angles = []
         for r, ((time, voltage), data) in enumerate(zip(self.commands, self.intervals, strict=True)):
@@ -163,17 +182,27 @@ class Problem:
         return tuple(angles)
 
     def jacobian(self, theta: Floats) -> Floats:
-        """Derivative of the residuals over the unknowns, central differences, shape (I, D)."""
+        """Derivative of the residuals over the unknowns, forward differences, shape (I, D); not to be written to."""
+        self.raise_if_stopped()
+        return self._latest[2].find(theta, lambda: self._differentiate(theta)).T
+
+    def _differentiate(self, theta: Floats) -> Floats:
+        """Shape (D, I); a recording is simulated for what concerns it only, such as its own initial speed."""
         steps = DERIVATIVE_STEP * (self.unknowns.high - self.unknowns.low)
-        columns = np.empty((len(theta), len(self.weight)))
+        here = self.residuals(theta)
+        vectors, starts = self.unknowns.decode(np.concatenate([theta[None], theta + np.diag(steps)]))
+        columns = np.zeros((len(theta), len(here)))
         share = max(self.workers, 1)  # a few unknowns at a time keep all cores busy and an hour's residuals in memory
-        for i in range(0, len(theta), share):
-            some = np.diag(steps)[i : i + share]
-            residuals = self.evaluate(np.concatenate([theta + some, theta - some]))
-            np.subtract(residuals[: len(some)], residuals[len(some) :], out=columns[i : i + share])
-            columns[i : i + share] /= (2.0 * steps[i : i + share])[:, None]
+        end = 0
+        for r, data in enumerate(self.intervals):
+            begin, end = end, end + len(data.first)
+            moved = np.any(vectors[1:, r] != vectors[0, r], axis=1) | (starts[1:, r] != starts[0, r])
+            concerned = np.flatnonzero(moved)
+            for some in (concerned[i : i + share] for i in range(0, len(concerned), share)):
+                aside = self._simulate(r, vectors[some + 1, r], starts[some + 1, r])
+                columns[some, begin:end] = (aside - here[begin:end]) / steps[some, None]
         columns[~np.isfinite(columns)] = 0.0  # a motor a step aside that is no motor says nothing
-        return columns.T
+        return columns
 
 
 def make_problem(

@@ -1,7 +1,8 @@
 """Compute speed residuals: simulated minus measured mean speed of every interval, for a swarm of motors."""
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -10,6 +11,8 @@ from motor_identification.recording import Floats, Integers
 from motor_model.compiled import compiled
 from motor_model.sensing.encoder import show
 from motor_model.simulate import roll_out
+
+T = TypeVar("T")
 
 LEAST_THREADED_STEPS = 50_000  # steps of motion (some 3 ms) for which it pays to start threads
 
@@ -61,35 +64,27 @@ def fill_swarm(
 def simulate_residuals(
     vectors: Floats,
     starts: Floats,
-    commands: Sequence[tuple[Floats, Floats]],
-    anchors: Sequence[Floats],
-    intervals: Sequence[Intervals],
+    command: tuple[Floats, Floats],
+    anchor: Floats,
+    intervals: Intervals,
     workers: int,
 ) -> Floats:
-    """Simulate a swarm: residuals (S, I) [rad/s], the intervals of R recordings one after the other.
+    """Simulate a swarm over one recording: residuals (S, I) [rad/s].
 
-    vectors: parameters, shape (S, R, P). starts: [rad/s] initial speeds, shape (S, R). commands, anchors, intervals: of
-    every recording, see `Problem`.
+    vectors: parameters, shape (S, P). starts: [rad/s] initial speeds, shape (S,). command, anchor: of the
+    recording, see `Problem`.
     """
-    counts = [len(data.first) for data in intervals]
-    residuals = np.empty((len(vectors), sum(counts)))
-    steps = sum(len(data.time) + len(time) for data, (time, _) in zip(intervals, commands, strict=True))
+    residuals = np.empty((len(vectors), len(intervals.first)))
+    steps = len(intervals.time) + len(command[0])
     threads = max(workers, 1) if len(vectors) * steps > LEAST_THREADED_STEPS else 1
     share = -(-len(vectors) // threads)
     parts = [slice(i, i + share) for i in range(0, len(vectors), share)]
 
     def work(part: slice) -> None:
-        column = 0
-        for r, ((time, voltage), data) in enumerate(zip(commands, intervals, strict=True)):
-            alone = len(intervals) == 1  # an hour's residuals are not there twice
-            out = residuals[part] if alone else np.empty((len(vectors[part]), counts[r]))
-            fill_swarm(
-                np.ascontiguousarray(vectors[part, r]), np.ascontiguousarray(starts[part, r]), time, voltage,
-                data.time, anchors[r], data.first, data.last, data.speed, data.slack, out,
-            )  # fmt: skip
-            if not alone:
-                residuals[part, column : column + counts[r]] = out
-            column += counts[r]
+        fill_swarm(
+            np.ascontiguousarray(vectors[part]), np.ascontiguousarray(starts[part]), *command, intervals.time, anchor,
+            intervals.first, intervals.last, intervals.speed, intervals.slack, residuals[part],
+        )  # fmt: skip
 
     if len(parts) == 1:
         work(parts[0])
@@ -97,3 +92,21 @@ def simulate_residuals(
         with ThreadPoolExecutor(len(parts)) as pool:
             list(pool.map(work, parts))
     return residuals
+
+
+class Latest(Generic[T]):
+    """Keep what was computed at the latest few θ: a fit, its start and its end ask again. Threads may share it."""
+
+    def __init__(self, most: int) -> None:
+        self._most = most
+        self._entries: tuple[tuple[bytes, T], ...] = ()  # newest first; replaced as a whole
+
+    def find(self, theta: Floats, compute: Callable[[], T]) -> T:
+        """Find the value at θ (D,), or compute it."""
+        key = theta.tobytes()
+        for known, value in self._entries:
+            if known == key:
+                return value
+        value = compute()
+        self._entries = ((key, value), *self._entries)[: self._most]
+        return value

@@ -17,6 +17,8 @@ Complexes = NDArray[np.complex128]
 
 CYCLES_TOGETHER = 32  # numbers of cycles: phasors are turned from one to the next so often before they are had anew
 
+SMALL_TURN = 1e-6  # [rad] of the load, below which it is taken for constant
+
 
 @dataclass(frozen=True)
 class Course:
@@ -75,7 +77,7 @@ def _passed(
     left = complex(fade * speed.real, fade * speed.imag)
     then = left - (there - complex(fade * here.real, fade * here.imag)) * lag
     change = there - here
-    if abs(turn) > 1e-6:
+    if abs(turn) > SMALL_TURN:
         load = complex(change.imag / frequency, -change.real / frequency)
     else:
         load = complex(here.real * h, here.imag * h)
@@ -92,15 +94,73 @@ def _fill_response(
     order: Integers, start: Floats, end: Floats, duration: Floats, moving: Bools,
     cycles: float, rate: float, travel: Complexes,
 ) -> None:  # fmt: skip
-    speed = complex(0.0, 0.0)
+    speed, there, at = complex(0.0, 0.0), complex(1.0, 0.0), 0.0
     for i in order:
         h = duration[i]
         if not moving[i] or h <= 0.0:
             speed = complex(0.0, 0.0)
             continue
-        here, there = _phasor(cycles * start[i]), _phasor(cycles * end[i])
+        here = there if start[i] == at else _phasor(cycles * start[i])
+        there, at = _phasor(cycles * end[i]), end[i]
         turn, fade = cycles * (end[i] - start[i]), np.exp(-rate * h)
         travel[i], speed = _passed(speed, here, there, turn, h, fade, rate)
+
+
+@compiled
+def _turn_on(work: Floats, to: int, cycles: float, width: float, angle: float) -> None:
+    """Fill the row from `to` on, and the next, with cosines and sines of all cycles at an angle, by doubling."""
+    first, on = _phasor(cycles * angle), _phasor(width * angle)
+    work[to], work[to + CYCLES_TOGETHER] = first.real, first.imag
+    known = 1
+    while known < CYCLES_TOGETHER:
+        for k in range(to, to + known):
+            x, y = work[k], work[k + CYCLES_TOGETHER]
+            work[k + known] = x * on.real - y * on.imag
+            work[k + known + CYCLES_TOGETHER] = x * on.imag + y * on.real
+        on = on * on
+        known *= 2
+
+
+# Rows of the work of `_add_products`: real and imaginary parts of the speed, of the phasors at both ends, and of the
+# sums. All in one array, with rows of a fixed length: only so it is vectorised.
+SPEED, START, END, SUMS, ROWS = 0, 2 * CYCLES_TOGETHER, 4 * CYCLES_TOGETHER, 6 * CYCLES_TOGETHER, 8 * CYCLES_TOGETHER
+
+
+@compiled
+def _pass_all(
+    work: Floats, cycles: float, width: float, turn: float, h: float, fade: float, rate: float, along: float
+) -> None:
+    """Do what `_passed` does for all numbers of cycles, in real numbers, and sum up."""
+    per_second = turn / h
+    for k in range(CYCLES_TOGETHER):
+        frequency = (cycles + k * width) * per_second
+        size = rate * rate + frequency * frequency
+        inverse = 1.0 / (size * frequency)
+        share, period = frequency * inverse, size * inverse  # 1/size, 1/frequency
+        x, y = work[SPEED + k], work[SPEED + CYCLES_TOGETHER + k]
+        hx, hy = work[START + k], work[START + CYCLES_TOGETHER + k]
+        tx, ty = work[END + k], work[END + CYCLES_TOGETHER + k]
+        real, imaginary = tx - fade * hx, ty - fade * hy
+        then_x = fade * x - share * (real * rate + imaginary * frequency)
+        then_y = fade * y - share * (imaginary * rate - real * frequency)
+        work[SPEED + k], work[SPEED + CYCLES_TOGETHER + k] = then_x, then_y
+        work[SUMS + k] += along * (x - then_x - (ty - hy) * period)
+        work[SUMS + CYCLES_TOGETHER + k] += along * (y - then_y + (tx - hx) * period)
+
+
+@compiled
+def _pass_each(
+    work: Floats, cycles: float, width: float, turn: float, h: float, fade: float, rate: float, along: float
+) -> None:
+    """Do the same one by one, also where the shaft hardly turns."""
+    for k in range(CYCLES_TOGETHER):
+        speed = complex(work[SPEED + k], work[SPEED + CYCLES_TOGETHER + k])
+        here = complex(work[START + k], work[START + CYCLES_TOGETHER + k])
+        there = complex(work[END + k], work[END + CYCLES_TOGETHER + k])
+        travel, then = _passed(speed, here, there, (cycles + k * width) * turn, h, fade, rate)
+        work[SPEED + k], work[SPEED + CYCLES_TOGETHER + k] = then.real, then.imag
+        work[SUMS + k] += along * travel.real
+        work[SUMS + CYCLES_TOGETHER + k] += along * travel.imag
 
 
 @compiled
@@ -109,21 +169,36 @@ def _add_products(
     cycles: float, width: float, rate: float, pull: Floats, block: Integers, sums: Complexes,
 ) -> None:  # fmt: skip
     """All numbers of cycles in one pass: from one to the next, every angle's phasor turns by the same angle."""
-    count = sums.shape[1]
-    speed = np.zeros(count, dtype=np.complex128)
+    work, at, latest = np.zeros(ROWS), np.inf, -1
+    least = SMALL_TURN / min(abs(cycles), abs(cycles + (CYCLES_TOGETHER - 1) * width))
     for i in order:
-        h = duration[i]
+        h, turn = duration[i], end[i] - start[i]
         if not moving[i] or h <= 0.0:
-            speed[:] = 0.0
+            work[:START] = 0.0
             continue
-        here, there = _phasor(cycles * start[i]), _phasor(cycles * end[i])
-        here_on, there_on = _phasor(width * start[i]), _phasor(width * end[i])
-        fade, row, along = np.exp(-rate * h), sums[block[i]], pull[i]
-        for k in range(count):
-            turn = (cycles + k * width) * (end[i] - start[i])
-            travel, speed[k] = _passed(speed[k], here, there, turn, h, fade, rate)
-            row[k] += complex(along * travel.real, along * travel.imag)
-            here, there = here * here_on, there * there_on
+        if block[i] != latest:
+            _flush(work, sums, latest)
+            latest = block[i]
+        if start[i] == at:
+            work[START:END] = work[END:SUMS]
+        else:
+            _turn_on(work, START, cycles, width, start[i])
+        _turn_on(work, END, cycles, width, end[i])
+        at, fade = end[i], np.exp(-rate * h)
+        if abs(turn) > least:
+            _pass_all(work, cycles, width, turn, h, fade, rate, pull[i])
+        else:
+            _pass_each(work, cycles, width, turn, h, fade, rate, pull[i])
+    _flush(work, sums, latest)
+
+
+@compiled
+def _flush(work: Floats, sums: Complexes, block: int) -> None:
+    """Add the sums of a block to what it has (none before the first), and begin anew."""
+    if block >= 0:
+        for k in range(sums.shape[1]):
+            sums[block, k] += complex(work[SUMS + k], work[SUMS + CYCLES_TOGETHER + k])
+    work[SUMS:] = 0.0
 
 
 @compiled

@@ -107,7 +107,7 @@ def _complex_phi_triple(z: complex) -> tuple[complex, complex, complex]:
     return _phi_from_growth(z, exp(z.real) * complex(cos(z.imag), sin(z.imag)) - 1.0)
 
 
-class _Halves(NamedTuple):
+class Halves(NamedTuple):
     """φ1, φ2, φ3 of h·M: φ = even + odd·(M − mean)."""
 
     even1: float
@@ -119,17 +119,17 @@ class _Halves(NamedTuple):
 
 
 @compiled
-def _halves(mean: float, square: float, h: float) -> _Halves:
+def _halves(mean: float, square: float, h: float) -> Halves:
     """Split φ by the eigenvalues of M, mean ± √square: real ones one by one, of a complex pair one is enough."""
     gap = sqrt(abs(square))
     if square < 0.0 and gap * h >= DOUBLE:
         one, two, three = _complex_phi_triple(complex(mean * h, gap * h))
-        return _Halves(one.real, one.imag / gap, two.real, two.imag / gap, three.real, three.imag / gap)
+        return Halves(one.real, one.imag / gap, two.real, two.imag / gap, three.real, three.imag / gap)
     gap = max(gap, DOUBLE / h)
     upper1, upper2, upper3 = _phi_triple((mean + gap) * h)
     lower1, lower2, lower3 = _phi_triple((mean - gap) * h)
     share = 0.5 / gap
-    return _Halves(
+    return Halves(
         0.5 * (upper1 + lower1), share * (upper1 - lower1),
         0.5 * (upper2 + lower2), share * (upper2 - lower2),
         0.5 * (upper3 + lower3), share * (upper3 - lower3),
@@ -137,14 +137,28 @@ def _halves(mean: float, square: float, h: float) -> _Halves:
 
 
 @compiled
+def halves_of(c: Coefficients, tau: float, h: float) -> Halves:
+    """Split φ of the motor with inductance: the same for every motion over h [s], whatever its start and voltage."""
+    a, e = -c.slope / c.inertia, -1.0 / tau
+    return _halves(0.5 * (a + e), 0.25 * (a - e) * (a - e) + 1.0 / c.inertia * (-c.back_emf / tau), h)
+
+
+@compiled
 def second_order(c: Coefficients, tau: float, speed: float, drive: float, h: float) -> tuple[float, float, float]:
     """Speed, v and travel after h of the motor with inductance, exact by the eigenvalues of M."""
+    return second_order_by(halves_of(c, tau, h), c, tau, speed, drive, h)
+
+
+@compiled
+def second_order_by(
+    phi: Halves, c: Coefficients, tau: float, speed: float, drive: float, h: float
+) -> tuple[float, float, float]:
+    """Do the same by the halves of φ, which are the same for all motions over h."""
     a, b = -c.slope / c.inertia, 1.0 / c.inertia
     d, e = -c.back_emf / tau, -1.0 / tau
     f0 = (drive - c.torque) * b
     f1 = (c.source - c.back_emf * speed - drive) / tau
     mean = 0.5 * (a + e)
-    phi = _halves(mean, 0.25 * (a - e) * (a - e) + b * d, h)
     g0 = (a - mean) * f0 + b * f1
     g1 = d * f0 + (e - mean) * f1
     travel = h * (speed + h * (phi.even2 * f0 + phi.odd2 * g0))

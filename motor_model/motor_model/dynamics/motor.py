@@ -54,21 +54,6 @@ MAX_PIECES = 100_000  # between two outputs; a guard against endless chatter, ne
 
 
 @compiled
-def is_straight(p: Floats) -> bool:
-    """Whether the equation is linear and the same at any time while the shaft turns one way at one voltage."""
-    steady = p[LAG] == 0.0 and p[STEP] == 0.0 and (p[PLAY] == 0.0 or p[LOAD_FRACTION] == 0.0)
-    return steady and not is_bent(p)
-
-
-@compiled
-def straight(p: Floats, u: float, direction: float) -> Coefficients:
-    """The linear equation of a motor for which `is_straight` holds, at an effective voltage u [V]."""
-    source, back_emf = drive_of(p, u)
-    torque = friction_at(p, 0.0, direction) + loads_at(p, 0.0, 0.0)
-    return Coefficients(p[KA], torque, friction_slope_at(p, 0.0), source, back_emf, 0.0)
-
-
-@compiled
 def _hold(p: Floats, s: State, source: float, load: float, level: float, h: float) -> tuple[float, float, float]:
     """A motor at rest: how long it holds (up to h), v at the end of that, and the direction it starts in (0: holds)."""
     tau = p[LAG]

@@ -1,14 +1,18 @@
 """A fitting problem: weights by time, derivatives by differences, views of the same recordings."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
-from small import THETA, small_problem, small_recording
+from small import THETA, TRUE, small_problem, small_recording
 
+from motor_identification.estimation import problem as problem_module
 from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.residual import simulate_residuals
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.progress import Stopped
+from motor_identification.recording import Floats
 from motor_model.errors import RecordingError
 
 
@@ -32,6 +36,26 @@ def test_the_jacobian_is_the_derivative(workers: int) -> None:
     for column, step in zip(jacobian.T, 1e-4 * np.eye(3), strict=True):
         slope = (problem.residuals(THETA + step) - problem.residuals(THETA - step)) / 2e-4
         assert np.linalg.norm(column - slope) < 0.01 * np.linalg.norm(slope)
+
+
+def test_a_recording_is_simulated_for_what_concerns_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    turning = small_recording(1).between(0.1, 0.7)  # it begins on a moving motor: an unknown of its own
+    problem = make_problem([small_recording(0), turning], ("coulomb_friction",))
+    theta = np.append(THETA, 9.0 / TRUE["kv"])
+    assert len(problem.unknowns.low) == 4
+    first = len(problem.intervals[0].first)
+    simulated = []
+
+    def counted(vectors: Floats, *rest: Any) -> Floats:
+        simulated.append(len(vectors))
+        return simulate_residuals(vectors, *rest)
+
+    monkeypatch.setattr(problem_module, "simulate_residuals", counted)
+    jacobian = problem.jacobian(theta)
+    assert np.all(jacobian[:first, 3] == 0.0) and np.abs(jacobian[first:, 3]).max() > 0.5
+    assert sum(simulated) == 2 + 3 + 4  # the residuals once, then what moves each recording
+    assert problem.jacobian(theta) == pytest.approx(jacobian) and problem.cost(theta) > 0.0
+    assert sum(simulated) == 2 + 3 + 4  # nothing anew
 
 
 def test_joined_intervals_are_fewer_and_say_the_same() -> None:

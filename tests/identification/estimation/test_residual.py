@@ -6,7 +6,7 @@ from small import THETA, small_recording
 
 from motor_identification.estimation import residual
 from motor_identification.estimation.problem import make_problem
-from motor_identification.estimation.residual import compute_residuals
+from motor_identification.estimation.residual import Latest, compute_residuals
 from motor_identification.measurement.intervals import append_standstills, index_intervals
 
 SLOT = 0.1  # [rad]
@@ -40,3 +40,15 @@ def test_a_swarm_has_the_residuals_of_its_motors(workers: int, monkeypatch: pyte
         angles = problem.angles(theta)
         rows = zip(problem.intervals, angles, strict=True)
         assert np.array_equal(np.concatenate([compute_residuals(data, angle) for data, angle in rows]), row)
+
+
+def test_the_latest_values_are_computed_once() -> None:
+    latest, computed = Latest[float](2), []
+
+    def find(x: float) -> float:
+        return latest.find(np.array([x, 1.0]), lambda: computed.append(x) or 10.0 * x)  # type: ignore[func-returns-value]
+
+    assert [find(x) for x in (1.0, 2.0, 1.0, 2.0)] == [10.0, 20.0, 10.0, 20.0] and computed == [1.0, 2.0]
+    assert find(3.0) == 30.0 and find(1.0) == 10.0 and computed == [1.0, 2.0, 3.0, 1.0]  # two are kept
+    forgetful = Latest[float](0)
+    assert forgetful.find(THETA, lambda: 1.0) == 1.0 and forgetful.find(THETA, lambda: 2.0) == 2.0

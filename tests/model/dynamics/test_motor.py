@@ -5,7 +5,7 @@ from math import log
 import pytest
 from numpy.typing import NDArray
 
-from motor_model.dynamics.motor import advance, is_straight, piece, straight, time_in_piece
+from motor_model.dynamics.motor import advance, piece, time_in_piece
 from motor_model.dynamics.state import State, at_rest
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 
@@ -73,22 +73,6 @@ def test_backlash_takes_the_load_away_until_the_play_is_taken_up() -> None:
     taken_up, _ = piece(p, 6.0, s._replace(direction=1.0), 0.0, 1e-4)
     assert free.speed / taken_up.speed == pytest.approx(2.0, rel=1e-2)
     assert free.play == pytest.approx(0.2 - free.angle) and taken_up.play == 0.0
-
-
-def test_straight_is_what_is_linear_and_the_same_at_any_time() -> None:
-    assert is_straight(vector("coulomb_friction", "coast_drive", ks=0.4, coast_share=0.5))
-    for p in (
-        vector("static_friction", **STATIC),
-        vector("quadratic_drag", drag=1e-4),
-        vector("armature_inductance", electrical_time_constant=0.01),
-        vector("load_step", step_voltage=0.5, step_time=1.0),
-        vector("torque_ripple", ripple_voltage=0.1, ripple_cycles=3.0, ripple_phase=0.0),
-        vector("warm_up", resistance_rise=0.1, warm_up_time=3.0),
-        vector("backlash", backlash_angle=0.2, load_fraction=0.5),
-    ):
-        assert not is_straight(p)
-    c = straight(vector("coulomb_friction", "load_bias", ks=0.4, bias_voltage=0.1), 6.0, -1.0)
-    assert c == pytest.approx((PAPER_KA, -0.3, 0.0, 6.0, PAPER_KV, 0.0))
 
 
 def test_the_time_at_which_an_angle_is_passed() -> None:
