@@ -27,6 +27,7 @@ from motor_model.compiled import compiled
 OUTLIERS = 1e-4  # ε: share of intervals whose error is none of the noise
 WIDTH = 10.0  # scale of their density, in standard deviations of the others
 GAINS = 12  # numbers of an interval that the filter of other increments needs
+SAME_TIME = 1e-10  # of an interval: what an even sample period is rounded by, far below what any stamp can tell
 _LONG = 40.0  # time constants after which nothing is remembered
 
 
@@ -91,7 +92,7 @@ def run_filter(  # noqa: C901, PLR0915
                 elif pause[k] == 0.0:
                     fd, ft = 1.0, 1.0
                 elif pause[k] > 0.0:
-                    if pause[k] != of_pause:
+                    if abs(pause[k] - of_pause) > SAME_TIME * pause[k]:
                         of_pause = pause[k]
                         fill_growth(alpha, beta, of_pause, p)
                     fd, ft, by = exp(-alpha * of_pause), exp(-beta * of_pause), lag_response(alpha, beta, of_pause)
@@ -106,7 +107,7 @@ def run_filter(  # noqa: C901, PLR0915
             level[:] = 0.0
             bb, bd, bt = start[k], 0.0, 0.0
         if strength > 0.0:
-            if h != of_interval:
+            if abs(h - of_interval) > SAME_TIME * h:
                 of_interval = h
                 fill_growth(alpha, beta, h, q)
                 phi_d, phi_t, by_t = exp(-alpha * h), exp(-beta * h), lag_response(alpha, beta, h)
