@@ -1,0 +1,59 @@
+"""Recognise speeds that are running means: counts of the last W rows, of which each row brings one new and drops one.
+
+Of such values n (whole counts) the counts of single rows can be had back, row by row: c(k) = n(k) − n(k−1) + c(k−W),
+from a standstill on. With the right W they stay what a motor can do in a row, about n/W; with a wrong one they are the
+sum of unrelated changes and walk away at random. A window of one row explains everything, and nothing is learned of it.
+"""
+
+from math import ceil
+
+import numpy as np
+
+from motor_identification.recording import Floats, Integers
+from motor_identification.sensor.value_lattice import find_lattice
+
+LONGEST = 256  # rows of a window
+FEWEST_WINDOWS = 10  # in the motion: a random walk of so many steps leaves the bounds
+FEWEST_CHANGES = 20  # each way: a value that only rises fits any window
+MOST_COUNTS = 10_000  # in a window
+ROOM = 1  # counts that a row may have above the mean of its window
+OFF_GRID = 0.2  # of a count: what is farther beside is no count
+
+
+def find_running_mean(values: Floats) -> int:
+    """Find over how many rows speeds (K,) at regular rows are running means of whole counts; 0 where they are none.
+
+    The motor has to stand at first: a first value of 0 says that it did for as long as the window.
+    """
+    step = find_lattice(values)
+    if step <= 0.0:
+        return 0
+    exact = values / step
+    counts = np.rint(exact).astype(np.int64)
+    change = np.diff(counts)
+    stands = len(counts) > 1 and counts[0] == 0
+    few = not stands or min(np.count_nonzero(change > 0), np.count_nonzero(change < 0)) < FEWEST_CHANGES
+    if few or np.max(np.abs(exact - counts)) > OFF_GRID or np.max(np.abs(counts)) > MOST_COUNTS:
+        return 0
+    moving = np.flatnonzero(counts)
+    longest = min(LONGEST, (len(counts) - int(moving[0])) // FEWEST_WINDOWS)
+    # What fits a window fits its divisors, and no neighbours of it; one that is too long here shows as a divisor, too.
+    fitting = [window for window in range(2, 2 * longest + 2) if _fits(counts, window)]
+    sure = fitting and fitting[-1] <= longest and not {fitting[-1] - 1, fitting[-1] + 1} & set(fitting)
+    return fitting[-1] if sure else 0
+
+
+def _fits(counts: Integers, window: int) -> bool:
+    """Whether the counts of single rows, if the window has so many, are what a motor can do."""
+    most, least = int(counts.max(initial=0)), int(counts.min(initial=0))
+    high, low = (ceil(most / window) + ROOM if most else 0), (-ceil(-least / window) - ROOM if least else 0)
+    single = _single_rows(counts, window)
+    return bool(low <= single.min() and single.max() <= high)
+
+
+def _single_rows(counts: Integers, window: int) -> Integers:
+    """Counts of single rows (K,) from those of windows: c(k) = n(k) − n(k−1) + c(k−W), 0 before the first."""
+    change = np.diff(counts, prepend=0)
+    padded = np.zeros(-(-len(change) // window) * window, np.int64)
+    padded[: len(change)] = change
+    return np.asarray(np.cumsum(padded.reshape(-1, window), axis=0).ravel()[: len(change)])

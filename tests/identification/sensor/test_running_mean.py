@@ -1,0 +1,68 @@
+"""Speeds that are running means of counts, and others that are none."""
+
+import numpy as np
+import pytest
+
+from motor_identification.recording import Floats
+from motor_identification.sensor.running_mean import FEWEST_WINDOWS, find_running_mean
+
+PERIOD = 0.001  # [s]
+
+
+def angle(rows: int = 2000, top: float = 120.0, stands: int = 300, seed: int = 0) -> Floats:
+    """[rad] of a motor that stands, speeds up, and then goes between levels; one way."""
+    generator = np.random.default_rng(seed)
+    levels = np.repeat(generator.uniform(0.3, 1.0, rows // 400 + 1), 400)[:rows] * top
+    levels[:stands] = 0.0
+    speed = np.zeros(rows)
+    for k in range(1, rows):
+        speed[k] = speed[k - 1] + (levels[k - 1] - speed[k - 1]) * PERIOD / 0.03
+    return np.asarray(np.cumsum(speed) * PERIOD)
+
+
+def running(window: int, edges: float, seed: int = 0, way: float = 1.0) -> Floats:
+    """[rad/s] by the counts of the last rows."""
+    counts = np.floor(angle(seed=seed) * edges / 2.0 / np.pi + 0.3)
+    before = np.concatenate([np.full(window, counts[0]), counts[:-window]])
+    return np.asarray(way * (counts - before) * 2.0 * np.pi / edges / window / PERIOD)
+
+
+@pytest.mark.parametrize("window", [5, 10, 32, 50])
+@pytest.mark.parametrize(("edges", "way"), [(48.4, 1.0), (300.0, -1.0)], ids=["few counts", "many, backward"])
+def test_a_running_mean_is_recognised(window: int, edges: float, way: float) -> None:
+    assert [find_running_mean(running(window, edges, seed, way)) for seed in range(3)] == [window] * 3
+
+
+@pytest.mark.parametrize("digits", [2, 4])
+def test_printed_digits_do_not_hide_it(digits: int) -> None:
+    assert find_running_mean(np.round(running(32, 48.4) * 30.0 / np.pi, digits)) == 32
+
+
+@pytest.mark.parametrize("edges", [48.4, 300.0, 3000.0])
+def test_counts_of_single_rows_are_none(edges: float) -> None:
+    assert [find_running_mean(running(1, edges, seed)) for seed in range(5)] == [0] * 5
+
+
+def test_windows_that_follow_each_other_are_none() -> None:
+    for window in (5, 10):
+        assert find_running_mean(running(window, 300.0)[::window]) == 0
+        held = np.repeat(running(window, 300.0)[::window], window)
+        assert find_running_mean(held) == 0
+
+
+def test_noise_printed_digits_and_a_motion_that_only_rises_are_none() -> None:
+    generator = np.random.default_rng(1)
+    smooth = np.gradient(angle(), PERIOD)
+    assert find_running_mean(smooth + generator.normal(0.0, 0.5, len(smooth))) == 0
+    assert find_running_mean(np.round(smooth + generator.normal(0.0, 0.05, len(smooth)), 1)) == 0
+    assert find_running_mean(np.round(smooth, 1)) == 0
+    assert find_running_mean(np.floor(np.clip(np.arange(2000) - 300.0, 0.0, None) / 40.0)) == 0
+    assert find_running_mean(np.zeros(100)) == 0
+
+
+def test_a_recording_that_begins_in_motion_or_is_short_tells_nothing() -> None:
+    whole = running(32, 48.4)
+    begins = int(np.flatnonzero(whole)[0])
+    assert find_running_mean(whole[begins - 1 :]) == 32, "it stood before the log began"
+    assert find_running_mean(whole[begins:]) == 0
+    assert find_running_mean(whole[: begins + (FEWEST_WINDOWS - 1) * 32]) == 0
