@@ -19,11 +19,11 @@ LITTLE = 3.0  # [V] of supply: no bridge works with less
 QUICK = 1.0 / 300.0  # [s] between edges; to stop within the next slot takes 3000 rad/s² with 96 of them
 SLOWER = 0.98  # of the speed at the beginning; a motor that is braked by STRONG keeps more only if its time constant
 # is over 50 times the stall time: du/dt = -(0.5 + 1)·speed/time constant at least, from top speed down
-# A loop that pushes the wrong way may do so in pulses, because it lets a fast motor coast. What is strong in the mean
-# is so, too: beyond PRESSING of the motor's voltage, more than a load of a quarter of it asks a brake for (of 132
-# random motors with such loads the sum was 0.014 s at most).
-PRESSING = 0.3
-PRESSED = 0.04  # [s] of the motor's voltage beyond that; 0.2 s of STRONG
+# A loop that pushes the wrong way may do so in pulses, because it lets a fast motor coast, and may be held below STRONG
+# by a limit on plugging. More than PRESSING in the mean is more than a load of a quarter of the motor's voltage asks a
+# brake for, and slows that load down: of 73 random motors with such loads none was pressed so for the stall time.
+PRESSING = 0.27
+PRESSED = 0.01  # [s] of the motor's voltage beyond that
 # A plant reports 0 rad/s where edges are further apart than SLOW; the count of two channels still says which way they
 # went. BACK of them against a strong voltage, none of them much later than the one before, are no motor that is being
 # braked: under STRONG the periods of one whose time constant is 1 s and that comes to rest grow by GROWTH and more.
@@ -55,8 +55,8 @@ class MotionCheck:
     still: int = 0  # [ns] driven in this direction without an edge since
     along: int = 0  # [ns] driven in this direction while turning against it since
     strong_since: int = 0  # [ns] driven strongly in this direction since
-    pushing: int = 0  # direction of the latest strong voltage, until one has the other direction
-    begun: float = 0.0  # [rad/s] speed against that voltage, before it fell
+    pushing: int = 0  # direction of the latest voltage beyond PRESSING, until one has the other direction
+    begun: float = 0.0  # [rad/s] speed against that voltage when it began to press
     begun_at: int = 0  # [ns]
     pressed: float = 0.0  # [s] of the motor's voltage against that speed, beyond PRESSING
     back: int = 0  # slow edges against the strong voltage since then
@@ -69,10 +69,11 @@ class MotionCheck:
         if strong == 0 and share * self.strong >= STILL_STRONG * STRONG:
             strong = self.strong
         fresh, anew = direction != self.direction, strong != self.strong
-        pushing = strong or (self.pushing if share * self.pushing >= 0.0 else 0)
+        pushing = _sign(share, PRESSING) or (self.pushing if share * self.pushing >= 0.0 else 0)
         moved = self.latest is None or sample.edge_count != self.latest.edge_count
         against = max(-sample.speed * pushing, 0.0)
         fell = pushing != self.pushing or against == 0.0 or against < SLOWER * self.begun
+        pressed = 0.0 if fell else self._press(share * pushing, strong, now)
         return replace(
             self,
             latest=sample,
@@ -82,9 +83,9 @@ class MotionCheck:
             along=now if fresh or sample.speed * direction >= 0.0 else self.along,
             strong_since=now if anew else self.strong_since,
             pushing=pushing,
-            begun=against if fell else self.begun,
-            begun_at=now if fell else self.begun_at,
-            pressed=0.0 if fell else self._press(share * pushing, strong, now),
+            begun=self.begun if pressed else against,
+            begun_at=self.begun_at if pressed else now,
+            pressed=pressed,
             back=0 if anew else self._count_back(sample, strong),
             quick=0.0 < sample.edge_period < QUICK if moved else self.quick,
         )

@@ -137,3 +137,19 @@ def test_pulses_against_the_motion_are_a_wrong_direction_if_they_are_strong_in_t
         stopped = stopped or 0.005 * k * bool(check.stop)
     assert (0.39 < stopped < 0.6) if stops else not stopped
     assert not check.stop or check.stop.startswith("the motor turns against its voltage")
+
+
+@pytest.mark.parametrize(("share", "stops"), [(0.296, True), (0.26, False)])
+def test_what_presses_against_the_motion_for_good_is_a_wrong_sign(share: float, stops: bool) -> None:
+    """A limit on plugging held exchanged channels at 0.296 of the voltage, at 26 % of the top speed, for ever."""
+    turning = [sample(0.005 * k, -5 * k, -45.0, share * 12.0) for k in range(200)]
+    at = next((0.005 * k for k in range(200) if checked(False, *turning[: k + 1]).stop), None)
+    assert (at is not None) == stops and (at is None or 0.39 < at < 0.5)
+    assert checked(True, *turning).stop == ""
+
+
+def test_a_load_that_drives_the_motor_is_braked_by_what_presses_against_it() -> None:
+    """It has been held back for long, and grown; then another reference brakes it hard, within 75 ms."""
+    held = [sample(0.005 * k, -k, -(10.0 + 0.1 * min(k, 100)), 0.2 * 12.0) for k in range(300)]
+    braked = [sample(1.5 + 0.005 * k, -300 - k, -20.0 + 0.6 * k, 12.0) for k in range(15)]
+    assert not any(checked(False, *held, *braked[: k + 1]).stop for k in range(15))
