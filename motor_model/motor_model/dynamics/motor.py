@@ -48,8 +48,11 @@ Floats = NDArray[np.float64]
 KA, KS, BREAKAWAY = INDEX["ka"], INDEX["ks"], INDEX["breakaway_voltage"]
 LAG = INDEX["electrical_time_constant"]
 STEP, STEP_TIME = INDEX["step_voltage"], INDEX["step_time"]
-PLAY, LOAD_FRACTION = INDEX["backlash_angle"], INDEX["load_fraction"]
+PLAY, LOAD_FRACTION, U_MAX = INDEX["backlash_angle"], INDEX["load_fraction"], INDEX["max_voltage"]
 
+# Of the supply's voltage: what holds a motor without friction at rest. Else an inductance lets it swing on for ever, by
+# less than a rounding error, in pieces as short as that.
+LEAST_LEVEL = 1e-12
 MAX_PIECES = 100_000  # between two outputs; a guard against endless chatter, never reached in a physical case
 
 
@@ -87,7 +90,8 @@ def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, flo
         drive = source - back_emf * s.speed
     if s.speed == 0.0:
         load = w * loads_at(p, s.angle + s.turned, t)
-        held, drive, started = _hold(p, s, source, load, w * max(p[KS], p[BREAKAWAY]), h)
+        level = max(w * max(p[KS], p[BREAKAWAY]), LEAST_LEVEL * p[U_MAX])
+        held, drive, started = _hold(p, s, source, load, level, h)
         if held > 0.0:
             return State(s.angle, 0.0, drive, play, direction, s.turned), held
         if started * direction < 0.0:

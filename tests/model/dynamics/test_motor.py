@@ -75,6 +75,15 @@ def test_backlash_takes_the_load_away_until_the_play_is_taken_up() -> None:
     assert free.play == pytest.approx(0.2 - free.angle) and taken_up.play == 0.0
 
 
+def test_a_swing_without_friction_ends_at_last() -> None:
+    p = vector("armature_inductance", "quadratic_drag", electrical_time_constant=0.03, drag=1e-5)
+    s = State(0.0, 60.0, 0.0, 0.0, 1.0, 0.0)
+    later = advance(p, 0.0, s, 0.0, 0.5)
+    assert 0.0 < abs(later.speed) < 0.1
+    assert advance(p, 0.0, later, 0.5, 30.0).speed == 0.0
+    assert advance(p, 1e-9, later, 0.5, 30.0).speed == pytest.approx(1e-9 / PAPER_KV)  # what is no rounding turns it
+
+
 def test_the_time_at_which_an_angle_is_passed() -> None:
     for p in (vector("coulomb_friction", ks=0.4), vector("static_friction", **STATIC)):
         s = State(0.0, 60.0, 0.0, 0.0, 1.0, 0.0)
