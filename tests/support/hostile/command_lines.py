@@ -82,6 +82,30 @@ def csv(draw: Draw, random: Random, folder: Path) -> list[str]:
     return words + (random.choice(extra) if random.random() < 0.2 else [])
 
 
+def serial(draw: Draw, random: Random, folder: Path) -> list[str]:
+    """What an Arduino printed: names before or in cells, stamps that stray, units that nobody knows, a line cut off."""
+    times = [k * 0.005 for k in range(200)]
+    for _ in range(random.choice((0, 0, 1, 2, 50))):
+        times[random.randrange(200)] += random.choice((0.006, -0.006, 1e9, float("nan"), -1.0))
+    rows = [(f"{now:.3f}", f"{6.0 * (k > 20)}", f"{min(k, 60) * 1.5:.2f}") for k, now in enumerate(times)]
+    names = ["t", "voltage", random.choice(("speed", "tacho", "Speed (steps/s)", "pitch_velocity", "Speed (/)"))]
+    for _ in range(random.choice((0, 0, 1))):
+        names[random.randrange(3)] = random.choice((*WORDS, "t", "a" * 50))
+    form = random.choice(("{n},{v}", "{n},{v}", "{n}:{v}", "{n} {v}", "{n}={v}", "{v}"))
+    between = "," if form == "{n},{v}" else random.choice((",", ";", " ", "\t"))
+    lines = [between.join(form.format(n=n, v=v) for n, v in zip(names, row, strict=True)) for row in rows]
+    for _ in range(random.choice((0, 1, 1, 5, 100))):
+        place = random.randrange(len(lines))
+        lines[place] = random.choice(
+            (lines[place][: random.randrange(20)], random.choice(WORDS), random.choice(NUMBERS))
+        )
+    head = random.choice(("", "=~=~= PuTTY log =~=~=\n", ",".join(names) + "\n"))
+    data = (head + "\n".join(lines)).encode("utf-8", errors="surrogatepass")
+    (folder / "input.csv").write_bytes(mcap_mutation.changed_bytes(data, random) if random.random() < 0.2 else data)
+    words = ["import_log", "input.csv", *random.choice((["--output", "out/bag"], ["--dry-run"])), "--unit", "rad/s"]
+    return words + (["--edges-per-revolution", random.choice(NUMBERS)] if random.random() < 0.2 else [])
+
+
 def pipes(draw: Draw, random: Random, folder: Path) -> list[str]:
     """Pipes, devices, loops and folders in the places of files."""
     bad = folder / ("input" + random.choice(("", ".mcap", ".db3", ".yaml", ".csv", ".mcap.zstd")))

@@ -10,7 +10,7 @@ from foreign_bags import move, write_driver_states, write_joint_states
 
 from hostile import mcap_mutation
 from hostile.bags import FIT
-from hostile.kind import Draw
+from hostile.kind import ROOT, Draw
 from hostile.odd_values import NUMBERS, WORDS
 from hostile.yaml_files import yaml_text
 
@@ -82,3 +82,42 @@ def bag(draw: Draw, random: Random, folder: Path) -> list[str]:
     (folder / "mapping.yaml").write_text(yaml.safe_dump(SOUND[name]))
     inspect = ["inspect", path, *random.choice(([], ["--output", "out/mapping.yaml"]))]
     return random.choice((["identify", path, "--mapping", "mapping.yaml", *FIT], inspect))
+
+
+def heard(draw: Draw, random: Random, folder: Path) -> list[str]:
+    """Another robot's messages, changed, as a monitor hears them: by a mapping that is sound, mostly."""
+    words = (mapping if random.random() < 0.3 else bag)(draw, random, folder)
+    if not (folder / "mapping.yaml").exists():
+        (folder / "mapping.yaml").write_text(yaml.safe_dump(random.choice(list(SOUND.values()))))
+    window = random.choice(("10", "10", "1", "0.5", "600"))
+    return [
+        "watch",
+        words[1],
+        "mapping.yaml",
+        str(ROOT / "bags" / random.choice(("paper", "rich", "closed_loop"))),
+        window,
+    ]
+
+
+def watch(words: list[str]) -> int:
+    """Do what a monitor does with messages, without a graph: keep them, and judge the motor now and then."""
+    from motor_ros.command import shell
+
+    def work() -> int:
+        from motor_identification.bag.storage import Bag
+        from motor_identification.live.monitor_node import make_watch
+        from motor_identification.monitoring.evaluation import evaluate
+        from motor_identification.monitoring.health import Health, Limits, update_health
+        from motor_identification.monitoring.heard import Heard
+
+        uri, mapping, model, window = words
+        watched = make_watch(f"{model}.yaml", mapping, "/", Limits(float(window)))
+        kept, health = Heard(float(window)), Health()
+        for number, (topic, at, data) in enumerate(Bag(uri).messages(set(watched.motor.topics))):
+            kept.write(kept.topic(topic.name, topic.type_name), at, data)
+            if number % 400 == 399:
+                health = update_health(health, evaluate(watched, kept.copy(), at), at)
+        print(health.verdict.state.value, health.verdict.sentence)
+        return 0
+
+    return shell(work)

@@ -2,7 +2,7 @@
 
 from hostile import foreign
 from hostile.bags import contents, database, mcap, playing
-from hostile.command_lines import arguments, csv, pipes
+from hostile.command_lines import arguments, csv, pipes, serial
 from hostile.kind import Kind, command, node
 from hostile.log_files import json_log, matlab, refused, wpilog
 from hostile.node_inputs import fill_values, parameters, values
@@ -11,9 +11,10 @@ from hostile.yaml_files import metadata, model
 
 
 def main_of(name: str) -> Main:
-    if name in ("motor_sim", "motor_control", "motor_driver"):
+    if name in ("motor_sim", "motor_control", "motor_driver", "monitor"):
         return node(name)
-    return fill_values if name == "values" else command(name)
+    own = {"values": fill_values, "watch": foreign.watch}
+    return own[name] if name in own else command(name)
 
 
 KINDS = (
@@ -23,6 +24,7 @@ KINDS = (
     Kind("metadata.yaml", 200, main_of, metadata),
     Kind("model file", 300, main_of, model),
     Kind("CSV", 250, main_of, csv),
+    Kind("lines of a serial monitor", 150, main_of, serial),
     Kind("arguments", 250, main_of, arguments),
     Kind("pipes, devices, links", 100, main_of, pipes),
     Kind("values on the command line", 200, main_of, values),
@@ -33,5 +35,6 @@ KINDS = (
     Kind("formats that are not read", 60, main_of, refused),
     Kind("mapping of a bag", 150, main_of, foreign.mapping),
     Kind("bag of another robot", 250, main_of, foreign.bag),
+    Kind("robot heard by a monitor", 150, main_of, foreign.heard),
     Kind("bag to play", 40, main_of, playing, interrupt=8.0),
 )

@@ -38,6 +38,7 @@ def command(name: str) -> Main:
 def node(name: str) -> Main:
     from importlib import import_module
 
-    package = "motor_identification.service" if name == "motor_identification" else name
-    main: Main = import_module(f"{package}.node").main
+    modules = {"motor_identification": "service.node", "monitor": "live.monitor_node"}
+    module = f"motor_identification.{modules[name]}" if name in modules else f"{name}.node"
+    main: Main = import_module(module).main
     return main

@@ -10,10 +10,24 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.serialization import serialize_message
 from std_msgs.msg import Float64
 
+from hostile.kind import ROOT
 from hostile.mcap_mutation import changed_bytes
-from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed, MotorVoltage
+from motor_msgs.msg import ControlState, MotorHealth, MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 
+NODES = (
+    ("motor_sim", "motor_sim"),
+    ("motor_control", "motor_control"),
+    (
+        "motor_identification",
+        "monitor",
+        "--ros-args",
+        "-p",
+        f"model:={ROOT / 'bags' / 'paper.yaml'}",
+        "-p",
+        "window:=1.0",
+    ),
+)
 TOPICS: tuple[tuple[Any, str, Any], ...] = (
     (MotorVoltage, "motor/voltage", qos.VOLTAGE),
     (Float64, "motor/reference", qos.REFERENCE),
@@ -23,32 +37,33 @@ TOPICS: tuple[tuple[Any, str, Any], ...] = (
 
 
 def garbled_messages(count: int, seed: int) -> str:
-    """Send so many garbled messages on each topic to a plant and a controller; what became of them, in a sentence.
+    """Send so many garbled messages on each topic to a plant, a controller and a monitor; what became of them.
 
     Raises:
         AssertionError: one of them has died, or has said more than a sentence at its end.
     """
     random, bench = Random(seed), workbench.Bench()
-    nodes = [workbench.start(name, name) for name in ("motor_sim", "motor_control")]
+    nodes = [workbench.start(*words) for words in NODES]
     try:
         samples = bench.hear(MotorSpeed, "motor/speed")
         states = bench.hear(ControlState, "motor/control_state")
-        bench.wait(lambda: bool(samples and states), "a plant and a controller")
+        health = bench.hear(MotorHealth, "motor/health", qos.HEALTH)
+        bench.wait(lambda: bool(samples and states and health), "a plant, a controller and a monitor")
         for kind, topic, profile in TOPICS:
             _send(bench, kind, topic, profile, count, random)
-        for node, name in zip(nodes, ("motor_sim", "motor_control"), strict=True):
+        for node, (_, name, *_) in zip(nodes, NODES, strict=True):
             for value in (float("nan"), float("inf"), -1e308, 0.0):
-                bench.set(name, "max_voltage" if name == "motor_sim" else "kp", value)
+                bench.set(name, {"motor_sim": "max_voltage", "motor_control": "kp", "monitor": "window"}[name], value)
             assert node.poll() is None, f"{name} has died"
-        del samples[:]
-        bench.wait(lambda: bool(samples), "a sample afterwards")
+        del samples[:], health[:]
+        bench.wait(lambda: bool(samples and health), "a sample and a verdict afterwards")
         for node in nodes:
             _, said = workbench.end(node)
             assert node.returncode == 0 and "mistake of the workbench" not in said, said
     finally:
         workbench.quit_all([node for node in nodes if node.poll() is None])
         bench.close()
-    return f"Living nodes: {count * len(TOPICS)} garbled messages to a plant and a controller; both lived on."
+    return f"Living nodes: {count * len(TOPICS)} garbled messages to a plant, a controller and a monitor; all lived on."
 
 
 def _send(bench: workbench.Bench, kind: Any, topic: str, profile: Any, count: int, random: Random) -> None:

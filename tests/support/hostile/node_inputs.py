@@ -13,11 +13,12 @@ from hostile.yaml_files import yaml_text
 
 def parameters(draw: Draw, random: Random, folder: Path) -> list[str]:
     """A node with odd parameters, on the command line or in a file."""
-    name = random.choice(("motor_sim", "motor_sim", "motor_control", "motor_driver"))
+    name = random.choice(("motor_sim", "motor_sim", "motor_control", "motor_driver", "monitor"))
     rows = {
         "motor_sim": "name sample_rate edges_per_revolution max_voltage model edge_resolution seed gear_ratio",
         "motor_control": "kp ki voltage_limit model speed_source sample_timeout reference_rate_limit",
         "motor_driver": "port baud name sample_rate edges_per_revolution max_voltage",
+        "monitor": "model mapping window tolerance",
     }[name].split()
     odd = (*NUMBERS, *WORDS)
     if random.random() < 0.5:

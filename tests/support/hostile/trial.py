@@ -26,6 +26,7 @@ NEEDED = (
     "motor_control.controller.observer",
     "motor_control.tuning.gain_file",
     "motor_control.tuning.table",
+    "motor_identification.live.monitor_node",
     "motor_identification.live.playback",
     "motor_identification.logs.formats.matlab",
     "motor_identification.logs.imported",
