@@ -9,7 +9,7 @@ from pathlib import Path
 import hidden
 import numpy as np
 from hidden import BESIDE, OUTSIDE, PAIRS, SIZES, Outcome, right
-from machine import machine
+from machine import commit, machine
 
 RESULTS = Path(__file__).with_name("results") / "diagnosis.md"
 PROMISED = {"nothing": 0.98, "single": 0.97, "pair": 0.9, "outside the table": 0.9}
@@ -73,12 +73,15 @@ def _holds(does: bool) -> str:
     return "holds" if does else "does not hold"
 
 
-def table(plan: list[Row], lines: list[str]) -> list[str]:
-    """Run the plan, print and append a line for each row; the claims."""
+def table(plan: list[Row], first: int, lines: list[str]) -> list[str]:
+    """Run the plan with motors from a first seed on, print and append a line for each row; the claims."""
     groups: dict[str, list[bool]] = {}
     sizes: list[float] = []
     with ProcessPoolExecutor(2) as pool:
-        jobs = [(group, what, [pool.submit(hidden.one, what, seed) for seed in range(n)]) for group, what, n in plan]
+        jobs = [
+            (group, what, [pool.submit(hidden.one, what, seed) for seed in range(first, first + n)])
+            for group, what, n in plan
+        ]
         for group, what, futures in jobs:
             outcomes = [future.result() for future in futures]
             good = [right(what, outcome) for outcome in outcomes]
@@ -94,16 +97,17 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--motors", type=int, default=5, help="for each row (default 5)")
     parser.add_argument("--nothing", type=int, default=50, help="motors in which nothing is hidden (default 50)")
+    parser.add_argument("--first-seed", type=int, default=0, help="of the motors (default 0)")
     parser.add_argument("--only", metavar="A+B", help="one row alone, such as dead_zone; not written")
     options = parser.parse_args()
     plan = rows(options.motors, options.nothing)
     if options.only:
         plan = [row for row in plan if "+".join(row[1]) == options.only]
-    many = f"{options.motors} motors a row"
+    many = f"{options.motors} motors a row, commit {commit()}, seeds from {options.first_seed} on"
     lines = ["# Diagnosis: what was hidden, and what was named", ""]
     lines += [f"{machine()}; two diagnoses at a time, one core each; {many}.", "", *HEAD]
     print("\n".join(lines), flush=True)
-    told = table(plan, lines)
+    told = table(plan, options.first_seed, lines)
     print("\n".join(told))
     if not options.only:
         RESULTS.write_text("\n".join([*lines, NOTE, *told]) + "\n", encoding="utf-8")

@@ -59,7 +59,12 @@ def judge(case: Case, found: Diagnosis) -> str:
 
 def one(seed: int) -> Outcome:
     """Draw, write, import and diagnose a case."""
-    case, begun = draw(seed), process_time()
+    return find(draw(seed))
+
+
+def find(case: Case) -> Outcome:
+    """Write, import and diagnose a case."""
+    begun = process_time()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "log.csv"
         write(case, path)

@@ -25,6 +25,7 @@ from motor_identification.diagnosis.verdict import conclude
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import Request, SearchReport
+from motor_identification.estimation.speed_timing import find_timing
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.progress import ProgressReporter, Stage, Stopped, TimeLimit
@@ -66,6 +67,11 @@ def diagnose(
     reporter.report("first fit", 0.0, "", float("nan"))
     hold_out = make_hold_out(recordings, validation, reporter.stopped)
     start, search = _fit_known(recordings, request, hold_out)
+    timing = find_timing(recordings, start.model.estimate)
+    if timing is not None:
+        recordings, validation = timing.set_on(recordings), timing.set_on(validation)
+        hold_out = make_hold_out(recordings, validation, reporter.stopped)
+        start, search = _fit_known(recordings, request, hold_out)
     try:
         selection, undetermined = _select(start, reporter)
         unfinished = 0.0

@@ -8,6 +8,7 @@ from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.miscounts import exclude_miscounts
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.estimation.request import PhysicalRequest, Request, SearchConfig, SearchReport
+from motor_identification.estimation.speed_timing import find_timing
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
@@ -51,6 +52,11 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     effects = normalised(request.effects)
     whole = make_problem(recordings, drop_periodic_effects(effects), request.workers, working)
     estimate, search = search_globally(whole, request.search, lambda share: tell("search", SEARCHED * share))
+    timing = find_timing(recordings, estimate)
+    if timing is not None:
+        recordings = timing.set_on(recordings)
+        whole = make_problem(recordings, drop_periodic_effects(effects), request.workers, working)
+        estimate, search = search_globally(whole, request.search, lambda share: tell("search", SEARCHED * share))
     working.begin("least squares", SEARCHED, DESCENDED)
     directed = add_periodic_effects(correct_directions(estimate), effects)
     counted = exclude_miscounts(directed)

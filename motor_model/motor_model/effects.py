@@ -198,6 +198,11 @@ EFFECTS = (
     ),
 )
 
+# What shapes nearly every motor's motion, and that of one which is driven both ways: fitted beside whatever else is to
+# be learned from the motion.
+SHAPING = ("coulomb_friction", "transport_delay")
+SHAPING_BOTH_WAYS = ("coulomb_friction", "load_bias", "direction_asymmetry", "transport_delay")
+
 EFFECT_BY_NAME = {effect.name: effect for effect in EFFECTS}
 SPECS = BASE + tuple(spec for effect in EFFECTS for spec in effect.parameters)
 SPEC_BY_NAME = {spec.name: spec for spec in SPECS}

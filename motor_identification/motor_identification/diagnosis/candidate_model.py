@@ -153,7 +153,7 @@ class Model:
         """[rad] standard deviation that sensor and random torque leave in the travel of every held-out interval."""
         scatter = []
         for data in self.held.intervals:
-            variance = data.floor_squared(self.errors.share * data.slot)
+            variance = data.floor_squared(self.errors.share * data.unit)
             variance = variance + self.errors.speed_variance(data.duration, *self.lag)
             scatter.append(np.sqrt(variance) * data.duration)
         return tuple(scatter)

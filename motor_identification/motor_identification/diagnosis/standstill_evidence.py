@@ -34,7 +34,7 @@ def measure_false_motion(model: Model) -> float:
 def _sum_false_motion(motion: Motion, share: float) -> float:
     recording, data, increments = motion
     still = find_held_intervals(recording, data)
-    scatter = np.sqrt(data.floor_squared(share * data.slot)) * data.duration
+    scatter = np.sqrt(data.floor_squared(share * data.unit)) * data.duration
     unit = np.maximum(np.maximum(scatter, data.slot), data.slack)  # counts without stamps have no slot, but its slack
     return float(np.sum((increments[still] / unit[still]) ** 2))
 

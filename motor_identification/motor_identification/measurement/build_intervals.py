@@ -112,14 +112,16 @@ def _from_speed(recording: Recording) -> Intervals:
     inside = start >= -1e-9
     start, end = np.round(np.maximum(start[inside], 0.0), 9), np.round(end[inside], 9)
     # A mean of counts is off by what the angle at either end is truncated by; white noise belongs to each value alone.
-    blur = sensor.count / sqrt(12.0) if sensor.step > 0.0 else sensor.sigma * sensor.window / sqrt(2.0)
+    noise = sensor.count / sqrt(12.0) if sensor.step > 0.0 else sensor.sigma * sensor.window / sqrt(2.0)
     return index_intervals(
         start,
         end,
         speed=recording.speed[sensor.row[inside]],
-        blur=np.full(len(start), blur),
+        blur=np.full(len(start), noise),
         independent=sensor.sigma > 0.0,
         gear=float(recording.info.gear),
+        window=sensor.window,
+        noise=noise,
     )
 
 

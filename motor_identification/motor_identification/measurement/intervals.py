@@ -20,7 +20,8 @@ class Intervals:
     `slack` [rad] is how far the motor may move without contradicting the measurement: one slot where no edge came.
     `blur` [rad] is how well the angle is known at both ends, given perfect slots: the tick of the timer that stamps
     edges, or the sampling of counts. Intervals that follow each other share the error of their common end, unless they
-    are `independent`: speeds with white noise. `edge` numbers the edges at both ends, where the ends are edges.
+    are `independent`: speeds with white noise. `edge` numbers the edges at both ends, where the ends are edges. How
+    much worse than that a sensor may be is a share of `unit`: of the angle at either end, or of each logged speed.
     """
 
     time: Floats  # [s] ascending; time[0] is the recording's start
@@ -35,6 +36,13 @@ class Intervals:
     independent: bool = False  # whether each interval has an error of its own at either end
     gear: float = 1.0  # turns of the encoder's shaft, with which slots and ripples repeat, per turn of the output
     unevenness: float = 1.0  # times as irregular as the flanks of one channel its slots may be
+    window: float = 0.0  # [s] that each logged speed is a mean over; 0 between measured angles
+    noise: float = 0.0  # [rad] what is known of a logged speed's noise, at either end of its window
+
+    @property
+    def unit(self) -> float:
+        """[rad] what a sensor's unknown errors are a share of: a slot, or a logged speed's noise; 0 where neither."""
+        return self.noise if self.window > 0.0 else self.slot
 
     @property
     def duration(self) -> Floats:
@@ -49,6 +57,8 @@ class Intervals:
     def floor_squared(self, slot_sigma: float) -> Floats:
         """[rad²/s²] what the blur and flanks off by `slot_sigma` [rad] leave in the mean speed, shape (I,)."""
         flanks = np.where(self.slack > 0.0, 0.0, 2.0 * (slot_sigma / self.duration) ** 2)
+        if self.window > 0.0:  # joined speeds have an error each, not one at either end
+            flanks = flanks * (self.duration / self.window)
         return np.asarray(self.sigma**2 + flanks)
 
     @property
@@ -76,6 +86,8 @@ def index_intervals(
     independent: bool = False,
     gear: float = 1.0,
     unevenness: float = 1.0,
+    window: float = 0.0,
+    noise: float = 0.0,
 ) -> Intervals:
     """Index intervals over one ascending list of times that starts with the recording."""
     count = len(start)
@@ -93,6 +105,8 @@ def index_intervals(
         independent=independent,
         gear=gear,
         unevenness=unevenness,
+        window=window,
+        noise=noise,
     )
 
 
@@ -157,6 +171,8 @@ def join_intervals(intervals: Intervals, duration: float) -> Intervals:
         independent=intervals.independent,
         gear=intervals.gear,
         unevenness=intervals.unevenness,
+        window=intervals.window,
+        noise=intervals.noise,
     )
 
 

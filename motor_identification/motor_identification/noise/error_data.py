@@ -27,6 +27,7 @@ class ErrorData:
     blur: Floats  # [rad] standard deviation of the angle that timer or counting leave
     slack: Floats  # [rad]
     unit: float  # [rad] what a share is a share of
+    window: float  # [s] of logged speeds, each of which has that error of its own; 0 where angles have it
     increments: Floats  # [rad] simulated minus measured
     counted: Bools
 
@@ -47,13 +48,16 @@ class ErrorData:
     def _filter(
         self, model: ErrorModel, rate: float, ka: float, more: Floats | None, gains: Floats
     ) -> tuple[float, Floats, Floats]:
-        sensor = self.blur**2 + (model.share * self.unit) ** 2
+        own, growth = (model.share * self.unit) ** 2, model.white
+        if self.window > 0.0:
+            own, growth = 0.0, growth + 2.0 * own / self.window
+        sensor = self.blur**2 + own
         end = np.where(self.still, (SLACK_BLUR * self.slack) ** 2, sensor)
         rows = self.increments[None] if more is None else np.concatenate([self.increments[None], more])
         white, density = np.empty_like(rows), np.empty(len(self.fresh))
         value = run_filter(
             self.fresh, self.still, self.pause, self.duration, sensor, end,
-            rate, 1.0 / model.correlation_time, (model.rms_voltage / ka) ** 2, model.white,
+            rate, 1.0 / model.correlation_time, (model.rms_voltage / ka) ** 2, growth,
             rows, self.counted, white, gains, density,
         )  # fmt: skip
         return float(value), white, density
@@ -82,8 +86,8 @@ def make_whitening(data: ErrorData, model: ErrorModel, rate: float, ka: float) -
 
 
 def unit_of(data: Intervals) -> float:
-    """[rad] what a sensor's error is a share of: a slot, or the typical travel where nothing is known of slots."""
-    return data.slot if data.slot > 0.0 else float(np.median(np.abs(data.speed * data.duration))) or 1.0
+    """[rad] what a sensor's error is a share of: its unit, or the typical travel where nothing is known of that."""
+    return data.unit if data.unit > 0.0 else float(np.median(np.abs(data.speed * data.duration))) or 1.0
 
 
 def make_error_data(data: Intervals, increments: Floats, counted: Bools | None = None) -> ErrorData:
@@ -102,6 +106,7 @@ def make_error_data(data: Intervals, increments: Floats, counted: Bools | None =
         blur=np.maximum(data.blur, 1e-4 * unit + 1e-12),
         slack=data.slack,
         unit=unit,
+        window=data.window,
         increments=np.ascontiguousarray(increments),
         counted=np.ones(len(still), dtype=bool) if counted is None else counted,
     )

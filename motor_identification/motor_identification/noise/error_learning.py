@@ -16,6 +16,7 @@ from motor_identification.noise.error_model import Disturbance, ErrorModel
 from motor_identification.recording import Floats
 
 SHARES = (1e-4, 0.2)  # of a slot: how irregular a disc may be, or the four flanks of two channels
+SPEED_SHARES = (0.03, 10.0)  # of what is known of a logged speed's noise: how much more of it there may be
 TIMES = (0.3, 30.0)  # of the median interval, and of the motor's time constant: correlation times that are looked for
 PRICE = 6.0  # [nat] that a disturbance has to be worth, so that a perfect encoder's residual is called just that
 
@@ -27,14 +28,15 @@ def learn_error_model(
 
     rate: kv/ka [1/s] of the motor, ka [V·s²/rad]. guess: where to begin, of a similar model; else a grid tells.
     """
-    quiet, least = _learn_share(rows, rate, ka)
+    shares = _bound_share(rows)
+    quiet, least = _learn_share(rows, shares, rate, ka)
     duration = np.concatenate([row.duration[~row.still] for row in rows])
     speeds = np.concatenate([(row.increments / row.duration)[~row.still] for row in rows])
     step = float(np.median(duration))
     gap = sqrt(float(duration @ speeds**2 / duration.sum())) + 1e-300
     shortest, longest = TIMES[0] * step, max(TIMES[1] / rate, 10.0 * step)
-    low = np.log([SHARES[0], 1e-6 * gap * rate * ka, shortest])
-    high = np.log([SHARES[1], 1e3 * gap * (rate + 1.0 / step) * ka, longest])
+    low = np.log([shares[0], 1e-6 * gap * rate * ka, shortest])
+    high = np.log([shares[1], 1e3 * gap * (rate + 1.0 / step) * ka, longest])
 
     def of(x: Floats) -> ErrorModel:
         share, rms, time = np.exp(np.clip(x, low, high))
@@ -48,14 +50,16 @@ def learn_error_model(
         np.log([share, gap * ka * sqrt(rate * (rate + 1.0 / time)) * part, time])
         for time in np.geomspace(shortest, longest, 5)[1:-1]
         for part in (1.0, 0.1)
-        for share in sorted({max(min(quiet.share, 0.005), 1e-3), max(0.7 * quiet.share, 1e-3)})
+        for share in sorted(
+            {max(part, 10.0 * shares[0]) for part in (min(quiet.share, 50.0 * shares[0]), 0.7 * quiet.share)}
+        )
     ]
     if guess is not None and guess.rms_voltage > 0.0:
         scale = gap * ka * sqrt(rate * (rate + 1.0 / guess.correlation_time))
         starts = [
-            np.log([max(guess.share, SHARES[0]), rms, guess.correlation_time]) for rms in (guess.rms_voltage, scale)
+            np.log([max(guess.share, shares[0]), rms, guess.correlation_time]) for rms in (guess.rms_voltage, scale)
         ]
-        starts += [np.log([max(guess.share, SHARES[0]), 0.2 * scale, 0.3 * guess.correlation_time])]
+        starts += [np.log([max(guess.share, shares[0]), 0.2 * scale, 0.3 * guess.correlation_time])]
     values = [cost(np.clip(x, low, high)) for x in starts]
     begin = np.clip(starts[int(np.argmin(values))], low, high)
     simplex = begin + np.vstack([np.zeros(3), np.diag([0.3, 0.3, 0.5])])
@@ -64,13 +68,20 @@ def learn_error_model(
     return quiet if -least < found.fun + PRICE else of(found.x)
 
 
-def _learn_share(rows: Sequence[ErrorData], rate: float, ka: float) -> tuple[ErrorModel, float]:
+def _bound_share(rows: Sequence[ErrorData]) -> tuple[float, float]:
+    """Between which shares a sensor's error is looked for."""
+    return SPEED_SHARES if all(row.window > 0.0 for row in rows) else SHARES
+
+
+def _learn_share(
+    rows: Sequence[ErrorData], shares: tuple[float, float], rate: float, ka: float
+) -> tuple[ErrorModel, float]:
     """Find the sensor's share alone, without any disturbance, and its log likelihood."""
 
     def value(share: float) -> float:
         return log_likelihood(rows, ErrorModel(share, 0.0, 0.0, 1.0), rate, ka)
 
-    grid = [0.0, *np.geomspace(*SHARES, 12)]
+    grid = [0.0, *np.geomspace(*shares, 12)]
     best = max(grid, key=value)
     if best > 0.0:
         for step in (1.35, 1.1, 1.03):
@@ -85,7 +96,7 @@ def estimate_disturbance(rows: Sequence[ErrorData], model: ErrorModel, rate: flo
     """
     if model.rms_voltage == 0.0:
         return None
-    best = np.log([max(model.share, SHARES[0]), model.rms_voltage, model.correlation_time])
+    best = np.log([max(model.share, _bound_share(rows)[0]), model.rms_voltage, model.correlation_time])
     step = 0.05 * np.eye(3)
 
     def value(x: Floats) -> float:

@@ -73,7 +73,7 @@ def _curves(data: Intervals, angle: Floats, share: float, scored: Bools, regions
         measured=data.speed[order],
         simulated=((angle[data.last] - angle[data.first]) / data.duration)[order],
         residual=compute_residuals(data, angle)[order],
-        floor=np.sqrt(data.floor_squared(share * data.slot))[order],
+        floor=np.sqrt(data.floor_squared(share * data.unit))[order],
         still=(data.slack > 0.0)[order],
         scored=scored[order],
         regions=tuple(region[order] for region in regions),

@@ -25,6 +25,7 @@ SAME_DIGIT = 1e-3  # of a decade
 # tachogenerator's. A step by chance is as near to one of them in 1 % of the cases.
 RANGES, BITS, SAME_RANGE = (1.0, 2.0, 2.5, 3.3, 5.0), (8, 10, 12, 13, 14, 16), 1e-4
 OTHER_ROWS = 0.1  # relative: rows of one run that are not those of the log's typical one
+LEAST_COUNTED = 0.5  # of the time between values: what is a mean over less is no count over it
 SAME_PERIOD = 1e-6  # relative: a window that was not said is set to the sample period
 
 
@@ -57,11 +58,13 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
     frames = find_frames(time, speed)
     if frames is not None:
         row, made, frame = frames.row, frames.time, frames.period
-        if _is_assumed(recording.info):
+        if is_assumed(recording.info):
             window, lag = frame, lag * frame / window
     right = ~mark_wrong_speeds(speed[row], recording.voltage[row])
     wrong, row, made = int(np.count_nonzero(~right)), row[right], made[right]
-    step, sigma, edges = find_noise(speed[row], recording.voltage[row], recording.info.edges_per_revolution, window)
+    counted = window > LEAST_COUNTED * (frame or recording.info.sample_period)
+    said = recording.info.edges_per_revolution
+    step, sigma, edges = find_noise(speed[row], recording.voltage[row], said, window, counted)
     return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong)
 
 
@@ -73,24 +76,29 @@ def _find_window(recording: Recording) -> tuple[float, float]:
     info, own = recording.info, float(np.median(np.diff(recording.time)))
     if not info.speed_window:
         return info.sample_period, info.speed_lag
-    if _is_assumed(info) and abs(own - info.sample_period) > OTHER_ROWS * info.sample_period:
+    if is_assumed(info) and abs(own - info.sample_period) > OTHER_ROWS * info.sample_period:
         return own, info.speed_lag * own / info.sample_period
     return info.speed_window, info.speed_lag
 
 
-def _is_assumed(info: Info) -> bool:
+def is_assumed(info: Info) -> bool:
     """Whether nobody said what a speed is the mean over: an importer takes the sample period."""
     return abs((info.speed_window or info.sample_period) - info.sample_period) <= SAME_PERIOD * info.sample_period
 
 
-def find_noise(values: Floats, voltage: Floats, edges: int, window: float) -> tuple[float, float, int]:
-    """Step [rad/s], white noise [rad/s] and counts a turn of the values; one of the first two is 0."""
+def find_noise(
+    values: Floats, voltage: Floats, edges: int, window: float, counted: bool = True
+) -> tuple[float, float, int]:
+    """Step [rad/s], white noise [rad/s] and counts a turn of the values; one of the first two is 0.
+
+    counted: whether they may be counts, so that a lattice is one of counts and not what the values are rounded to.
+    """
     if edges:
         return tau / edges / window, 0.0, edges
     moving = _mark_motion(values)
     step, noise = find_lattice(values), estimate_white_noise(values[moving], voltage[moving])
     beyond = NOISE_BEYOND_DIGITS if _is_last_digit(step) or _is_last_bit(step) else NOISE_BEYOND
-    if step > 0.0 and noise < beyond * COUNT_NOISE * step:
+    if counted and step > 0.0 and noise < beyond * COUNT_NOISE * step:
         return step, 0.0, round(tau / (step * window))
     typical = sqrt(float(np.mean(values**2)))
     return 0.0, max(noise, step / sqrt(12.0)) or UNTOLD * typical, 0

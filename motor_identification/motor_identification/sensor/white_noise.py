@@ -42,10 +42,16 @@ def _trimmed_rms(values: Floats) -> float:
 
 
 def _predict(values: Floats, voltage: Floats) -> float:
-    """Standard deviation of what a linear prediction from the past leaves."""
+    """Standard deviation of what a linear prediction from the past leaves.
+
+    The voltage in a sample's own row predicts it in logs whose rows hold the voltage until then. Where it is lower the
+    higher the sample, it is a controller's answer to that sample, noise and all, and predicts nothing.
+    """
     past = sliding_window_view(values[:-1], PAST)
     driven = sliding_window_view(voltage, PAST + 1)[: len(past)]
-    columns = np.column_stack([past, driven, np.ones(len(past))])
-    target = values[PAST:]
-    left = target - columns @ np.linalg.lstsq(columns, target, rcond=1e-10)[0]
-    return _trimmed_rms(left) * sqrt(len(target) / (len(target) - columns.shape[1]))
+    columns, target = np.column_stack([np.ones(len(past)), past, driven]), values[PAST:]
+    weights = np.linalg.lstsq(columns, target, rcond=1e-10)[0]
+    if weights[-1] < 0.0:
+        columns = columns[:, :-1]
+        weights = np.linalg.lstsq(columns, target, rcond=1e-10)[0]
+    return _trimmed_rms(target - columns @ weights) * sqrt(len(target) / (len(target) - columns.shape[1]))

@@ -69,7 +69,7 @@ class HeldOut:
 
     def floors(self, share: float) -> Floats:
         """[rad/s] what timer and irregular slots (a share of a slot) alone leave in each interval that counts."""
-        squares = [data.floor_squared(share * data.slot) for data in self.intervals]
+        squares = [data.floor_squared(share * data.unit) for data in self.intervals]
         return np.asarray(np.sqrt(np.concatenate(squares)[self.counted]))
 
     def floor(self, share: float) -> float:

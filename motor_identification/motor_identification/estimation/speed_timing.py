@@ -1,0 +1,139 @@
+"""Find when a log's speeds were made, where nobody said: means over the row before, or values of the row's own instant.
+
+Speeds that were counted are means over the row before, and so an importer takes them. The value of a tachogenerator, or
+what a simulation wrote, is that of its own instant; and some programs write a row when its voltage has been applied.
+Then the motion seems to answer a voltage before it is there, which no effect does: a dead time is never negative. Where
+the assumed timing leaves no dead time, the others are fitted too, each beside what shapes every motion, and a much
+likelier one is taken.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import inf, log
+
+import numpy as np
+
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import SpeedResiduals, fit_speeds
+from motor_identification.estimation.parameter_space import map_theta
+from motor_identification.estimation.problem import make_problem
+from motor_identification.recording import Floats, Recording
+from motor_identification.sensor.speed_sensor import is_assumed
+from motor_model.effects import SHAPING, SHAPING_BOTH_WAYS, specs_of
+from motor_model.sample import Measurement
+
+INSTANT = 0.02  # rows: the window of a value of one instant
+# Of log likelihood, in all and a row, which another timing has to be worth: twice what rivals of a finding differ by,
+# and 2 % of what is left, so that it is the timing of every row. Measured: 0.0005 and 0.004 a row where it is as
+# assumed, and something else is missing.
+LEAST_GAIN, LEAST_GAIN_OF_ROW = 10.0, 0.01
+LEAST_DELAY = 0.05  # rows: with a longer dead time nothing comes too early
+ITERATIONS, TOLERANCE = 30, 1e-7
+LEAST_SPEEDS = 50
+BOTH_WAYS = 0.2  # of the largest voltage: what drives a motor both ways
+BEGIN = 0.25  # rows: the dead time that a fit begins with
+
+TIMING = (
+    "The speeds are taken as {}: as means over the row before they would answer a voltage before it is there "
+    "(--speed-window {:.3g} --speed-lag {:.3g} says so to an import)."
+)
+OWN, BEFORE = "values of their rows' own instants", "{} of the row after the voltage's"
+
+
+@dataclass(frozen=True)
+class Timing:
+    """When speeds were made, in rows: how long the window of each is, and how old its middle."""
+
+    window: float
+    lag: float
+    name: str
+
+    def set_on(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
+        """Recordings read with this timing; the first one's notes say so."""
+        timed = [self._set(recording) for recording in recordings]
+        if self.name and timed:
+            row = timed[0].info.sample_period
+            note = TIMING.format(self.name, self.window * row, self.lag * row)
+            timed[0] = replace(timed[0], notes=(*timed[0].notes, note))
+        return tuple(timed)
+
+    def _set(self, recording: Recording) -> Recording:
+        info, row = recording.info, recording.info.sample_period
+        return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=self.lag * row))
+
+
+ASSUMED = Timing(1.0, 0.5, "")
+OTHERS = (
+    Timing(INSTANT, 0.0, OWN),
+    Timing(1.0, -0.5, BEFORE.format("means")),
+    Timing(INSTANT, -1.0, BEFORE.format("values")),
+)
+
+
+@dataclass(frozen=True)
+class _Fitted:
+    """A timing's fit: the weighted residuals (I,) that it leaves, and the dead time [s] that it asks for."""
+
+    residuals: Floats
+    delay: float
+
+
+def find_timing(recordings: Sequence[Recording], estimate: Estimate) -> Timing | None:
+    """Find when the speeds of recordings were made, as their motion shows; None if as assumed, or as was said.
+
+    estimate: of the same motor, as the assumed timing gives it.
+    """
+    if not all(_is_open(recording) for recording in recordings):
+        return None
+    least = LEAST_DELAY * min(recording.info.sample_period for recording in recordings)
+    best, fitted = ASSUMED, _fit(recordings, ASSUMED, estimate)
+    if fitted is None or fitted.delay > least:
+        return None
+    others = [(timing, _fit(recordings, timing, estimate)) for timing in OTHERS]
+    if others[-1][1] is None or others[-1][1].delay <= least:  # earlier than any row says: not for its timing
+        return None
+    for timing, other in others:  # each makes the speeds younger than the one before
+        if fitted.delay <= least and other is not None and _is_likelier(other, fitted):
+            best, fitted = timing, other
+    return None if best is ASSUMED else best
+
+
+def _is_open(recording: Recording) -> bool:
+    """Whether a recording is of speeds of which nobody said when they were made, nor that they are counts."""
+    info = recording.info
+    unsaid = info.measurement is Measurement.SPEED and not info.edges_per_revolution and is_assumed(info)
+    return unsaid and abs(info.speed_lag - ASSUMED.lag * info.sample_period) < LEAST_DELAY * info.sample_period
+
+
+def _fit(recordings: Sequence[Recording], timing: Timing, estimate: Estimate) -> _Fitted | None:
+    """Fit speeds of this timing beside what shapes every motion, from kv and ka; None where there are too few."""
+    timed = timing.set_on(recordings)
+    driven = np.concatenate([recording.voltage for recording in recordings])
+    shaping = SHAPING if min(-driven.min(), driven.max()) < BOTH_WAYS * np.abs(driven).max() else SHAPING_BOTH_WAYS
+    problem = make_problem(timed, shaping, estimate.problem.workers, estimate.problem.stopped)
+    if len(problem.weight) < LEAST_SPEEDS:
+        return None
+    row = problem.sample_period
+    starts = {spec.name: np.full(len(timed), BEGIN * row * spec.scale.sample or spec.off) for spec in specs_of(shaping)}
+    theta = map_theta(estimate.problem.unknowns, estimate.theta, problem.unknowns, starts)
+    end = fit_speeds(Estimate(problem, theta), np.inf, ITERATIONS, TOLERANCE)
+    return _Fitted(SpeedResiduals(problem).residuals(end.theta), end.parameters.values["delay"])
+
+
+def _is_likelier(one: _Fitted, other: _Fitted) -> bool:
+    """Decide whether one timing is much likelier than another."""
+    return _measure_gain(other, one) > max(LEAST_GAIN, LEAST_GAIN_OF_ROW * len(one.residuals))
+
+
+def _measure_gain(before: _Fitted, after: _Fitted) -> float:
+    """Measure how much likelier residuals are, each as noise of which a part is that of the row before (AR(1))."""
+    count = min(len(before.residuals), len(after.residuals))  # at the beginning a row may have no whole window
+    old, new = (_innovate(one.residuals[-count:]) for one in (before, after))
+    return 0.5 * count * log(old / new) if new > 0.0 else inf
+
+
+def _innovate(residuals: Floats) -> float:
+    """Compute the power that the best prediction of each residual from the one before leaves."""
+    power = float(np.sum(residuals**2))
+    alike = float(residuals[1:] @ residuals[:-1]) / power if power > 0.0 else 0.0
+    return power * (1.0 - alike**2)
