@@ -1,9 +1,10 @@
 """Logs as other people make them, of motors of any size, simulated: does the diagnosis name what is in them?
 
-Top speeds of 5 to 2,000 rad/s, supplies of 3 to 48 V, time constants of 20 to 600 ms, rows of 20 to 1,000 Hz, speeds
-or positions of any encoder; one excitation alone (steps, a staircase, a PRBS, ramps, a sweep, a speed loop), and a
-random torque of up to 1.5 % of the supply. Friction is in four of five; a delay, drag, a dead zone, an asymmetry or a
-load now and then. The tests' independent plant moves; `import_log` is told the counts of a turn where a log counts.
+Top speeds of 5 to 2,000 rad/s, supplies of 3 to 48 V, time constants of 20 to 600 ms, rows of 20 to 1,000 Hz; speeds
+or positions of any encoder, or a tachogenerator with noise of 0.1 to 2 % of its top speed, as it is or by a converter;
+one excitation alone (steps, a staircase, a PRBS, ramps, a sweep, a speed loop), and a random torque of up to 1.5 % of
+the supply. Friction is in four of five; a delay, drag, a dead zone, an asymmetry or a load now and then. The tests'
+independent plant moves; `import_log` is told nothing.
 """
 
 import argparse
@@ -18,7 +19,7 @@ from time import process_time
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
 
 import numpy as np
-from foreign_logs_cases import EXCITATIONS, Case, draw, write
+from foreign_logs_cases import EXCITATIONS, SENSORS, Case, draw, write
 from machine import commit, machine
 
 from motor_identification.diagnose import diagnose
@@ -92,6 +93,7 @@ def page(outcomes: list[Outcome], first: int) -> str:
     """The whole page."""
     groups = {"all": outcomes}
     groups |= {f"… {name}": [one for one in outcomes if one.case.excitation == name] for name in EXCITATIONS}
+    groups |= {f"… {name}": [one for one in outcomes if one.case.sensor == name] for name in SENSORS}
     shares = sorted({one.case.torque / one.case.supply for one in outcomes})
     for share in shares:
         groups[f"… torque {share:.1%}"] = [one for one in outcomes if one.case.torque / one.case.supply == share]

@@ -13,6 +13,8 @@ from plant.motor import move
 Floats = NDArray[np.float64]
 SUPPLIES = (3.0, 5.0, 6.0, 7.4, 12.0, 24.0, 48.0)
 RATES = (20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
+SENSORS = ("positions", "speeds", "tachogenerator")  # counted, counted from row to row, of the row's own instant
+NOISE, CONVERTER = (1e-3, 2e-2), (1.3 / 1024, 1e-9)  # of a tachogenerator: of the top speed, and steps of that
 EXCITATIONS = ("step", "steps one way", "staircase", "prbs one way", "prbs", "ramps", "sweep", "speed loop")
 # Chance of each effect, and its size: of the supply, of the time constant, or a number.
 EFFECTS = {
@@ -35,7 +37,7 @@ class Case:
     excitation: str
     rate: float  # [Hz]
     counts: int  # of a turn
-    as_position: bool
+    sensor: str
     supply: float  # [V]
     torque: float  # [V] RMS
 
@@ -47,7 +49,8 @@ class Case:
     def describe(self) -> str:
         """Say what it is in half a line."""
         top = self.supply / self.values["kv"]
-        sensor = f"{'positions' if self.as_position else 'speeds'} of {self.counts} counts at {self.rate:g} Hz"
+        counts = "" if self.sensor == SENSORS[2] else f" of {self.counts} counts"
+        sensor = f"{self.sensor}{counts} at {self.rate:g} Hz"
         motor = f"{self.supply:g} V, {top:.3g} rad/s, {1e3 * self.lag:.0f} ms"
         return f"{self.excitation}, {motor}, {sensor}, torque {100 * self.torque / self.supply:.1f} %"
 
@@ -79,7 +82,7 @@ def draw(seed: int) -> Case:
         excitation=str(random.choice(EXCITATIONS)),
         rate=rate,
         counts=counts,
-        as_position=bool(random.integers(2)),
+        sensor=str(random.choice(SENSORS)),
         supply=supply,
         torque=torque,
     )
@@ -108,35 +111,40 @@ def command(case: Case, time: Floats) -> Floats:
             return np.asarray(random.uniform(0.5, 0.9) * np.sin(sweep))
 
 
-def run(case: Case) -> tuple[Floats, Floats, Floats]:
-    """Time [s], voltage [V] and angle [rad] of every row."""
+def run(case: Case) -> tuple[Floats, Floats, Floats, Floats]:
+    """Time [s], voltage [V], angle [rad] and speed [rad/s] of every row."""
     span = float(np.clip(60.0 * case.lag, 4.0, 30.0))
     time = np.arange(int(span * case.rate)) / case.rate
     if case.excitation != "speed loop":
         volts = case.supply * np.clip(command(case, time), -1.0, 1.0)
-        return time, volts, _move(case, time, volts)
+        return time, volts, *_move(case, time, volts)
     volts = np.zeros(len(time))
-    speed = np.array([0.5, 0.2, 0.7, 0.4, -0.3, -0.6, 0.3, 0.5, 0.0])[(time / span * 8).astype(int)]
+    wanted = np.array([0.5, 0.2, 0.7, 0.4, -0.3, -0.6, 0.3, 0.5, 0.0])[(time / span * 8).astype(int)]
     for _ in range(3):  # a loop without a model: the command of a run answers the speed of the run before
-        angle = _move(case, time, volts)
-        error = speed * case.supply / case.values["kv"] - np.gradient(angle, time)
+        _, speed = _move(case, time, volts)
+        error = wanted * case.supply / case.values["kv"] - speed
         volts = np.clip(volts + 0.5 * case.values["kv"] * error, -case.supply, case.supply)
-    return time, volts, _move(case, time, volts)
+    return time, volts, *_move(case, time, volts)
 
 
-def _move(case: Case, time: Floats, volts: Floats) -> Floats:
+def _move(case: Case, time: Floats, volts: Floats) -> tuple[Floats, Floats]:
     motion = move(case.values, time, volts, step=min(1e-4, case.lag / 400.0))
-    return np.asarray(motion.angle[motion.at])
+    return np.asarray(motion.angle[motion.at]), np.asarray(motion.speed[motion.at])
 
 
 def write(case: Case, path: Path) -> None:
     """Write the log."""
-    time, volts, angle = run(case)
-    count = np.floor(angle * case.counts / (2.0 * np.pi) + np.random.default_rng(case.seed).random())
+    time, volts, angle, speed = run(case)
+    random = np.random.default_rng(case.seed)
+    count = np.floor(angle * case.counts / (2.0 * np.pi) + random.random())
     shown = count * 360.0 / case.counts
-    if not case.as_position:
+    if case.sensor == SENSORS[1]:
         shown = np.append(0.0, np.diff(shown)) * case.rate / 6.0
-    name = "position [deg]" if case.as_position else "speed [rpm]"
+    elif case.sensor == SENSORS[2]:
+        top, noise = case.supply / case.values["kv"], NOISE[0] * (NOISE[1] / NOISE[0]) ** random.random()
+        step = top * random.choice(CONVERTER)
+        shown = step * np.round((speed + top * noise * random.standard_normal(len(speed))) / step) * 30.0 / np.pi
+    name = "position [deg]" if case.sensor == SENSORS[0] else "speed [rpm]"
     rows = zip(time, volts, shown, strict=True)
     text = "\n".join(f"{t:.6f},{u:.4f},{y:.5f}" for t, u, y in rows)
     path.write_text(f"time [s],voltage [V],{name}\n{text}\n", encoding="utf-8")

@@ -58,7 +58,7 @@ ROOMS = {
         "messages answers node cli"
     ),
     "motor_identification": (
-        "recording progress experiment bag sensor measurement noise estimation periodic uncertainty physical "
+        "recording progress experiment bag sensor measurement noise estimation timing periodic uncertainty physical "
         "validation discrepancy diagnosis identify diagnose reporting logs mapping monitoring service live cli"
     ),
 }

@@ -25,12 +25,12 @@ from motor_identification.diagnosis.verdict import conclude
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import Request, SearchReport
-from motor_identification.estimation.speed_timing import find_timing
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.progress import ProgressReporter, Stage, Stopped, TimeLimit
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
+from motor_identification.timing.speed_timing import find_timing
 from motor_identification.validation.hold_out import HoldOut, make_hold_out
 from motor_model.effects import EFFECT_BY_NAME, normalised
 from motor_model.errors import RecordingError

@@ -8,7 +8,6 @@ from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.miscounts import exclude_miscounts
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.estimation.request import PhysicalRequest, Request, SearchConfig, SearchReport
-from motor_identification.estimation.speed_timing import find_timing
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
@@ -17,6 +16,7 @@ from motor_identification.physical.measured_current import identify_with_current
 from motor_identification.progress import Heartbeat
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
+from motor_identification.timing.speed_timing import find_timing
 from motor_identification.uncertainty.result import Fit
 from motor_identification.uncertainty.summary import summarise_fit
 from motor_model.effects import normalised

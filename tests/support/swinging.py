@@ -18,11 +18,11 @@ def recorded(seed: int = 0, edges: int = 960, sample_rate: float = 50.0) -> Reco
     return _record(seed, edges, sample_rate)[0]
 
 
-def noisy(sigma: float, seed: int = 0, digits: int = 9, **motor: float) -> Recording:
-    """Speeds, means over the sample period, that are exact but for white noise, printed with so many digits."""
+def noisy(sigma: float, seed: int = 0, digits: int = 9, instant: bool = False, **motor: float) -> Recording:
+    """Speeds, means over the sample period or of its end, that are exact but for white noise, with so many digits."""
     recording, truth = _record(seed, 6, 50.0, **motor)
     logged = as_speed(recording)
-    exact = np.diff(truth.angle, prepend=0.0) / logged.info.speed_window
+    exact = truth.speed if instant else np.diff(truth.angle, prepend=0.0) / logged.info.speed_window
     speed = exact + sigma * np.random.default_rng(seed).standard_normal(len(exact))
     return without_count(replace(logged, speed=np.round(speed, digits)))
 

@@ -10,6 +10,7 @@ from recorded import as_counts
 
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.measurement.intervals import index_intervals, join_intervals
 from motor_identification.measurement.sampled_counts import (
     UNIFORM_SIGMA,
     Fixes,
@@ -166,3 +167,15 @@ def test_counts_are_used_to_the_bound_of_what_they_say() -> None:
         off.append([fit.parameters.values[name] / BASE[name] - 1.0 for name in ("kv", "ka")])
     rms = np.sqrt(np.mean(np.square(off), axis=0))
     assert 2e-5 < rms[0] < 2e-4 and 5e-5 < rms[1] < 5e-4
+
+
+def test_noise_beside_counts_adds_up_in_joined_speeds_and_flanks_do_not() -> None:
+    """Of logged speeds each has it; of angles only those at the ends."""
+    time = np.arange(41.0)
+    speeds = index_intervals(time[:-1], time[1:], np.ones(40), np.full(40, 0.1), window=1.0, noise=0.1)
+    joined = join_intervals(speeds, 4.0)
+    assert len(joined.first) == 10 and (joined.window, joined.noise, joined.unit) == (1.0, 0.1, 0.1)
+    assert joined.floor_squared(0.3) == pytest.approx((2.0 * 0.1**2 + 4 * 2.0 * 0.3**2) / 4.0**2)
+    flanks = join_intervals(index_intervals(time[:-1], time[1:], np.ones(40), np.full(40, 0.1), slot=0.5), 4.0)
+    assert flanks.unit == 0.5
+    assert flanks.floor_squared(0.3) == pytest.approx(2.0 * (0.1**2 + 0.3**2) / 4.0**2)

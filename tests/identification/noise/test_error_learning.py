@@ -1,8 +1,11 @@
 """A random torque is learned with its strength and correlation time, and not where there is none."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from plant import profiles, record
+from recorded import as_speed, without_count
 
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
@@ -57,3 +60,34 @@ def test_the_learned_model_is_more_likely_than_its_neighbours() -> None:
     for factor in (0.7, 1.4):
         other = ErrorModel(model.share, 0.0, factor * model.rms_voltage, model.correlation_time)
         assert log_likelihood(rows, other, RATE, KA) < best - 5.0
+
+
+def log_speeds(noise: float, step: float, torque: float = 0.0) -> tuple[list[ErrorData], float]:
+    """What the true motor leaves in a log of counted speeds with white noise [rad/s] beside, on a lattice [rad/s], and
+    the noise that counting alone leaves at either end [rad/s]."""
+    values = {"kv": KV, "ka": KA, "random_torque": torque, "random_torque_time": 0.05, "random_torque_seed": 4.0}
+    recording, truth = record(values, *profiles.random(12.0, 30.0, 5), seed=5, edges=6, sample_rate=100.0)
+    logged = as_speed(recording)
+    counts = np.diff(np.floor(truth.angle / step / logged.info.speed_window), prepend=0.0)
+    more = np.round(noise / step * np.random.default_rng(1).standard_normal(len(counts)))
+    logged = check(without_count(replace(logged, speed=step * (counts + more))))
+    problem = make_problem([logged], ())
+    specs = problem.unknowns.specs
+    theta = np.array([np.log(x) if spec.logarithmic else x for x, spec in zip((KV, KA), specs, strict=True)])
+    (data,) = problem.intervals
+    assert not data.independent and data.window == pytest.approx(0.01)  # taken for counts
+    return [make_error_data(data, *Estimate(problem, theta).increments)], float(data.noise / data.window)
+
+
+@pytest.mark.parametrize("torque", [0.0, 0.1])
+def test_white_noise_beside_a_lattice_is_the_sensors_and_no_torque(torque: float) -> None:
+    rows, counting = log_speeds(0.9, 0.7, torque)
+    model = learn_error_model(rows, RATE, KA)
+    assert np.sqrt(2.0) * model.share * counting == pytest.approx(0.9, rel=0.1)
+    assert 0.8 * torque <= model.rms_voltage <= 1.2 * torque
+
+
+def test_a_lattice_alone_has_no_noise_beside() -> None:
+    rows, _ = log_speeds(0.0, 0.7)
+    model = learn_error_model(rows, RATE, KA)
+    assert model.share < 0.8 and model.rms_voltage < 0.02

@@ -94,3 +94,14 @@ def test_a_run_with_other_rows_than_the_log_has_its_own_window() -> None:
         assert found.window == pytest.approx(window) and found.lag == pytest.approx(0.5 * window)
     said = find_speed_sensor(replace(steps, info=replace(steps.info, speed_window=0.1, speed_lag=0.05)))
     assert said.window == 0.1 and said.lag == 0.05
+
+
+@pytest.mark.parametrize(("window", "counts"), [(0.02, True), (0.011, True), (0.009, False), (0.0004, False)])
+def test_a_lattice_of_values_that_are_no_means_over_their_rows_is_what_they_are_rounded_to(
+    window: float, counts: bool
+) -> None:
+    log = without_count(as_speed(recorded(3)))
+    assert log.info.sample_period == pytest.approx(0.02)
+    log = replace(log, info=replace(log.info, speed_window=window))
+    sensor = find_speed_sensor(log)
+    assert (sensor.step > 0.0, sensor.sigma > 0.0) == (counts, not counts)

@@ -51,3 +51,15 @@ def test_a_few_samples_tell_nothing() -> None:
     assert noise_of(np.random.default_rng(3).standard_normal(23)) == 0.0
     assert noise_of(np.random.default_rng(3).standard_normal(40)) > 0.5
     assert noise_of(np.arange(100.0)) == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_controller_that_answers_a_sample_does_not_predict_its_noise(seed: int) -> None:
+    """Its voltage in the same row is lower the higher the sample, noise and all; a motor does the opposite."""
+    random, noise, speed, gain = np.random.default_rng(seed), 1.2, 0.0, 0.1
+    values, voltage = np.zeros(400), np.zeros(400)
+    for k in range(400):
+        values[k] = speed + noise * random.standard_normal()
+        voltage[k] = 4.0 + gain * (20.0 * np.sign(np.sin(k / 40.0)) - values[k])
+        speed += 0.2 * (5.0 * voltage[k] - speed)
+    assert 0.8 * noise < estimate_white_noise(values, voltage) < 1.25 * noise

@@ -1,0 +1,85 @@
+"""When a log's speeds were made shows in the motion, and only there where nobody said it."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from swinging import RUBBING, noisy
+
+from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.result import Verdict
+from motor_identification.estimation.global_search import search_globally
+from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.request import SearchConfig
+from motor_identification.identify import Request, identify
+from motor_identification.recording import Recording, check
+from motor_identification.timing.speed_timing import INSTANT, Timing, find_timing
+
+
+def timing_of(*recordings: Recording) -> Timing | None:
+    """As a first fit of kv and ka has it."""
+    estimate, _ = search_globally(make_problem(recordings, ()), SearchConfig())
+    return find_timing(recordings, estimate)
+
+
+def describe(recording: Recording, **info: Any) -> Recording:
+    return replace(recording, info=replace(recording.info, **info))
+
+
+def with_voltage_of_next_row(recording: Recording) -> Recording:
+    """A row holds the voltage that was applied until it."""
+    return replace(recording, voltage=np.append(0.0, recording.voltage[:-1]))
+
+
+@pytest.mark.parametrize("sigma", [0.05, 1.0])
+@pytest.mark.parametrize("values", [{}, {"reverse_gain": 0.9, "bias_voltage": 0.3}])
+def test_values_of_an_instant_are_told_from_means_over_a_row(sigma: float, values: dict[str, float]) -> None:
+    """Whatever shapes the motion beside it, one way or the other."""
+    found = timing_of(check(noisy(sigma, instant=True, **values)))
+    assert found is not None and (found.window, found.lag) == (INSTANT, 0.0)
+    assert timing_of(check(noisy(sigma, **values))) is None
+
+
+def test_a_row_with_the_voltage_until_it_is_told() -> None:
+    late = with_voltage_of_next_row(noisy(0.05))
+    found = timing_of(check(late))
+    assert found is not None and (found.window, found.lag) == (1.0, -0.5)
+    assert timing_of(check(with_voltage_of_next_row(late))) is None  # no log is two rows late: for another reason
+
+
+def test_a_dead_time_is_none_of_the_timing() -> None:
+    assert timing_of(check(noisy(0.05, delay=0.015))) is None
+    assert timing_of(check(noisy(0.05, delay=0.015, instant=True))) is None  # 5 ms are left, as of means
+
+
+def test_what_was_said_is_believed() -> None:
+    early = check(noisy(0.05, instant=True))
+    row = early.info.sample_period
+    assert timing_of(early) is not None
+    assert timing_of(describe(early, speed_window=0.5 * row)) is None
+    assert timing_of(describe(early, speed_lag=0.0)) is None
+    assert timing_of(describe(early, edges_per_revolution=96)) is None
+    assert timing_of(early, describe(early, speed_lag=0.0)) is None
+    assert timing_of(early.between(0.0, 0.8)) is None  # too few to tell
+
+
+def test_a_timing_is_set_on_every_recording_and_said_of_the_first() -> None:
+    first, second = Timing(INSTANT, 0.0, "values").set_on([noisy(1.0), noisy(1.0, 1)])
+    assert first.info.speed_window == second.info.speed_window == pytest.approx(0.0004)
+    assert first.info.speed_lag == second.info.speed_lag == 0.0
+    assert second.notes == noisy(1.0, 1).notes and "taken as values" in first.notes[-1]
+    assert "--speed-window 0.0004 --speed-lag 0 " in first.notes[-1]
+
+
+def test_a_fit_and_a_diagnosis_use_what_was_found() -> None:
+    """Read as means, kv or ka would be wrong, and half a row of lead missing."""
+    early = check(noisy(0.05, instant=True))
+    fit = identify([early], Request(("coulomb_friction",)))
+    for name, value in RUBBING.items():
+        assert fit.parameters.values[name] == pytest.approx(value, rel=0.003)
+        assert fit.parameters.values[name] != pytest.approx(value, rel=1e-7)
+    assert fit.residual_rms < 0.06 and any("rows' own instants" in note for note in fit.notes)
+    found = diagnose([early])
+    assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED
+    assert any("rows' own instants" in note for note in found.model.notes)
