@@ -13,7 +13,8 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
 
 from diff_drive_square import EFFECTS, FORWARD, GEOMETRY, SIDE, TRUE, TURN, Loop, board_of, drive_square
-from machine import machine
+from machine import commit, machine
+from page_sections import write_section
 
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.identify import Request, identify
@@ -21,9 +22,10 @@ from motor_identification.recording import check, recording_of
 from motor_model.excitation import PROFILES
 from motor_model.parameters import Parameters
 
-RESULTS = Path(__file__).with_name("results")
+PAGE = Path(__file__).with_name("results") / "diff_drive.md"
 DISCS = 3
 TRAVEL_GAINS = (0.0, 2.0)  # [1/s] off, and the default
+JITTER = 0.003  # [s] around the drive's steps, of when velocities come: a program sends them, and a network passes them
 
 
 def identified(truth: Parameters, seed: int) -> Parameters:
@@ -35,9 +37,10 @@ def identified(truth: Parameters, seed: int) -> Parameters:
     return identify([check(recording_of(samples, info, truth.name))], Request(EFFECTS)).parameters
 
 
-def row(loop: Loop, travel_gain: float) -> str:
-    """A line of the table: mean and worst of all discs and both ways."""
-    squares = [drive_square(loop, seed, way, travel_gain) for seed in range(DISCS) for way in (1.0, -1.0)]
+def row(loop: Loop, travel_gain: float, jitter: float = 0.0) -> str:
+    """A line of the table: mean and worst of all discs and both ways; jitter [s] of when velocities come."""
+    ways = [(seed, way) for seed in range(DISCS) for way in (1.0, -1.0)]
+    squares = [drive_square(loop, seed, way, travel_gain, jitter) for seed, way in ways]
     gaps = [100.0 * square.gap / SIDE for square in squares]
     turns = [abs(degrees(abs(square.end.heading) - 2.0 * pi)) for square in squares]
     odometry = [1e3 * square.odometry_error for square in squares]
@@ -45,7 +48,8 @@ def row(loop: Loop, travel_gain: float) -> str:
     mean = sum(gaps) / len(gaps)
     corner = 1e3 * max(square.off for square in squares)
     cells = f"{mean:.2f} % | {max(gaps):.2f} % | {corner:.0f} mm | {max(turns):.1f}° | {max(odometry):.1f} mm"
-    return f"| {loop.name} | {travel_gain:g} | {cells} | {'yes' if healthy else 'no'} |"
+    name = loop.name + (f", velocities up to {500.0 * jitter:g} ms sooner or later" if jitter else "")
+    return f"| {name} | {travel_gain:g} | {cells} | {'yes' if healthy else 'no'} |"
 
 
 def loops(models: tuple[Parameters, Parameters]) -> list[Loop]:
@@ -73,14 +77,17 @@ def main() -> int:
     lines = [
         "# A differential drive closes a square",
         "",
-        f"{machine()}. Simulated: wheels of {1e3 * GEOMETRY.wheel_radius:g} mm, {1e3 * GEOMETRY.wheel_separation:g} mm",
+        f"`python benchmarks/diff_drive.py` at {commit()}, {machine()}; the other sections have commands of their own.",
+        "",
+        f"Simulated: wheels of {1e3 * GEOMETRY.wheel_radius:g} mm, {1e3 * GEOMETRY.wheel_separation:g} mm",
         f"apart, on two 6 V gearmotors of different friction; {DISCS} pairs of discs (1 % irregular, 374 counts a",
         f"turn), each both ways round. {SIDE:g} m at {FORWARD[0].linear} m/s, 90° at {degrees(TURN[0].angular):g}°/s,",
-        "four times, by velocities alone: nobody corrects the path. `python benchmarks/diff_drive.py`",
+        "four times, by velocities alone: nobody corrects the path.",
         "",
         "| controllers | `travel_gain` | gap, mean | gap, worst | corner off | heading off | odometry off | well |",
         "|---|---:|---:|---:|---:|---:|---:|---|",
         *(row(loop, gain) for gain in TRAVEL_GAINS for loop in loops(models)),
+        row(loops(models)[0], TRAVEL_GAINS[-1], JITTER),
         "",
         "Gap: from start to end, of the side's length. Corner, heading at the end, odometry (where the robot says it",
         "is beside where it is): the worst. `travel_gain` [1/s]: what a wheel is behind its way is made up for in the",
@@ -92,8 +99,7 @@ def main() -> int:
         "|---|---:|---:|---:|---:|",
         *found,
     ]
-    RESULTS.mkdir(exist_ok=True)
-    (RESULTS / "diff_drive.md").write_text("\n".join([*lines, ""]), encoding="utf-8")
+    write_section(PAGE, lines)
     print("\n".join(lines))
     return 0
 

@@ -15,6 +15,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"
 from diff_drive_square import DRIVE_EVERY, GEOMETRY, LIMITS, SIDE, TRUE, Loop, Square, board_of, plan_of
 from driver_rig import Rig
 from machine import commit, machine
+from page_sections import write_section
 
 from motor_board.build import FirmwareConfig
 from motor_board.chip import FREQUENCY
@@ -26,6 +27,7 @@ from motor_examples.diff_drive.odometry import Pose, advance_pose
 from motor_examples.diff_drive.wheel import Wheel, follow_controller, follow_sample
 from motor_model.sample import Sample
 
+PAGE = Path(__file__).with_name("results") / "diff_drive.md"
 RATE, EDGES = 200.0, 374
 LOOK = FREQUENCY // 2000  # [cycle] between two looks at the port
 OURS = Loop("", TRUE, {"speed_source": "observer", "feedforward": True, "voltage_limit": 6.0})
@@ -99,17 +101,29 @@ def square(seed: int, way: float) -> Square:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--discs", type=int, default=1)
+    parser.add_argument("--discs", type=int, default=3)
     options = parser.parse_args()
-    print(f"At {commit()}; {machine()}.\n")
-    print("| discs | way | gap | corner off | heading off | odometry off | well |\n|---|---|---:|---:|---:|---:|---|")
+    lines = [
+        "## On two emulated boards",
+        "",
+        f"`python benchmarks/diff_drive_boards.py --discs {options.discs}` at {commit()}, {machine()}.",
+        "",
+        "The real firmware of both boards on emulated chips, the driver, the controllers with observer and",
+        "feed-forward (the true models) and the drive with its default `travel_gain`, in lockstep on the chips' clock;",
+        f"two channels of {EDGES} edges, {RATE:g} Hz.",
+        "",
+        "| discs | way | gap | corner off | heading off | odometry off | well |",
+        "|---|---|---:|---:|---:|---:|---|",
+    ]
     for seed in range(options.discs):
         for way in (1.0, -1.0):
             one = square(seed, way)
             turned = abs(degrees(abs(one.end.heading) - 2.0 * pi))
             cells = f"{one.gap / SIDE:.2%} | {1e3 * one.off:.0f} mm | {turned:.1f}° | {1e3 * one.odometry_error:.1f} mm"
             side = "left" if way > 0 else "right"
-            print(f"| {seed} | {side} | {cells} | {'yes' if one.healthy else 'no'} |", flush=True)
+            lines.append(f"| {seed} | {side} | {cells} | {'yes' if one.healthy else 'no'} |")
+            print(lines[-1], flush=True)
+    write_section(PAGE, lines)
     return 0
 
 

@@ -3,6 +3,8 @@
 from dataclasses import dataclass, field
 from math import hypot, pi
 
+import numpy as np
+
 from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.run import Config as ControlConfig
@@ -108,7 +110,16 @@ def plan_of(way: float) -> list[tuple[Twist, float]]:
     return [PAUSE, *[FORWARD, PAUSE, turn, PAUSE] * 4]
 
 
-def drive_square(loop: Loop, seed: int, way: float = 1.0, travel_gain: float = 0.0) -> Square:
+def arrivals_of(plan: list[tuple[Twist, float]], jitter: float, seed: int) -> list[tuple[float, Twist]]:
+    """When [s] each velocity comes: by the plan, or up to half of `jitter` [s] sooner or later."""
+    rng, at, arrivals = np.random.default_rng([seed, 3]), 0.0, []
+    for twist, duration in plan:
+        arrivals.append((at + jitter * float(rng.uniform(-0.5, 0.5)), twist))
+        at += duration
+    return [*arrivals, (at, STILL)]
+
+
+def drive_square(loop: Loop, seed: int, way: float = 1.0, travel_gain: float = 0.0, jitter: float = 0.0) -> Square:
     """Drive one square on discs of a seed."""
     motors = []
     for side, name in enumerate(("left", "right")):
@@ -117,23 +128,24 @@ def drive_square(loop: Loop, seed: int, way: float = 1.0, travel_gain: float = 0
         motors.append(Motor(loop.config(side, board), SimulatedBoard(TRUE[side], board), wheel))
     config, state = drive.Config(GEOMETRY, LIMITS, travel_gain=travel_gain), drive.State()
     true = seen = Pose()
-    corners, counted, k, healthy = [], [0.0, 0.0], 0, True
-    for twist, duration in plan_of(way):
-        for _ in range(round(duration * RATE)):
-            now, before = k / RATE, [motor.board.angle for motor in motors]
-            for motor in motors:
-                motor.sample(now)
-            true = advance_pose(GEOMETRY, true, *(m.board.angle - b for m, b in zip(motors, before, strict=True)))
-            if k % DRIVE_EVERY == 0:
-                state = drive.take_command(config, state, twist, now)
-                wheels = (motors[0].wheel, motors[1].wheel)
-                decision, state = drive.step(config, state, wheels, now)
-                healthy &= decision.healthy
-                for motor, reference in zip(motors, decision.references or (), strict=False):
-                    motor.refer(reference, now)
-                angles = [motor.wheel.angle for motor in motors]
-                turned = [a - b for a, b in zip(angles, counted, strict=True)]
-                seen, counted = advance_pose(GEOMETRY, seen, *turned), angles
-            k += 1
-        corners.append(true)
-    return Square(true, seen, tuple(corners), healthy)
+    corners, counted, healthy, twist = [], [0.0, 0.0], True, STILL
+    coming = arrivals_of(plan_of(way), jitter, seed)
+    for k in range(round(coming[-1][0] * RATE)):
+        now, before = k / RATE, [motor.board.angle for motor in motors]
+        for motor in motors:
+            motor.sample(now)
+        true = advance_pose(GEOMETRY, true, *(m.board.angle - b for m, b in zip(motors, before, strict=True)))
+        while coming[0][0] <= now:
+            at, twist = coming.pop(0)
+            state = drive.take_command(config, state, twist, at)
+            corners.append(true)
+        if k % DRIVE_EVERY == 0:
+            state = drive.take_command(config, state, twist, now)
+            decision, state = drive.step(config, state, (motors[0].wheel, motors[1].wheel), now)
+            healthy &= decision.healthy
+            for motor, reference in zip(motors, decision.references or (), strict=False):
+                motor.refer(reference, now)
+            angles = [motor.wheel.angle for motor in motors]
+            turned = [a - b for a, b in zip(angles, counted, strict=True)]
+            seen, counted = advance_pose(GEOMETRY, seen, *turned), angles
+    return Square(true, seen, (*corners[1:], true), healthy)
