@@ -78,7 +78,9 @@ def add_effect(setup: Setup, effect: str, **values: float) -> Setup:
 
 
 def warm(setup: Setup, rng: np.random.Generator) -> Setup:
-    """Its copper warms up by 30 % of its resistance."""
+    """Its copper warms up by 30 % of its resistance, to the friction and loads that were drawn."""
+    cold = {name: setup.plant.value(name) / 1.3 for name in ("ks", "breakaway_voltage", "bias_voltage", "step_voltage")}
+    setup = replace(setup, plant=replace(setup.plant, values=setup.plant.values | cold))
     return add_effect(setup, "warm_up", resistance_rise=0.3, warm_up_time=float(rng.uniform(1.0, 20.0)))
 
 

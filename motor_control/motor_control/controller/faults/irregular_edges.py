@@ -81,8 +81,11 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     if not state.irregular or config.stall_time == 0.0:
         return "", state
     driven = seen.motion.slow_voltage >= LEAST_VOLTAGE * seen.voltage_limit > 0.0
-    slow = seen.motion.slow_speed < LEAST_RATE * config.slot or state.mean_period > 1.0 / LEAST_RATE
-    if slow or not driven or _crawls(config, state, seen):
+    if not driven:
+        return "", state
+    if _crawls(config, state, seen):  # which is not held against the motion that follows
+        return "", replace(state, jump=min(state.jump, REGULAR), patterned=min(state.patterned, REGULAR))
+    if seen.motion.slow_speed < LEAST_RATE * config.slot or state.mean_period > 1.0 / LEAST_RATE:
         return "", state
     return SENTENCE.format(exp(state.jump)), state
 
