@@ -20,7 +20,23 @@ from math import exp, log, pi, sqrt
 
 import numpy as np
 
-from motor_identification.noise.torque_response import angle_response, fill_growth, lag_response, ramp
+from motor_identification.noise.torque_response import (
+    ANGLE_D,
+    ANGLE_T,
+    BB,
+    BD,
+    BT,
+    BY_T,
+    DD,
+    DT,
+    LEFT_D,
+    LEFT_T,
+    RESPONSES,
+    TERMS,
+    TT,
+    fill_response,
+    fill_series,
+)
 from motor_identification.recording import Bools, Floats
 from motor_model.compiled import compiled
 
@@ -67,7 +83,8 @@ def run_filter(  # noqa: C901, PLR0915
     dd, dt, tt = strength / (alpha * (alpha + beta)), strength / (alpha + beta), strength
     speed_variance = dd
     of_interval, of_pause = -1.0, -1.0
-    q, p = np.zeros(6), np.zeros(6)
+    q, p, series, fastest = np.zeros(RESPONSES), np.zeros(RESPONSES), np.zeros((TERMS, RESPONSES)), max(alpha, beta)
+    fill_series(alpha, beta, series)
     phi_d = phi_t = by_t = angle_d = angle_t = 0.0
     noise = 2.0 * beta * strength
     value = 0.0
@@ -94,14 +111,14 @@ def run_filter(  # noqa: C901, PLR0915
                 elif pause[k] > 0.0:
                     if abs(pause[k] - of_pause) > SAME_TIME * pause[k]:
                         of_pause = pause[k]
-                        fill_growth(alpha, beta, of_pause, p)
-                    fd, ft, by = exp(-alpha * of_pause), exp(-beta * of_pause), lag_response(alpha, beta, of_pause)
+                        fill_response(series, fastest, of_pause, p)
+                    fd, ft, by = p[LEFT_D], p[LEFT_T], p[BY_T]
                     for c in range(rows):
                         d[c], t[c] = fd * d[c] + by * t[c], ft * t[c]
                     dd, dt, tt = (
-                        fd * fd * dd + 2.0 * fd * by * dt + by * by * tt + noise * p[3],
-                        ft * (fd * dt + by * tt) + noise * p[4],
-                        ft * ft * tt + noise * p[5],
+                        fd * fd * dd + 2.0 * fd * by * dt + by * by * tt + noise * p[DD],
+                        ft * (fd * dt + by * tt) + noise * p[DT],
+                        ft * ft * tt + noise * p[TT],
                     )
             b[:] = 0.0
             level[:] = 0.0
@@ -109,21 +126,20 @@ def run_filter(  # noqa: C901, PLR0915
         if strength > 0.0:
             if abs(h - of_interval) > SAME_TIME * h:
                 of_interval = h
-                fill_growth(alpha, beta, h, q)
-                phi_d, phi_t, by_t = exp(-alpha * h), exp(-beta * h), lag_response(alpha, beta, h)
-                angle_d, angle_t = h * ramp(alpha * h), angle_response(alpha, beta, h)
+                fill_response(series, fastest, h, q)
+                phi_d, phi_t, by_t, angle_d, angle_t = q[LEFT_D], q[LEFT_T], q[BY_T], q[ANGLE_D], q[ANGLE_T]
             for c in range(rows):
                 b[c] += angle_d * d[c] + angle_t * t[c]
                 d[c], t[c] = phi_d * d[c] + by_t * t[c], phi_t * t[c]
             # F P Fᵀ + Q with F = [[1, angle_d, angle_t], [0, phi_d, by_t], [0, 0, phi_t]].
             b_d, b_t = bd + angle_d * dd + angle_t * dt, bt + angle_d * dt + angle_t * tt
             d_d, d_t = phi_d * dd + by_t * dt, phi_d * dt + by_t * tt
-            bb = bb + angle_d * (bd + b_d) + angle_t * (bt + b_t) + noise * q[0]
-            bd, bt = phi_d * b_d + by_t * b_t + noise * q[1], phi_t * b_t + noise * q[2]
+            bb = bb + angle_d * (bd + b_d) + angle_t * (bt + b_t) + noise * q[BB]
+            bd, bt = phi_d * b_d + by_t * b_t + noise * q[BD], phi_t * b_t + noise * q[BT]
             dd, dt, tt = (
-                phi_d * d_d + by_t * d_t + noise * q[3],
-                phi_t * d_t + noise * q[4],
-                phi_t * phi_t * tt + noise * q[5],
+                phi_d * d_d + by_t * d_t + noise * q[DD],
+                phi_t * d_t + noise * q[DT],
+                phi_t * phi_t * tt + noise * q[TT],
             )
         bb += growth * h
         variance = bb + end[k]

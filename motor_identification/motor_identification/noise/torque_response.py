@@ -1,61 +1,109 @@
-"""Compute how a motor's angle and speed respond to a random torque: impulse responses, growth of their covariance.
+"""Compute how a motor's angle and speed respond to a random torque: transition and growth of their covariance.
 
-The motor is a lag α = kv/ka, the torque an Ornstein–Uhlenbeck process, a lag β = 1/τ (`error_filter.py`).
+The motor is a lag α = kv/ka, the torque an Ornstein–Uhlenbeck process, a lag β = 1/τ (`error_filter.py`). With
+g = (angle, speed, torque) after an impulse of torque, the growth over a time h is the integral of g gᵀ. Over a quarter
+of the faster time constant all of it is a power series in h, the same for every interval of a recording; what is longer
+is doubled from there, F(2h) = F(h)² and Q(2h) = F(h) Q(h) F(h)ᵀ + Q(h): no difference of exponentials cancels.
 """
 
-from math import exp, expm1
+import numpy as np
 
 from motor_identification.recording import Floats
 from motor_model.compiled import compiled
 
-_PANEL = 0.5  # of the faster time constant: first panel of a quadrature, the next ones are twice as long each
-_NODES = (0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970262)  # Gauss-Legendre on 0..1
-_WEIGHTS = (0.17392742256872692, 0.32607257743127305, 0.32607257743127305, 0.17392742256872692)
+# A response: the growth of angle² , angle·speed, angle·torque, speed², speed·torque, torque² by a unit impulse each
+# second, then what is left of a speed and of a torque, the speed that a torque makes, and the angles that both make.
+RESPONSES = 12  # and an empty one: rows of four are vectorised
+BB, BD, BT, DD, DT, TT, LEFT_D, LEFT_T, BY_T, ANGLE_D, ANGLE_T = range(11)
+TERMS = 12  # of a series: the next is 1e-13 of the first
+LONGEST = 0.25  # of the faster time constant, for which a series is good
 
 
 @compiled
-def ramp(x: float) -> float:
-    """Compute (1 − e^(−x))/x."""
-    return -expm1(-x) / x if x > 1e-12 else 1.0
+def fill_series(alpha: float, beta: float, series: Floats) -> None:
+    """Fill the coefficients (TERMS, RESPONSES) over h·max(α, β), each over the power of h that it begins with."""
+    fastest = max(alpha, beta)
+    a, b = alpha / fastest, beta / fastest
+    count = TERMS + 5
+    # Power series of g over s·fastest: derivatives at 0 follow from each other, over factorials.
+    torque, speed, angle = np.zeros(count), np.zeros(count), np.zeros(count)
+    of_torque, of_speed, factorial = 1.0, 0.0, 1.0
+    for k in range(count):
+        factorial *= max(k, 1)
+        torque[k], speed[k] = of_torque / factorial, of_speed / factorial
+        if k + 1 < count:
+            angle[k + 1] = of_speed / (factorial * (k + 1))
+        of_torque, of_speed = -b * of_torque, of_torque - a * of_speed
+    series[:] = 0.0
+    left = 1.0
+    for k in range(TERMS):
+        series[k, BB] = _product(angle, angle, k + 4) / (k + 5)
+        series[k, BD] = _product(angle, speed, k + 3) / (k + 4)
+        series[k, BT] = _product(angle, torque, k + 2) / (k + 3)
+        series[k, DD] = _product(speed, speed, k + 2) / (k + 3)
+        series[k, DT] = _product(speed, torque, k + 1) / (k + 2)
+        series[k, TT] = _product(torque, torque, k) / (k + 1)
+        series[k, LEFT_D], series[k, LEFT_T] = left, torque[k]
+        series[k, BY_T], series[k, ANGLE_T], series[k, ANGLE_D] = speed[k + 1], angle[k + 2], left / (k + 1)
+        left *= -a / (k + 1)
 
 
 @compiled
-def lag_response(alpha: float, beta: float, s: float) -> float:
-    """Compute (e^(−β s) − e^(−α s))/(α − β): what is left in a lag α, s after an impulse in a lag β."""
-    difference = (alpha - beta) * s
-    return exp(-beta * s) * s * ramp(difference) if difference >= 0.0 else exp(-alpha * s) * s * ramp(-difference)
-
-
-@compiled
-def angle_response(alpha: float, beta: float, s: float) -> float:
-    """Integrate `lag_response` from 0 to s; by quadrature where its difference of two ramps would cancel."""
-    if max(alpha, beta) * s > 1e-2 and abs(alpha - beta) > 1e-3 * max(alpha, beta):
-        return s * (ramp(beta * s) - ramp(alpha * s)) / (alpha - beta)
+def _product(one: Floats, other: Floats, power: int) -> float:
+    """Compute the coefficient of a power in the product of two series."""
     total = 0.0
-    for i in range(4):
-        total += _WEIGHTS[i] * s * lag_response(alpha, beta, _NODES[i] * s)
+    for i in range(power + 1):
+        total += one[i] * other[power - i]
     return total
 
 
 @compiled
-def fill_growth(alpha: float, beta: float, duration: float, growth: Floats) -> None:
-    """Integrate g gᵀ over a time [s], g = (angle, speed, torque) after an impulse of torque: bb, bd, bT, dd, dT, TT.
+def fill_response(series: Floats, fastest: float, duration: float, response: Floats) -> None:
+    """Fill the responses (RESPONSES,) over a time [s], fastest: max(α, β) [1/s] of the series."""
+    doublings, h = 0, duration
+    while h * fastest > LONGEST:
+        h *= 0.5
+        doublings += 1
+    x = h * fastest
+    for r in range(RESPONSES):
+        response[r] = series[TERMS - 1, r]
+    for k in range(TERMS - 2, -1, -1):
+        for r in range(RESPONSES):
+            response[r] = response[r] * x + series[k, r]
+    square = h * h
+    response[BB] *= square * square * h
+    response[BD] *= square * square
+    response[BT] *= square * h
+    response[DD] *= square * h
+    response[DT] *= square
+    response[TT] *= h
+    response[BY_T] *= h
+    response[ANGLE_D] *= h
+    response[ANGLE_T] *= square
+    for _ in range(doublings):
+        _double(response)
 
-    Panels that double resolve the fast part at the beginning and the slow one at the end.
-    """
-    for i in range(6):
-        growth[i] = 0.0
-    begin, length = 0.0, _PANEL / max(alpha, beta)
-    while begin < duration:
-        panel = min(length, duration - begin)
-        for i in range(4):
-            s, weight = begin + _NODES[i] * panel, _WEIGHTS[i] * panel
-            angle, speed, torque = angle_response(alpha, beta, s), lag_response(alpha, beta, s), exp(-beta * s)
-            growth[0] += weight * angle * angle
-            growth[1] += weight * angle * speed
-            growth[2] += weight * angle * torque
-            growth[3] += weight * speed * speed
-            growth[4] += weight * speed * torque
-            growth[5] += weight * torque * torque
-        begin += panel
-        length = begin  # doubles
+
+@compiled
+def _double(response: Floats) -> None:
+    """Make responses those over twice the time."""
+    bb, bd, bt, dd, dt, tt = response[BB], response[BD], response[BT], response[DD], response[DT], response[TT]
+    d, t, by, angle_d, angle_t = (
+        response[LEFT_D],
+        response[LEFT_T],
+        response[BY_T],
+        response[ANGLE_D],
+        response[ANGLE_T],
+    )
+    b_d, b_t = bd + angle_d * dd + angle_t * dt, bt + angle_d * dt + angle_t * tt
+    d_d, d_t = d * dd + by * dt, d * dt + by * tt
+    response[BB] += bb + angle_d * (bd + b_d) + angle_t * (bt + b_t)
+    response[BD] += d * b_d + by * b_t
+    response[BT] += t * b_t
+    response[DD] += d * d_d + by * d_t
+    response[DT] += t * d_t
+    response[TT] += t * t * tt
+    response[ANGLE_T] += angle_d * by + angle_t * t
+    response[ANGLE_D] += angle_d * d
+    response[BY_T] = by * (d + t)
+    response[LEFT_D], response[LEFT_T] = d * d, t * t
