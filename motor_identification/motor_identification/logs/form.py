@@ -33,6 +33,11 @@ UNITS: dict[Kind, dict[str, float | None]] = {
 TIME_UNITS = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}  # in nanoseconds
 
 
+def time_unit_size(unit: str) -> int:
+    """[ns] of a unit of times: a row of TIME_UNITS, or seconds a tick as text."""
+    return TIME_UNITS[unit] if unit in TIME_UNITS else max(round(float(unit) * 1e9), 1)
+
+
 @dataclass(frozen=True)
 class CsvForm:
     """How to read a file; None is "not said"."""
@@ -53,7 +58,7 @@ class CsvForm:
     voltage_before: bool = False  # a row's voltage was applied until its time; else from then until the next row
     name: str = "motor"
     max_voltage: float | None = None  # [V]
-    time_unit: str = "s"  # a row of TIME_UNITS
+    time_unit: str = "s"  # of `time_unit_size`
     supply: str | None = None  # column of the supply's voltage, which a duty is a share of
     supply_scale: float = 1.0  # volts per unit of it
     current: str | None = None  # column

@@ -8,7 +8,7 @@ import numpy as np
 
 from motor_identification.logs.csv.reader import read_table
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.form import TIME_UNITS, CsvForm
+from motor_identification.logs.form import CsvForm, time_unit_size
 from motor_identification.logs.motion import Motion, read_motion
 from motor_identification.logs.rows.parts import (
     check_rest,
@@ -81,7 +81,7 @@ def _check_ranges(path: Path, info: Info) -> None:
 def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log:
     """Rows with a time of their own."""
     said: list[str] = []
-    signals, full = unwrap_clock(signals, TIME_UNITS[form.time_unit])
+    signals, full = unwrap_clock(signals, time_unit_size(form.time_unit))
     signals, stray = drop_stray_stamps(signals)
     signals, restarts = split_at_restarts(signals, form)
     signals, stamps = separate_stamps(signals)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.direction import is_backward
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.form import TIME_UNITS, CsvForm
+from motor_identification.logs.form import CsvForm, time_unit_size
 from motor_model.errors import RecordingError
 from motor_model.sample import RANGES
 
@@ -102,7 +102,7 @@ def read_signals(table: Table, form: CsvForm, runs: dict[str, slice]) -> Signals
             f"{table.path}, line {table.lines[row]}: {form.motion} is {motion[row]:.3g}, which is no motion of a "
             "motor: check the column, or remove that line."
         )
-    time = table.nanoseconds(form.time, TIME_UNITS[form.time_unit]) if form.time else np.zeros(count, np.int64)
+    time = table.nanoseconds(form.time, time_unit_size(form.time_unit)) if form.time else np.zeros(count, np.int64)
     return Signals(
         path=table.path,
         lines=np.asarray(table.lines, np.int64),

@@ -77,3 +77,19 @@ def test_a_constant_voltage_takes_nothing_beside_it(capsys: pytest.CaptureFixtur
     with pytest.raises(SystemExit) as caught:
         main(["log.csv", "--dry-run", "--constant-voltage", "9", *other])
     assert caught.value.code == 2 and "--constant-voltage" in capsys.readouterr().err.splitlines()[-1]
+
+
+@pytest.mark.parametrize(
+    ("unit", "status"), [("1e-9", 1), ("9e-10", 2), ("3600", 1), ("3601", 2), ("min", 2), ("nan", 2)]
+)
+def test_a_unit_of_times_is_named_or_seconds_a_tick(
+    unit: str, status: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A file that is not there is looked for where the option is sound."""
+    try:
+        found = main([str(tmp_path / "none.csv"), "--time-unit", unit, "--dry-run"])
+    except SystemExit as end:
+        found = int(end.code or 0)
+    assert found == status
+    told = capsys.readouterr().err
+    assert (f"{unit} is none of s, ms, us, ns, and no seconds a tick" in told) is (status == 2)

@@ -10,6 +10,7 @@ import pytest
 from motor_identification.bag import read_recording
 from motor_identification.cli.import_csv import main
 from motor_identification.logs import CsvForm, Kind, Log, read_log
+from motor_identification.logs.form import time_unit_size
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.recording import check, recording_of
 from motor_model.errors import RecordingError
@@ -164,3 +165,14 @@ def test_help_shows_whole_commands(capsys: pytest.CaptureFixture[str]) -> None:
         main(["--help"])
     text = capsys.readouterr().out
     assert text.count("  import_csv ") >= 3 and "--split duty_pct --rest-until 0" in text and "--steady" in text
+
+
+@pytest.mark.parametrize(("unit", "size"), [("s", 10**9), ("ns", 1), ("8.26446e-06", 8264), ("1e-12", 1)])
+def test_the_unit_of_times_is_named_or_seconds_a_tick(unit: str, size: int) -> None:
+    assert time_unit_size(unit) == size
+
+
+def test_ticks_of_a_timer_become_seconds(tmp_path: Path) -> None:
+    rows = [(1520 * k, 5, 3 * k) for k in range(50)]  # of 121 kHz
+    log = read(tmp_path, rows, replace(SPEED, time_unit="8.26446e-06"))
+    assert log.info.sample_period == pytest.approx(1520 / 121_000, rel=1e-4)

@@ -203,7 +203,7 @@ def test_time_that_starts_again_begins_a_run(read: Read) -> None:
     assert [(run.label, len(run.samples)) for run in log.runs] == [("a", 2), ("b_1", 2), ("b_2", 2)]
     assert "t begins again once: 3 runs, a bag each." in log.findings
     alone = read(table(*rows, header="t,u,y,s"), replace(SPEED, split="s"))
-    assert "2 runs, a bag each (1 rows that stand alone are left out)." in " ".join(alone.findings)
+    assert "2 runs, a bag each (1 row that stands alone is left out)." in " ".join(alone.findings)
     with pytest.raises(RecordingError, match="line 6: the run with s = c has a single row"):
         read(table(*rows[:4], (0, 1, 2, "c"), header="t,u,y,s"), replace(SPEED, split="s"))
 

@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Callable
+from contextlib import suppress
 from fractions import Fraction
 from pathlib import Path
 
@@ -13,6 +14,8 @@ from motor_model.gearing.gear import parse_gear_ratio
 from motor_model.sample import RANGES
 from motor_ros.command import between, positive, whole_between
 from motor_ros.output_files import add_force_option
+
+SHORTEST_TICK, LONGEST_TICK = 1e-9, 3600.0  # [s] a nanosecond is as fine as times are kept
 
 
 def add_log_options(parser: argparse.ArgumentParser) -> None:
@@ -70,10 +73,25 @@ def _add_columns(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def _time_unit(text: str) -> str:
+    """A unit of times, or a number of seconds, as an argparse type."""
+    if text in TIME_UNITS:
+        return text
+    with suppress(ValueError):
+        if SHORTEST_TICK <= float(text) <= LONGEST_TICK:
+            return repr(float(text))
+    raise argparse.ArgumentTypeError(f"{text} is none of {', '.join(TIME_UNITS)}, and no seconds a tick, 1e-9 to 3600")
+
+
 def _add_meaning(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument_group("what the columns mean").add_argument
     units = sorted({unit for units in UNITS.values() for unit in units})
-    add("--time-unit", choices=list(TIME_UNITS), help="of the times (default: by name, or by how often rows come)")
+    add(
+        "--time-unit",
+        type=_time_unit,
+        metavar="{" + ",".join(TIME_UNITS) + ",S}",
+        help="of the times; S: seconds a tick of some timer (default: by name, or by how often rows come)",
+    )
     add("--unit", choices=units, help="of speeds or positions (default: by name, or by the encoder's steps)")
     add("--voltage-scale", type=_scale, metavar="V", help="volts per unit of the voltage column (default 1)")
     add("--full-duty", type=positive, metavar="D", help="the voltage column holds duties: this one is full duty")

@@ -12,7 +12,7 @@ from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles import Roles, find_roles
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.form import TIME_UNITS, CsvForm
+from motor_identification.logs.form import TIME_UNITS, CsvForm, time_unit_size
 from motor_model.errors import RecordingError
 
 
@@ -52,7 +52,7 @@ def _rows(table: Table, roles: Roles, said: Said, notes: Notes) -> Rows:
         notes.findings.append(f"Time: rows are {said.sample_period * 1e3:.6g} ms apart, as said (--sample-period).")
     else:
         notes.findings.append(f"Time: {roles.time} in {unit}{why}.")
-    stamps = table.nanoseconds(roles.time, TIME_UNITS[unit])
+    stamps = table.nanoseconds(roles.time, time_unit_size(unit))
     period = row_period(np.asarray(stamps * 1e-9, dtype=np.float64))
     if said.time or not _is_steady(table, roles, period):
         return Rows(roles.time, unit, period)
@@ -65,7 +65,8 @@ def _rows(table: Table, roles: Roles, said: Said, notes: Notes) -> Rows:
 
 def _time_unit(table: Table, column: str, said: Said) -> tuple[str, str]:
     if said.time_unit:
-        return said.time_unit, ""
+        known = said.time_unit in TIME_UNITS
+        return said.time_unit, "" if known else " s a tick, as said"
     heading = read_heading(column)
     if heading.unit in TIME_UNITS:
         return heading.unit, ""

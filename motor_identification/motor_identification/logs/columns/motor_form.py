@@ -17,7 +17,7 @@ from motor_identification.logs.columns.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.form import TIME_UNITS, UNITS, CsvForm, Kind
+from motor_identification.logs.form import UNITS, CsvForm, Kind, time_unit_size
 
 Floats = NDArray[np.float64]
 
@@ -177,7 +177,7 @@ def _rest(table: Table, rows: Rows, pair: Pair, kind: Kind, said: Said, notes: N
     """0, where every run's clock begins with its voltage, just before its first row, and the motor may have stood."""
     if rows.time is None or said.rest_until is not None:
         return said.rest_until
-    stamps = np.asarray(table.nanoseconds(rows.time, TIME_UNITS[rows.unit]) * 1e-9, dtype=np.float64)
+    stamps = np.asarray(table.nanoseconds(rows.time, time_unit_size(rows.unit)) * 1e-9, dtype=np.float64)
     begins = np.concatenate(([0], np.flatnonzero(np.diff(stamps) < 0.0) + 1, [len(stamps)]))
     if len(begins) < 3:
         return None

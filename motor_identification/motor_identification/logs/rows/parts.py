@@ -72,7 +72,7 @@ def split_at_restarts(signals: Signals, form: CsvForm) -> tuple[Signals, list[st
             f"{before:.10g}), and does not begin again: name the column of times with --time, or correct that line."
         )
     parts = signals.split(back)
-    said = f"{form.time} begins again {_times(number)}: {len(parts.runs)} runs, a bag each{_alone(signals, parts)}."
+    said = f"{form.time} begins again {_times(number)}: {_bags(parts)}{_alone(signals, parts)}."
     return _named_by_voltage(parts), [said]
 
 
@@ -103,7 +103,7 @@ def split_at_gaps(signals: Signals) -> tuple[Signals, list[str]]:
     parts = signals.split(gap)
     if not parts.runs:
         return signals, []
-    said = f"Rows are missing {_times(int(gap.sum()))} ({lost:.3g} s in all): {len(parts.runs)} runs, a bag each"
+    said = f"Rows are missing {_times(int(gap.sum()))} ({lost:.3g} s in all): {_bags(parts)}"
     return parts, [f"{said}{_alone(signals, parts)}."]
 
 
@@ -162,9 +162,14 @@ def _named_by_voltage(signals: Signals) -> Signals:
 
 
 def _alone(before: Signals, after: Signals) -> str:
-    """Rows that are left out, as they are alone in their run."""
+    """Say which rows are left out, as they are alone in their run."""
     lost = len(before) - len(after)
-    return f" ({lost} rows that stand alone are left out)" if lost else ""
+    rows = "1 row that stands alone is" if lost == 1 else f"{lost} rows that stand alone are"
+    return f" ({rows} left out)" if lost else ""
+
+
+def _bags(parts: Signals) -> str:
+    return "1 run" if len(parts.runs) == 1 else f"{len(parts.runs)} runs, a bag each"
 
 
 def _times(number: int) -> str:
