@@ -139,10 +139,9 @@ def test_a_motor_that_crawls_starts_and_stops_between_its_edges(
 def test_what_a_crawl_was_like_is_not_held_against_the_motion_that_follows() -> None:
     """Half a second after 0 rad/s a motor of 36,000 edges a second at its top speed was stopped (seed 300271)."""
     config, state = Config(slot=SLOT, fastest=36_000.0 * SLOT, time_constant=0.03, kv=0.01), State()
-    rng, count = np.random.default_rng(5), 0
-    for period in [0.0035, 0.0145] * 20 + [0.0003] * 10:  # a sample sees the latest of one to three edges
-        count += int(rng.integers(1, 4))
-        sample = Sample(0, 0.3, 1.2, count, edge_period=period)
+    crawl = np.random.default_rng(16).choice([0.0018, 0.0145], 40)
+    for count, period in enumerate([*crawl, *[0.0003] * 10]):
+        sample = Sample(0, 0.3, 1.2, count, edge_period=float(period))
         motion = Motion(edges=1, slow_speed=200.0 * SLOT, slow_voltage=1.2)
         reason, state = check(config, state, Seen(sample, 0.3, motion, 0.0, 0.005, 12.0))
         assert reason == ""
