@@ -11,7 +11,6 @@ RUNAWAY_TIME = 0.25  # [s] longer than any plant takes to see that a single chan
 # that is allowed (`spare`) drives a motor, and at least EDGES in the average's 50 ms.
 GROWTH, GROWTH_UNKNOWN = 1.2, 2.0
 EDGES = 2.0
-RATE = 150.0  # [edges/s] where the top speed is not known, at 0 V
 STRONG = 0.5  # of the voltage limit; below, and not 0 V, a loop answers a load that drives the motor
 SENTENCE = (
     "The speed grew from {:.3g} to {:.3g} rad/s although the voltage was 0 or against it: see whether motor and encoder"
@@ -48,10 +47,13 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
 
 
 def needed_growth(config: Config, seen: Seen) -> tuple[float, float]:
-    """Find the factor and the rise [rad/s] by which the speed has to grow: by the model, or by what was learnt."""
+    """Find the factor and the rise [rad/s] by which the speed has to grow: by the model, or by what was learnt.
+
+    Where neither says what a load can do, a motor at 0 V is left alone: a stop would give it no less.
+    """
     learnt, least = seen.motion.fastest(seen.voltage_limit), EDGES / FAST * config.slot
     if config.fastest < inf:
         return GROWTH, max(config.spare * config.fastest, least)
     if learnt < inf or seen.sample.voltage:  # a motor only seen under a load may be much faster than that says
         return GROWTH_UNKNOWN, max(config.spare * learnt if learnt < inf else 0.0, least)
-    return GROWTH_UNKNOWN, RATE * config.slot
+    return GROWTH_UNKNOWN, inf

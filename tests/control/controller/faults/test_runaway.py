@@ -14,7 +14,7 @@ def test_a_runaway_is_a_speed_that_grows_while_nothing_drives_it() -> None:
     assert "agree on the direction" in reason and 0.24 < when < 0.27
     stuck_bridge = [turning(20.0 + 2.0 * k, 0.0) for k in range(200)]
     assert feed(stuck_bridge, replace(ENCODER, fastest=174.0))[1] == pytest.approx(0.25, abs=0.02)
-    assert feed(stuck_bridge, ENCODER)[1] == pytest.approx(0.25, abs=0.02)  # by growth alone
+    assert feed(stuck_bridge, ENCODER)[0] == ""  # or a load: nothing is known, and the motor has 0 V (seed 400029)
     assert feed([turning(1.0 + 0.5 * k, 12.0) for k in range(200)], ENCODER)[0] == ""  # driven
     assert feed([turning(100.0 - 0.4 * k, -12.0) for k in range(200)], ENCODER)[0] == ""  # braking
     assert feed([turning(20.0 + 0.005 * k, 0.0) for k in range(200)], ENCODER)[0] == ""  # hardly grows
