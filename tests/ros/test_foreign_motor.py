@@ -39,7 +39,7 @@ def held_up(bag: Path, topic: str) -> bool:
     return bool(np.max(np.diff(times)) > PERIOD + LATE)
 
 
-def recorded(bench: Bench, start: Start, directory: Path, *names: str) -> Path:
+def recorded(bench: Bench, start: Start, directory: Path, mapping: Path, *names: str) -> Path:
     """A bag of joint states and commands in real time; again, and counted, where a busy machine was late."""
     motion, deep = foreign_bags.move(6.0), QoSProfile(depth=5000)
     states, commands = (
@@ -47,7 +47,7 @@ def recorded(bench: Bench, start: Start, directory: Path, *names: str) -> Path:
     )
     for attempt in count(1):
         bag = directory / f"bag_{attempt}"
-        record = start("motor_identification", "record", bag, *names)
+        record = start("motor_identification", "record", bag, "--mapping", mapping)
         bench.wait(
             lambda: all(one.get_subscription_count() == 1 for one in (states, commands)), "the recorder"
         )  # and no earlier one
@@ -72,9 +72,9 @@ def test_what_record_wrote_of_other_topics_is_identified_by_the_node(
     bench: Bench, start: Start, tmp_path: Path
 ) -> None:
     names = [f"{bench.node.get_namespace().rstrip('/')}/{name}" for name in ("joint_states", "wheels/commands")]
-    bag = recorded(bench, start, tmp_path, *names)
     mapping = MAPPING.replace("/wheels/commands", names[1]).replace("/joint_states", names[0])
     (tmp_path / "mapping.yaml").write_text(mapping)
+    bag = recorded(bench, start, tmp_path, tmp_path / "mapping.yaml", *names)
     parameters = ["-p", f"bag_directory:={tmp_path}", "-p", f"mapping:={tmp_path / 'mapping.yaml'}"]
     start("motor_identification", "motor_identification", "--ros-args", *parameters)
     request = Identify.Request(bag_uris=[bag.name], effects=["coulomb_friction"])

@@ -54,7 +54,7 @@ def test_a_robots_motor_is_watched_and_one_that_is_blocked_is_told(bench: Bench,
     save(tmp_path / "model.yaml", wheel, {"kv": 0.01 * KV, "ka": 0.02 * KA, "ks": 0.05 * KS})
     told = bench.hear(MotorHealth, "motor/health", qos.HEALTH)
     diagnostics = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
-    given = {"model": tmp_path / "model.yaml", "mapping": tmp_path / "mapping.yaml", "window": 2.0}
+    given = {"model": tmp_path / "model.yaml", "mapping": tmp_path / "mapping.yaml", "window": 1.0}
     monitor = start(
         "motor_identification",
         "monitor",
@@ -73,7 +73,7 @@ def test_a_robots_motor_is_watched_and_one_that_is_blocked_is_told(bench: Bench,
 
     health = becomes("fits")
     assert health.header.frame_id == "wheel" and 0.5 < health.innovation_ratio < 2.0, health.sentence
-    assert 0.8 < health.window < 3.0 and health.sentence.startswith("The motor fits its model: residual ")
+    assert 0.4 < health.window < 1.5 and health.sentence.startswith("The motor fits its model: residual ")
     robot.blocked = True
     health = becomes("broken")
     assert list(health.changed_names) == [] and health.since.sec > 0

@@ -15,6 +15,7 @@ from std_msgs.msg import Float64
 from workbench import PATIENCE, Bench, end
 
 from motor_identification.bag import BagWriter, messages, read_recording, topics
+from motor_identification.cli.record import main
 from motor_identification.live.recorder import Recorder
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
@@ -184,3 +185,17 @@ def test_a_full_disk_ends_recording_and_loses_nothing(bench: Bench, start: Start
         "the 100 messages recorded until then are kept.\n"
     )
     assert read_recording(tmp_path / "bag").sample_time.tolist() == [k * PERIOD for k in range(100)]
+
+
+@pytest.mark.parametrize("other", [["motor/speed"], ["--all"]])
+def test_a_mapping_names_the_topics_alone(other: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as caught:
+        main(["bag", *other, "--mapping", "mapping.yaml"])
+    assert caught.value.code == 2 and "--mapping names the topics" in capsys.readouterr().err
+
+
+def test_a_mapping_that_is_not_there_is_a_sentence_and_no_bag(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([str(tmp_path / "bag"), "--mapping", str(tmp_path / "none.yaml")]) == 1
+    assert capsys.readouterr().err.startswith("There is no mapping") and list(tmp_path.iterdir()) == []
