@@ -60,6 +60,7 @@ def drop_stale() -> None:
                 shutil.rmtree(old, ignore_errors=True)  # another process may be at it too
 
 
+@cache
 def _source(module: str) -> Path:
     file = sys.modules[module].__file__
     assert file is not None
@@ -77,8 +78,9 @@ def _content(module: str) -> bytes:
 def _digest(module: str) -> str:
     """Digest all that the machine code of an imported module depends on; its own imports have been executed."""
     tree = ast.parse(_source(module).read_bytes())
+    computing = _called_by_constants(tree)
     digest = hashlib.sha256(repr((sorted(_OPTIONS.items()), numba.__version__)).encode())
-    for node in _relevant(tree):
+    for node in _relevant(tree, computing):
         digest.update(ast.dump(_without_docstring(node)).encode())
     for name, origin, value in _imported(tree):
         if isinstance(value, numba.core.dispatcher.Dispatcher):
@@ -89,14 +91,13 @@ def _digest(module: str) -> str:
             digest.update(name.encode() + value.tobytes())
         elif isinstance(value, _PLAIN):
             digest.update(f"{name}={value!r}".encode())
-        elif name in _called_by_constants(tree):
+        elif name in computing:
             digest.update(_content(origin))
     return digest.hexdigest()[:16]
 
 
-def _relevant(tree: ast.Module) -> Iterator[ast.stmt]:
+def _relevant(tree: ast.Module, computing: set[str]) -> Iterator[ast.stmt]:
     """Find what can be part of machine code: compiled functions, constants and what computes them, named tuples."""
-    computing = _called_by_constants(tree)
     for node in tree.body:
         if isinstance(node, ast.FunctionDef):
             if node.name in computing or any("compiled" in ast.dump(one) for one in node.decorator_list):
@@ -124,8 +125,8 @@ def _imported(tree: ast.Module) -> Iterator[tuple[str, str, Any]]:
 
 
 def _without_docstring(node: ast.stmt) -> ast.stmt:
-    """Drop the docstrings of a function or class, in place."""
-    for inner in ast.walk(node):
+    """Drop the docstrings of a function or class, and of what a class holds, in place."""
+    for inner in (node, *node.body) if isinstance(node, ast.ClassDef) else (node,):
         if isinstance(inner, ast.FunctionDef | ast.ClassDef) and ast.get_docstring(inner, clean=False) is not None:
             inner.body = inner.body[1:]
     return node
