@@ -21,6 +21,8 @@ def find_undetectable(model: Model) -> tuple[str, ...]:
     hidden, judged = [], list_candidates(model.effects, model.held.seen)
     for effect in list_candidates(model.effects):
         if EFFECT_BY_NAME[effect].periodic:
+            if effect not in judged:  # where its motion was seen, any line is found in it
+                hidden.append(effect)
             continue
         larger = add_noticeable_effect(model.estimate, effect)
         trace = larger.problem.residuals(larger.theta) - without

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import (
+    Model,
     refit_without,
 )
 from motor_identification.diagnosis.candidate_test import CandidateTest, share_explained
@@ -153,6 +154,8 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
         begun = SelectionStep(first.before, test, first.tests, rivals, test.explains)
         start = begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
         other = select_forward(start, reporter, pairs=False)
+        if _are_alike(other.model, selection.model):
+            continue  # the more common one stays, and has the other beside it
         if other.model.held.gap < selection.model.held.gap:
             selection = other if other.model.likelihood > selection.model.likelihood else _add_rival(other, selection)
         else:
@@ -160,6 +163,12 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
             rest = tuple(name for name in head.rivals if name != test.effect)
             selection = replace(selection, steps=(replace(head, rivals=rest), *tail))
     return selection
+
+
+def _are_alike(one: Model, other: Model) -> bool:
+    """Decide whether two models are the same motion in other words: neither their likelihood nor their gap differs."""
+    low, high = sorted((one.held.gap, other.held.gap))
+    return abs(one.likelihood - other.likelihood) < thresholds.TIE_LIKELIHOOD and high < thresholds.SAME_GAP * low
 
 
 def _add_rival(selection: Selection, likelier: Selection) -> Selection:

@@ -57,6 +57,9 @@ GAP_CHANCE = 1.1
 # Times the gap of a model, beyond which one without a finding, or with another in its place, predicts far worse.
 # Measured: 6 and 1.7 where a load step or a warming-up that is there goes, 1.02 and 1.13 where it is chance.
 WORSE_GAP = 1.5
+# Times the gap of a model: within it another that is as likely is the same motion in other words, such as a friction
+# and a dead zone where the motor never turns back; what differs is how far a fit of each had converged.
+SAME_GAP = 1.001
 # Likelihoods that the search for a candidate's errors may ask for, and that for a model's to begin with.
 CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120
 # How often a model is fitted again from where the best finding leads, beside a random torque.

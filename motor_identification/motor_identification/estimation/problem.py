@@ -9,7 +9,7 @@ import numpy as np
 from motor_identification.estimation.parameter_space import Unknowns, make_unknowns
 from motor_identification.estimation.residual import Latest, simulate_residuals
 from motor_identification.measurement.build_intervals import make_intervals
-from motor_identification.measurement.intervals import Intervals, exclude_intervals, join_intervals
+from motor_identification.measurement.intervals import Intervals, exclude_intervals, join_intervals, share_noise
 from motor_identification.measurement.measured_angle import Track, make_track
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.measurement.time_blocks import TimeBlocks
@@ -221,7 +221,7 @@ def make_problem(
     for recording in recordings:
         if not np.any(recording.voltage):
             raise RecordingError(f"{recording.uri}: the voltage is always 0; record with the motor driven.")
-    intervals = tuple(make_intervals(recording) for recording in recordings)
+    intervals = share_noise([make_intervals(recording) for recording in recordings])
     unknowns = make_unknowns(recordings, effects)
     count = sum(len(data.first) for data in intervals)
     if count <= len(unknowns.low):

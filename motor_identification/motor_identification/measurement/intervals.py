@@ -4,6 +4,7 @@ Comparing angle *increments* keeps an early error from growing through the whole
 itself is compared. `build_intervals.py` makes them of every kind of recording.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import sqrt
 
@@ -141,6 +142,13 @@ def exclude_intervals(intervals: Intervals, bad: Bools) -> Intervals:
         edge=intervals.edge[good],
         left_out=intervals.left_out + int(bad.sum()),
     )
+
+
+def share_noise(intervals: Sequence[Intervals]) -> tuple[Intervals, ...]:
+    """Give all recordings of logged speeds one sensor's noise: what is unknown of it is a share of the same unit."""
+    known = [data.noise for data in intervals if data.window > 0.0]
+    common = float(np.median(known)) if known else 0.0
+    return tuple(replace(data, noise=common) if data.window > 0.0 else data for data in intervals)
 
 
 def join_intervals(intervals: Intervals, duration: float) -> Intervals:

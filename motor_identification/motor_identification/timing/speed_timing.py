@@ -23,10 +23,10 @@ from motor_model.effects import SHAPING, SHAPING_BOTH_WAYS, specs_of
 from motor_model.sample import Measurement
 
 INSTANT = 0.02  # rows: the window of a value of one instant
-# Of log likelihood, in all and a row, which another timing has to be worth: twice what rivals of a finding differ by,
-# and 2 % of what is left, so that it is the timing of every row. Measured: 0.0005 and 0.004 a row where it is as
-# assumed, and something else is missing.
-LEAST_GAIN, LEAST_GAIN_OF_ROW = 10.0, 0.01
+# Of log likelihood, in all and a row, which another timing has to be worth. Measured: 100 and more, 0.1 to 1 a row,
+# where it is another; up to 17 in all (0.004 a row) where it is as assumed and something else is missing; 0 to 25
+# (0.03) in logs of others, of which nobody knows.
+LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
 LEAST_DELAY = 0.05  # rows: with a longer dead time nothing comes too early
 ITERATIONS, TOLERANCE = 30, 1e-7
 LEAST_SPEEDS = 50

@@ -41,3 +41,4 @@ def test_a_single_step_does_not_show_friction() -> None:
     assert {"coulomb_friction", "load_bias", "dead_zone", "direction_asymmetry"} <= set(hidden)
     assert "transport_delay" not in hidden  # of a step it is the first that one sees
     assert {"load_step", "warm_up"} <= set(hidden)  # which would be judged by what they were fitted to
+    assert {"torque_ripple", "encoder_eccentricity"} <= set(hidden)  # of which any motion that was seen has some line

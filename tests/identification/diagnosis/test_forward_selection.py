@@ -145,6 +145,35 @@ def test_nothing_begins_anew_without_a_step_or_at_the_floor() -> None:
     assert retry_with_another_first(found, SILENT) is found
 
 
+@pytest.mark.parametrize(
+    ("likelier", "gap", "named", "rivals"),
+    [
+        (0.4, 0.9995, "coulomb_friction", ("load_bias",)),  # the same motion in other words: both, the first as it was
+        (0.6, 0.9995, "load_bias", ()),
+        (0.4, 0.998, "load_bias", ()),
+        (-0.4, 1.0005, "coulomb_friction", ("load_bias",)),
+        (-0.6, 1.0005, "coulomb_friction", ()),
+        (-0.4, 1.002, "coulomb_friction", ()),
+    ],
+)
+def test_another_first_effect_that_leads_to_the_same_motion_is_a_rival(
+    monkeypatch: pytest.MonkeyPatch, likelier: float, gap: float, named: str, rivals: tuple[str, ...]
+) -> None:
+    before, after = stub_model(9.0), stub_model(4.0)
+    first = stub_test("coulomb_friction", before, 4.0, 100.0)
+    other = stub_test("load_bias", before, 4.0, 99.0)
+    step = replace(step_of(first), tests=(first, other), rivals=("load_bias",), explains=0.5)
+    begun = replace(selection_of(after, step), model=after)
+    again = replace(after, held=stub_model(4.0 * gap).held, likelihood=after.likelihood + likelier)
+    second = replace(step_of(other), rivals=())
+    monkeypatch.setattr(forward_selection, "begin_selection", lambda *rest: begun)
+    monkeypatch.setattr(
+        forward_selection, "select_forward", lambda *rest, **how: replace(begun, steps=(second,), model=again)
+    )
+    found = retry_with_another_first(begun, SILENT)
+    assert found.steps[0].found.effect == named and found.steps[0].rivals == rivals
+
+
 def test_friction_is_selected_from_a_recording_that_hides_it(monkeypatch: pytest.MonkeyPatch) -> None:
     names = ("coulomb_friction", "quadratic_drag", "load_bias")
     lacking = lambda effects, seen: [name for name in names if name not in effects]  # noqa: E731

@@ -10,7 +10,7 @@ from recorded import as_counts
 
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.build_intervals import make_intervals
-from motor_identification.measurement.intervals import index_intervals, join_intervals
+from motor_identification.measurement.intervals import index_intervals, join_intervals, share_noise
 from motor_identification.measurement.sampled_counts import (
     UNIFORM_SIGMA,
     Fixes,
@@ -176,6 +176,7 @@ def test_noise_beside_counts_adds_up_in_joined_speeds_and_flanks_do_not() -> Non
     joined = join_intervals(speeds, 4.0)
     assert len(joined.first) == 10 and (joined.window, joined.noise, joined.unit) == (1.0, 0.1, 0.1)
     assert joined.floor_squared(0.3) == pytest.approx((2.0 * 0.1**2 + 4 * 2.0 * 0.3**2) / 4.0**2)
+    assert [one.noise for one in share_noise([speeds, replace(speeds, noise=0.4), speeds])] == [0.1, 0.1, 0.1]
     flanks = join_intervals(index_intervals(time[:-1], time[1:], np.ones(40), np.full(40, 0.1), slot=0.5), 4.0)
-    assert flanks.unit == 0.5
+    assert flanks.unit == 0.5 and share_noise([flanks])[0] is flanks
     assert flanks.floor_squared(0.3) == pytest.approx(2.0 * (0.1**2 + 0.3**2) / 4.0**2)
