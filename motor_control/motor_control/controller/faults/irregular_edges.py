@@ -37,8 +37,8 @@ STANDSTILL = 0.1  # [s] without an edge
 # rate the swing of an ordinary loop has mean jumps of up to 0.4, above it none of 400 random motors passes 0.2.
 LEAST_RATE = 35.0
 # Of the stall torque, that may start and stop a motor within a slot: at random, and as pulses of a loop that holds a
-# speed near 0. The quickest of 6 such motors of 480 (4000 edges a turn) had a mean period in which 0.18 do so.
-PUSH = 0.25
+# speed near 0. The quickest of 8 such motors of 900 (4000 edges a turn) had a mean period in which 0.26 do so.
+PUSH = 0.5
 RATE_EDGES = 5.0  # over which the periods are averaged for that: counted edges alone tell of a faster motion before
 LEAST_VOLTAGE = 0.02  # of the voltage limit, on average: without a voltage nothing is driven, and a hand may shake it
 SENTENCE = (
@@ -60,6 +60,7 @@ class State:
     count: int = 0  # of edges
     backward: bool = False  # a second channel counts down
     steps: int = 0  # periods since it began anew
+    voltage: float = 0.0  # [V] mean magnitude at the latest few edges: an average over time is of the braking before
 
     @property
     def regular(self) -> bool:
@@ -76,8 +77,10 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     """Check one sample: a sentence if the motor has to stop, else ""."""
     period = seen.sample.edge_period
     if seen.motion.edges and config.slot > 0.0:
-        count = seen.sample.edge_count
-        state = replace(follow_period(state, period, count < state.count, count, config.tick), count=count)
+        count, voltage = seen.sample.edge_count, state.voltage
+        voltage += (abs(seen.sample.voltage) - voltage) / RATE_EDGES
+        state = follow_period(state, period, count < state.count, count, config.tick)
+        state = replace(state, count=count, voltage=voltage)
     if not state.irregular or config.stall_time == 0.0:
         return "", state
     driven = seen.motion.slow_voltage >= LEAST_VOLTAGE * seen.voltage_limit > 0.0
@@ -95,7 +98,7 @@ def _crawls(config: Config, state: State, seen: Seen) -> bool:
     top_speed = config.fastest if config.fastest < inf else seen.motion.fastest(seen.voltage_limit)
     if top_speed == inf or state.mean_period <= find_push_time(config, top_speed, PUSH, 1.0):
         return False
-    return seen.motion.slow_voltage <= find_allowed_voltage(config, seen.motion, seen.voltage_limit)
+    return state.voltage <= find_allowed_voltage(config, seen.motion, seen.voltage_limit)
 
 
 def follow_period(state: State, period: float, backward: bool = False, count: int = 0, tick: float = 0.0) -> State:
