@@ -60,7 +60,8 @@ class State:
     count: int = 0  # of edges
     backward: bool = False  # a second channel counts down
     steps: int = 0  # periods since it began anew
-    voltage: float = 0.0  # [V] mean magnitude at the latest few edges: an average over time is of the braking before
+    voltage: float = 0.0  # [V] largest magnitude from edge to edge, averaged over a few of them
+    peak: float = 0.0  # [V] since the latest edge
 
     @property
     def regular(self) -> bool:
@@ -75,12 +76,9 @@ class State:
 
 def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     """Check one sample: a sentence if the motor has to stop, else ""."""
-    period = seen.sample.edge_period
+    state = replace(state, peak=max(state.peak, abs(seen.sample.voltage)))
     if seen.motion.edges and config.slot > 0.0:
-        count, voltage = seen.sample.edge_count, state.voltage
-        voltage += (abs(seen.sample.voltage) - voltage) / RATE_EDGES
-        state = follow_period(state, period, count < state.count, count, config.tick)
-        state = replace(state, count=count, voltage=voltage)
+        state = _follow_edge(config, state, seen)
     if not state.irregular or config.stall_time == 0.0:
         return "", state
     driven = seen.motion.slow_voltage >= LEAST_VOLTAGE * seen.voltage_limit > 0.0
@@ -91,6 +89,13 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     if seen.motion.slow_speed < LEAST_RATE * config.slot or state.mean_period > 1.0 / LEAST_RATE:
         return "", state
     return SENTENCE.format(exp(state.jump)), state
+
+
+def _follow_edge(config: Config, state: State, seen: Seen) -> State:
+    """Follow the latest edge, its period and the voltage since the one before."""
+    count, voltage = seen.sample.edge_count, state.voltage + (state.peak - state.voltage) / RATE_EDGES
+    state = follow_period(state, seen.sample.edge_period, count < state.count, count, config.tick)
+    return replace(state, count=count, voltage=voltage, peak=0.0)
 
 
 def _crawls(config: Config, state: State, seen: Seen) -> bool:
