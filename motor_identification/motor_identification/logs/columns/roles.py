@@ -137,7 +137,7 @@ def _moving(table: Table, headings: Sequence[Heading], side: str, time: str | No
         found = [one.name for one in headings if one.quantity is quantity and one.side == side]
         found = found or [one.name for one in headings if one.quantity is quantity]
         if len(found) > 1:
-            raise _ask(table, quantity.value, f"--{quantity.value}", found)
+            raise _ask_which(table, headings, quantity, found)
         if found:
             return found[0]
     unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
@@ -179,6 +179,19 @@ def _supply_of(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair])
     duty = table.numbers(pairs[0].voltage)
     volts = [one.name for one in free if one.quantity is Quantity.VOLTAGE and is_supply(table.numbers(one.name), duty)]
     return next(iter(named + volts), None)
+
+
+def _ask_which(table: Table, headings: Sequence[Heading], quantity: Quantity, found: Sequence[str]) -> RecordingError:
+    """Ask which of several motions is meant, or whether each is that of a motor of its own on the one drive."""
+    driving = [one.name for one in headings if one.quantity in (Quantity.DUTY, Quantity.VOLTAGE)]
+    each = ""
+    if len(driving) == 1:
+        motors = " ".join(f"--motor {k}:{driving[0]},{name}" for k, name in enumerate(found[:2], start=1))
+        each = f" For a motor of each: {motors}{' …' if len(found) > 2 else ''}"
+    what, option = quantity.value, f"--{quantity.value}"
+    if quantity is Quantity.COUNT and any(np.any(table.numbers(name) % 1.0) for name in found):  # none, by any name
+        what, option = "motion", "--speed or --position"
+    return RecordingError(f"{_ask(table, what, option, found)}{each}")
 
 
 def _ask(table: Table, what: str, option: str, names: Sequence[str]) -> RecordingError:

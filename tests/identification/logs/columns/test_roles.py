@@ -111,6 +111,8 @@ def test_a_motion_changes_more_than_a_few_times(changes: int, told: bool) -> Non
     ("columns", "complaint"),
     [
         ({"t": "t", "speed_a": "y", "speed_b": "y", "u": "u"}, "the speed? Say --speed and one of speed_a, speed_b."),
+        ({"t": "t", "w1": "y", "w2": "y", "pwm": "u"}, "w1, w2. For a motor of each: --motor 1:pwm,w1 --motor 2:"),
+        ({"t": "t", "Enc1": "y", "Enc2": "y", "pwm": "u"}, "the motion? Say --speed or --position and one of Enc1,"),
         ({"t": "t", "x": "y", "z": "y", "u": "u"}, "the motion? Say --speed, --position or --count and one of x, z."),
         ({"t": "t", "speed": "y"}, "no column is the voltage or duty: say which one is (--voltage COL), or --c"),
         ({"a": "y", "b": "y", "c": "t"}, "which column is the voltage or duty? Say --voltage and one of a, b."),
