@@ -13,6 +13,7 @@ HALF, WRAP = 1 << 31, 1 << 32
 NO_SUPPLY = 3.0  # [V] measured below this, the supply is off
 STEP = 5.0 / 1024  # [V] of the board's converter
 MEMORY = 0.5  # [s] over which a measured supply is smoothed: its converter's step is 20 mV
+RISE = 1.05  # times that: more is no noise, and until it is known the motor would get as much more than was asked for
 
 
 class Readout:
@@ -79,8 +80,9 @@ class Readout:
     def _follow_supply(self, millivolts: int) -> None:
         """Take the supply that the board measures for the voltage at full duty."""
         if millivolts != NOT_MEASURED and millivolts * 1e-3 >= NO_SUPPLY:
-            share = min(1.0 / (MEMORY * self._config.sample_rate), 1.0) if self._measured else 1.0
-            self.supply += share * (millivolts * 1e-3 - self.supply)
+            measured, share = millivolts * 1e-3, min(1.0 / (MEMORY * self._config.sample_rate), 1.0)
+            known = self._measured and measured <= RISE * self.supply
+            self.supply += (share if known else 1.0) * (measured - self.supply)
             self._measured = True
 
     def duty(self, voltage: float) -> int:

@@ -105,3 +105,14 @@ def test_what_is_exchanged_is_made_up_for_in_software() -> None:
     assert sample.edge_count == -5 and sample.speed == pytest.approx(-tau / 96 / 0.001) and sample.voltage == 3.0
     one = readout(Config(reverse_encoder=True))  # one channel has no direction to exchange
     assert heard(one, frame).edge_count == 5
+
+
+@pytest.mark.parametrize(("rise", "at_once"), [(1.03, False), (1.5, True)])
+def test_a_supply_that_comes_back_is_known_before_the_next_voltage(rise: float, at_once: bool) -> None:
+    """It sagged to 12 V and came back to 24: for a third of a second a 12 V motor got more than 12 V."""
+    board = readout(Config(max_voltage=12.0))
+    for _ in range(400):
+        heard(board, replace(TELEMETRY, supply=12_000))
+    heard(board, replace(TELEMETRY, supply=round(12_000 * rise)))
+    given = board.duty(6.0) / 256 * 12.0 * rise
+    assert (given <= 6.0 + 12.0 * rise / 512) == at_once

@@ -24,13 +24,14 @@ from motor_model.sample import Sample
 __all__ = ["Config", "State", "command_joint", "refer", "release", "reset", "stop", "update", "watch"]
 
 REPEAT_SILENCE = 0.2  # [s] how often it is said again that no samples come
-AWAY = 1.0  # [s] of silence after which a plant that comes back is not driven on by an old reference
+AWAY = 1.0  # [s] of silence, or of 0 V in doubt, after which the motor is not driven on by an old reference
 OFF = 0.5  # [s] for which a plant may ignore voltages before the reference is dropped: longer than any hiccup
 
 NO_REFERENCE = "No reference yet: publish a speed in rad/s on motor/reference."
 FRESH = "{} The motor waits for a fresh reference: publish a speed in rad/s on motor/reference."
 RESTARTED = "The plant was restarted."
 RETURNED = "The plant was away for more than 1 s."
+HELD = "The motor was held at 0 V for more than 1 s."
 WAS_OFF = "The plant's output is off: call motor/enable with data: true."
 SILENT_JOINT = "No command on motor/joint_command for joint_command_timeout ({:g} s)."
 TOLD = 0.5  # [s] for which it is said that a demand was not taken
@@ -60,7 +61,9 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     begins = ours and (not state.drives or state.silent is not None) or _is_unheard(state.run, after, now)
     if after.refused and now - after.refused_at <= TOLD and (output.state == DISABLED or not output.reason):
         output = replace(output, reason=after.refused, warning=True)
-    after = replace(after, arrival=now, silent=None, drives=ours, plant=plant, latency=latency)
+    held = output.state == STOPPED and after.demand is not None
+    since = (now if state.held is None else state.held) if held else None
+    after = replace(after, arrival=now, silent=None, drives=ours, plant=plant, latency=latency, held=since)
     return replace(output, latency=age, drives=drives, begins=begins), after
 
 
@@ -82,6 +85,8 @@ def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: fl
         return drop(replace(state, motion=None), RESTARTED)
     if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
         return drop(state, RETURNED)
+    if state.held is not None and now - state.held > AWAY and now - state.referred > AWAY:
+        return drop(state, HELD)
     if state.demand.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
         return drop(state, SILENT_JOINT.format(config.joint_timeout))
     if config.reference_timeout and now - state.referred > config.reference_timeout:

@@ -1,6 +1,7 @@
 """A reference is obeyed until what it was for is over; then the motor waits for a fresh one."""
 
 from dataclasses import replace
+from math import nan
 
 import pytest
 from bench_board import DEFAULTS
@@ -145,3 +146,31 @@ def test_voltages_begin_anew_after_silence() -> None:
     _, state = controller.watch(CONFIG, state, 0.4)
     output, state = feed(state, [400])
     assert output.drives and output.begins
+
+
+OBSTACLES: dict[str, tuple[Config, float, float]] = {  # config, speed that is said, age [s] of the samples
+    "a sample that is not a number": (CONFIG, nan, 0.0),
+    "a plant that cannot be": (replace(CONFIG, unusable="motor/info says sample_period = 0."), 3.0, 0.0),
+    "samples that are late": (CONFIG, 3.0, 0.1),
+}
+
+
+@pytest.mark.parametrize("name", OBSTACLES)
+@pytest.mark.parametrize(("seconds", "resumes"), [(0.9, True), (1.2, False)])
+def test_what_holds_the_motor_for_long_ends_the_reference(name: str, seconds: float, resumes: bool) -> None:
+    """Ten minutes of NaN, and the motor went to its old 50 rad/s with the first good sample."""
+    config, speed, age = OBSTACLES[name]
+    config = replace(config, latency_limit=0.02)
+    state = controller.refer(controller.State(), 50.0, 0.0)
+    late, end = round(1.0 / 0.005), round((1.0 + seconds) / 0.005)
+    for k in range(end + 20):
+        held = late <= k < end
+        now = 0.005 * k + (age if held else 0.0)
+        sample = Sample(k * 5_000_000, speed if held else 3.0, 1.0)
+        output, state = controller.update(config if held else replace(config, unusable=""), state, sample, None, now)
+        if held:
+            assert output.state == "stopped" or output.state == "disabled" and output.terms.voltage == 0.0
+    assert (output.state == "running") == resumes and (output.terms.voltage > 0.0) == resumes
+    if not resumes:
+        assert "held at 0 V for more than 1 s" in output.reason and "fresh reference" in output.reason
+        assert controller.refer(state, 20.0, 9.0).demand is not None
