@@ -91,7 +91,8 @@ class MotorControl(Node):
 
     def _on_info(self, message: MotorInfo) -> None:
         try:
-            self._settings.meet(info_of(message))
+            if self._settings.meet(info_of(message)):
+                self._state = controller.meet_other_plant(self._state)
         except MotorError as error:
             self._settings.refuse(f"{error} The motor gets 0 V until then.")
 

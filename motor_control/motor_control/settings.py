@@ -42,16 +42,18 @@ class Settings:
         self.config = replace(config, unusable=self._refused) if self._refused else config
         self._values, self._motor, self._ready = everything, motor, ready
 
-    def meet(self, info: Info) -> None:
-        """What the plant says of itself.
+    def meet(self, info: Info) -> bool:
+        """Take in what the plant says of itself; True if that is another plant than it said before.
 
         Raises:
             MotorError: it does not fit.
         """
-        if info != self._info or self._refused:
+        before = self._info
+        if info != before or self._refused:
             self._refused = ""
             self.config = config_of(self._values, info, self._motor, self._ready)
             self._info = info
+        return before is not None and info != before
 
     def refuse(self, why: str) -> None:
         """Take in that the plant says of itself what cannot be, and why: 0 V until it says otherwise."""

@@ -22,9 +22,9 @@ def test_a_change_that_does_not_work_leaves_everything() -> None:
 
 def test_the_plant_bounds_the_voltage() -> None:
     settings = Settings(DEFAULTS)
-    settings.meet(Info(max_voltage=6.0))
+    assert not settings.meet(Info(max_voltage=6.0)) and not settings.meet(Info(max_voltage=6.0))
     assert settings.config.voltage_limit == 6.0
-    settings.meet(Info(max_voltage=24.0))
+    assert settings.meet(Info(max_voltage=24.0))  # it is another one
     assert settings.config.voltage_limit == 12.0
 
 

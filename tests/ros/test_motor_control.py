@@ -148,7 +148,9 @@ def test_what_the_plant_says_of_itself_counts(plant: FakePlant) -> None:
     assert plant.answer(100.0).voltage == -6.0
     plant.tell(Info(name="wheel", max_voltage=1.0), measurement="tea leaves")
     plant.tell(Info(name="wheel", single_channel=False, max_voltage=5.0))
-    plant.wait(lambda: plant.answer(100.0).voltage == -5.0, "the next info")
+    plant.wait(lambda: "another one than before" in plant.answer(100.0).reason, "the next info")
+    plant.refer(40.0)
+    plant.wait(lambda: plant.answer(100.0).voltage == -5.0, "its limit")
 
 
 @pytest.mark.usefixtures("process")
@@ -259,7 +261,9 @@ def test_an_info_that_cannot_be_is_a_sentence_and_zero_volts(plant: FakePlant) -
     plant.wait(lambda: "sample_period 0: it must be from" in plant.answer(50.0).reason, "the next one")
     assert plant.states[-1].voltage == 0.0
     plant.tell(Info(name="wheel"))
-    plant.wait(lambda: plant.answer(50.0).state == "running", "a good one")
+    plant.wait(lambda: plant.answer(50.0).state == "disabled", "a good one")
+    plant.refer(100.0)
+    assert plant.answer(50.0).state == "running"
 
 
 @pytest.mark.usefixtures("process")

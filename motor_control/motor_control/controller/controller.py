@@ -18,10 +18,31 @@ from motor_control.controller.plant_watch import PlantWatch, watch_plant
 from motor_control.controller.reference.demand import Kind, Source
 from motor_control.controller.reference.position_law import FARTHEST
 from motor_control.controller.run import Config, Run, begin
-from motor_control.controller.state import NAMES, State, command_joint, drop, refer, release, reset, stop
+from motor_control.controller.state import (
+    NAMES,
+    State,
+    command_joint,
+    drop,
+    meet_other_plant,
+    refer,
+    release,
+    reset,
+    stop,
+)
 from motor_model.sample import Sample
 
-__all__ = ["Config", "State", "command_joint", "refer", "release", "reset", "stop", "update", "watch"]
+__all__ = [
+    "Config",
+    "State",
+    "command_joint",
+    "meet_other_plant",
+    "refer",
+    "release",
+    "reset",
+    "stop",
+    "update",
+    "watch",
+]
 
 REPEAT_SILENCE = 0.2  # [s] how often it is said again that no samples come
 AWAY = 1.0  # [s] of silence, or of 0 V in doubt, after which the motor is not driven on by an old reference

@@ -13,6 +13,7 @@ from motor_control.controller.run import Config, Run
 
 RELEASED = "The motor was released."
 CLEARED = "The stop was cleared."
+OTHER_PLANT = "The plant says on motor/info that it is another one than before."
 OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call motor/release."
 TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
 BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
@@ -99,3 +100,8 @@ def reset(state: State) -> tuple[str, State]:
 def drop(state: State, why: str) -> State:
     """End what is asked for, and say why."""
     return replace(state, run=None, demand=None, dropped=why)
+
+
+def meet_other_plant(state: State) -> State:
+    """Forget what was asked of a plant that is another one now: edges, limits, all that a reference was for."""
+    return drop(replace(state, motion=None), OTHER_PLANT) if state.demand is not None else replace(state, motion=None)

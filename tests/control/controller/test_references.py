@@ -62,6 +62,14 @@ def test_a_plant_that_was_away_waits(away: int, resumes: bool) -> None:
         waits(output, "away")
 
 
+def test_another_plant_waits() -> None:
+    """Somebody's recording was played beside a running loop: its motor/info had ten times the edges."""
+    state = controller.meet_other_plant(running())
+    output, state = feed(state, [200, 205])
+    waits(output, "another one than before")
+    assert state.motion is None and feed(state, [210], 60.0)[0].state == RUNNING
+
+
 def test_a_reset_waits() -> None:
     state = controller.stop(running(), "It is blocked.")
     output, state = feed(state, [200, 205], 60.0)  # a reference during the stop is none for after it
