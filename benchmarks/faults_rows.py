@@ -98,6 +98,7 @@ FAULTS = (
     Fault("shaft blocked", MOTION, block),
     Fault("two channels exchanged", MOTION, swap, two_channels=True),
     Fault("two channels exchanged at 5 % of the top speed", MOTION, swap, reference=0.05, two_channels=True),
+    Fault("two channels exchanged at 3 % of the top speed", MOTION, swap, reference=0.03, two_channels=True),
     Fault("samples 100 ms late", KNOWN, be_late),
     Fault("no samples reach the controller", KNOWN, fall_silent),
     Fault("controller killed", KNOWN, die),

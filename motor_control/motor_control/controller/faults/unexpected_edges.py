@@ -25,7 +25,7 @@ from motor_control.controller.faults.irregular_edges import LEAST_VOLTAGE
 ORDINARY = 0.25  # of a slot: what edges of a motor stay below, also with a model some per cent off
 LARGEST = 1.0  # of a slot: one edge proves little
 TORQUE = 0.1  # of the stall torque, that no model knows of: twice the RMS of a random one of 5 % of the supply
-# [slots] of the sum. Of 900 random motors (4 hours; slots, torque, model, supply and play of `no_false_stops`) it was
+# [slots] of the sum. In 680 runs of random motors (3 hours; torque, model, ramps and play of `no_false_stops`) it was
 # 1.4 at most, of those without a random torque 0.9. Noise has it after some fifteen edges.
 MOST = 2.0
 SENTENCE = (
