@@ -124,9 +124,11 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
 
     From what was found without it, and where that leads nowhere from the beginning.
     """
-    # A line of many turns is its own evidence; what repeats once in a turn, a slow torque does by chance.
-    line = any(row.periodic and not row.on_disc for row in (EFFECT_BY_NAME[step.found.effect] for step in plain.steps))
-    if not (plain.model.above_floor or (plain.model.lasts and not line)):
+    # A line of many turns is its own evidence; what repeats once in a turn, or happens once, slow torques do by chance.
+    effects = [EFFECT_BY_NAME[step.found.effect] for step in plain.steps]
+    line = any(effect.periodic and not effect.on_disc for effect in effects)
+    lasted = any(step.before.lasts for step, effect in zip(plain.steps, effects, strict=True) if effect.anywhere)
+    if not (plain.model.above_floor or lasted or (plain.model.lasts and not line)):
         return None
     for begin in (plain, start) if plain.steps else (start,):
         reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)

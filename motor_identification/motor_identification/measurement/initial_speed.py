@@ -10,6 +10,7 @@ import numpy as np
 from motor_identification.measurement.edges import extract_edges, read_directions
 from motor_identification.measurement.sampled_counts import extract_count_changes, locate_fixes
 from motor_identification.recording import Floats, Recording
+from motor_identification.sensor.white_noise import estimate_white_noise
 from motor_model.sample import Measurement
 
 HEAD_SAMPLES = 400  # samples in which the beginning shows
@@ -18,6 +19,9 @@ LEAST_SPEED_SHARE = (
     0.5  # of their mean speed that must be left at the beginning: at rest it is none, or a quarter after one τ
 )
 MOST_SLOTS_OFF = 0.75  # slots that the parabola may lead beside the middle of the slot in which the disc was
+SURE = 4.0  # standard deviations of noise, which a speed at rest does not reach
+PARABOLA_ROWS = (6, 12, 24, 48)  # rows of logged speeds that a parabola is laid through
+MOST_LEFT = 1.5  # times the noise: what a parabola leaves that fits
 MOST_SHARE_OFF = 0.05  # of the slots up to the last of those edges: as much beside, since no motion is a parabola
 
 
@@ -25,13 +29,32 @@ def estimate_initial_speed(recording: Recording) -> float:
     """Estimate the speed [rad/s] of a motor that turned at the first sample; 0 for one that stood, or may have."""
     info, reported = recording.info, float(recording.speed[0])
     if info.measurement is Measurement.SPEED:
-        return reported
+        return reported if _exceeds_noise(recording) else 0.0
     if reported != 0.0 and not (info.source == "import" and info.measurement is Measurement.COUNTS):
         return reported
     head = recording.between(0.0, float(recording.time[min(HEAD_SAMPLES, len(recording) - 1)]))
     time, place = _passed(head)
     speed = _followed_back(time, place, _first_voltage(head)) if len(time) > 3 else 0.0
     return speed * _way(head) * info.edge_angle
+
+
+def _exceeds_noise(recording: Recording) -> bool:
+    """Whether the first of logged speeds, or a parabola through the first few, is beyond what noise makes of none.
+
+    A parabola that does not fit is that of a motor that starts.
+    """
+    values, voltage = recording.speed[:HEAD_SAMPLES], recording.voltage[:HEAD_SAMPLES]
+    noise = estimate_white_noise(values, voltage)
+    if values[0] == 0.0 or abs(values[0]) > SURE * noise:
+        return bool(values[0] != 0.0)
+    for rows in PARABOLA_ROWS:
+        basis = np.vander(np.arange(min(rows, len(values))), 3, increasing=True)
+        covariance = np.linalg.inv(basis.T @ basis)
+        parabola = covariance @ basis.T @ values[: len(basis)]
+        left = float(np.sqrt(np.mean((values[: len(basis)] - basis @ parabola) ** 2)))
+        if abs(parabola[0]) > SURE * noise * np.sqrt(covariance[0, 0]) and left < MOST_LEFT * noise:
+            return True
+    return False
 
 
 def _passed(recording: Recording) -> tuple[Floats, Floats]:

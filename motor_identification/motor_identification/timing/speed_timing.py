@@ -87,13 +87,14 @@ def find_timing(recordings: Sequence[Recording], estimate: Estimate) -> Timing |
         return None
     least = LEAST_DELAY * min(recording.info.sample_period for recording in recordings)
     best, fitted = ASSUMED, _fit(recordings, ASSUMED, estimate)
-    if fitted is None or fitted.delay > least:
+    if fitted is None:
         return None
     others = [(timing, _fit(recordings, timing, estimate)) for timing in OTHERS]
     if others[-1][1] is None or others[-1][1].delay <= least:  # earlier than any row says: not for its timing
         return None
     for timing, other in others:  # each makes the speeds younger than the one before
-        if fitted.delay <= least and other is not None and _is_likelier(other, fitted):
+        early = fitted.delay <= least
+        if other is not None and (early or timing.name == OWN) and _is_likelier(other, fitted):
             best, fitted = timing, other
     return None if best is ASSUMED else best
 

@@ -1,5 +1,7 @@
 """A motor that turns when its recording begins is told from one that starts, by its first edges."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from plant import profiles, record
@@ -7,7 +9,7 @@ from recorded import as_counts, as_speed
 
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.initial_speed import estimate_initial_speed
-from motor_identification.recording import Recording, check
+from motor_identification.recording import Floats, Recording, check
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 TRUTH = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.3}
@@ -46,6 +48,33 @@ def test_what_is_reported_is_believed_and_a_logged_speed_too() -> None:
     assert estimate_initial_speed(part) == part.speed[0] > 50.0
     assert estimate_initial_speed(as_speed(recording)) == 0.0
     assert estimate_initial_speed(as_speed(part)) == as_speed(part).speed[0]
+
+
+@pytest.mark.parametrize("lag", [2.0, 8.0, 100.0])
+@pytest.mark.parametrize("sigma", [0.01, 1.0])
+def test_noise_of_a_logged_speed_at_rest_is_no_motion(sigma: float, lag: float) -> None:
+    """Neither of one that stays, nor of one that gains 100 rad/s within so many rows; one that turned is seen."""
+    rows = np.arange(400)
+    for seed in range(10):
+        noise = sigma * np.random.default_rng(seed).standard_normal(400)
+        for driven in (0.0, 1.0):
+            exact = 100.0 * driven * (1.0 - np.exp(-rows / lag))
+            log = logged(exact + noise, np.full(400, driven))
+            assert log.speed[0] != 0.0 and estimate_initial_speed(log) == 0.0
+            moving = logged(exact + 10.0 * sigma + noise, np.full(400, driven))
+            assert estimate_initial_speed(moving) == moving.speed[0]
+
+
+def test_a_slow_motor_is_seen_to_turn_by_a_few_dozen_counts() -> None:
+    """A third of a count in a row: the first one is nothing beyond counting, a parabola through the first is."""
+    angle = 0.33 * np.arange(401) + 0.9
+    values = np.diff(np.floor(angle))
+    assert values[0] == 1.0 and estimate_initial_speed(logged(values, np.ones(400))) == 1.0
+
+
+def logged(speed: Floats, voltage: Floats) -> Recording:
+    recording, _ = record(TRUTH, *profiles.step(10.0, 5.0), seed=0)
+    return replace(as_speed(recording).at_rows(np.arange(400)), speed=speed, voltage=voltage)
 
 
 @pytest.mark.parametrize("counts", [False, True])
