@@ -52,7 +52,7 @@ NO_REFERENCE = "No reference yet: publish a speed in rad/s on motor/reference."
 FRESH = "{} The motor waits for a fresh reference: publish a speed in rad/s on motor/reference."
 RESTARTED = "The plant was restarted."
 RETURNED = "The plant was away for more than 1 s."
-HELD = "The motor was held at 0 V for more than 1 s."
+HELD = "{} The motor was held at 0 V for more than 1 s."
 WAS_OFF = "The plant's output is off: call motor/enable with data: true."
 SILENT_JOINT = "No command on motor/joint_command for joint_command_timeout ({:g} s)."
 TOLD = 0.5  # [s] for which it is said that a demand was not taken
@@ -83,8 +83,9 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     if after.refused and now - after.refused_at <= TOLD and (output.state == DISABLED or not output.reason):
         output = replace(output, reason=after.refused, warning=True)
     held = output.state == STOPPED and after.demand is not None
-    since = (now if state.held is None else state.held) if held else None
-    after = replace(after, arrival=now, silent=None, drives=ours, plant=plant, latency=latency, held=since)
+    since, why = (now if state.held is None else state.held, output.reason) if held else (None, "")
+    after = replace(after, arrival=now, silent=None, drives=ours, plant=plant, latency=latency)
+    after = replace(after, held=since, held_by=why)
     return replace(output, latency=age, drives=drives, begins=begins), after
 
 
@@ -107,7 +108,7 @@ def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: fl
     if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
         return drop(state, RETURNED)
     if state.held is not None and now - state.held > AWAY and now - state.referred > AWAY:
-        return drop(state, HELD)
+        return drop(state, HELD.format(state.held_by))
     if state.demand.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
         return drop(state, SILENT_JOINT.format(config.joint_timeout))
     if config.reference_timeout and now - state.referred > config.reference_timeout:

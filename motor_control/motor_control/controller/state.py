@@ -37,6 +37,7 @@ class State:
     referred: float = 0.0  # when it came
     dropped: str = ""  # why there is none any more
     held: float | None = None  # since when something has held the motor at 0 V although there is one
+    held_by: str = ""  # what, as a sentence
     drives: bool = False  # the latest voltage was ours, so the next has to be too
     plant: PlantWatch | None = None
     latency: LatencyState | None = None
