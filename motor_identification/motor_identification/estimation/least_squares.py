@@ -123,9 +123,11 @@ def fit_residuals(
     iterations: int = 60,
     tolerance: float = 1e-12,
 ) -> Estimate:
-    """Minimise the squares of `target` from an estimate, which is kept if they are not improved."""
+    """Minimise the squares of `target` from an estimate, which is kept if they are not improved, or no numbers."""
     theta, unknowns = start.theta, start.problem.unknowns
     before = float(np.sum(target.residuals(theta) ** 2))
+    if not np.isfinite(before):
+        return start
     minimum = minimise_squares(
         target.residuals,
         target.jacobian,

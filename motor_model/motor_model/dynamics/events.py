@@ -13,6 +13,7 @@ from motor_model.effects import INDEX
 Floats = NDArray[np.float64]
 
 LAG = INDEX["electrical_time_constant"]
+AT_ONCE = 1e-12  # of a piece: an extreme so soon hides nothing, and is what rounding makes of a settled current
 
 
 @compiled
@@ -95,7 +96,9 @@ def until_event(p: Floats, c: Coefficients, s: State, h: float) -> tuple[State, 
     event = 0
     if p[LAG] > 0.0:
         turned = _time_of_extreme(p, c, s)
-        if turned < h:  # the state after h may hide that it braked through zero, or left its rest, and is back
+        if (
+            AT_ONCE * h < turned < h
+        ):  # the state after h may hide that it braked through zero, or left its rest, and is back
             then = solve(p, c, s, turned)
             still, onward = s.speed == 0.0, then[0] * s.direction > 0.0
             if (not still and not onward) or (still and onward and speed * s.direction <= 0.0):

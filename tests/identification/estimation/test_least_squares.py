@@ -98,6 +98,20 @@ def test_what_is_not_improved_is_kept() -> None:
     assert fit_residuals(start, Worse()).theta == pytest.approx(THETA)
 
 
+def test_a_start_without_numbers_is_kept() -> None:
+    class Nowhere:
+        """A motor that cannot be simulated."""
+
+        def residuals(self, theta: Floats) -> Floats:
+            return np.full(3, np.nan)
+
+        def jacobian(self, theta: Floats) -> Floats:
+            raise AssertionError("nobody asks how it changes")
+
+    start = small_estimate()
+    assert fit_residuals(start, Nowhere()) is start
+
+
 @pytest.mark.parametrize(("gained", "enough"), [(0.99 * LEAST_GAIN, False), (1.01 * LEAST_GAIN, True)])
 def test_a_gain_of_four_squared_standard_deviations(gained: float, enough: bool) -> None:
     count, after = 200, 3.0  # mean square of the residuals

@@ -74,3 +74,13 @@ def test_a_reversal_within_a_piece_of_a_motor_with_inductance_is_not_passed_over
     assert solve(p, forward, s, 0.06)[0] > 0.0
     state, taken = until_event(p, forward, s, 0.06)
     assert state.speed == 0.0 and 0.0 < taken < 0.02
+
+
+@pytest.mark.parametrize("drive", [4.9e-316, 1e-300, 1e-14, 0.0])
+def test_a_settled_current_has_no_extreme_of_its_own(drive: float) -> None:
+    """After thousands of electrical time constants what is left of it is no number to divide by."""
+    p, forward = vector(0.001), BRAKED._replace(source=-3.3, torque=0.0)
+    settled, s = until_event(p, forward, moving(141.6), 0.01), moving(141.6, drive=drive)
+    state, taken = until_event(p, forward, s, 0.01)
+    assert taken == settled[1] and state.speed == pytest.approx(settled[0].speed, rel=1e-9)
+    assert 0.0 < state.speed < 141.6
