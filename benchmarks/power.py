@@ -3,7 +3,7 @@
 Random motors with a friction, a delay or whatever of a given size hidden in the tests' independent plant, on discs of 0
 to 1 % irregular slots, `rich` training and a random validation recording, as in `hidden.py`. Sizes are halved from
 the smallest of that table on; the first that is found less often ends the search. What else is named does not count
-against it here; the table of `diagnosis.py` does that.
+against it here; the table of `diagnosis.py` does that. A column for each random torque beside the motor.
 """
 
 import argparse
@@ -11,8 +11,8 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from hidden import FRICTION, SIZES, one
-from machine import machine
+from hidden import FRICTION, QUIET, SIZES, Torque, one
+from machine import commit, machine
 
 from motor_model.effects import SPEC_BY_NAME
 
@@ -39,14 +39,15 @@ SIZE = {
     "warm_up": ("resistance_rise", 0.0),
     "missed_edges": ("miss_rate", 0.0),
 }
+TORQUES = {"": QUIET, "0.1 V, 50 ms": Torque(0.1, 0.05)}  # columns: RMS, and the time it is correlated over
 HEAD = (
     "# Diagnosis: the smallest effects that are found",
     "",
-    f"{machine()}. Found in at least {NEEDED} of {MOTORS} random motors with a 28 s recording; "
-    "sizes in steps of one half.",
+    f"{machine()}. Found in at least {NEEDED} of {MOTORS} random motors with a 28 s recording, alone and beside a "
+    "random torque; sizes in steps of one half. Each entry with the commit that it is of.",
     "",
-    "| effect | smallest size | |",
-    "|---|---|---|",
+    "| effect | " + " | ".join(f"beside {name}" if name else "smallest size" for name in TORQUES) + " |",
+    "|---" * (1 + len(TORQUES)) + "|",
 )
 NOTE = """
 "or less": still found after ten halvings. A backlash shows in the time that a motor without its load gains at every
@@ -64,10 +65,11 @@ def sized(effect: str, halvings: int) -> dict[str, float]:
     return {name: none + (smallest - none) * 0.5**halvings} | fixed
 
 
-def found(effect: str, halvings: int, pool: ProcessPoolExecutor) -> int:
+def found(effect: str, halvings: int, torque: Torque, first: int, pool: ProcessPoolExecutor) -> int:
     """In how many motors it is named; two that miss it end the count."""
     hidden, count, missed = (*BESIDE.get(effect, ()), effect), 0, 0
-    jobs = [pool.submit(one, hidden, seed, sized(effect, halvings)) for seed in range(MOTORS)]
+    seeds = range(first, first + MOTORS)
+    jobs = [pool.submit(one, hidden, seed, sized(effect, halvings), torque) for seed in seeds]
     for job in jobs:
         if missed > MOTORS - NEEDED:
             job.cancel()
@@ -77,47 +79,53 @@ def found(effect: str, halvings: int, pool: ProcessPoolExecutor) -> int:
     return count
 
 
-def smallest(effect: str, pool: ProcessPoolExecutor) -> int | None:
+def smallest(effect: str, torque: Torque, first: int, pool: ProcessPoolExecutor) -> int | None:
     """The largest number of halvings at which it is found often enough, by bisection; None: not even at none."""
     low, high = -1, HALVINGS + 1
     while high - low > 1:
         middle = max((low + high) // 2, 0)
-        if found(effect, middle, pool) >= NEEDED:
+        if found(effect, middle, torque, first, pool) >= NEEDED:
             low = middle
         else:
             high = middle
     return low if low >= 0 else None
 
 
-def row(effect: str, halvings: int | None) -> str:
-    """A line of the table."""
+def entry(effect: str, halvings: int | None) -> str:
+    """An entry of the table."""
     name, none = SIZE[effect]
     unit = SPEC_BY_NAME[name].unit.strip("–")
     least = sized(effect, halvings or 0)[name]
     what = f"{name} {abs(least - none):.2g} {unit}".rstrip() + (f" off {none:g}" if none else "")
     if halvings is None:
-        return f"| {effect} | not found in {NEEDED} of {MOTORS} | at {what} |"
-    return f"| {effect} | {what} | {'or less' if halvings == HALVINGS else ''} |"
+        return f"not found in {NEEDED} of {MOTORS} at {what} ({commit()})"
+    return f"{what}{' or less' if halvings == HALVINGS else ''} ({commit()})"
 
 
-def kept() -> dict[str, str]:
-    """The rows that the page has already, by effect."""
+def kept() -> dict[str, list[str]]:
+    """The entries that the page has already, by effect."""
     page = RESULTS.read_text(encoding="utf-8") if RESULTS.exists() else ""
-    return {line.split(" | ")[0].removeprefix("| "): line for line in page.splitlines() if line.startswith("| ")}
+    rows = [line.strip("|").split("|") for line in page.splitlines() if line.startswith("| ")]
+    return {row[0].strip(): [cell.strip() for cell in row[1:]] for row in rows if len(row) == 1 + len(TORQUES)}
 
 
 def main() -> int:
-    """Print the rows as they come, and put them on the page beside those that are not run now."""
+    """Print the entries as they come, and put them on the page beside those that are not run now."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--effects", nargs="+", choices=list(SIZE), default=list(SIZE), metavar="EFFECT")
+    parser.add_argument("--torques", nargs="+", choices=list(TORQUES), default=list(TORQUES), metavar="TORQUE")
+    parser.add_argument("--first-seed", type=int, default=0, help="of the motors (default 0)")
     options = parser.parse_args()
     rows = kept()
     with ProcessPoolExecutor(2) as pool:
-        for effect in options.effects:
-            rows[effect] = row(effect, smallest(effect, pool))
-            print(rows[effect], flush=True)
-            table = [rows[name] for name in SIZE if name in rows]
-            RESULTS.write_text("\n".join([*HEAD, *table, NOTE]), encoding="utf-8")
+        for name in options.torques:
+            for effect in options.effects:
+                cells = rows.setdefault(effect, ["–"] * len(TORQUES))
+                least = smallest(effect, TORQUES[name], options.first_seed, pool)
+                cells[list(TORQUES).index(name)] = entry(effect, least)
+                print(effect, name, cells, flush=True)
+                table = ["| " + " | ".join((one, *rows[one])) + " |" for one in SIZE if one in rows]
+                RESULTS.write_text("\n".join([*HEAD, *table, NOTE]), encoding="utf-8")
     return 0
 
 

@@ -1,10 +1,10 @@
 """Find when a log's speeds were made, where nobody said: means over the row before, or values of the row's own instant.
 
 Speeds that were counted are means over the row before, and so an importer takes them. The value of a tachogenerator, or
-what a simulation wrote, is that of its own instant; and some programs write a row when its voltage has been applied.
-Then the motion seems to answer a voltage before it is there, which no effect does: a dead time is never negative. Where
-the assumed timing leaves no dead time, the others are fitted too, each beside what shapes every motion, and a much
-likelier one is taken.
+what a simulation wrote, is that of its own instant: half a row younger, and sharper where the motion bends. Some
+programs write a row when its voltage has been applied: then the motion seems to answer a voltage before it is there,
+which no effect does, since a dead time is never negative. So every timing is fitted beside what shapes most motions,
+and one that is much likelier is taken; a row more only where the motion still comes too early.
 """
 
 from collections.abc import Sequence
