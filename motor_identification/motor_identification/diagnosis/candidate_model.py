@@ -31,6 +31,7 @@ from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
 
+END_ITERATIONS, END_TOLERANCE = 60, 1e-12
 CURVE_BLOCKS = TimeBlocks(4)  # that curves are judged by where nothing is held out
 
 
@@ -234,6 +235,14 @@ def refine_beside_torque(model: Model, hold_out: HoldOut) -> Model:
     plain = validate_model(hold_out, fit_beside_torque(model.estimate, model.learned))
     again = judge_beside_torque(plain, hold_out, None, thresholds.FINAL_EVALUATIONS)
     return again if again.likelihood > model.likelihood else model
+
+
+def fit_again(model: Model, hold_out: HoldOut) -> Model:
+    """Fit a model again from where it is, until nothing is gained, and judge it as before."""
+    if model.learned is None:
+        return validate_model(hold_out, fit_speeds(model.estimate))
+    fitted = fit_beside_torque(model.estimate, model.learned, END_ITERATIONS, END_TOLERANCE)
+    return judge_beside_torque(validate_model(hold_out, fitted), hold_out, None, thresholds.FINAL_EVALUATIONS)
 
 
 def refit_without(model: Model, effect: str, hold_out: HoldOut) -> Model:

@@ -248,3 +248,19 @@ def test_a_few_moments_count_where_what_replaces_predicts_worse(times: float, fe
     current = model(1.0, 100.0, moments)
     test = CandidateTest("load_bias", current, model(times * thresholds.WORSE_GAP, 0.0, np.zeros(60)))
     assert find_loss(test, "load_step", current) == (0.0 if few else 100.0)
+
+
+@pytest.mark.parametrize(
+    ("gap", "likelihood", "settled"),
+    [(1.0005, -600.0, True), (1.002, -600.0, False), (1.0005, -499.0, False)],
+)
+def test_what_moves_alike_is_fitted_to_the_end_before_it_is_called_less_likely(
+    monkeypatch: pytest.MonkeyPatch, gap: float, likelihood: float, settled: bool
+) -> None:
+    current = stub_model(1.0, 0.0, likelihood=-500.0)
+    tried = CandidateTest("load_bias", stub_model(2.0, 0.0), stub_model(gap, 0.0, likelihood=likelihood))
+    for end, better in ((-500.5, True), (-600.5, False)):
+        again = stub_model(1.0, 0.0, likelihood=end)
+        monkeypatch.setattr(backward_elimination, "fit_again", lambda model, hold_out, again=again: again)
+        found = backward_elimination._settle(tried, current, cast(HoldOut, None)).model
+        assert found is (again if settled and better else tried.model)
