@@ -67,7 +67,7 @@ def diagnose(
     reporter.report("first fit", 0.0, "", float("nan"))
     hold_out = make_hold_out(recordings, validation, reporter.stopped)
     start, search = _fit_known(recordings, request, hold_out)
-    timing = find_timing(recordings, start.model.estimate)
+    timing = find_timing(recordings, start.model.estimate, hold_out.restrict)
     if timing is not None:
         recordings, validation = timing.set_on(recordings), timing.set_on(validation)
         hold_out = make_hold_out(recordings, validation, reporter.stopped)

@@ -1,6 +1,7 @@
 """Identify a motor: multi-start search over the whole box, least squares from there, and how sure the result is."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from time import perf_counter
 
 from motor_identification.estimation.direction_correction import correct_directions
@@ -56,7 +57,7 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     if timing is not None:
         recordings = timing.set_on(recordings)
         whole = make_problem(recordings, drop_periodic_effects(effects), request.workers, working)
-        estimate, search = search_globally(whole, request.search, lambda share: tell("search", SEARCHED * share))
+        estimate, search = search_globally(whole, request.search)
     working.begin("least squares", SEARCHED, DESCENDED)
     directed = add_periodic_effects(correct_directions(estimate), effects)
     counted = exclude_miscounts(directed)
@@ -67,7 +68,7 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     def summarise(one: WhitenedFit) -> Fit:
         return summarise_fit(one, search, lambda: perf_counter() - begun, notes, effects)
 
-    result = _add_physics(fit, summarise, request.physical)
+    result = replace(_add_physics(fit, summarise, request.physical), timing=timing)
     tell("done", 1.0)
     return result
 

@@ -40,6 +40,11 @@ class CandidateTest:
         return self.evidence + self.model.training - self.before.training
 
     @property
+    def fits_training(self) -> bool:
+        """Whether the motion that it was fitted to is at least as likely: else held-out phases or instants did it."""
+        return self.evidence_of_all >= self.evidence
+
+    @property
     def steadiness(self) -> float:
         """Evidence without the few moments that speak most for it, beside a random torque."""
         return measure_steadiness(self.before.moments, self.model.moments)

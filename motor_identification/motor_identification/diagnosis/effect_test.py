@@ -93,7 +93,8 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
 
 
 def _is_finding(test: CandidateTest) -> bool:
-    return test.is_likely(likelihood_threshold()) and test.relevant and _exceeds_chance_harmonic(test)
+    likely = test.is_likely(likelihood_threshold()) and test.fits_training
+    return likely and test.relevant and _exceeds_chance_harmonic(test)
 
 
 def count_parameters(effect: str) -> int:

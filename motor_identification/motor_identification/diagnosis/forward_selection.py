@@ -155,7 +155,8 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
         start = begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
         other = select_forward(start, reporter, pairs=False)
         if _are_alike(other.model, selection.model):
-            continue  # the more common one stays, and has the other beside it
+            selection = _add_rival(selection, other)  # the one that was more likely stays
+            continue
         if other.model.held.gap < selection.model.held.gap:
             selection = other if other.model.likelihood > selection.model.likelihood else _add_rival(other, selection)
         else:

@@ -61,7 +61,7 @@ class Diagnosis:
     suggested_experiment: str
     before: HeldOut  # the baseline on held-out data
     after: HeldOut
-    slot_share: float  # irregularity of the slots behind the noise floor, as a share of a slot
+    slot_share: float  # of the sensor's unit: irregular slots, or a logged speed's noise beside what is known of it
     bags: tuple[str, ...]
     validation: tuple[str, ...]
     miscounted: int  # intervals that were left out because edges were missed

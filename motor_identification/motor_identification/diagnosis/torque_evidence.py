@@ -16,7 +16,7 @@ import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data
+from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data, measure_travel
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Bools, Floats, Integers
 from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, HeldOut, mix_likelihoods
@@ -58,7 +58,7 @@ def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: tu
     """
     parts = zip(held.intervals, held.increments, mark_common_set(hold_out), strict=True)
     rows = [make_error_data(*part) for part in parts]
-    unit = max(row.unit for row in rows)
+    unit = max(max(data.slot or measure_travel(data), row.unit) for data, row in zip(held.intervals, rows, strict=True))
     others = [replace(errors, white=share * unit**2) for share in UNFORESEEN_DRIFTS]
     if errors.rms_voltage > 0.0:
         others += [replace(errors, rms_voltage=factor * errors.rms_voltage) for factor in UNFORESEEN_TORQUES]

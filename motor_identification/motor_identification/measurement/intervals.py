@@ -145,10 +145,17 @@ def exclude_intervals(intervals: Intervals, bad: Bools) -> Intervals:
 
 
 def share_noise(intervals: Sequence[Intervals]) -> tuple[Intervals, ...]:
-    """Give all recordings of logged speeds one sensor's noise: what is unknown of it is a share of the same unit."""
-    known = [data.noise for data in intervals if data.window > 0.0]
-    common = float(np.median(known)) if known else 0.0
-    return tuple(replace(data, noise=common) if data.window > 0.0 else data for data in intervals)
+    """Give all recordings of logged speeds one sensor's noise: what is unknown of it is a share of the same unit.
+
+    An angle's where speeds were counted, a speed's where their noise is white, whatever the window.
+    """
+    counts = [data.noise for data in intervals if data.window > 0.0 and not data.independent]
+    speeds = [data.noise / data.window for data in intervals if data.window > 0.0 and data.independent]
+
+    def common(data: Intervals) -> float:
+        return float(np.median(speeds)) * data.window if data.independent else float(np.median(counts))
+
+    return tuple(replace(data, noise=common(data)) if data.window > 0.0 else data for data in intervals)
 
 
 def join_intervals(intervals: Intervals, duration: float) -> Intervals:

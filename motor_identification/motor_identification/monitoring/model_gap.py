@@ -12,6 +12,7 @@ from motor_identification.estimation.whitened_fit import fit_whitened
 from motor_identification.monitoring.live_motor import Still
 from motor_identification.recording import Floats, Recording
 from motor_identification.reporting.model_comparison import DIFFERENT, Identified, deviations_of
+from motor_identification.timing.speed_timing import list_readings
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
 from motor_model.parameters import Parameters
@@ -63,6 +64,10 @@ def measure_gap(motion: Recording | Still, model: Model) -> Gap:
     """
     if isinstance(motion, Still):
         return _measure_still(motion, model)
+    return min((_measure_moving(reading, model) for reading in list_readings(motion)), key=lambda gap: gap.rms)
+
+
+def _measure_moving(motion: Recording, model: Model) -> Gap:
     problem = make_problem([motion], ())
     known = _place(Estimate(problem.with_effects(model.parameters.effects), np.empty(0)), model.parameters)
     estimate = fit_nuisance_parameters(problem, known, (np.ones(len(problem.weight), dtype=bool),))

@@ -87,7 +87,12 @@ def make_whitening(data: ErrorData, model: ErrorModel, rate: float, ka: float) -
 
 def unit_of(data: Intervals) -> float:
     """[rad] what a sensor's error is a share of: its unit, or the typical travel where nothing is known of that."""
-    return data.unit if data.unit > 0.0 else float(np.median(np.abs(data.speed * data.duration))) or 1.0
+    return data.unit if data.unit > 0.0 else measure_travel(data)
+
+
+def measure_travel(data: Intervals) -> float:
+    """Measure the typical travel [rad] in an interval; 1 where there is none."""
+    return float(np.median(np.abs(data.speed * data.duration))) or 1.0
 
 
 def make_error_data(data: Intervals, increments: Floats, counted: Bools | None = None) -> ErrorData:

@@ -11,6 +11,7 @@ from motor_identification.estimation.residual import compute_residuals
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Bools, Floats, Recording
+from motor_identification.timing.speed_timing import read_again
 from motor_identification.uncertainty.result import Fit
 from motor_identification.validation.held_out import HeldOut
 from motor_model.simulate import simulate
@@ -54,6 +55,7 @@ def make_held_out_curves(held: HeldOut, share: float, number: int, regions: tupl
 
 def make_fit_curves(recording: Recording, fit: Fit) -> Curves:
     """A fitted model on one of the recordings that it was fitted to."""
+    recording = read_again(recording, fit.timing)
     number = fit.uris.index(recording.uri) if recording.uri in fit.uris else -1
     start = fit.start_speeds[number] if number >= 0 else 0.0
     share = fit.slot_irregularity[number] if number >= 0 else nan

@@ -11,6 +11,7 @@ from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Recording
 from motor_identification.reporting.curves import Curves, make_fit_curves
 from motor_identification.reporting.fit_text import describe_residual, format_fit
+from motor_identification.timing.speed_timing import read_again
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
 from motor_model.parameters import Parameters
@@ -64,7 +65,7 @@ def draw_fit(recording: Recording, fit: Fit, path: Path) -> None:
         axes.sharex(speed)
     head.axis("off")
     head.text(0.0, 1.0, format_fit(fit), transform=head.transAxes, family="monospace", fontsize=9, va="top")
-    draw_overlay(speed, recording, make_intervals(recording), fit.parameters, start)
+    draw_overlay(speed, recording, make_intervals(read_again(recording, fit.timing)), fit.parameters, start)
     head.legend(*speed.get_legend_handles_labels(), loc="upper right", frameon=False)
     head.set_title(f"{recording.info.name}: {describe_residual(fit)}")
     voltage.step(recording.time, recording.voltage, where="post", color=VOLTAGE, linewidth=1)

@@ -25,7 +25,7 @@ SAME_DIGIT = 1e-3  # of a decade
 # tachogenerator's. A step by chance is as near to one of them in 1 % of the cases.
 RANGES, BITS, SAME_RANGE = (1.0, 2.0, 2.5, 3.3, 5.0), (8, 10, 12, 13, 14, 16), 1e-4
 OTHER_ROWS = 0.1  # relative: rows of one run that are not those of the log's typical one
-LEAST_COUNTED = 0.5  # of the time between values: what is a mean over less is no count over it
+LEAST_COUNTED = 0.03  # of the time between values: a mean over less is an instant's value, and no count over it
 SAME_PERIOD = 1e-6  # relative: a window that was not said is set to the sample period
 
 

@@ -7,16 +7,16 @@ which no effect does, since a dead time is never negative. So every timing is fi
 and one that is much likelier is taken; a row more only where the motion still comes too early.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from math import inf, log
+from math import inf, isfinite, log
 
 import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import SpeedResiduals, fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
-from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.speed_sensor import is_assumed
 from motor_model.effects import SHAPING, SHAPING_BOTH_WAYS, specs_of
@@ -49,9 +49,9 @@ class Timing:
     name: str
 
     def set_on(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
-        """Recordings read with this timing; the first one's notes say so."""
-        timed = [self._set(recording) for recording in recordings]
-        if self.name and timed:
+        """Read recordings with this timing, those of which nobody said another; the first one's notes say so."""
+        timed = [self._set(recording) if is_open(recording) else recording for recording in recordings]
+        if self.name and timed and is_open(recordings[0]):
             row = timed[0].info.sample_period
             note = TIMING.format(self.name, self.window * row, self.lag * row)
             timed[0] = replace(timed[0], notes=(*timed[0].notes, note))
@@ -78,42 +78,59 @@ class _Fitted:
     delay: float
 
 
-def find_timing(recordings: Sequence[Recording], estimate: Estimate) -> Timing | None:
+def find_timing(
+    recordings: Sequence[Recording], estimate: Estimate, restrict: Callable[[Problem], Problem] | None = None
+) -> Timing | None:
     """Find when the speeds of recordings were made, as their motion shows; None if as assumed, or as was said.
 
-    estimate: of the same motor, as the assumed timing gives it.
+    estimate: of the same motor, as the assumed timing gives it. restrict: to what a fit may see; all, without.
     """
-    if not all(_is_open(recording) for recording in recordings):
+    few = sum(len(recording) for recording in recordings) < LEAST_SPEEDS
+    if few or not all(is_open(recording) for recording in recordings):
         return None
     least = LEAST_DELAY * min(recording.info.sample_period for recording in recordings)
-    best, fitted = ASSUMED, _fit(recordings, ASSUMED, estimate)
-    if fitted is None:
-        return None
-    others = [(timing, _fit(recordings, timing, estimate)) for timing in OTHERS]
-    if others[-1][1] is None or others[-1][1].delay <= least:  # earlier than any row says: not for its timing
+    best, fitted = ASSUMED, _fit(recordings, ASSUMED, estimate, restrict)
+    others = [(timing, _fit(recordings, timing, estimate, restrict)) for timing in OTHERS]
+    if others[-1][1].delay <= least:  # earlier than any row says: not for its timing
         return None
     for timing, other in others:  # each makes the speeds younger than the one before
-        early = fitted.delay <= least
-        if other is not None and (early or timing.name == OWN) and _is_likelier(other, fitted):
+        if (fitted.delay <= least or timing.name == OWN) and _is_likelier(other, fitted):
             best, fitted = timing, other
     return None if best is ASSUMED else best
 
 
-def _is_open(recording: Recording) -> bool:
-    """Whether a recording is of speeds of which nobody said when they were made, nor that they are counts."""
+def read_again(recording: Recording, timing: Timing | None) -> Recording:
+    """Read a recording again with the timing that a fit found for it; None: as was assumed."""
+    return recording if timing is None else timing.set_on([recording])[0]
+
+
+def list_readings(recording: Recording) -> tuple[Recording, ...]:
+    """List how a recording may be read: as it says, and with values of its rows' own instants where it says nothing."""
+    return (recording, *OTHERS[0].set_on([recording])) if is_open(recording) else (recording,)
+
+
+def is_open(recording: Recording) -> bool:
+    """Decide whether a recording is of speeds of which nobody said when they were made, nor that they are counts.
+
+    A window of one row that ends there, said by hand, is what is assumed, and open as that is.
+    """
     info = recording.info
     unsaid = info.measurement is Measurement.SPEED and not info.edges_per_revolution and is_assumed(info)
     return unsaid and abs(info.speed_lag - ASSUMED.lag * info.sample_period) < LEAST_DELAY * info.sample_period
 
 
-def _fit(recordings: Sequence[Recording], timing: Timing, estimate: Estimate) -> _Fitted | None:
-    """Fit speeds of this timing beside what shapes every motion, from kv and ka; None where there are too few."""
+def _fit(
+    recordings: Sequence[Recording],
+    timing: Timing,
+    estimate: Estimate,
+    restrict: Callable[[Problem], Problem] | None,
+) -> _Fitted:
+    """Fit speeds of this timing beside what shapes every motion, from kv and ka."""
     timed = timing.set_on(recordings)
     driven = np.concatenate([recording.voltage for recording in recordings])
     shaping = SHAPING if min(-driven.min(), driven.max()) < BOTH_WAYS * np.abs(driven).max() else SHAPING_BOTH_WAYS
     problem = make_problem(timed, shaping, estimate.problem.workers, estimate.problem.stopped)
-    if len(problem.weight) < LEAST_SPEEDS:
-        return None
+    problem = problem if restrict is None else restrict(problem)
     row = problem.sample_period
     starts = {spec.name: np.full(len(timed), BEGIN * row * spec.scale.sample or spec.off) for spec in specs_of(shaping)}
     theta = map_theta(estimate.problem.unknowns, estimate.theta, problem.unknowns, starts)
@@ -130,6 +147,8 @@ def _measure_gain(before: _Fitted, after: _Fitted) -> float:
     """Measure how much likelier residuals are, each as noise of which a part is that of the row before (AR(1))."""
     count = min(len(before.residuals), len(after.residuals))  # at the beginning a row may have no whole window
     old, new = (_innovate(one.residuals[-count:]) for one in (before, after))
+    if not (isfinite(old) and isfinite(new)) or old <= 0.0:
+        return 0.0
     return 0.5 * count * log(old / new) if new > 0.0 else inf
 
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from motor_identification.estimation.request import SearchReport
+from motor_identification.timing.speed_timing import Timing
 from motor_model.parameters import Parameters
 from motor_model.physical.result import PhysicalResult
 
@@ -47,3 +48,4 @@ class Fit:
     uris: tuple[str, ...]
     notes: tuple[str, ...]
     physical: PhysicalResult | None = None  # where a current was measured, or the resistance is known
+    timing: Timing | None = None  # of its recordings' speeds, where they were not made as was assumed

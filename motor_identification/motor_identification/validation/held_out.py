@@ -68,7 +68,7 @@ class HeldOut:
         return float(np.sqrt(self.weight @ self.residuals**2))
 
     def floors(self, share: float) -> Floats:
-        """[rad/s] what timer and irregular slots (a share of a slot) alone leave in each interval that counts."""
+        """[rad/s] what timer and sensor (a share of its unit) alone leave in each interval that counts."""
         squares = [data.floor_squared(share * data.unit) for data in self.intervals]
         return np.asarray(np.sqrt(np.concatenate(squares)[self.counted]))
 

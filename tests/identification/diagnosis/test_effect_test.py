@@ -1,5 +1,7 @@
 """Which effects a model can be given, and which of those that were tried is the finding."""
 
+from dataclasses import replace
+
 import pytest
 from diagnosed import fitted
 from stub_models import stub_model, stub_test
@@ -43,6 +45,14 @@ def test_what_is_likely_but_irrelevant_is_passed_over() -> None:
     tests = [stub_test("load_bias", before, 4.99, 300.0), stub_test("dead_zone", before, 1.0, 200.0)]
     assert choose_finding(tests) is tests[1]
     assert choose_finding(tests[:1]) is None and choose_finding([]) is None
+
+
+@pytest.mark.parametrize(("training", "found"), [(0.0, True), (-0.01, False)])
+def test_what_fits_its_own_training_data_worse_is_no_finding(training: float, found: bool) -> None:
+    """Of a ripple's phases in held-out motion, which are fitted anew with it, any effect may make a little more."""
+    test = stub_test("load_bias", stub_model(5.0), 2.0, 300.0)
+    test = replace(test, model=replace(test.model, training=test.before.training + training))
+    assert (choose_finding([test]) is test) is found
 
 
 def test_of_equals_more_parameters_are_not_taken() -> None:

@@ -177,6 +177,8 @@ def test_noise_beside_counts_adds_up_in_joined_speeds_and_flanks_do_not() -> Non
     assert len(joined.first) == 10 and (joined.window, joined.noise, joined.unit) == (1.0, 0.1, 0.1)
     assert joined.floor_squared(0.3) == pytest.approx((2.0 * 0.1**2 + 4 * 2.0 * 0.3**2) / 4.0**2)
     assert [one.noise for one in share_noise([speeds, replace(speeds, noise=0.4), speeds])] == [0.1, 0.1, 0.1]
+    white = [replace(speeds, independent=True, window=window, noise=0.3 * window) for window in (1.0, 1.0, 50.0)]
+    assert [one.noise for one in share_noise(white)] == pytest.approx([0.3, 0.3, 15.0])  # of speeds, not of angles
     flanks = join_intervals(index_intervals(time[:-1], time[1:], np.ones(40), np.full(40, 0.1), slot=0.5), 4.0)
     assert flanks.unit == 0.5 and share_noise([flanks])[0] is flanks
     assert flanks.floor_squared(0.3) == pytest.approx(2.0 * (0.1**2 + 0.3**2) / 4.0**2)

@@ -96,7 +96,7 @@ def test_a_run_with_other_rows_than_the_log_has_its_own_window() -> None:
     assert said.window == 0.1 and said.lag == 0.05
 
 
-@pytest.mark.parametrize(("window", "counts"), [(0.02, True), (0.011, True), (0.009, False), (0.0004, False)])
+@pytest.mark.parametrize(("window", "counts"), [(0.02, True), (0.0007, True), (0.0005, False), (0.0004, False)])
 def test_a_lattice_of_values_that_are_no_means_over_their_rows_is_what_they_are_rounded_to(
     window: float, counts: bool
 ) -> None:

@@ -10,11 +10,22 @@ from swinging import RUBBING, noisy
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Verdict
 from motor_identification.estimation.global_search import search_globally
-from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.estimation.request import SearchConfig
 from motor_identification.identify import Request, identify
+from motor_identification.monitoring.model_gap import Model, measure_gap
 from motor_identification.recording import Recording, check
-from motor_identification.timing.speed_timing import INSTANT, Timing, find_timing
+from motor_identification.reporting.curves import make_fit_curves
+from motor_identification.reporting.model_comparison import Identified
+from motor_identification.timing.speed_timing import (
+    INSTANT,
+    Timing,
+    _Fitted,
+    _is_likelier,
+    find_timing,
+    list_readings,
+)
+from motor_identification.validation.hold_out import make_hold_out
 
 
 def timing_of(*recordings: Recording) -> Timing | None:
@@ -63,6 +74,35 @@ def test_what_was_said_is_believed() -> None:
     assert timing_of(describe(early, edges_per_revolution=96)) is None
     assert timing_of(early, describe(early, speed_lag=0.0)) is None
     assert timing_of(early.between(0.0, 0.8)) is None  # too few to tell
+    assert identify([early.between(0.0, 0.2)], Request()).timing is None  # and to fit what shapes a motion
+
+
+def test_what_was_said_of_a_recording_to_validate_by_is_believed_too() -> None:
+    said = describe(check(noisy(0.05, 1)), edges_per_revolution=960)
+    open_one, other = Timing(INSTANT, 0.0, "values").set_on([check(noisy(0.05)), said])
+    assert open_one.info.speed_lag == 0.0 and other is said
+    assert Timing(INSTANT, 0.0, "values").set_on([said]) == (said,)
+
+
+def test_another_timing_is_not_likelier_by_no_numbers() -> None:
+    flat, zero, none = (_Fitted(np.full(100, value), 0.0) for value in (1.0, 0.0, np.nan))
+    assert not _is_likelier(none, flat) and not _is_likelier(flat, none) and not _is_likelier(zero, zero)
+    assert not _is_likelier(flat, zero) and not _is_likelier(flat, flat)
+
+
+def test_a_timing_is_judged_by_what_a_fit_may_see() -> None:
+    recordings = [check(noisy(0.05, instant=True))]
+    estimate, _ = search_globally(make_problem(recordings, ()), SearchConfig())
+    seen: list[int] = []
+    hold_out = make_hold_out(recordings, [])
+
+    def restrict(problem: Problem) -> Problem:
+        kept = hold_out.restrict(problem)
+        seen.append(len(kept.weight))
+        return kept
+
+    assert find_timing(recordings, estimate, restrict) is not None
+    assert 0.6 < max(seen) / len(recordings[0]) < 0.9
 
 
 def test_a_timing_is_set_on_every_recording_and_said_of_the_first() -> None:
@@ -81,6 +121,10 @@ def test_a_fit_and_a_diagnosis_use_what_was_found() -> None:
         assert fit.parameters.values[name] == pytest.approx(value, rel=0.003)
         assert fit.parameters.values[name] != pytest.approx(value, rel=1e-7)
     assert fit.residual_rms < 0.06 and any("rows' own instants" in note for note in fit.notes)
+    curves = make_fit_curves(early, fit)  # of a report, which reads the recording again
+    assert float(np.sqrt(np.mean((curves.simulated - curves.measured) ** 2))) < 0.06
+    watched = measure_gap(check(noisy(0.05, 1, instant=True)), Model(Identified("model", fit.parameters, {}), 0.05))
+    assert watched.rms < 0.1 and len(list_readings(early)) == 2
     found = diagnose([early])
     assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED
     assert any("rows' own instants" in note for note in found.model.notes)

@@ -50,7 +50,10 @@ def _noise_floor(diagnosis: Diagnosis) -> list[str]:
         parts.append(f"{sensor:.3g} rad/s from the timer's tick of {1e6 * info.edge_resolution:.3g} µs")
     elif sensor > 0.0:
         parts.append(f"{sensor:.3g} rad/s from counts that are sampled, not stamped")
-    if diagnosis.slot_share > 0.0 and info.edges_per_revolution:
+    if diagnosis.slot_share > 0.0 and info.measurement is Measurement.SPEED:
+        rest = max(diagnosis.sensor_floor**2 - sensor**2, 0.0) ** 0.5
+        parts.append(f"{rest:.3g} rad/s of white noise that the sensor has beside")
+    elif diagnosis.slot_share > 0.0 and info.edges_per_revolution:
         rest = max(diagnosis.sensor_floor**2 - sensor**2, 0.0) ** 0.5
         parts.append(f"{rest:.3g} rad/s from slots that are irregular by {100 * diagnosis.slot_share:.2g} %")
     if diagnosis.disturbance is not None:
