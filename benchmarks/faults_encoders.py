@@ -11,15 +11,19 @@ RATE = 200.0  # [Hz]
 EDGES = (8, 24, 96, 2880)
 MOTORS = (Motor(6.0, 1.2), Motor(600.0, 48.0))  # with the voltages exchanged every time is the same
 STRAY = (0.0, 5.0, 50.0)  # edges a second on a line that is lost
-BLOCKED, SWAPPED = "shaft blocked", "channels exchanged"
-HEADS = ("cable off", *(f"{one:g} stray/s" for one in STRAY[1:]), BLOCKED, SWAPPED)
+BLOCKED, SWAPPED, AT_FIRST = "shaft blocked", "channels exchanged", "exchanged from the start"
+HEADS = ("cable off", *(f"{one:g} stray/s" for one in STRAY[1:]), BLOCKED, SWAPPED, AT_FIRST)
 
 
 def run(motor: Motor, edges: int, share: float, model: bool, head: str) -> Outcome | None:
-    """What a fault does to a motor that runs at a share of its top speed; None: it is not let run as it is."""
-    loop = Loop(motor, RATE, model, single_channel=head != SWAPPED, edges=edges)
+    """What a fault does to a motor that runs at a share of its top speed, or shall; None: it is not let run."""
+    loop = Loop(motor, RATE, model, single_channel=head not in (SWAPPED, AT_FIRST), edges=edges)
     loop.run(0.2)
     loop.reference = share * motor.top
+    if head == AT_FIRST:
+        swap(loop)
+        loop.run(3.0)
+        return outcome(loop.moments, 0.2) if any(moment.voltage for moment in loop.moments) else None
     loop.run(1.5)
     if not any(moment.voltage for moment in loop.moments[-round(0.1 * RATE) :]):
         return None

@@ -67,6 +67,7 @@ def config_of(
         even=info is None or info.quadrature <= 1,
         tick=info.edge_resolution if info is not None else 0.0,
         spare=SPARE_SINGLE if single else SPARE,
+        two_channels=not single,
     )
     config = Config(
         gains=pi.Config(float(values["kp"]), float(values["ki"]), limit),

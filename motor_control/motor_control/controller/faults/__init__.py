@@ -10,6 +10,7 @@ In goes what a sample shows (`evidence`), out comes a sentence, or none (`detect
     unexpected_edges edges at angles where the model's motor is not: noise that is too slow for its periods to be judged
     runaway          the voltage is 0 or strongly against the motion, and yet the speed grows: a wrong sign, a bridge
                      that stays on, a load
+    wrong_direction  pulses against the motion, beyond what a load takes, that make it faster: exchanged channels
     overspeed        faster than full voltage can drive the motor of the model: edges that are none, or a load
 
 The speed is the one the law uses, or counted edges (`controller.motion`); the voltage is the one the plant says it

@@ -2,7 +2,15 @@
 
 from dataclasses import dataclass
 
-from motor_control.controller.faults import few_edges, irregular_edges, overspeed, runaway, stall, unexpected_edges
+from motor_control.controller.faults import (
+    few_edges,
+    irregular_edges,
+    overspeed,
+    runaway,
+    stall,
+    unexpected_edges,
+    wrong_direction,
+)
 from motor_control.controller.faults.evidence import Config, Seen
 
 
@@ -16,6 +24,7 @@ class State:
     unexpected: unexpected_edges.State = unexpected_edges.State()
     undriven: runaway.State = runaway.State()
     too_fast: float = 0.0  # [s]
+    pushed: wrong_direction.State = wrong_direction.State()
 
 
 def begin(speed: float) -> State:
@@ -32,6 +41,7 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     odd, unexpected = unexpected_edges.check(config, state.unexpected, seen)
     away, undriven = runaway.check(config, state.undriven, seen)
     fast, too_fast = overspeed.check(config, state.too_fast, seen)
-    return still or few or irregular or odd or away or fast, State(
-        stalled, missing, periods, unexpected, undriven, too_fast
+    wrong, pushed = wrong_direction.check(config, state.pushed, seen)
+    return still or few or irregular or odd or away or fast or wrong, State(
+        stalled, missing, periods, unexpected, undriven, too_fast, pushed
     )

@@ -33,6 +33,7 @@ class Config:
     kv: float = 0.0  # [V·s/rad] by the model; 0: there is none
     time_constant: float = 0.0  # [s] ka/kv, and delay
     spare: float = SPARE  # of the voltage limit that a load may take
+    two_channels: bool = False  # the encoder measures the direction
     friction: float = 0.0  # [V] that the model needs to break loose, loads and dead zone included
 
     def __post_init__(self) -> None:

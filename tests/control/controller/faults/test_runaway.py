@@ -20,6 +20,14 @@ def test_a_runaway_is_a_speed_that_grows_while_nothing_drives_it() -> None:
     assert feed([turning(20.0 + 0.005 * k, 0.0) for k in range(200)], ENCODER)[0] == ""  # hardly grows
 
 
+def test_a_voltage_is_not_blamed_for_what_a_load_did_before() -> None:
+    """At 0 V a load has driven a motor of which nothing is known, and now it is braked (seed 812089)."""
+    driven = [turning(0.0, 0.0), *[turning(-0.2 * k, 0.0) for k in range(100)]]
+    assert feed([*driven, *[turning(-20.0 + 0.2 * k, 7.0) for k in range(90)]], ENCODER) == ("", inf)
+    reason, when = feed([*driven, *[turning(-20.0 - 0.5 * k, 7.0) for k in range(90)]], ENCODER)
+    assert "agree on the direction" in reason and 0.74 < when < 0.8
+
+
 @pytest.mark.parametrize(("spare", "stops"), [(0.15, True), (0.25, False)])
 def test_a_load_that_is_allowed_drives_a_motor_without_a_voltage(spare: float, stops: bool) -> None:
     """From rest to 22 % of the top speed: a random torque of 5 % RMS stopped motors at 6 % (seeds 98005, 98016)."""
