@@ -52,7 +52,8 @@ plug limit leaves 0.23 of the voltage, and up to a quarter may be what a load of
 Not in the table: the cable lost at a reference of 0 rad/s under the observer. A stray edge looks like a shaft that is
 turned by hand, and is pushed back: 50 a second stop the motor after 0.3 to 0.4 s, other sequences of them at 174 rad/s
 after 0.27 to 0.9 s; at 600 rad/s three of six do not, at 10 % of the top speed at most: the edges come 0.02 s apart, in
-which a push moves this motor a slot, under 0.26 to 0.34 of the voltage where a load may take 0.26. 20 a second after 1.1 to 2 s, at up to 60 % of the top speed of the 6 rad/s motor, 5 a second mostly
+which a push moves this motor a slot, under 0.26 to 0.34 of the voltage where a load may take 0.26. 20 a
+second stop it after 1.1 to 2 s, at up to 60 % of the top speed of the 6 rad/s motor, 5 a second mostly
 never (59 % at most). With the measured speed the motor stands."""
 
 ENCODERS = """\

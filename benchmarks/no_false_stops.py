@@ -43,9 +43,9 @@ second at its top speed) that a load of 23 % and friction of 13 % hold down whil
 no edge for 0.1 s and more, where the model without that load would have made five; it had begun to turn. A motor whose
 load and friction together take more than 0.4 of the voltage is stopped as stalled. Not stopped any more: more than a
 dozen of some 2,000 runs under the rules before (seeds 97006 to 98028, 300176, 300271, 400029, 500001, 500096), nearly
-all on discs of more than 10,000 edges a second at the top speed, which no page had looked at. Seeds 816010 and 816051 with
-references of up to 5 % of the top speed, 4000 edges a turn and a random torque of 5 % are stopped without a model: their
-periods jump, and of a motor that has only crawled nothing is learnt that says what a push does (3 of 120 such runs)."""
+all on discs of more than 10,000 edges a second at the top speed, which no page had looked at. Seeds 816010 and 816051
+with references of up to 5 % of the top speed, 4000 edges a turn and a random torque of 5 % are stopped without a model:
+their periods jump, and of a motor that has only crawled nothing is learnt that says what a push does (3 of 120 such runs)."""
 
 
 @dataclass(frozen=True)
