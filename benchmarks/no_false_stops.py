@@ -45,7 +45,7 @@ load and friction together take more than 0.4 of the voltage is stopped as stall
 dozen of some 2,000 runs under the rules before (seeds 97006 to 98028, 300176, 300271, 400029, 500001, 500096), nearly
 all on discs of more than 10,000 edges a second at the top speed, which no page had looked at. Seeds 816010 and 816051
 with references of up to 5 % of the top speed, 4000 edges a turn and a random torque of 5 % are stopped without a model:
-their periods jump, and of a motor that has only crawled nothing is learnt that says what a push does (3 of 120 such runs)."""
+their periods jump as pushes make them, which of a motor that has only crawled is not learnt (3 of 120 such runs)."""
 
 
 @dataclass(frozen=True)
