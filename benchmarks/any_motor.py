@@ -6,16 +6,14 @@ effect of the table, two, none, or physics that the table does not have. Sizes o
 table (`hidden.py`), in shares of the motor's own supply, top speed and time constant. The tests' independent plant.
 """
 
-import argparse
-import sys
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
 from any_motor_cases import Case, draw, group, recorded
 from hidden import Found, find, right, wrong
 from machine import commit, machine
+from seeded_cases import run_seeds
 
 RESULTS = Path(__file__).with_name("results") / "any_motor.md"
 KINDS = ("right", "right, not all", "silent", "wrong")
@@ -64,30 +62,27 @@ def table(cases: list[tuple[Case, Found]]) -> list[str]:
     return lines
 
 
-def main() -> int:
+def say(outcome: tuple[Case, Found]) -> str:
+    """Say an outcome in a line."""
+    case, answer = outcome
+    return (
+        f"{case.seed}: {kind(case, answer)}: {case.describe()}: {'+'.join(case.hidden) or 'nothing'} -> "
+        f"{'+'.join(answer.named) or '–'} ({answer.verdict}), gap {answer.gap:.2f}, strength "
+        f"{answer.strength:.2f}, {answer.seconds:.0f} s"
+    )
+
+
+def page(outcomes: list[tuple[Case, Found]], first: int) -> str:
+    """The whole page."""
+    seeds = f"seeds {first} to {first + len(outcomes) - 1}"
+    head = f"{machine()}; simulated by the tests' plant; commit {commit()}, {seeds}."
+    return "\n".join(["# Motors of any size", "", head, "", *table(outcomes)]) + "\n"
+
+
+def main() -> None:
     """Print the cases as they come, and write the page."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--cases", type=int, default=60, help="how many (default 60)")
-    parser.add_argument("--first", type=int, default=0, help="seed of the first")
-    options = parser.parse_args()
-    cases = []
-    with ProcessPoolExecutor(2) as pool:
-        for case, answer in pool.map(one, range(options.first, options.first + options.cases)):
-            cases.append((case, answer))
-            print(
-                f"{case.seed}: {kind(case, answer)}: {case.describe()}: {'+'.join(case.hidden) or 'nothing'} -> "
-                f"{'+'.join(answer.named) or '–'} ({answer.verdict}), gap {answer.gap:.2f}, strength "
-                f"{answer.strength:.2f}, {answer.seconds:.0f} s",
-                flush=True,
-            )
-    last = options.first + options.cases - 1
-    head = ["# Motors of any size", "", f"{machine()}; simulated by the tests' plant; commit {commit()}, seeds "]
-    head[-1] += f"{options.first} to {last}."
-    page = "\n".join([*head, "", *table(cases)]) + "\n"
-    print(page)
-    RESULTS.write_text(page, encoding="utf-8")
-    return 0
+    run_seeds(one, say, page, RESULTS, __doc__.split("\n")[0], 60)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -5,10 +5,7 @@ as other people log, one excitation alone, imported without hints (`foreign_logs
 a random torque of up to 2.5 % of the supply. The tests' independent plant.
 """
 
-import argparse
 import os
-import sys
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -21,6 +18,7 @@ import numpy as np
 from hidden import QUIET, find
 from machine import commit, machine
 from scipy.stats import binomtest
+from seeded_cases import run_seeds
 
 RESULTS = Path(__file__).with_name("results") / "false_names.md"
 TORQUES = (0.0, 0.0025, 0.008, 0.025)  # RMS, shares of the supply
@@ -109,23 +107,10 @@ def page(outcomes: list[Outcome], first: int) -> str:
     ).rstrip("\n") + "\n"  # fmt: skip
 
 
-def main() -> int:
+def main() -> None:
     """Print the cases as they come, and write the page."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--cases", type=int, default=600, help="how many (default 600, about an hour and a half)")
-    parser.add_argument("--first", type=int, default=0, help="seed of the first")
-    parser.add_argument("--workers", type=int, default=2)
-    options = parser.parse_args()
-    outcomes = []
-    with ProcessPoolExecutor(options.workers) as pool:
-        for outcome in pool.map(one, range(options.first, options.first + options.cases)):
-            outcomes.append(outcome)
-            print(outcome, flush=True)
-    text = page(outcomes, options.first)
-    RESULTS.write_text(text, encoding="utf-8")
-    print(text)
-    return 0
+    run_seeds(one, str, page, RESULTS, (__doc__ or "").splitlines()[0], 600)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

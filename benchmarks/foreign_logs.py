@@ -7,11 +7,9 @@ the supply. Friction is in four of five; a delay, drag, a dead zone, an asymmetr
 independent plant moves; `import_log` is told nothing.
 """
 
-import argparse
 import os
 import tempfile
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from time import process_time
@@ -21,6 +19,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matric
 import numpy as np
 from foreign_logs_cases import EXCITATIONS, SENSORS, Case, draw, write
 from machine import commit, machine
+from seeded_cases import run_seeds
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Diagnosis
@@ -121,23 +120,16 @@ def page(outcomes: list[Outcome], first: int) -> str:
     return "\n".join([*lines, ""])
 
 
+def say(outcome: Outcome) -> str:
+    """Say an outcome in a line."""
+    case = outcome.case
+    truth = " + ".join(case.hidden) or "nothing"
+    return f"{case.seed} {outcome.kind} | {truth} | {outcome.said} | {case.describe()}"
+
+
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--cases", type=int, default=100)
-    parser.add_argument("--first", type=int, default=0, help="seed of the first case")
-    parser.add_argument("--workers", type=int, default=2)
-    options = parser.parse_args()
-    outcomes = []
-    with ProcessPoolExecutor(options.workers) as pool:
-        for outcome in pool.map(one, range(options.first, options.first + options.cases)):
-            outcomes.append(outcome)
-            truth = " + ".join(outcome.case.hidden) or "nothing"
-            print(
-                outcome.case.seed, outcome.kind, "|", truth, "|", outcome.said, "|", outcome.case.describe(), flush=True
-            )
-    text = page(outcomes, options.first)
-    RESULTS.write_text(text, encoding="utf-8")
-    print(text)
+    """Print the cases as they come, and write the page."""
+    run_seeds(one, say, page, RESULTS, __doc__ or "", 100)
 
 
 if __name__ == "__main__":
