@@ -34,7 +34,7 @@ BOTH_WAYS = 0.2  # of the largest voltage: what drives a motor both ways
 BEGIN = 0.25  # rows: the dead time that a fit begins with
 
 TIMING = (
-    "The speeds are taken as {}: as means over the row before they would answer a voltage before it is there "
+    "The speeds are taken as {}: as means over the row before they fit the motion much worse "
     "(--speed-window {:.3g} --speed-lag {:.3g} says so to an import)."
 )
 OWN, BEFORE = "values of their rows' own instants", "{} of the row after the voltage's"
@@ -90,11 +90,12 @@ def find_timing(
         return None
     least = LEAST_DELAY * min(recording.info.sample_period for recording in recordings)
     best, fitted = ASSUMED, _fit(recordings, ASSUMED, estimate, restrict)
-    others = [(timing, _fit(recordings, timing, estimate, restrict)) for timing in OTHERS]
-    if others[-1][1].delay <= least:  # earlier than any row says: not for its timing
+    early = fitted.delay <= least
+    others = [(timing, _fit(recordings, timing, estimate, restrict)) for timing in (OTHERS if early else OTHERS[:1])]
+    if early and others[-1][1].delay <= least:  # earlier than any row says: not for its timing
         return None
     for timing, other in others:  # each makes the speeds younger than the one before
-        if (fitted.delay <= least or timing.name == OWN) and _is_likelier(other, fitted):
+        if (fitted.delay <= least or timing is OTHERS[0]) and _is_likelier(other, fitted):
             best, fitted = timing, other
     return None if best is ASSUMED else best
 
