@@ -11,16 +11,12 @@ from dataclasses import replace
 from time import perf_counter
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.backward_elimination import (
-    drop_stand_ins,
-    drop_stand_ins_of_either,
-    eliminate_backward,
-    keep_confirmed,
-)
+from motor_identification.diagnosis.backward_elimination import add_rivals_beside_torque, eliminate_backward
 from motor_identification.diagnosis.determination import drop_undetermined
 from motor_identification.diagnosis.forward_selection import retry_with_another_first, select_forward
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection import Selection, begin_beside_torque, begin_selection
+from motor_identification.diagnosis.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
 from motor_identification.diagnosis.verdict import conclude
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
@@ -99,6 +95,8 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     beside = _select_beside_torque(start, selection, reporter)
     if beside is None:
         selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
+        if selection.model.complete and selection.model.above_floor:
+            selection = add_rivals_beside_torque(selection, reporter)
     elif beside.steps and fits_torque(beside.model.held.gap, start.model.held.gap):
         selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
     else:

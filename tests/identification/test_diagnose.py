@@ -7,8 +7,8 @@ import pytest
 from plant import profiles, record
 
 from motor_identification.diagnose import Request, Stage, Stopped, diagnose
-from motor_identification.diagnosis.candidate_model import validate_model
-from motor_identification.diagnosis.effect_test import likelihood_threshold
+from motor_identification.diagnosis.candidate_fit import validate_model
+from motor_identification.diagnosis.candidate_test import likelihood_threshold
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.thresholds import FALSE_ALARM_RATE
 from motor_identification.estimation.estimate import Estimate

@@ -1,6 +1,6 @@
 """Models of made-up gaps and likelihoods: what rules of acceptance are tested on, on either side of each."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import cast
 
 import numpy as np
@@ -71,3 +71,19 @@ def stub_model(
 def stub_test(effect: str, before: Model, gap: float, evidence: float, lasting: float | None = None) -> CandidateTest:
     """A test of an effect that lowers the gap to this, with this evidence."""
     return CandidateTest(effect, before, stub_model(gap, lasting, before.likelihood + evidence))
+
+
+@dataclass(frozen=True)
+class NamedModel(StubModel):
+    """A stub of said effects."""
+
+    names: tuple[str, ...] = ()
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        return self.names
+
+
+def with_effects(model: Model, *effects: str) -> Model:
+    """The stub as one that has these effects."""
+    return NamedModel(**{field.name: getattr(model, field.name) for field in fields(model)}, names=effects)

@@ -1,37 +1,26 @@
-"""Validate candidate models on held-out data, and judge what they leave: noise, structure or a random torque."""
+"""Hold a candidate model, and judge what it leaves: noise, structure or a random torque."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from math import exp, sqrt
 
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.disturbed_fit import fit_beside_torque, list_error_data
-from motor_identification.diagnosis.torque_evidence import (
-    compute_price,
-    mark_common_set,
-    score_held_out,
-    score_training,
-)
+from motor_identification.diagnosis.disturbed_fit import list_error_data
 from motor_identification.discrepancy.motion_history import make_history
 from motor_identification.discrepancy.structure import Rest, Structure, find_structure
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.least_squares import fit_speeds
-from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.noise.error_data import make_error_data
 from motor_identification.noise.error_learning import estimate_disturbance, learn_error_model
 from motor_identification.noise.error_model import Disturbance, ErrorModel
-from motor_identification.noise.likelihood import Noise, estimate_noise, log_likelihood
+from motor_identification.noise.likelihood import Noise
 from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.validation.held_out import HeldOut
-from motor_identification.validation.hold_out import HoldOut
-from motor_model.effects import EFFECT_BY_NAME
 
-END_ITERATIONS, END_TOLERANCE = 60, 1e-12
 CURVE_BLOCKS = TimeBlocks(4)  # that curves are judged by where nothing is held out
 
 
@@ -192,66 +181,3 @@ class Model:
 def learn_errors(estimate: Estimate) -> ErrorModel:
     """Learn what sensor and random torque leave of an estimate in its training data."""
     return learn_error_model(list_error_data(estimate), *estimate.lag, None, thresholds.FINAL_EVALUATIONS)
-
-
-def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = None) -> Model:
-    """Validate an estimate on held-out data, under the noise that it leaves in its training data.
-
-    like: a similar model; where that is judged beside a random torque, so is this one.
-    """
-    held = hold_out.validate(estimate)
-    rows = list(zip(estimate.problem.intervals, estimate.increments, strict=True))
-    noise = estimate_noise(rows)
-    training = sum(log_likelihood(data, increments, noise) for data, increments in rows)
-    if held.seen:
-        model = Model(estimate, held, noise, training - compute_price(estimate))
-    else:
-        model = Model(estimate, held, noise, held.log_likelihood(noise), training)
-    if like is None or not like.beside_torque:
-        return model
-    return judge_beside_torque(model, hold_out, like.learned, thresholds.CANDIDATE_EVALUATIONS)
-
-
-def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | None, evaluations: int) -> Model:
-    """Judge a model beside a random torque: its errors are learned, from a guess if there is one."""
-    rows, lag = list_error_data(model.estimate), model.estimate.lag
-    errors = learn_error_model(rows, *lag, guess, evaluations)
-    held, training = score_held_out(hold_out, model.held, errors, lag), score_training(model.estimate, rows, errors)
-    parts = (training,) if model.held.seen else (held, training)
-    return replace(
-        model,
-        learned=errors,
-        likelihood=sum(part.likelihood for part in parts),
-        training=0.0,
-        held_out=held.likelihood,
-        scored=sum(map(np.count_nonzero, mark_common_set(hold_out))),
-        moments=np.concatenate([part.moments for part in parts]),
-    )
-
-
-def refine_beside_torque(model: Model, hold_out: HoldOut) -> Model:
-    """Fit a model again beside the torque that it leaves itself, less than was left before, where that is better."""
-    assert model.learned is not None
-    plain = validate_model(hold_out, fit_beside_torque(model.estimate, model.learned))
-    again = judge_beside_torque(plain, hold_out, None, thresholds.FINAL_EVALUATIONS)
-    return again if again.likelihood > model.likelihood else model
-
-
-def fit_again(model: Model, hold_out: HoldOut) -> Model:
-    """Fit a model again from where it is, until nothing is gained, and judge it as before."""
-    if model.learned is None:
-        return validate_model(hold_out, fit_speeds(model.estimate))
-    fitted = fit_beside_torque(model.estimate, model.learned, END_ITERATIONS, END_TOLERANCE)
-    return judge_beside_torque(validate_model(hold_out, fitted), hold_out, None, thresholds.FINAL_EVALUATIONS)
-
-
-def refit_without(model: Model, effect: str, hold_out: HoldOut) -> Model:
-    """Fit a model again without one effect, and without what there is only with it, from where it is."""
-    current = model.estimate
-    left = tuple(name for name in model.effects if name != effect and EFFECT_BY_NAME[name].implies != effect)
-    smaller = current.problem.with_effects(left)
-    start = map_theta(current.problem.unknowns, current.theta, smaller.unknowns, {})
-    begin = Estimate(smaller, start, current.simulations)
-    fitted = fit_speeds(begin) if model.learned is None else fit_beside_torque(begin, model.learned)
-    again = validate_model(hold_out, fitted, model)
-    return refine_beside_torque(again, hold_out) if again.beside_torque else again

@@ -2,10 +2,11 @@
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import log
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.torque_evidence import measure_steadiness
+from motor_identification.diagnosis.evidence.torque_evidence import measure_steadiness
 from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -68,15 +69,19 @@ class CandidateTest:
     def relevant(self) -> bool:
         """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual."""
         if self.model.beside_torque:
-            line = EFFECT_BY_NAME[self.effect].periodic  # fast beside a torque that most of the gap may be of
-            most = self.held_before.gap * (thresholds.GAP_CHANCE if line else 1.0)
-            shrinks = self.model.held.gap <= most and self.model.held_out > self.before.held_out
-            return shrinks and 2.0 * self.steadiness > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
+            # A slow torque, which most of the gap may be of, is another one beside what is fast or speaks for itself.
+            said = self.model.held_out - self.before.held_out
+            free = EFFECT_BY_NAME[self.effect].periodic or said > likelihood_threshold()
+            shrinks = self.model.held.gap <= self.held_before.gap * (thresholds.GAP_CHANCE if free else 1.0)
+            return (
+                shrinks and said > 0.0 and 2.0 * self.steadiness > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
+            )
         before, after = self._lasting_before, self.model.lasting
         floor = after.floor(self.model.noise.share)
         if before.gap < (thresholds.SEEN_GAP if before.seen else thresholds.RELEVANT_GAP) * floor:
             return False
-        near = before.gap < thresholds.NEAR_FLOOR * floor or self.has_instants
+        near_floor = thresholds.NEAR_FLOOR_SEEN if before.seen else thresholds.NEAR_FLOOR
+        near = before.gap < near_floor * floor or self.has_instants
         least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE
         return self.model.held.gap < self.held_before.gap and share_explained(before.gap, after.gap, floor) > least
 
@@ -84,3 +89,8 @@ class CandidateTest:
 def share_explained(before: float, after: float, floor: float) -> float:
     """Compute the share of a gap's excess over the noise floor, in squares, that is gone after."""
     return (before**2 - after**2) / (before**2 - floor**2) if before > floor else 1.0
+
+
+def likelihood_threshold() -> float:
+    """Compute what a log likelihood ratio has to exceed, by Markov's inequality for all effects together."""
+    return log(len(EFFECT_BY_NAME) / thresholds.FALSE_ALARM_RATE)

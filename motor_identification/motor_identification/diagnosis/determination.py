@@ -4,9 +4,10 @@ from dataclasses import replace
 from math import inf
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward, replace_step
+from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.effect_test import likelihood_threshold, sort_by_table, try_effects
+from motor_identification.diagnosis.candidate_test import likelihood_threshold
+from motor_identification.diagnosis.effect_test import sort_by_table, try_effects
 from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
@@ -23,16 +24,23 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
     has a size by chance, predicts no better with it and leaves a complete model, is not named.
     """
     dropped: list[str] = []
-    while weak := [step for step in selection.steps if step.found.effect in find_undetermined(selection.model)]:
+    settled: set[tuple[frozenset[str], str]] = set()  # in which company an effect stays, or was exchanged once
+    while weak := [
+        step
+        for step in selection.steps
+        if step.found.effect in find_undetermined(selection.model)
+        and (frozenset(selection.model.effects), step.found.effect) not in settled
+    ]:
+        reporter.report("checking what is determined", 0.95, "", selection.model.held.gap)
         without = {step.found.effect: drop_step(selection, step) for step in weak}
-        weak = [step for step in weak if not _is_needed(selection.model, without[step.found.effect].model, step)]
-        if not weak:
-            break
         step = max(weak, key=lambda one: without[one.found.effect].model.likelihood)
         smaller = without[step.found.effect]
+        settled.add((frozenset(selection.model.effects), step.found.effect))
         rival = _replace_by_rival(selection, step, smaller.model)
         if rival is not None:
             selection = rival
+            continue
+        if is_needed(step, selection.model, smaller.model):
             continue
         if not (smaller.model.complete and is_chance_size(step.found.effect, selection.model)):
             dropped += [step.found.effect, *step.rivals]
@@ -42,12 +50,17 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
     return selection, sort_by_table(set(dropped) - set(selection.model.effects))
 
 
-def _is_needed(model: Model, without: Model, step: SelectionStep) -> bool:
-    """Decide whether what has its time in a recording is seen in the gap: one block of time tells it, with wide errors.
+def is_needed(step: SelectionStep, model: Model, without: Model) -> bool:
+    """Decide whether a finding is seen in the gap: one block of time tells it, with wide errors.
 
-    Such as an instant, or a warming-up of which only the product of rise and rate shows.
+    Such as an instant, a warming-up of which only the product of rise and rate shows, or a friction that one slow step
+    of a staircase tells; not where that is one of several effects, or ended at a limit of the search.
     """
-    return EFFECT_BY_NAME[step.found.effect].anywhere and without.held.gap > thresholds.WORSE_GAP * model.held.gap
+    effect = EFFECT_BY_NAME[step.found.effect]
+    told = effect.anywhere or not (
+        step.rivals or any(spec.name in find_limits_hit(model) for spec in effect.parameters)
+    )
+    return told and without.held.gap > thresholds.WORSE_GAP * model.held.gap
 
 
 def _replace_by_rival(selection: Selection, step: SelectionStep, without: Model) -> Selection | None:
@@ -59,7 +72,7 @@ def _replace_by_rival(selection: Selection, step: SelectionStep, without: Model)
         alike = test.model.likelihood > selection.model.likelihood - thresholds.RIVAL_MARGIN
         if alike and not is_undetermined(test.effect, _find_unknown(test.model)):
             others = sort_by_table({step.found.effect, *step.rivals} - {test.effect})
-            return replace_step(selection, step, replace(step, found=test, rivals=others), test.model)
+            return selection.replace_step(step, replace(step, found=test, rivals=others), test.model)
     return None
 
 

@@ -3,11 +3,12 @@
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from math import log, sqrt, tau
+from math import sqrt, tau
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import Model, refine_beside_torque, validate_model
-from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.candidate_fit import refine_beside_torque, validate_model
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.validation.hold_out import HoldOut
 from motor_identification.validation.instants import needs_instant
@@ -63,11 +64,6 @@ def _try_effect(current: Model, hold_out: HoldOut, effect: str, least: float) ->
     if not current.beside_torque or test.evidence <= 0.0:
         return test
     return replace(test, model=refine_beside_torque(test.model, hold_out))
-
-
-def likelihood_threshold() -> float:
-    """Compute what a log likelihood ratio has to exceed, by Markov's inequality for all effects together."""
-    return log(len(EFFECT_BY_NAME) / thresholds.FALSE_ALARM_RATE)
 
 
 def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:

@@ -8,17 +8,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import (
-    Model,
-    refit_without,
-)
-from motor_identification.diagnosis.candidate_test import CandidateTest, share_explained
+from motor_identification.diagnosis.candidate_fit import refit_without
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, share_explained
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
     choose_finding,
     count_parameters,
     find_rivals,
-    likelihood_threshold,
     list_candidates,
     sort_by_table,
     try_effects,
@@ -180,9 +177,7 @@ def _add_rival(selection: Selection, likelier: Selection) -> Selection:
 
 
 def list_other_firsts(first: SelectionStep) -> list[CandidateTest]:
-    """List the tests, best first, that were nearly as likely as a first step that leaves a visible part unexplained."""
-    if first.explains > thresholds.STAND_IN_SHARE:
-        return []
+    """List the tests, best first, that were nearly as likely as a first step."""
     likely = max(thresholds.SECOND_START_EVIDENCE * first.found.evidence, likelihood_threshold())
     others = [test for test in first.tests if test is not first.found and test.evidence > likely]
     return others[: thresholds.SECOND_STARTS]

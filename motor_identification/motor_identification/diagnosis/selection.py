@@ -1,11 +1,12 @@
 """Hold a stepwise selection: its steps, the model they lead to, and how that is fitted again after each."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import Model, judge_beside_torque, learn_errors, validate_model
+from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
+from motor_identification.diagnosis.candidate_model import Model, learn_errors
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.disturbed_fit import fit_beside_torque
 from motor_identification.estimation.direction_correction import correct_directions
@@ -41,6 +42,12 @@ class Selection:
         if last.beside_torque:
             return begin_beside_torque(last, self.hold_out, self.workers, every)
         return begin_selection(last.estimate, self.hold_out, self.workers, every)
+
+    def replace_step(self, step: SelectionStep, by: SelectionStep | None, model: Model) -> "Selection":
+        """Put another step, or none, instead of one; steps that the model does not have go too."""
+        steps = [by if one is step else one for one in self.steps]
+        kept = tuple(one for one in steps if one and one.found.effect in model.effects)
+        return replace(self, steps=kept, model=model)
 
 
 def begin_beside_torque(

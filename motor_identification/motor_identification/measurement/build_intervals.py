@@ -14,15 +14,18 @@ from motor_identification.measurement.intervals import Intervals, append_standst
 from motor_identification.measurement.sampled_counts import Changes, extract_count_changes, locate_fixes
 from motor_identification.measurement.sanity_checks import check_counts
 from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals
-from motor_identification.recording import Recording
+from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.held_counts import drop_held_counts
 from motor_identification.sensor.noisy_angle import find_angle_noise
-from motor_identification.sensor.speed_sensor import find_speed_sensor
+from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
 
 # Of both channels' flanks, against those of one: duty cycle and phase of cheap sensors are off by a third of a slot.
 UNEVENNESS = 7.0
+# Relative to the window of a logged speed: rows as long as that are its windows, though their stamps jitter. Counts
+# were divided by the length that their lattice shows, what is on no lattice by that of its own row.
+SAME_ROW, OWN_ROW = 0.01, 0.5
 
 
 def make_intervals(recording: Recording) -> Intervals:
@@ -107,8 +110,7 @@ def _from_noisy_angles(recording: Recording, noise: float) -> Intervals:
 def _from_speed(recording: Recording) -> Intervals:
     """A logged speed is a mean over the source's window, with the noise that was said or is found in the values."""
     sensor = find_speed_sensor(recording)
-    middle = sensor.time - sensor.lag
-    start, end = middle - 0.5 * sensor.window, middle + 0.5 * sensor.window
+    start, end = _find_windows(sensor)
     inside = start >= -1e-9
     start, end = np.round(np.maximum(start[inside], 0.0), 9), np.round(end[inside], 9)
     # A mean of counts is off by what the angle at either end is truncated by; white noise belongs to each value alone.
@@ -123,6 +125,17 @@ def _from_speed(recording: Recording) -> Intervals:
         window=sensor.window,
         noise=noise,
     )
+
+
+def _find_windows(sensor: SpeedSensor) -> tuple[Floats, Floats]:
+    """[s] where the window of each speed starts and ends: at the value before, where windows and rows are as long."""
+    end = sensor.time - sensor.lag + 0.5 * sensor.window
+    start = end - sensor.window
+    row = np.diff(end, prepend=-np.inf)
+    if abs(float(np.median(row[1:])) - sensor.window) <= SAME_ROW * sensor.window:
+        chained = np.abs(row - sensor.window) <= (SAME_ROW if sensor.step > 0.0 else OWN_ROW) * sensor.window
+        start[chained] -= (row - sensor.window)[chained]
+    return start, end
 
 
 _READERS = {Measurement.EDGES: _from_edges, Measurement.COUNTS: _from_counts, Measurement.SPEED: _from_speed}

@@ -34,6 +34,8 @@ def align_runs(sums: Floats, turn: float) -> Aligned:
 
     sums: for every run ss, sc, cc, sw, cw with s and c the responses to sine and cosine, w the residual; shape (B, 5).
     """
+    if turn == 0.0:  # nothing was counted, and nothing slips
+        return _align_without_slips(sums)
     step = turn / STEPS_PER_SLOT
     alone = _best(sums)
     weight = alone[int(np.argmax(alone.real * sums[:, 3] + alone.imag * sums[:, 4]))]
@@ -47,6 +49,12 @@ def align_runs(sums: Floats, turn: float) -> Aligned:
             break
         before = slips.copy()
     return Aligned(complex(weight), slips / STEPS_PER_SLOT, explained)
+
+
+def _align_without_slips(sums: Floats) -> Aligned:
+    whole = sums.sum(axis=0)
+    weight = complex(_best(whole))
+    return Aligned(weight, np.zeros(len(sums)), weight.real * whole[3] + weight.imag * whole[4])
 
 
 def _best(sums: Floats) -> NDArray[np.complex128]:

@@ -7,26 +7,22 @@ from typing import cast
 import numpy as np
 import pytest
 from diagnosed import fitted
-from stub_models import stub_model, stub_test
+from stub_models import stub_model, stub_test, with_effects
 
 from motor_identification.diagnosis import backward_elimination, thresholds
 from motor_identification.diagnosis.backward_elimination import (
+    add_rivals_beside_torque,
     choose_better,
-    drop_stand_ins,
-    drop_stand_ins_of_either,
     eliminate_backward,
     find_loss,
     is_better,
-    keep_confirmed,
     list_replacements,
-    stands_in_for_curve,
 )
-from motor_identification.diagnosis.candidate_model import Model, validate_model
-from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.candidate_fit import validate_model
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_fit import fit_with_effect
-from motor_identification.diagnosis.effect_test import likelihood_threshold
 from motor_identification.diagnosis.selection import Selection, SelectionStep
-from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import Floats
@@ -47,75 +43,6 @@ def step_of(effect: str, explains: float) -> SelectionStep:
     return SelectionStep(before, found, (found,), (), explains)
 
 
-@pytest.mark.parametrize(("times", "kept"), [(BELOW, 0), (ABOVE, 2)])
-def test_a_stand_in_goes_and_all_that_was_found_after_it(times: float, kept: int) -> None:
-    steps = step_of("quadratic_drag", times * thresholds.STAND_IN_SHARE), step_of("load_bias", 0.99)
-    left = drop_stand_ins(selection_of(5.0, *steps))
-    assert left.steps == steps[:kept]
-    assert (left.model is steps[0].before) == (kept == 0)
-
-
-@pytest.mark.parametrize(("times", "kept"), [(BELOW, 1), (ABOVE, 0)])
-def test_at_the_floor_nothing_stands_in(times: float, kept: int) -> None:
-    selection = selection_of(times * thresholds.EXPLAINED_GAP, step_of("load_bias", 0.5))
-    assert len(drop_stand_ins(selection).steps) == kept
-
-
-@pytest.mark.parametrize("held", [True, False])
-def test_what_holds_the_motor_is_its_own_evidence_where_it_explains_standstills(
-    monkeypatch: pytest.MonkeyPatch, held: bool
-) -> None:
-    asked: list[tuple[Model, Model]] = []
-    monkeypatch.setattr(
-        backward_elimination, "explains_standstills", lambda *models: bool(asked.append(models)) or held
-    )
-    steps = step_of("coulomb_friction", 0.7), step_of("quadratic_drag", 0.3)
-    left = drop_stand_ins(selection_of(5.0, *steps))
-    assert left.steps == steps[: int(held)] and left.model is (steps[1].before if held else steps[0].before)
-    assert asked == [(steps[0].before, steps[1].before)]
-
-
-@pytest.mark.parametrize(
-    ("effect", "explains", "left", "kept"),
-    [
-        ("transport_delay", ABOVE * thresholds.APART_SHARE, ("spectrum",), 1),
-        ("transport_delay", BELOW * thresholds.APART_SHARE, ("spectrum",), 0),
-        ("transport_delay", 0.9, ("spectrum", "past"), 0),  # its own variable: it may stand in for another lag
-        ("transport_delay", 0.9, (), 0),
-        ("warm_up", 0.9, ("time",), 0),
-        ("coulomb_friction", 0.9, ("angle", "time"), 1),
-    ],
-)
-def test_what_only_angle_or_time_predict_is_nothing_that_a_finding_stands_in_for(
-    effect: str, explains: float, left: tuple[str, ...], kept: int
-) -> None:
-    selection = selection_of(5.0, step_of(effect, explains))
-    rest = tuple(Structure(name, 0.5, 100.0) for name in left)
-    model = cast(Model, SimpleNamespace(complete=False, structure=rest))
-    assert len(drop_stand_ins(replace(selection, model=model)).steps) == kept
-
-
-@pytest.mark.parametrize(
-    ("effect", "explains", "drive", "kept"),
-    [
-        ("coulomb_friction", ABOVE * thresholds.APART_SHARE, BELOW * thresholds.MINOR_SHARE, 1),
-        ("coulomb_friction", BELOW * thresholds.APART_SHARE, BELOW * thresholds.MINOR_SHARE, 0),
-        ("coulomb_friction", 0.9, ABOVE * thresholds.MINOR_SHARE, 0),
-        ("quadratic_drag", 0.9, BELOW * thresholds.MINOR_SHARE, 0),
-    ],
-)
-def test_friction_stands_in_for_nothing_that_goes_with_the_past(
-    monkeypatch: pytest.MonkeyPatch, effect: str, explains: float, drive: float, kept: int
-) -> None:
-    monkeypatch.setattr(backward_elimination, "explains_standstills", lambda *models: False)
-    rest = (Structure("past", 0.8, 100.0), Structure("drive", 0.8 * drive, 100.0))
-    model = cast(Model, SimpleNamespace(complete=False, structure=rest))
-    assert len(drop_stand_ins(replace(selection_of(5.0, step_of(effect, explains)), model=model)).steps) == kept
-    left = replace(rest[0], significance=0.0)  # no curve over the past is certain
-    model = cast(Model, SimpleNamespace(complete=False, structure=(left, rest[1])))
-    assert not drop_stand_ins(replace(selection_of(5.0, step_of(effect, explains)), model=model)).steps
-
-
 @pytest.mark.parametrize(("likelihood", "better"), [(90.0, False), (110.0, True)])
 def test_a_model_is_judged_by_the_errors_of_one_without_an_effect_too(
     monkeypatch: pytest.MonkeyPatch, likelihood: float, better: bool
@@ -131,45 +58,6 @@ def test_a_model_is_judged_by_the_errors_of_one_without_an_effect_too(
     monkeypatch.setattr(backward_elimination, "judge_beside_torque", judged)
     chosen = backward_elimination._judge_by_errors_of(other, model, fitted()[1])
     assert chosen is (again if better else model) and asked == [(model, other)]
-
-
-@pytest.mark.parametrize(
-    ("times", "variable", "beside", "stands_in"),
-    [
-        (BELOW, "past", True, True),
-        (ABOVE, "past", True, False),
-        (BELOW, "speed", True, False),
-        (BELOW, "past", False, False),
-    ],
-)
-def test_what_a_curve_over_the_past_predicts_as_well_is_no_backlash(
-    times: float, variable: str, beside: bool, stands_in: bool
-) -> None:
-    """With a gap of 5 before, 3 after and a floor of 1 rad/s it explains 16 parts of 24."""
-    curve = Structure(variable, 16.0 / 24.0 / thresholds.CURVE_MARGIN / times, 100.0)
-    without = cast(Model, SimpleNamespace(structure=(curve,), held=SimpleNamespace(gap=5.0)))
-    current = cast(Model, SimpleNamespace(beside_torque=beside, held=SimpleNamespace(gap=3.0), sensor_floor=1.0))
-    assert stands_in_for_curve(without, current) is stands_in
-
-
-def test_of_two_selections_the_one_that_keeps_more() -> None:
-    poor, rich = selection_of(4.0, step_of("load_bias", 0.9)), selection_of(5.0, step_of("load_bias", 0.99))
-    assert drop_stand_ins_of_either(rich, poor).steps == rich.steps == drop_stand_ins_of_either(poor, rich).steps
-    done = selection_of(1.0)
-    assert drop_stand_ins_of_either(rich, done) is done
-
-
-def test_findings_that_another_selection_confirms_are_kept() -> None:
-    steps = step_of("coulomb_friction", 0.7), step_of("quadratic_drag", 0.3), step_of("load_bias", 0.3)
-    selection = selection_of(5.0, *steps)
-    kept = keep_confirmed(selection, ("coulomb_friction", "load_bias", "backlash"))
-    assert kept.steps == steps[:1] and kept.model is steps[1].before
-    assert keep_confirmed(selection, ("coulomb_friction", "quadratic_drag", "load_bias")) is selection
-
-
-def test_a_line_in_the_spectrum_is_its_own_evidence() -> None:
-    steps = step_of("torque_ripple", 0.1), step_of("load_bias", 0.99)
-    assert drop_stand_ins(selection_of(5.0, *steps)).steps == steps
 
 
 def test_of_what_is_as_much_better_the_most_common_replaces_a_finding() -> None:
@@ -209,6 +97,10 @@ def test_replacements_were_likely_where_it_was_found_and_are_not_there_already()
     step = SelectionStep(before, found, (found, *tests), (), 0.99)
     assert list_replacements(step, (), ("load_bias",)) == ["dead_zone", "quadratic_drag", "supply_sag"]
     assert len(list_replacements(step, (), ())) == thresholds.ELIMINATION_RIVALS
+    alike = replace(step, rivals=("voltage_limit", "direction_asymmetry"))  # whatever was likelier there
+    assert list_replacements(alike, (), ("load_bias",)) == ["voltage_limit", "direction_asymmetry", "dead_zone"]
+    many = replace(step, rivals=names)
+    assert list_replacements(many, (), ()) == list(names)
     weak = SelectionStep(before, found, (found, stub_test("dead_zone", before, 5.0, BELOW * least)), (), 0.99)
     assert list_replacements(weak, (), ()) == []
 
@@ -264,3 +156,74 @@ def test_what_moves_nearly_alike_is_fitted_to_the_end_before_it_is_called_less_l
         monkeypatch.setattr(backward_elimination, "fit_again", lambda model, hold_out, again=again: again)
         found = backward_elimination._settle(tried, current, cast(HoldOut, None)).model
         assert found is (again if settled and better else tried.model)
+
+
+@pytest.mark.parametrize(
+    ("evidence", "loss", "rivals"),
+    [
+        (BELOW * thresholds.TIE_LIKELIHOOD, 0.0, ()),  # it does nothing
+        (ABOVE * thresholds.TIE_LIKELIHOOD, BELOW * thresholds.RIVAL_MARGIN, ("coulomb_friction",)),
+        (ABOVE * thresholds.TIE_LIKELIHOOD, ABOVE * thresholds.RIVAL_MARGIN, ()),
+    ],
+)
+def test_what_does_as_well_beside_the_torque_that_is_left_is_a_rival(
+    monkeypatch: pytest.MonkeyPatch, evidence: float, loss: float, rivals: tuple[str, ...]
+) -> None:
+    """As if the rest was white a dead zone had been likelier than the friction that is there, by hundreds."""
+    before, friction = stub_model(9.0), stub_model(2.4, likelihood=0.0)
+    found, other = (
+        stub_test("dead_zone", before, 5.0, 900.0),
+        stub_test("coulomb_friction", before, 5.0, 600.0),
+    )
+    selection = selection_of(2.0, SelectionStep(before, found, (found, other), (), 0.99))
+    begun = replace(selection, model=with_effects(stub_model(2.0, likelihood=loss), "dead_zone"))
+    without = with_effects(stub_model(4.0, likelihood=-evidence))
+    monkeypatch.setattr(backward_elimination, "begin_beside_torque", lambda *_: begun)
+    monkeypatch.setattr(backward_elimination, "refit_without", lambda model, *_: without if model is begun.model else 0)
+    monkeypatch.setattr(
+        backward_elimination,
+        "try_effects",
+        lambda model, hold_out, names, *_: [CandidateTest(name, model, friction) for name in names],
+    )
+    left = add_rivals_beside_torque(selection, SILENT)
+    assert left.steps == (replace(selection.steps[0], rivals=rivals),) and left.model is selection.model
+
+
+@pytest.mark.parametrize(
+    ("gap", "likelihood", "again", "caught_up"),
+    [
+        (BELOW * thresholds.GAP_CHANCE, -499.0, -440.0, True),  # the other was fitted further, and is no better
+        (ABOVE * thresholds.GAP_CHANCE, -499.0, -440.0, False),
+        (BELOW * thresholds.GAP_CHANCE, -501.0, -440.0, False),
+        (BELOW * thresholds.GAP_CHANCE, -499.0, -510.0, False),
+    ],
+)
+def test_the_model_is_fitted_to_the_end_before_another_is_called_likelier(
+    monkeypatch: pytest.MonkeyPatch, gap: float, likelihood: float, again: float, caught_up: bool
+) -> None:
+    current, fitted_again = stub_model(1.0, 0.0, likelihood=-500.0), stub_model(1.0, 0.0, likelihood=again)
+    test = CandidateTest("load_step", stub_model(9.0), stub_model(gap, 0.0, likelihood=likelihood))
+    monkeypatch.setattr(backward_elimination, "fit_again", lambda *_: fitted_again)
+    left = backward_elimination._catch_up(current, [test], cast(HoldOut, None))
+    assert left is (fitted_again if caught_up else current)
+
+
+@pytest.mark.parametrize(
+    ("effect", "instead", "loss", "alike"),
+    [
+        ("coulomb_friction", "load_bias", BELOW * thresholds.RIVAL_MARGIN, True),  # the same, where nothing turns back
+        ("coulomb_friction", "load_bias", ABOVE * thresholds.RIVAL_MARGIN, False),
+        ("load_step", "load_bias", 0.0, False),  # it has an instant, too
+    ],
+)
+def test_what_is_replaced_is_a_rival_if_it_is_as_likely_from_where_the_other_leads(
+    monkeypatch: pytest.MonkeyPatch, effect: str, instead: str, loss: float, alike: bool
+) -> None:
+    bare, better = stub_model(5.0, likelihood=-900.0), stub_model(1.0, likelihood=-100.0)
+    again = stub_model(1.0, likelihood=-100.0 - loss)
+    monkeypatch.setattr(backward_elimination, "refit_without", lambda *_: bare)
+    monkeypatch.setattr(
+        backward_elimination, "try_effects", lambda model, _, names, *__: [CandidateTest(*names, model, again)]
+    )
+    test = CandidateTest(instead, bare, better)
+    assert backward_elimination._is_as_likely_from_there(effect, test, selection_of(2.0)) is alike

@@ -1,37 +1,37 @@
-"""A model is judged by what it leaves, in its training data and in held-out motion."""
+"""A model says what it leaves: noise, what lasts, and what no curve predicts of it."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from diagnosed import fitted
+from stub_models import FLOOR, stub_model
 
-from motor_identification.diagnosis.candidate_model import judge_beside_torque, validate_model
-from motor_identification.diagnosis.disturbed_fit import list_error_data
-from motor_identification.diagnosis.torque_evidence import compute_price, score_training
-from motor_identification.measurement.time_blocks import TimeBlocks
-from motor_identification.validation.hold_out import WholeRecordings
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_fit import validate_model
 
 
-def test_a_models_noise_is_that_of_its_training_data() -> None:
-    """The disc of 0.3 % is seen by the right motor; a wrong one's error passes for drift, and it is less likely."""
+@pytest.mark.parametrize(("times", "above"), [(0.999, False), (1.001, True)])
+def test_what_a_model_leaves_is_beside_the_floor(times: float, above: bool) -> None:
+    model = stub_model(times * thresholds.EXPLAINED_GAP * FLOOR, 0.0)
+    assert model.above_floor is above and model.at_floor is not above and model.complete is not above
+
+
+def test_of_the_gap_is_unpredictable_what_no_curve_predicts_but_never_less_than_the_floor() -> None:
+    structured = stub_model(5.0, 0.0)
+    assert structured.unpredictable_gap == FLOOR and not structured.complete  # all of it is structure
+    random = replace(structured, random=True)
+    assert random.unpredictable_gap == random.held.gap == pytest.approx(5.0) and random.complete
+
+
+def test_a_complete_model_leaves_the_sensors_noise_and_no_structure() -> None:
     estimate, hold_out = fitted()
-    complete = validate_model(hold_out, estimate)
-    assert 0.002 < complete.noise.share < 0.004 and complete.noise.drift < 1e-6
-    assert complete.at_floor and not complete.above_floor
+    model = validate_model(hold_out, estimate)
+    assert model.structure == () and model.errors.share == model.noise.share and not model.errors.rms_voltage
+    assert model.noise_floor == pytest.approx(model.sensor_floor) and model.sensor_floor == pytest.approx(model.floor)
     lacking, other = fitted(ks=0.4)
     wrong = validate_model(other, lacking)
-    assert wrong.noise.drift > 1e-4 and wrong.above_floor and not wrong.at_floor and not wrong.quiet
-    assert wrong.likelihood < complete.likelihood - 1000.0
-    assert np.isfinite(wrong.likelihood)
-
-
-def test_where_nothing_is_held_out_all_motion_counts_once_less_the_price_of_the_unknowns() -> None:
-    estimate, _ = fitted()
-    whole = WholeRecordings(estimate.problem, TimeBlocks(1), False)
-    model = validate_model(whole, estimate)
-    assert model.held.seen and model.training == 0.0 and model.held.counted.mean() > 0.99
-    assert model.likelihood == pytest.approx(model.held.log_likelihood(model.noise) - compute_price(estimate), abs=1.0)
-    beside = judge_beside_torque(model, whole, None, 40)
-    assert beside.learned is not None
-    alone = score_training(estimate, list_error_data(estimate), beside.learned)
-    assert beside.likelihood == alone.likelihood and len(beside.moments) == len(alone.moments)
-    assert len(model.structure) == 0 or not model.structure[0].certain  # judged by other blocks than it is learnt on
+    assert wrong.structure[0].certain and wrong.structure[0].share > 0.5 and wrong.errors.rms_voltage > 0.01
+    assert wrong.floor < wrong.sensor_floor < 0.2 * wrong.noise_floor  # friction passes for a torque rather than slots
+    scatter = wrong.scatter_of_travel()
+    assert all(np.all(part > 0.0) for part in scatter) and len(scatter) == len(wrong.held.intervals)

@@ -5,7 +5,7 @@ import pytest
 from diagnosed import fitted
 from plant import profiles, record
 
-from motor_identification.diagnosis.candidate_model import validate_model
+from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.detectability import find_undetectable, remove_imitation
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds

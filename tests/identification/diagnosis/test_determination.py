@@ -8,16 +8,19 @@ import numpy as np
 import pytest
 from diagnosed import fitted, with_effect
 from plant import profiles, record
+from stub_models import stub_model, with_effects
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis import determination, thresholds
-from motor_identification.diagnosis.candidate_model import Model, validate_model
+from motor_identification.diagnosis.candidate_fit import validate_model
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.determination import (
     drop_undetermined,
     find_limits_hit,
     find_undetermined,
     is_chance_size,
+    is_needed,
     is_undetermined,
 )
 from motor_identification.diagnosis.result import Verdict
@@ -104,6 +107,53 @@ def test_a_step_that_predicts_is_no_chance(monkeypatch: pytest.MonkeyPatch) -> N
     selection = Selection((found_step(before, after, "load_step"),), after, hold_out, 1)
     monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: True)
     assert drop_undetermined(selection, SILENT) == (selection, ())
+
+
+@pytest.mark.parametrize(
+    ("effect", "rivals", "limits", "times", "needed"),
+    [
+        ("coulomb_friction", (), (), 1.001, True),
+        ("coulomb_friction", (), (), 0.999, False),
+        ("coulomb_friction", ("dead_zone",), (), 1.001, False),
+        ("coulomb_friction", (), ("ks",), 1.001, False),  # a limit of the search is no value
+        ("coulomb_friction", (), ("drag",), 1.001, True),
+        ("load_step", ("coulomb_friction",), ("step_voltage",), 1.001, True),
+    ],
+)
+def test_what_the_gap_shows_is_needed_though_its_errors_are_wide(
+    monkeypatch: pytest.MonkeyPatch,
+    effect: str,
+    rivals: tuple[str, ...],
+    limits: tuple[str, ...],
+    times: float,
+    needed: bool,
+) -> None:
+    monkeypatch.setattr(determination, "find_limits_hit", lambda model: limits)
+    model, without = stub_model(2.0, 0.0), stub_model(2.0 * times * thresholds.WORSE_GAP, 0.0)
+    assert is_needed(found_step(without, model, effect, rivals), model, without) is needed
+
+
+def test_an_exchange_of_rivals_in_a_circle_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither of two that do each other's work is determined, and each gives way to the other."""
+    models = {name: with_effects(stub_model(2.0, 0.0), name) for name in ("coulomb_friction", "dead_zone")}
+    plain, other = (
+        with_effects(stub_model(5.0, 0.0)),
+        {"coulomb_friction": "dead_zone", "dead_zone": "coulomb_friction"},
+    )
+    start = found_step(plain, models["dead_zone"], "dead_zone", ("coulomb_friction",))
+    asked: list[str] = []
+
+    def exchange(selection: Selection, step: SelectionStep, without: Model) -> Selection:
+        name = other[step.found.effect]
+        asked.append(name)
+        assert len(asked) < 10
+        return selection.replace_step(step, found_step(plain, models[name], name, (step.found.effect,)), models[name])
+
+    monkeypatch.setattr(determination, "find_undetermined", lambda model: model.effects)
+    monkeypatch.setattr(determination, "drop_step", lambda one, step: replace(one, steps=(), model=plain))
+    monkeypatch.setattr(determination, "_replace_by_rival", exchange)
+    left, names = drop_undetermined(Selection((start,), models["dead_zone"], fitted()[1], 1), SILENT)
+    assert names == () and asked == ["coulomb_friction", "dead_zone"] and left.model.effects == ("dead_zone",)
 
 
 def found_step(before: Model, after: Model, effect: str, rivals: tuple[str, ...] = ()) -> SelectionStep:

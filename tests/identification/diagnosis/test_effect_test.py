@@ -6,7 +6,7 @@ import pytest
 from diagnosed import fitted
 from stub_models import stub_model, stub_test
 
-from motor_identification.diagnosis.candidate_model import validate_model
+from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import (
     choose_finding,

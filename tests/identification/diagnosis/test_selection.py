@@ -5,7 +5,7 @@ import pytest
 from diagnosed import fitted, with_effect
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import validate_model
+from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.selection import SelectionStep, begin_selection, may_be_miscounted
 

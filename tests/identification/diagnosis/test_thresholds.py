@@ -10,12 +10,11 @@ from stub_models import LASTING_FLOOR, stub_held, stub_model, stub_test
 
 from motor_identification.diagnose import fits_torque, predicts_far_worse
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     find_rivals,
     is_beyond_chance,
-    likelihood_threshold,
 )
 from motor_identification.recording import Recording
 from motor_model.effects import EFFECTS
@@ -121,6 +120,22 @@ def test_relevant_gap_of_what_the_fit_has_seen(times: float, passes: bool) -> No
 def test_relevant_share(gap: float, lasting: float, share: float, times: float, passes: bool) -> None:
     left = left_after(times * share, lasting, LASTING_FLOOR)
     assert stub_test("load_bias", stub_model(gap, lasting), 0.99 * gap, 100.0, left).relevant is passes
+
+
+@SIDES
+@pytest.mark.parametrize(
+    ("floors", "share"),
+    [
+        (1.01 * thresholds.NEAR_FLOOR_SEEN, thresholds.RELEVANT_SHARE),
+        (0.99 * thresholds.NEAR_FLOOR_SEEN, thresholds.RELEVANT_SHARE_NEAR_FLOOR),
+    ],
+)
+def test_relevant_share_of_what_the_fit_has_seen(floors: float, share: float, times: float, passes: bool) -> None:
+    lasting = floors * LASTING_FLOOR
+    before = stub_model(5.0, lasting)
+    seen = replace(before, held=replace(before.held, seen=True))
+    left = left_after(times * share, lasting, LASTING_FLOOR)
+    assert stub_test("load_bias", seen, 4.9, 100.0, left).relevant is passes
 
 
 @SIDES

@@ -8,12 +8,13 @@ import pytest
 from handmade import PERIOD, SLOTS, turning
 from recorded import as_speed
 
-from motor_identification.measurement.build_intervals import make_intervals
-from motor_identification.recording import Floats
+from motor_identification.measurement.build_intervals import OWN_ROW, SAME_ROW, make_intervals
+from motor_identification.recording import Floats, Recording
 from motor_model.errors import RecordingError
 from motor_model.sample import Measurement
 
 SLOT = tau / SLOTS
+BELOW = 0.99
 
 
 def evenly(time: Floats) -> Floats:
@@ -57,6 +58,38 @@ def test_a_logged_speed_is_a_mean_over_its_window() -> None:
     assert data.speed[late] == pytest.approx(700.0 * SLOT, rel=0.08)  # 14 counts a window, give or take one
     assert data.blur == pytest.approx(SLOT / sqrt(12.0))
     assert data.time[data.last][-1] == pytest.approx(1.0)
+
+
+def jittered(largest: float, counted: bool) -> Recording:
+    """Speeds of rows whose stamps jitter by up to `largest` of a row; on a lattice of counts or with white noise."""
+    logged, random = as_speed(turning(evenly, 1.0)), np.random.default_rng(1)
+    time = logged.time + largest * PERIOD * random.permutation(np.linspace(-0.5, 0.5, len(logged)))
+    time[-20:] += 5.0 * PERIOD  # a pause
+    time -= time[0]
+    row = float(np.median(np.diff(time)))
+    edges = logged.info.edges_per_revolution if counted else 0
+    info = replace(logged.info, edges_per_revolution=edges, sample_period=row, speed_window=row, speed_lag=0.5 * row)
+    speed = logged.speed if counted else 700.0 * SLOT + random.normal(size=len(logged))
+    return replace(logged, sample_time=np.round(time * 1e9).astype(np.int64), info=info, speed=np.asarray(speed))
+
+
+@pytest.mark.parametrize(
+    ("largest", "counted", "chained"),
+    [(BELOW * OWN_ROW, False, True), (0.9, False, False), (BELOW * SAME_ROW, True, True), (0.05, True, False)],
+)
+def test_speeds_of_a_row_are_means_over_it_though_its_stamps_jitter(
+    largest: float, counted: bool, chained: bool
+) -> None:
+    recording = jittered(largest, counted)
+    data = make_intervals(recording)
+    breaks = np.count_nonzero(data.last[:-1] != data.first[1:])
+    assert breaks == 1 if chained else breaks > 10
+    after_pause = data.first[-20]
+    assert data.time[data.last[-20]] - data.time[after_pause] == pytest.approx(
+        recording.info.speed_window
+    )  # not the pause
+    if chained:
+        assert np.delete(data.duration, -20) == pytest.approx(np.delete(np.diff(recording.time), -20), abs=1e-8)
 
 
 @pytest.mark.parametrize(("duration", "enough"), [(0.005, False), (0.015, True)])

@@ -1,6 +1,7 @@
 """A motor that turns when its recording begins is told from one that starts, by its first edges."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -73,8 +74,13 @@ def test_a_slow_motor_is_seen_to_turn_by_a_few_dozen_counts() -> None:
 
 
 def logged(speed: Floats, voltage: Floats) -> Recording:
+    return replace(any_log(), speed=speed, voltage=voltage)
+
+
+@cache
+def any_log() -> Recording:
     recording, _ = record(TRUTH, *profiles.step(10.0, 5.0), seed=0)
-    return replace(as_speed(recording).at_rows(np.arange(400)), speed=speed, voltage=voltage)
+    return as_speed(recording).at_rows(np.arange(400))
 
 
 @pytest.mark.parametrize("counts", [False, True])

@@ -10,6 +10,7 @@ from recorded import as_speed, without_count
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import make_problem
+from motor_identification.noise import error_learning
 from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data
 from motor_identification.noise.error_learning import estimate_disturbance, learn_error_model
 from motor_identification.noise.error_model import ErrorModel
@@ -91,3 +92,20 @@ def test_a_lattice_alone_has_no_noise_beside() -> None:
     rows, _ = log_speeds(0.0, 0.7)
     model = learn_error_model(rows, RATE, KA)
     assert model.share < 0.8 and model.rms_voltage < 0.02
+
+
+def test_a_share_that_was_far_off_does_not_hide_the_right_correlation_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """From the grid's shares a fast torque seems likelier, though the slow one is by 300 where the share is right."""
+    rows = leave(0.0, 0.05, 0.0)
+    far, slow = 0.08, 0.5
+
+    def log_likelihood_of_two_summits(rows: list[ErrorData], model: ErrorModel, rate: float, ka: float) -> float:
+        if model.rms_voltage == 0.0:
+            return -10_000.0 - abs(np.log(max(model.share, 1e-9) / 0.002))
+        off, away = np.log(model.share / far), np.log(model.correlation_time / slow)
+        fast = 1.0 / (1.0 + (model.correlation_time / 0.02) ** 4)  # a plain
+        return -1000.0 * off**2 + 400.0 * np.exp(-(away**2)) + (100.0 + 300.0 * abs(off)) * fast
+
+    monkeypatch.setattr(error_learning, "log_likelihood", log_likelihood_of_two_summits)
+    model = learn_error_model(rows, RATE, KA)
+    assert model.share == pytest.approx(far, rel=0.05) and model.correlation_time == pytest.approx(slow, rel=0.1)

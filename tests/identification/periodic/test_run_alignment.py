@@ -47,3 +47,17 @@ def test_no_run_slips_further_than_the_farthest() -> None:
 def test_runs_that_say_nothing_have_no_wave() -> None:
     found = align_runs(np.zeros((3, 5)), TURN)
     assert found.weight == 0.0 and not found.slips.any() and found.explained == 0.0
+
+
+def test_where_nothing_is_counted_nothing_slips() -> None:
+    """A measured speed has no slots: one wave fits all runs, with what least squares of their sums leave."""
+    random = np.random.default_rng(2)
+    responses, residual = random.normal(size=(3, 50, 2)), random.normal(size=(3, 50))
+    sums = np.array(
+        [[s @ s, s @ c, c @ c, s @ w, c @ w] for (s, c), w in zip(np.moveaxis(responses, -1, 1), residual, strict=True)]
+    )
+    found = align_runs(sums, 0.0)
+    wave, left, *_ = np.linalg.lstsq(responses.reshape(-1, 2), residual.ravel(), rcond=None)
+    assert (found.weight.real, found.weight.imag) == pytest.approx(tuple(wave))
+    assert found.explained == pytest.approx(residual.ravel() @ residual.ravel() - left[0])
+    assert not found.slips.any() and len(found.slips) == 3

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from diagnosed import fitted, held
 
-from motor_identification.diagnosis.candidate_model import validate_model
+from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.measurement.intervals import exclude_intervals
 from motor_identification.noise.likelihood import Noise, log_likelihood
 from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, HeldOut

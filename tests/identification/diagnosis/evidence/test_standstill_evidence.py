@@ -10,9 +10,11 @@ import pytest
 from diagnosed import BASE, with_effect
 from plant import profiles, record
 
-from motor_identification.diagnosis import standstill_evidence, thresholds
-from motor_identification.diagnosis.candidate_model import Model, validate_model
-from motor_identification.diagnosis.standstill_evidence import (
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_fit import validate_model
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.evidence import standstill_evidence
+from motor_identification.diagnosis.evidence.standstill_evidence import (
     explains_standstills,
     find_held_intervals,
     measure_false_motion,

@@ -7,10 +7,11 @@ import pytest
 from diagnosed import fitted, with_effect
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import Model, judge_beside_torque, validate_model
+from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.disturbed_fit import list_error_data
-from motor_identification.diagnosis.torque_evidence import (
+from motor_identification.diagnosis.evidence.torque_evidence import (
     MOMENTS,
     mark_common_set,
     measure_steadiness,

@@ -1,0 +1,101 @@
+"""Drop findings that may only stand in for what is not in the table, where the gap stays above the floor."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_fit import refit_without
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import share_explained
+from motor_identification.diagnosis.evidence.standstill_evidence import explains_standstills
+from motor_identification.diagnosis.selection import Selection
+from motor_identification.discrepancy.free_curves import PAST, REPEATING
+from motor_model.effects import EFFECT_BY_NAME
+
+
+def drop_stand_ins(selection: Selection) -> Selection:
+    """Drop what may only stand in for an effect that is not in the table, where the gap stays above the floor.
+
+    That is every finding that leaves a visible part of what it should explain, and what was found after it; a line in
+    the spectrum over the angle is its own evidence, and so is a standstill under a voltage. Where what is left comes
+    and goes whatever the motor does, no finding that answers its motion stands in for that; and no friction for what
+    goes with the past, such as a sensor's filter.
+    """
+    if selection.model.complete:
+        return selection
+    apart = leaves_mostly(selection.model, REPEATING)
+    past = leaves_mostly(selection.model, (PAST, *REPEATING), thresholds.MINOR_SHARE)
+    for i, step in enumerate(selection.steps):
+        effect = EFFECT_BY_NAME[step.found.effect]
+        answers = (apart and not effect.anywhere) or (past and effect.holds)
+        stays = step.explains > (thresholds.APART_SHARE if answers else thresholds.STAND_IN_SHARE)
+        after = selection.steps[i + 1].before if i + 1 < len(selection.steps) else selection.model
+        if not stays and not is_own_evidence(step.found.effect, step.before, after):
+            return replace(selection, steps=selection.steps[:i], model=step.before)
+    return selection
+
+
+def leaves_mostly(model: Model, variables: Sequence[str], minor: float = 0.0) -> bool:
+    """Decide whether what can be predicted of what is left goes with some variables, but for a minor share of that."""
+    certain = [one for one in model.structure if one.certain]
+    own = [one.share for one in certain if one.variable in variables]
+    others = [one.share for one in certain if one.variable not in variables]
+    return bool(own) and max(others, default=0.0) <= minor * max(own)
+
+
+def is_own_evidence(effect: str, without: Model, model: Model) -> bool:
+    """Decide whether an effect is told by what nothing outside the table does, from a model without it and with it."""
+    return explains_standstills(without, model) if EFFECT_BY_NAME[effect].holds else EFFECT_BY_NAME[effect].periodic
+
+
+def drop_stand_ins_of_either(first: Selection, second: Selection) -> Selection:
+    """Drop what may only stand in for something from two selections, and choose the one that keeps more findings.
+
+    From each in the order in which they were found, and by what each does beside all others. Of equals the one with the
+    smaller gap.
+    """
+    if second.model.complete:
+        return second
+    several = (first,) if first is second else (first, second)
+    left = [drop(one) for one in several for drop in (drop_stand_ins, drop_unneeded)]
+    return max(left, key=lambda one: (len(one.steps), -one.model.held.gap))
+
+
+def drop_unneeded(selection: Selection) -> Selection:
+    """Drop the finding that explains least beside all others, as long as that may stand in for what is not there.
+
+    What explains little alone may explain nearly everything beside what was found after it: a friction under which a
+    coasting bridge is another one.
+    """
+    while selection.steps and not selection.model.complete:
+        model, weakest = selection.model, None
+        for step in selection.steps:
+            without = refit_without(model, step.found.effect, selection.hold_out)
+            share = share_explained(without.held.gap, model.held.gap, model.unpredictable_gap)
+            stays = share > thresholds.STAND_IN_SHARE or is_own_evidence(step.found.effect, without, model)
+            if not stays and (weakest is None or share < weakest[0]):
+                weakest = share, step, without
+        if weakest is None:
+            break
+        selection = selection.replace_step(weakest[1], None, weakest[2])
+    return selection
+
+
+def keep_confirmed(selection: Selection, effects: Sequence[str]) -> Selection:
+    """Keep the findings up to the first that another selection does not have; effects: of that one's model."""
+    for i, step in enumerate(selection.steps):
+        if step.found.effect not in effects:
+            return replace(selection, steps=selection.steps[:i], model=step.before)
+    return selection
+
+
+def stands_in_for_curve(without: Model, current: Model) -> bool:
+    """Decide whether a free curve over the past predicts about as much beside a random torque as a finding does.
+
+    without: the model that lacks the finding.
+    """
+    if not current.beside_torque:
+        return False
+    curve = max((one.share for one in without.structure if one.certain and one.variable == PAST), default=0.0)
+    found = share_explained(without.held.gap, current.held.gap, current.sensor_floor)
+    return found < thresholds.CURVE_MARGIN * curve

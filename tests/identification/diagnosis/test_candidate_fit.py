@@ -1,0 +1,37 @@
+"""A model is judged by what it leaves, in its training data and in held-out motion."""
+
+import numpy as np
+import pytest
+from diagnosed import fitted
+
+from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
+from motor_identification.diagnosis.disturbed_fit import list_error_data
+from motor_identification.diagnosis.evidence.torque_evidence import compute_price, score_training
+from motor_identification.measurement.time_blocks import TimeBlocks
+from motor_identification.validation.hold_out import WholeRecordings
+
+
+def test_a_models_noise_is_that_of_its_training_data() -> None:
+    """The disc of 0.3 % is seen by the right motor; a wrong one's error passes for drift, and it is less likely."""
+    estimate, hold_out = fitted()
+    complete = validate_model(hold_out, estimate)
+    assert 0.002 < complete.noise.share < 0.004 and complete.noise.drift < 1e-6
+    assert complete.at_floor and not complete.above_floor
+    lacking, other = fitted(ks=0.4)
+    wrong = validate_model(other, lacking)
+    assert wrong.noise.drift > 1e-4 and wrong.above_floor and not wrong.at_floor and not wrong.quiet
+    assert wrong.likelihood < complete.likelihood - 1000.0
+    assert np.isfinite(wrong.likelihood)
+
+
+def test_where_nothing_is_held_out_all_motion_counts_once_less_the_price_of_the_unknowns() -> None:
+    estimate, _ = fitted()
+    whole = WholeRecordings(estimate.problem, TimeBlocks(1), False)
+    model = validate_model(whole, estimate)
+    assert model.held.seen and model.training == 0.0 and model.held.counted.mean() > 0.99
+    assert model.likelihood == pytest.approx(model.held.log_likelihood(model.noise) - compute_price(estimate), abs=1.0)
+    beside = judge_beside_torque(model, whole, None, 40)
+    assert beside.learned is not None
+    alone = score_training(estimate, list_error_data(estimate), beside.learned)
+    assert beside.likelihood == alone.likelihood and len(beside.moments) == len(alone.moments)
+    assert len(model.structure) == 0 or not model.structure[0].certain  # judged by other blocks than it is learnt on
