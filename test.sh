@@ -12,6 +12,9 @@ if [ $# -gt 0 ]; then
   pytest "$@"
   exit
 fi
+# Once, not by every worker of a fresh clone; the plant beside what pytest does first.
+.venv/bin/python -m compileall -q -j 0 tests motor_*/motor_* ros2_stand_in || true
+PYTHONPATH=tests/support:${PYTHONPATH:-} .venv/bin/python -m plant &
 status=0
 # Assertions are not rewritten to say more, which takes every worker of a fresh clone 6 s: what fails is run again.
 run() { pytest --assert=plain "$@" || { local code=$?; [ $code -eq 1 ] || exit $code; status=1; }; } # 1: some test failed

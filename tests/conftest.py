@@ -1,5 +1,6 @@
 """What holds for all tests."""
 
+import gc
 import itertools
 import os
 import signal
@@ -28,6 +29,12 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         first = long[worker::workers]
         shares += [*first, *itertools.islice(others, size - len(first))]
     items[:] = shares
+
+
+def pytest_collection_finish() -> None:
+    """Spare the garbage collector what was imported and collected: it would look through all of it again and again."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session")

@@ -128,6 +128,7 @@ def run(
         answer(program, sys.argv[1:] if args is None else args)
     interrupt = Interrupt()
     node: Node | None = None
+    status = 0
     try:
         start_ros(args)
         node = _created(create)
@@ -136,16 +137,27 @@ def run(
         spin(node, lambda: bool(interrupt), make_executor)
     except MotorError as error:
         print(error, file=sys.stderr)
-        return 1
+        status = 1
+    except Exception as error:
+        print(report(error), file=sys.stderr)
+        status = 1
+    finally:
+        if node is not None:
+            status = max(status, _end(node))
+        rclpy.try_shutdown()
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C does not turn a clean end into a failure
+    return status
+
+
+def _end(node: Node) -> int:
+    """Let a node `close()`, and take it down even where that fails, so that it lets go of its port; the exit status."""
+    try:
+        close = getattr(node, "close", None)
+        if close is not None and rclpy.ok():
+            close()
     except Exception as error:
         print(report(error), file=sys.stderr)
         return 1
     finally:
-        if node is not None:
-            close = getattr(node, "close", None)
-            if close is not None and rclpy.ok():
-                close()
-            node.destroy_node()
-        rclpy.try_shutdown()
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # a second Ctrl-C does not turn a clean end into a failure
+        node.destroy_node()
     return 0

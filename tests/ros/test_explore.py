@@ -2,14 +2,13 @@
 
 import json
 import signal
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
-from subprocess import PIPE, Popen
+from subprocess import Popen
 
 import pytest
-from workbench import ENVIRONMENT, PATIENCE, Bench
+import workbench
+from workbench import PATIENCE, Bench
 
 from motor_identification.bag import read_recording
 from motor_model.model_file import load, save
@@ -32,8 +31,7 @@ def samples(bench: Bench, start: Start, tmp_path: Path) -> list[MotorSpeed]:
 
 
 def explore(*arguments: object) -> "Popen[str]":
-    command = [sys.executable, "-m", "motor_identification.cli.explore", *map(str, arguments)]
-    return subprocess.Popen(command, env=ENVIRONMENT, stdout=PIPE, stderr=PIPE, text=True)
+    return workbench.start("motor_identification", "explore", *arguments)
 
 
 def assert_at_rest(bench: Bench, samples: list[MotorSpeed]) -> None:

@@ -7,6 +7,7 @@ import pytest
 import workbench
 
 from motor_model.errors import MotorError
+from motor_ros import run
 from motor_ros.run import check_security
 
 BAD = [
@@ -38,6 +39,27 @@ def test_a_wrong_argument_is_one_sentence(
     )
     ours = [line for line in done.stderr.splitlines() if not line.startswith(("[ERROR] [", "[WARN] ["))]
     assert done.returncode in (1, 2) and len(ours) == 1 and said in ours[0], done.stderr
+
+
+class Stubborn:
+    """A node whose closing fails, such as by what kept it from going on."""
+
+    port = "open"
+
+    def close(self) -> None:
+        raise ValueError("the same again")
+
+    def destroy_node(self) -> None:
+        self.port = "closed"
+
+
+def test_a_node_that_cannot_close_lets_go_of_its_port(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(run.rclpy, "ok", lambda: True)
+    node = Stubborn()
+    assert run._end(node) == 1 and node.port == "closed"  # type: ignore[arg-type]
+    assert "ValueError: the same again" in capsys.readouterr().err
 
 
 def test_security_needs_its_keystore(tmp_path: Path) -> None:

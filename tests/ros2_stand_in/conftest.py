@@ -16,10 +16,12 @@ from typing import IO
 
 import pytest
 from domains import free_domain
+from forked import Forked
 from patience import PATIENCE
 
 SUPPORT = Path(__file__).resolve().parents[1] / "support"
 LAUNCHER = SUPPORT.parents[1] / "ros2_stand_in" / "ros2"
+LAUNCHED = LAUNCHER.with_name("__main__.py")
 
 
 @dataclass(frozen=True)
@@ -107,13 +109,20 @@ class Ros2:
         self._started: list[Process] = []
 
     def __call__(self, *words: str, status: int = 0, stdin: str = "", **more: str) -> Output:
-        """Run to the end; the status is checked, and that no traceback comes."""
-        done = subprocess.run(
-            [str(LAUNCHER), *words], env=self.env | more, input=stdin, capture_output=True, text=True, timeout=PATIENCE
-        )
-        assert "Traceback" not in done.stderr, done.stderr
-        assert done.returncode == status, f"{words}: {done.returncode}\n{done.stdout}\n{done.stderr}"
-        return Output(done.returncode, done.stdout, done.stderr)
+        """Run to the end; the status is checked, and that no traceback comes.
+
+        Who brings variables of his own begins with the launcher.
+        """
+        kind, file = (subprocess.Popen, LAUNCHER) if more else (Forked, LAUNCHED)
+        pipe, env = subprocess.PIPE, self.env | more
+        with kind([str(file), *words], env=env, stdin=pipe, stdout=pipe, stderr=pipe, text=True) as run:
+            try:
+                out, err = run.communicate(stdin, timeout=PATIENCE)
+            finally:
+                run.kill()
+        assert "Traceback" not in err, err
+        assert run.returncode == status, f"{words}: {run.returncode}\n{out}\n{err}"
+        return Output(run.returncode, out, err)
 
     def together(self, *lines: str) -> list[str]:
         """What each of these command lines prints, run two at a time."""

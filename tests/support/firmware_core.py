@@ -101,6 +101,10 @@ class Guard(Structure):
     ]
 
 
+class GuardMemory(Structure):
+    _fields_ = [("heat", c_uint32), ("check", c_uint32)]
+
+
 class WireCommand(Structure):
     _fields_ = [("duty", c_int16)]
 
@@ -181,6 +185,8 @@ ARGUMENTS: dict[str, list[Any]] = {
     "output_latch": [c_void_p],
     "guard_set": [c_void_p, c_void_p],
     "guard_check": [c_void_p, c_uint16, c_uint32],
+    "guard_keep": [c_void_p, c_void_p],
+    "guard_recall": [c_void_p, c_void_p],
     "device_start": [c_void_p, c_void_p, c_uint8, c_uint8],
     "device_overflow": [c_void_p],
     "device_capture": [c_void_p, c_uint16, c_bool],

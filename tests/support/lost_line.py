@@ -62,10 +62,13 @@ def lose_line(
     edges: int = 96,
     lost: float = 0.8,
     duration: float = 3.0,
+    single_channel: bool = True,
     **changes: object,
 ) -> Loss:
     """From rest to a reference [rad/s]; the line is lost after `lost` [s]."""
-    board = BoardConfig(sample_rate=rate, slot_irregularity=0.01, edges_per_revolution=edges)
+    board = BoardConfig(
+        sample_rate=rate, slot_irregularity=0.01, edges_per_revolution=edges, single_channel=single_channel
+    )
     simulated, info = SimulatedBoard(plant, board), board.info(plant)
     if source == "observer":
         config = settings(model or plant, info, **changes)  # type: ignore[arg-type]

@@ -12,6 +12,7 @@ from typing import Any
 import rclpy
 from ament_index_python.packages import get_package_prefix
 from domains import free_domain
+from forked import Forked
 from patience import PATIENCE
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
@@ -96,7 +97,7 @@ def program(package: str, command: str) -> str:
 def start(package: str, command: str, *arguments: object) -> "subprocess.Popen[str]":
     """One of our programs as a process; `end` ends it."""
     words = [program(package, command), *map(str, arguments)]
-    return subprocess.Popen(words, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    return Forked(words, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
 def quit_all(processes: "Sequence[subprocess.Popen[str]]") -> None:

@@ -15,6 +15,7 @@ from motor_model.parameters import paper_motor
 from motor_model.sensing.board import BoardConfig
 
 LEAST = SearchConfig(4, 1)
+MANY_SLOTS = 1000  # whose table is not solved by its modes
 PERIODIC = tuple(effect.name for effect in EFFECTS if effect.periodic)
 
 
@@ -25,16 +26,20 @@ def prepare() -> None:
 
 
 def main() -> None:
-    """Fit a simulated step, as small as it gets; with what a diagnosis looks for in a spectrum and in what is left."""
+    """Fit a simulated step, as small as it gets; with what a diagnosis looks for in a spectrum and in what is left.
+
+    Also of a disc of many slots, and beside a random torque.
+    """
     prepare()
     recording = _record_step()
     identify([recording], Request(PERIODIC, LEAST))
-    disturbed = recording.voltage + np.random.default_rng(0).normal(0.0, 0.5, len(recording))
+    identify([_record_step(MANY_SLOTS)], Request((), LEAST))
+    disturbed = recording.voltage + np.random.default_rng(0).normal(0.0, 2.0, len(recording))
     diagnose([replace(recording, voltage=disturbed)], request=Request((), LEAST, time_limit=20.0))
 
 
-def _record_step() -> Recording:
-    motor, config = paper_motor(), BoardConfig()
+def _record_step(slots: int = 96) -> Recording:
+    motor, config = paper_motor(), BoardConfig(edges_per_revolution=slots)
     plan = make_plan(profile("step"), 10.0, motor.max_voltage, 1.0 / config.sample_rate)
     return recording_of([sample for _, sample in simulate_plan(plan, motor, config)], config.info(motor), "warm-up")
 

@@ -39,7 +39,7 @@ def time_of_rest(p: Floats, c: Coefficients, s: State, h: float) -> float:
     low, high = 0.0, h
     for _ in range(60):
         middle = 0.5 * (low + high)
-        if solve(p, c, s, middle)[0] * s.speed > 0.0:
+        if solve(p, c, s, middle)[0] * s.direction > 0.0:  # times the speed a slow enough one would be 0
             low = middle
         else:
             high = middle

@@ -39,6 +39,13 @@ def test_the_time_of_rest_is_where_the_speed_is_zero(c: Coefficients, lag: float
     assert 0.0 < instant < H and abs(solve(p, c, s, instant)[0]) < 1e-9
 
 
+@pytest.mark.parametrize("speed", [1e-3, -1e-163])
+def test_a_motor_that_coasts_to_ever_lower_speeds_never_rests(speed: float) -> None:
+    """The square of the second speed is 0 in double precision: a drag without any friction then takes nothing."""
+    coasting = Coefficients(PAPER_KA, 0.0, 0.0, 0.0, PAPER_KV, 0.0)
+    assert time_of_rest(vector(), coasting, moving(speed), H) == H
+
+
 def test_a_piece_without_an_event_is_solved_to_its_end() -> None:
     state, taken = until_event(vector(), BRAKED, moving(30.0), 0.01)
     speed, _, travel = solve(vector(), BRAKED, moving(30.0), 0.01)

@@ -1,6 +1,7 @@
 """Try inputs of a kind, each in a process of its own."""
 
 import contextlib
+import gc
 import io
 import os
 import tempfile
@@ -66,6 +67,8 @@ def warm_up() -> None:
             with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
                 assert main_of(words[0])(words[1:]) == 0, words
             os.chdir(before)
+    gc.collect()
+    gc.freeze()  # else every process copies all that its garbage collector looks at
 
 
 def tried(kind: Kind, count: int, start: int) -> Iterator[Trial]:

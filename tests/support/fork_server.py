@@ -1,0 +1,112 @@
+"""Run Python files in forks of a process that has what they need: most of a short process's time is imports.
+
+What is asked for comes over a socket, see `forked.Forked`: words, environment and directory, with file descriptors for
+standard input, output, error, and a pipe that is told the process's number and, in the end, its status.
+"""
+
+import ctypes
+import gc
+import importlib
+import json
+import os
+import runpy
+import signal
+import socket
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import motor_control.warm_up
+import motor_identification.service.warm_up
+
+PR_SET_PDEATHSIG = 1  # a signal to the child when its parent ends (prctl, Linux)
+
+# What programs import before ROS, which starts threads and comes after the fork.
+IMPORTED = (
+    "motor_identification.monitoring.evaluation",
+    "motor_control.controller.controller",
+    "motor_control.preparation",
+    "motor_driver.driver",
+    "motor_driver.link",
+    "motor_examples.diff_drive.drive",
+    "motor_identification.experiment",
+    "motor_identification.service.fit_queue",
+    "motor_model.sensing.board",
+    "motor_model.sensing.motion_check",
+    "diagnostic_msgs.msg",
+    "motor_msgs.msg",
+    "motor_msgs.srv",
+    "sensor_msgs.msg",
+    "std_srvs.srv",
+)
+
+
+def main(sock: socket.socket) -> str:
+    """Fork for whoever asks, until nobody can any more; returns in the fork, with the file to run."""
+    for module in IMPORTED:
+        importlib.import_module(module)
+    motor_control.warm_up.main()
+    motor_identification.service.warm_up.prepare()
+    assert len(os.listdir("/proc/self/task")) == 1, "a process with threads must not be forked"
+    gc.collect()
+    gc.freeze()
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+    while True:
+        data, files, _, _ = socket.recv_fds(sock, 1 << 20, 4)
+        if not data:
+            os._exit(0)
+        if os.fork() == 0:
+            sock.close()
+            supervise(files)
+            return become(json.loads(data), files)
+        for file in files:
+            os.close(file)
+
+
+def supervise(files: list[int]) -> None:
+    """Fork once more, and wait for that process; returns in it."""
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+    end_with_parent()
+    pipe = files.pop()
+    child = os.fork()
+    if child == 0:
+        end_with_parent()
+        os.close(pipe)
+        return
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for file in (0, 1, 2, *files):
+        os.close(file)
+    os.write(pipe, child.to_bytes(4, "little"))
+    os.write(pipe, os.waitpid(child, 0)[1].to_bytes(4, "little"))
+    os._exit(0)
+
+
+def end_with_parent() -> None:
+    """Have Linux kill this process when its parent ends: nodes outlived a process of the tests that was killed."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, int(signal.SIGKILL))
+
+
+def become(request: dict[str, object], files: Sequence[int]) -> str:
+    """Take on words, environment, directory, and standard input, output and error; returns the file to run."""
+    for target, file in enumerate(files):
+        os.dup2(file, target)
+        os.close(file)
+    os.environ.clear()
+    os.environ.update(request["env"])  # type: ignore[call-overload]
+    time.tzset()
+    os.chdir(str(request["cwd"]))
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    sys.stdin = sys.__stdin__ = open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
+    sys.stdout = sys.__stdout__ = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.__stderr__ = open(  # noqa: SIM115
+        2, "w", buffering=1, encoding="utf-8", errors="backslashreplace", closefd=False
+    )
+    sys.argv = list(request["words"])  # type: ignore[call-overload]
+    sys.path[0] = str(Path(sys.argv[0]).parent)
+    return sys.argv[0]
+
+
+if __name__ == "__main__":
+    runpy.run_path(main(socket.socket(fileno=int(sys.argv[1]))), run_name="__main__")
