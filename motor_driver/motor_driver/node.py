@@ -43,7 +43,7 @@ class MotorDriver(Node):
     def close(self) -> None:
         """Switch the output off while the port is still open."""
         self._plant.gate = self._plant.gate.enable(False)
-        self._work()
+        self._act()  # whatever is wrong with what has come
 
     def destroy_node(self) -> None:
         """Close the port, then the node."""

@@ -13,6 +13,9 @@ HALF, WRAP = 1 << 31, 1 << 32
 NO_SUPPLY = 3.0  # [V] measured below this, the supply is off
 STEP = 5.0 / 1024  # [V] of the board's converter
 MEMORY = 0.5  # [s] over which a measured supply is smoothed: its converter's step is 20 mV
+# Of `supply_voltage`, where it is said: no supply at work falls lower, and what reads less is a divider that has come
+# loose, or is another one; by as much the motor would get more than was asked for.
+LEAST = 0.5
 RISE = 1.05  # times that: more is no noise, and until it is known the motor would get as much more than was asked for
 
 
@@ -34,14 +37,20 @@ class Readout:
         self._errors: int | None
         self._tick, self._top = board.tick_ns, board.pwm_top
         self._count, self._edge_time, self._errors, self._speed_state = 0, 0, None, SpeedState()
+        self._recounts = False  # the next sample is the first since a reset
 
     def restart(self, frame: Telemetry, board: Hello, host: int) -> None:
         """The board has started anew; this is the first that it says, read at `host` [ns]."""
         self.clock.restart(frame.time, host, board.tick_ns)
         self._begin(board)
+        self._recounts = True
 
     def sample(self, frame: Telemetry) -> Sample:
-        """The sample in a frame whose time the clock has just heard."""
+        """The sample in a frame whose time the clock has just heard.
+
+        The first one after a reset says of no edge when it was, whatever has passed since: that is what tells everybody
+        that edges are counted from 0 again.
+        """
         now = self.clock.newest
         steps = (frame.edge_count - self._count) % WRAP
         self._count += steps - WRAP if steps >= HALF else steps
@@ -53,13 +62,14 @@ class Readout:
         voltage = self._motor * frame.duty / self._top * self.supply
         period = frame.edge_period * self._tick / 1e9
         magnitude = speed_magnitude(self._slot, now, self._edge_time, period, self._config.quadrature)
+        told, self._recounts = not self._recounts, False
         return Sample(
             sample_time=now,
             speed=self._speed(frame, magnitude, voltage, now),
             voltage=voltage,
             edge_count=self._encoder * self._count,
-            edge_time=self._edge_time,
-            edge_period=period,
+            edge_time=self._edge_time if told else 0,
+            edge_period=period if told else 0.0,
             current=self._current(frame),
             supply_voltage=nan if frame.supply == NOT_MEASURED else frame.supply * 1e-3,
         )
@@ -80,7 +90,8 @@ class Readout:
     def _follow_supply(self, millivolts: int) -> None:
         """Take the supply that the board measures for the voltage at full duty."""
         if millivolts != NOT_MEASURED and millivolts * 1e-3 >= NO_SUPPLY:
-            measured, share = millivolts * 1e-3, min(1.0 / (MEMORY * self._config.sample_rate), 1.0)
+            measured = max(millivolts * 1e-3, LEAST * self._config.supply_voltage)
+            share = min(1.0 / (MEMORY * self._config.sample_rate), 1.0)
             known = self._measured and measured <= RISE * self.supply
             self.supply += (share if known else 1.0) * (measured - self.supply)
             self._measured = True

@@ -6,6 +6,7 @@ from motor_driver.driver import Driver
 from motor_driver.exchange import Exchange
 from motor_driver.frames import Hello
 from motor_driver.protocol import LinkCounters
+from motor_driver.readout import LEAST
 
 LEAST_RATE = 0.95  # of the requested one
 OTHER_SUPPLY = 0.1  # of supply_voltage: more than a divider's two resistors of 5 % are off
@@ -106,12 +107,15 @@ def _encoder(errors: int, board: Hello | None) -> str:
 
 def _supply(driver: Driver) -> str:
     """A measured supply that is not what the parameter says."""
-    told, measured = driver.config.supply_voltage, driver.supply
-    if not told or abs(measured - told) <= OTHER_SUPPLY * told:
+    told, taken = driver.config.supply_voltage, driver.supply
+    if not told or abs(taken - told) <= OTHER_SUPPLY * told:
         return ""
-    return (
-        f"The board measures a supply of {measured:.1f} V, and supply_voltage is {told:g} V: the measured one is used."
-    )
+    if taken <= 1.01 * LEAST * told:
+        return (
+            f"The board measures a supply of {taken:.1f} V or less, and supply_voltage is {told:g} V: {taken:.1f} V "
+            "are taken for it. See whether the divider at A0 is connected, or set supply_voltage."
+        )
+    return f"The board measures a supply of {taken:.1f} V, and supply_voltage is {told:g} V: the measured one is used."
 
 
 def capital(sentence: str) -> str:

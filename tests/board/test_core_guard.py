@@ -85,3 +85,13 @@ def test_what_lasts_is_kept_to_a_converters_step_and_a_half(gain: float, steps: 
         shown = int((2.5 + way * gain * amperes) * 1024 / 5.0)
         verdicts = {core.load().guard_check(byref(guard), shown, 10_000) for _ in range(3_000)}
         assert (OVERCURRENT in verdicts) == stops
+
+
+def test_heat_outlives_a_reset_and_garbage_is_none() -> None:
+    hot, kept = guard_with(512, 400, 100, 1000), core.GuardMemory()
+    hot.heat = 777
+    core.load().guard_keep(byref(hot), byref(kept))
+    for memory, heat in ((kept, 777), (core.GuardMemory(777, 777), 0), (core.GuardMemory(2**30, 2**32 - 1 - 2**30), 0)):
+        fresh = core.Guard()
+        core.load().guard_recall(byref(fresh), byref(memory))
+        assert fresh.heat == heat

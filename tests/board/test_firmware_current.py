@@ -133,6 +133,27 @@ def test_what_lasts_switches_off_after_a_time_that_goes_with_its_square(
     assert after is None or took == pytest.approx((25 - rated**2) / (3.9**2 - rated**2) * 0.2, rel=0.12)
 
 
+@on_each_chip
+def test_a_hot_motor_is_hot_after_a_reset(make_bench: MakeBench) -> None:
+    """0.39 s at this current from cold; 0.2 s, a reset, as whoever opens the port of an Uno makes one, and the rest."""
+    bench = protected(make_bench, 5.0, 2.0, 0.2, 10_000)
+    bench.drive(192, 200)
+    assert bench.last(Telemetry).enabled
+    bench.emulator.reset()
+    bench.run(20)
+    bench.send(CurrentLimits(5.0, 2.0, 0.2).protect(GAIN, ZERO, 500))
+    bench.run(20)
+    bench.enable()
+    begun, on = bench.chip.cycle, True
+    while on and bench.chip.cycle - begun < 400 * MS:
+        bench.send(Command(192))
+        bench.run(6)
+        on = bench.last(Telemetry).enabled
+    took = (bench.chip.cycle - begun) / 16e6
+    assert not on and bench.last(Telemetry).flags & Flag.OVERCURRENT
+    assert 0.17 < took < 0.24
+
+
 def test_limits_are_known_to_hold_and_need_a_sensor(make_bench: MakeBench) -> None:
     limits = CurrentLimits(5.0, 2.0, 0.5).protect(GAIN, ZERO, 500)
     for config, most in ((SENSING, limits.most), (FirmwareConfig(), 0)):

@@ -8,6 +8,7 @@ from board_frames import HELLO, TELEMETRY
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from motor_control.controller.plant_watch import watch_plant
 from motor_driver.config import Config
 from motor_driver.frames import NOT_MEASURED, Flag, Sensed, Telemetry
 from motor_driver.readout import Readout
@@ -44,6 +45,15 @@ def test_a_measured_supply_prevails() -> None:
     assert off.voltage == 6.0 and off.supply_voltage == 0.2
 
 
+@pytest.mark.parametrize(("measured", "taken"), [(13.0, 13.0), (11.0, 12.0), (3.5, 12.0), (30.0, 30.0)])
+def test_no_supply_at_work_is_less_than_half_of_what_was_said(measured: float, taken: float) -> None:
+    """The divider of a 6 V motor on 24 V came loose and read 3.5 V: the motor got 24 V."""
+    board = readout(Config(max_voltage=6.0, supply_voltage=24.0))
+    for _ in range(10):
+        heard(board, replace(TELEMETRY, supply=round(1e3 * measured)))
+    assert board.supply == pytest.approx(taken) and board.duty(6.0) == int(6.0 / taken * 256)
+
+
 def test_a_current_needs_a_board_that_senses_it_and_a_gain() -> None:
     sensed = Sensed(**asdict(TELEMETRY), current=612)
     board = readout(Config(current_gain=0.185, current_offset=2.5))
@@ -74,6 +84,23 @@ def test_a_board_that_starts_anew_counts_from_0() -> None:
     after = board.sample(replace(TELEMETRY, time=2_000, edge_count=5))
     assert (before.edge_count, after.edge_count) == (100, 5)
     assert after.sample_time - before.sample_time == 10_000 * 500  # the host's clock bridges the reset
+
+
+def test_a_board_that_was_reset_while_the_motor_turns_is_seen() -> None:
+    """An edge had passed by its first sample: counts of 900, then 3, and nobody saw the reset."""
+    board = readout(Config(single_channel=False))
+    flags = Flag.EDGE_VALID
+    before = replace(TELEMETRY, time=50_000, edge_count=900, edge_time=49_900, edge_period=2_000, flags=flags)
+    watch = watch_plant(None, heard(board, before), 0.0, 0.005)
+    after = replace(before, time=12_000, edge_count=3, edge_time=11_900)
+    board.restart(after, HELLO, 60_000 * 500)
+    first = board.sample(after)
+    assert (first.edge_time, first.edge_period) == (0, 0.0) and first.speed == pytest.approx(tau / 96 / 0.001)
+    watch = watch_plant(watch, first, 0.005, 0.005)
+    assert watch.restarted
+    second = heard(board, replace(after, time=22_000, edge_count=8, edge_time=21_900))
+    assert second.sample_time - second.edge_time == 100 * 500 and second.edge_count == 8
+    assert not watch_plant(watch, second, 0.01, 0.005).restarted
 
 
 @settings(deadline=None, max_examples=300)

@@ -57,7 +57,7 @@ def test_damaged_frames_are_counted(running: Rig) -> None:
     assert status.problem(running.driver, was, running.now).startswith("2 damaged and 0 lost frames")
 
 
-@pytest.mark.parametrize(("told", "complains"), [(0.0, False), (13.0, False), (14.0, True)])
+@pytest.mark.parametrize(("told", "complains"), [(0.0, False), (13.0, False), (14.0, True), (26.0, True)])
 def test_a_supply_that_is_not_the_one_named(make_rig: MakeRig, told: float, complains: bool) -> None:
     """The board measures 12 V: 13 V are within a tenth of that, 14 V are not."""
     board = FirmwareConfig(edges_per_revolution=96, channels=2, supply_full_scale=20_000)
@@ -68,5 +68,7 @@ def test_a_supply_that_is_not_the_one_named(make_rig: MakeRig, told: float, comp
     was = status.tally(rig.driver, rig.now)
     rig.run(200)
     said = status.problem(rig.driver, was, rig.now)
-    assert ("The board measures a supply of 12.0 V, and supply_voltage is 14 V" in said) == complains
+    measured = "12.0 V" if told < 24.0 else "13.0 V or less"
+    assert (f"The board measures a supply of {measured}, and supply_voltage is {told:g} V" in said) == complains
+    assert ("See whether the divider at A0 is connected" in said) == (told > 24.0)
     assert complains or said == ""

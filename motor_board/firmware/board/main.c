@@ -47,6 +47,9 @@ static volatile bool ticking; /* the compare interrupt has run since the watchdo
 
 static uint8_t boot __attribute__((section(".noinit"))); /* outlives a reset, not a power-down */
 static uint8_t reset_cause __attribute__((section(".noinit")));
+#if MOTOR_CURRENT_SENSE
+static struct guard_memory heat __attribute__((section(".noinit")));
+#endif
 
 /* Runs before main: after a watchdog reset the watchdog stays on, at its shortest time. */
 void stop_watchdog(void) __attribute__((naked, used, section(".init3")));
@@ -176,6 +179,9 @@ ISR(CLOCK_TICK_vect)
         }
         copy_edges(&edges);
         device_sample(&device, &edges);
+#if MOTOR_CURRENT_SENSE
+        guard_keep(&device.guard, &heat);
+#endif
     }
 }
 
@@ -251,6 +257,9 @@ int main(void)
     bridge_start();
     wdt_enable(WDTO_60MS);
     device_start(&device, &config, ++boot, reset_cause);
+#if MOTOR_CURRENT_SENSE
+    guard_recall(&device.guard, &heat);
+#endif
     bridge_write(0, device.output.decay, WIRE_PWM_STANDARD);
     lines_start();
     supply_start();

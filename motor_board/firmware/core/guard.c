@@ -52,3 +52,16 @@ enum guard_verdict guard_check(struct guard *guard, uint16_t steps, uint32_t per
     }
     return guard->unknown >= BLIND ? GUARD_BLIND : GUARD_WELL;
 }
+
+void guard_keep(const struct guard *guard, struct guard_memory *memory)
+{
+    memory->heat = guard->heat;
+    memory->check = ~guard->heat;
+}
+
+void guard_recall(struct guard *guard, const struct guard_memory *memory)
+{
+    if (memory->check == ~memory->heat && memory->heat <= MOST_HEAT) {
+        guard->heat = memory->heat;
+    }
+}

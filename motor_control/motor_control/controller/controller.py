@@ -11,11 +11,12 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import isfinite, nan
 
+from motor_control.controller import pi
 from motor_control.controller import speed_law as law
 from motor_control.controller.latency import track_latency
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
 from motor_control.controller.plant_watch import PlantWatch, watch_plant
-from motor_control.controller.reference.demand import Kind, Source
+from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.reference.position_law import FARTHEST
 from motor_control.controller.run import Config, Run, begin
 from motor_control.controller.state import (
@@ -70,7 +71,7 @@ CALL_RESET = "{} Call motor/reset, then publish a fresh reference, to go on."
 def update(config: Config, state: State, sample: Sample, reference: float | None, now: float) -> tuple[Output, State]:
     """Answer one sample; reference [rad/s]: one that has come since the last sample; now [s] is a monotonic clock."""
     age, latency = track_latency(state.latency, sample.sample_time, now)
-    plant = watch_plant(state.plant, sample.sample_time, sample.edge_count, now, config.sample_period)
+    plant = watch_plant(state.plant, sample, now, config.sample_period)
     if plant.two and not state.latched:
         state = stop(state, TWO_PLANTS)
     state = _drop_old_reference(config, state, plant, now)
@@ -104,7 +105,7 @@ def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: fl
     if state.demand is None:
         return state
     if plant.restarted:
-        return drop(replace(state, motion=None), RESTARTED)
+        return drop(replace(state, motion=None, faults=None), RESTARTED)
     if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
         return drop(state, RETURNED)
     if state.held is not None and now - state.held > AWAY and now - state.referred > AWAY:
@@ -132,20 +133,26 @@ def _answer(config: Config, state: State, sample: Sample, age: float) -> tuple[O
     """Answer a sample of an age [s] with the reference in force."""
     demand = state.demand
     name, reason = _find_obstacle(config, state, sample)
+    mistake = _find_mistake(config, demand, sample) if name == RUNNING and demand is not None else ""
     shown = demand.value if demand is not None and demand.kind is Kind.SPEED else nan
-    if demand is None or name != RUNNING:
+    if demand is None or name != RUNNING or (mistake and state.run is None):
+        name, reason = (STOPPED, mistake) if mistake else (name, reason)
         return replace(halt(name, reason, shown, sample.speed), warning=bool(state.dropped)), replace(state, run=None)
     late = age > config.latency_limit
-    output, run = law.step(config, _continue_run(config, state, sample), sample, demand, late)
+    wanted = Demand(0.0) if mistake else demand
+    output, run = law.step(config, _continue_run(config, state, sample), sample, wanted, late or bool(mistake))
     if output.fault:
         stopped = halt(STOPPED, CALL_RESET.format(output.fault), output.reference, output.speed)
         return replace(stopped, fault=output.fault), stop(replace(state, motion=run.motion), output.fault)
     if output.state != RUNNING:
         return output, replace(state, run=None)
-    if late:  # what it says is over; the run goes on with the next one that is in time
+    if mistake:  # the checks go on: it may come and go
+        output = halt(STOPPED, mistake, shown, sample.speed)
+        run = replace(run, asked=0.0, paused=True, law=pi.State(), reference=sample.speed)
+    elif late:  # what it says is over; the run goes on with the next one that is in time
         output = halt(STOPPED, STALE.format(1e3 * age, 1e3 * config.latency_limit), shown, sample.speed)
         run = replace(run, asked=0.0, paused=True)
-    return output, replace(state, run=run, motion=run.motion)
+    return output, replace(state, run=run, motion=run.motion, faults=run.faults, judged=run.sample_time)
 
 
 def _find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, str]:
@@ -157,28 +164,34 @@ def _find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, s
     for name, value in (("speed", sample.speed), ("voltage", sample.voltage), ("edge_period", sample.edge_period)):
         if not isfinite(value):
             return STOPPED, BAD_SAMPLE.format(name, value)
-    demand = state.demand
-    if demand is None:
+    if state.demand is None:
         return DISABLED, FRESH.format(state.dropped) if state.dropped else NO_REFERENCE
-    if not isfinite(demand.value - sample.speed):
-        return STOPPED, BAD_REFERENCE.format(demand.value)
-    if demand.kind is Kind.POSITION and config.position is None:
-        return STOPPED, config.no_position
-    if demand.kind is Kind.POSITION and config.position and abs(demand.value / config.position.slot) > FARTHEST:
-        return STOPPED, TOO_FAR.format(demand.value)
     return RUNNING, ""
+
+
+def _find_mistake(config: Config, demand: Demand, sample: Sample) -> str:
+    """Find why a demand cannot be obeyed, as a sentence; "" if it can."""
+    if not isfinite(demand.value - sample.speed):
+        return BAD_REFERENCE.format(demand.value)
+    if demand.kind is Kind.POSITION and config.position is None:
+        return config.no_position
+    if demand.kind is Kind.POSITION and config.position and abs(demand.value / config.position.slot) > FARTHEST:
+        return TOO_FAR.format(demand.value)
+    return ""
 
 
 def _continue_run(config: Config, state: State, sample: Sample) -> Run:
     """Find the run that this sample belongs to, lost samples in between or not; a new one begins at its own speed.
 
     A new one begins where there was none, and after a gap that the plant's own watchdog does not survive either: what
-    the integral knew is of another motion.
+    the integral knew is of another motion. What its faults have shown so far holds for a while: whoever ends a run
+    again and again, with a reference that is no number or samples that do not come, would else blind every check.
     """
     run = state.run
     if run is not None and 0 <= sample.sample_time - run.sample_time <= config.sample_timeout * 1e9:
         return run
-    return begin(config, sample, state.motion)
+    just_now = 0 <= sample.sample_time - state.judged <= AWAY * 1e9
+    return begin(config, sample, state.motion, state.faults if just_now else None)
 
 
 Change = Callable[[State], tuple[str, State]]

@@ -77,14 +77,15 @@ class Run:
     faults: detection.State = detection.State()
     begins: bool = False  # with this sample: the reference has a sample period to start in
     place: position_law.State | None = None  # of an angle that is approached
+    rests: bool = False  # it has come to rest at a reference of 0
     paused: bool = False  # 0 V was sent since this sample, whatever the law said: the integral has no part in the error
 
 
-def begin(config: Config, sample: Sample, motion: Motion | None = None) -> Run:
-    """Begin a run at the motor's own speed; motion: what is known of the motor from before."""
+def begin(config: Config, sample: Sample, motion: Motion | None = None, faults: detection.State | None = None) -> Run:
+    """Begin a run at the motor's own speed; motion, faults: what is known from a run before that ended just now."""
     known = motion or Motion()
     motion = replace(known, edge_count=sample.edge_count, speed=abs(sample.speed), slow_speed=abs(sample.speed))
     motion = replace(motion, steady=0.0, silent=0.0, edges=0, slow_voltage=abs(sample.voltage))
     watched = config.observer.begin(sample, sample.speed) if config.observer else None
-    state = detection.begin(sample.speed)
+    state = detection.begin(sample.speed, faults)
     return Run(config, sample.sample_time, sample.speed, pi.State(), motion, watched=watched, faults=state, begins=True)

@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING
 from motor_control.controller import pi
 from motor_control.controller import voltage_range as span
 from motor_control.controller.faults import detection
-from motor_control.controller.faults.evidence import Seen
+from motor_control.controller.faults.evidence import FULL, Seen
+from motor_control.controller.leftover import forget, gains_to_rest, reduce_creeping, runs_on
 from motor_control.controller.motion import Motion, follow_motion
 from motor_control.controller.output import RUNNING, STOPPED, Output, halt
 from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind
-from motor_control.controller.reference.ramp import Target, approach
+from motor_control.controller.reference.ramp import Target, approach, round_to_rest
 from motor_control.controller.run import Config, Run, begin
 from motor_model.sample import Sample
 
@@ -86,18 +87,24 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
     speed = sample.speed if seen is None else seen.speed
     if not isfinite(speed):
         return halt(STOPPED, NOT_FINITE.format(speed), run.reference, speed), begin(config, sample, run.motion)
-    aim, place = _aim(config, run, sample, demand, speed)
+    aim, place = _aim(config, run, sample, demand, speed, dt)
     target = _approach(config, run, aim.speed, demand.kind, dt)
     ignored = _count_ignored(config, run, sample, dt)
     motion = follow_motion(run.motion, sample, config.faults.slot, dt, config.voltage_limit, run.faults.periods.regular)
     allowed = _allow(config, run, target, speed, motion)
+    known = config.single_channel or seen is not None
+    rests = known and target.reference == 0.0 and (run.rests or speed == 0.0)
+    if rests:
+        allowed = span.limit_at_rest(allowed, 0.0 if config.single_channel else span.AT_REST * config.voltage_limit)
+    run = reduce_creeping(run, sample, target.reference)
     step_time = 0.0 if hold or ignored > IGNORED_TIME else dt
     if demand.kind is Kind.VOLTAGE or aim.rests:
         terms, law = pi.apply_voltage(0.0 if aim.rests else demand.value, allowed.low, allowed.high), pi.State()
     else:
         terms, law = _compute_terms(config, run, seen, target, speed, step_time, allowed)
     sigma, innovation = (nan, nan) if seen is None else (seen.sigma, seen.innovation)
-    look = Seen(sample, speed, motion, target.reference, dt, config.voltage_limit, innovation)
+    plugs = terms.saturated and terms.voltage * speed < 0.0 and abs(terms.voltage) < FULL * config.voltage_limit
+    look = Seen(sample, speed, motion, target.reference, dt, config.voltage_limit, innovation, plugs)
     fault, trouble = detection.find_fault(config.faults, run.faults, look)
     after = Run(
         config,
@@ -111,6 +118,7 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
         ignored=ignored,
         faults=trouble,
         place=place,
+        rests=rests,
     )
     reason = _explain(config, run, after, allowed, aim.note)
     warning = ignored > IGNORED_TIME or bool(config.note or aim.note)
@@ -118,14 +126,16 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
 
 
 def _aim(
-    config: Config, run: Run, sample: Sample, demand: Demand, speed: float
+    config: Config, run: Run, sample: Sample, demand: Demand, speed: float, dt: float
 ) -> tuple[position_law.Aim, position_law.State | None]:
     """Find the speed [rad/s] that is wanted: as asked for, none for a voltage, or by the angle that is missing."""
     wanted = demand.value
+    if demand.kind is Kind.SPEED:
+        wanted = round_to_rest(wanted, config.faults.slot)
     if demand.kind is not Kind.POSITION or config.position is None:
-        return position_law.Aim(wanted if demand.kind is Kind.SPEED else nan), None
+        return position_law.Aim(wanted if demand.kind is Kind.SPEED else nan), position_law.leave(run.place, dt)
     place = run.place or position_law.begin(config.position, wanted)
-    return position_law.approach(config.position, place, wanted, sample.edge_count, 0.0 in (speed, sample.speed))
+    return position_law.approach(config.position, place, wanted, sample.edge_count, 0.0 in (speed, sample.speed), dt)
 
 
 def _approach(config: Config, run: Run, wanted: float, kind: Kind, dt: float) -> Target:
@@ -178,9 +188,12 @@ def _compute_terms(
     law, gains, forward = run.law, config.gains, 0.0
     if config.single_channel and seen is None and speed == 0.0:  # what held the other direction is of no use from here
         law = pi.State(min(max(law.integral, allowed.low), allowed.high))
+    law = forget(gains, law, dt, runs_on(config, run.motion, law, reference, reference - speed))
     if config.feedforward is not None:
         forward = config.feedforward.voltage(reference, target.slope, 0.0 if seen is None else seen.load)
         if seen is not None and speed != 0.0:
             leak = gains.ki / gains.kp if gains.kp > 0.0 else gains.ki
             law, gains = pi.State(law.integral * exp(-dt * min(leak, 1e6))), config.resting
+    if gains is config.gains:  # the others leak by themselves
+        gains = gains_to_rest(gains, law, reference, reference - speed)
     return pi.update(gains, law, reference - speed, forward, dt, allowed.low, allowed.high)

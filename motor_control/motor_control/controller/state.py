@@ -5,9 +5,11 @@ One source drives at a time. A stop is latched until `reset`; whoever asks meanw
 
 from dataclasses import dataclass, replace
 
+from motor_control.controller.faults import detection
 from motor_control.controller.latency import LatencyState
 from motor_control.controller.motion import Motion
 from motor_control.controller.plant_watch import PlantWatch
+from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.run import Config, Run
 
@@ -42,6 +44,8 @@ class State:
     plant: PlantWatch | None = None
     latency: LatencyState | None = None
     motion: Motion | None = None  # what is known of the motor, from run to run
+    faults: detection.State | None = None  # what the latest run has seen of faults
+    judged: int = 0  # [ns] its latest sample
     speakers: str = ""  # who publishes motor/speed, for the sentence about two plants
 
 
@@ -77,8 +81,10 @@ def _take(state: State, demand: Demand, now: float) -> State:
     if before is not None and before.source is not demand.source:
         why = OTHER_DRIVES.format(demand.source.value, before.source.value)
         return replace(state, refused=why, refused_at=now)
-    same = before is not None and before.kind is demand.kind  # another kind of demand is another run
-    return replace(state, demand=demand, referred=now, dropped="", refused="", run=state.run if same else None)
+    run = state.run
+    if run is not None and (before is None or before.kind is not demand.kind):
+        run = replace(run, place=position_law.leave(run.place, 0.0))
+    return replace(state, demand=demand, referred=now, dropped="", refused="", run=run)
 
 
 def release(state: State) -> tuple[str, State]:
@@ -88,7 +94,7 @@ def release(state: State) -> tuple[str, State]:
 
 def stop(state: State, reason: str) -> State:
     """Latch 0 V from the next sample on, until `reset`; `reason` is a sentence."""
-    return replace(state, run=None, latched=reason, demand=None, dropped=CLEARED)
+    return replace(state, run=None, faults=None, latched=reason, demand=None, dropped=CLEARED)
 
 
 def reset(state: State) -> tuple[str, State]:
@@ -105,4 +111,5 @@ def drop(state: State, why: str) -> State:
 
 def meet_other_plant(state: State) -> State:
     """Forget what was asked of a plant that is another one now: edges, limits, all that a reference was for."""
-    return drop(replace(state, motion=None), OTHER_PLANT) if state.demand is not None else replace(state, motion=None)
+    state = replace(state, motion=None, faults=None)
+    return drop(state, OTHER_PLANT) if state.demand is not None else state

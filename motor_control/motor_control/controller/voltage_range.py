@@ -11,6 +11,11 @@ the voltage outright. A wrong sign makes the loop push the wrong way. With the r
                        GIVE_UP times that speed: the plant sees the turn an edge or two later, when the motor is
                        faster again, and by this very voltage
 
+And once a motor of one channel has come to rest at a reference of 0, it gets 0 V until another one comes: friction
+holds it there. An edge would be of a hand, a hit or noise on the line, and an observer that drives against the motion
+it takes that for would turn the motor by itself if the line is lost. With two channels and an observer it gets
+`AT_REST` of the voltage there, for a load that is larger than friction.
+
 It mends itself. Should the sign be wrong after all, the voltage is still toward the reference, so the motor ends up
 turning that way, through a standstill or a period maximum that the plant can see.
 
@@ -21,6 +26,7 @@ voltage is kept within `plug_limit` times the limit of the back-EMF.
 from math import copysign, inf
 from typing import NamedTuple
 
+AT_REST = 0.5  # of the voltage limit, that a motor with two channels gets there: twice a load that is allowed
 GIVE_UP = 2.0  # of 1, 2, 4, 8 in simulation the least that loses no time with a plant that is slow to see the turn
 
 
@@ -74,6 +80,11 @@ def limit_plugging(span: Span, back_emf: float, limit: float) -> Span:
     elif back_emf < 0.0:
         high = min(high, max(back_emf + limit, 0.0))
     return span._replace(low=low, high=max(high, low))
+
+
+def limit_at_rest(span: Span, limit: float) -> Span:
+    """Keep the voltage within +-limit [V] where the motor has come to rest and shall stay there."""
+    return span._replace(low=max(span.low, -limit), high=min(span.high, limit))
 
 
 def back_emf_of(speed: float, kv: float, reversal_speed: float) -> float:

@@ -46,9 +46,9 @@ class Truncation(NamedTuple):
 def truncate_normal(excess: float) -> Truncation:
     """Truncate a normal distribution at `excess` standard deviations below its mean."""
     if excess > 8.0:
-        hazard = excess + 1.0 / excess
-    else:
-        hazard = exp(-0.5 * excess * excess) / sqrt(2.0 * pi) / (0.5 * erfc(excess / sqrt(2.0)))
+        hazard = excess + 1.0 / excess - 2.0 / excess**3
+        return Truncation(hazard, 1.0 - 1.0 / excess**2)  # the product below would cancel, and exceed 1 from 9,079 on
+    hazard = exp(-0.5 * excess * excess) / sqrt(2.0 * pi) / (0.5 * erfc(excess / sqrt(2.0)))
     return Truncation(hazard, hazard * (hazard - excess))
 
 

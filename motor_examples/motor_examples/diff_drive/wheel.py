@@ -60,7 +60,8 @@ def follow_sample(wheel: Wheel, sample: Sample, now: float) -> Wheel:
     if sample.speed != 0.0:
         direction = 1 if sample.speed > 0.0 else -1
     turned = 0
-    if wheel.info is not None and before is not None and sample.sample_time > before.sample_time:
+    recounts = before is not None and sample.edge_time == 0 < before.edge_time  # its board was reset
+    if wheel.info is not None and before is not None and sample.sample_time > before.sample_time and not recounts:
         turned = sample.edge_count - before.edge_count
         if wheel.info.single_channel:
             turned *= direction

@@ -1,7 +1,8 @@
 """Check that the motor moves as its voltage wants: no edges, edges that stop, a direction that is the wrong one.
 
 One channel cannot tell a motor that stands from an encoder that is not connected, but for two signs: a supply that is
-measured and missing, and edges that end at a speed from which no shaft stops within a slot. Nor does it show direction.
+measured and missing, and edges that end without having come later and later, as those of a shaft that is braked do. Nor
+does it show direction.
 
 A finding is a sentence for people. A stop is one that lasts for `stall_time` at a voltage from STRONG on: then the
 plant switches the motor off by itself, whoever sends the voltage. Simulated and real motor share this.
@@ -16,7 +17,10 @@ STRONG = 0.5  # of the motor's voltage: twice what any motor needs to break away
 STILL_STRONG = 0.8  # of that it may fall to and count on: a loop's voltage trembles with the disc's slots
 LONG = 500_000_000  # [ns] of driving one way without what should follow
 LITTLE = 3.0  # [V] of supply: no bridge works with less
-QUICK = 1.0 / 300.0  # [s] between edges; to stop within the next slot takes 3000 rad/s² with 96 of them
+ALL = 0.93  # of a measured supply, which a driver smooths by as much as 5 %: more there is not, however little it is
+# Of the period before: a motor that is braked to a standstill has a last one of at least 1.3 of it, however hard it is
+# braked (slots at the end of a constant deceleration); a disc with slots irregular by 5 % seldom has 1.2.
+SLOWED = 1.2
 SLOWER = 0.98  # of the speed at the beginning; a motor that is braked by STRONG keeps more only if its time constant
 # is over 50 times the stall time: du/dt = -(0.5 + 1)·speed/time constant at least, from top speed down
 # A loop that pushes the wrong way may do so in pulses, because it lets a fast motor coast, and may be held below STRONG
@@ -35,8 +39,8 @@ NEVER = (
     "motor does not turn (bridge, its supply, a blocked shaft)"
 )
 CUT_OFF = (
-    "edges ended within one slot at full motion, and {voltage:.1f} V brings none back: the encoder's cable is off, or "
-    "the shaft has jammed"
+    "edges ended within one slot, without slowing down before, and {voltage:.1f} V brings none back: the encoder's "
+    "cable is off, or the shaft has jammed"
 )
 STALLED = "no edges at {voltage:.1f} V: the motor is stalled, or the encoder's cable is off"
 AGAINST = "the motor turns against its voltage: swap the motor's two wires, or the encoder's two channels"
@@ -60,12 +64,12 @@ class MotionCheck:
     begun_at: int = 0  # [ns]
     pressed: float = 0.0  # [s] of the motor's voltage against that speed, beyond PRESSING
     back: int = 0  # slow edges against the strong voltage since then
-    quick: bool = False  # the latest edges came in quick succession
+    even: bool = False  # the latest edge came hardly later than the one before had
 
     def see(self, sample: Sample) -> "MotionCheck":
         """The next sample of the same board since its start."""
         share, now = sample.voltage / self.max_voltage, sample.sample_time
-        direction, strong = _sign(share, DRIVEN), _sign(share, STRONG)
+        direction, strong = _sign(share, DRIVEN), _sign(share, STRONG) or _sign_of_all(sample)
         if strong == 0 and share * self.strong >= STILL_STRONG * STRONG:
             strong = self.strong
         fresh, anew = direction != self.direction, strong != self.strong
@@ -87,7 +91,7 @@ class MotionCheck:
             begun_at=self.begun_at if pressed else now,
             pressed=pressed,
             back=0 if anew else self._count_back(sample, strong),
-            quick=0.0 < sample.edge_period < QUICK if moved else self.quick,
+            even=self._is_even(sample) if moved else self.even,
         )
 
     @property
@@ -117,6 +121,10 @@ class MotionCheck:
         stalled = sample.sample_time - max(self.still, self.strong_since) >= most
         return self._no_edges(sample) if stalled else ""
 
+    def _is_even(self, sample: Sample) -> bool:
+        """Whether the period of this edge is hardly longer than that of the one before."""
+        return self.latest is not None and 0.0 < sample.edge_period <= SLOWED * self.latest.edge_period
+
     def _press(self, share: float, strong: int, now: int) -> float:
         """Sum up a voltage, as a share of the motor's, that pushes against the motion."""
         dt = (now - self.latest.sample_time) * 1e-9 if self.latest is not None else 0.0
@@ -133,10 +141,16 @@ class MotionCheck:
         return self.back + (SLOW <= sample.edge_period <= GROWTH * known)
 
     def _no_edges(self, sample: Sample) -> str:
-        text = NEVER if sample.edge_count == 0 else CUT_OFF if self.quick else STALLED
+        text = NEVER if sample.edge_count == 0 else CUT_OFF if self.even else STALLED
         if sample.supply_voltage < LITTLE:  # false if it is not measured
             text = NO_SUPPLY
         return text.format(voltage=sample.voltage, supply=sample.supply_voltage)
+
+
+def _sign_of_all(sample: Sample) -> int:
+    """The direction of all the voltage that a measured supply gives; 0: it is less, or not measured."""
+    supply = sample.supply_voltage
+    return _sign(sample.voltage / supply, ALL) if supply >= LITTLE else 0
 
 
 def _sign(share: float, least: float) -> int:

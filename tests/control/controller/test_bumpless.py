@@ -41,6 +41,21 @@ def test_the_voltage_does_not_jump(name: str, at: float) -> None:
     assert terms.voltage == pytest.approx(terms.proportional + terms.integral + terms.feedforward, abs=1e-9)
 
 
+@pytest.mark.parametrize("source", ["measured", "observer"])
+def test_an_integral_without_a_gain_is_forgotten(source: str) -> None:
+    """Two channels: what it held from before would turn the motor for ever, at a reference of 0 too."""
+    before = {"speed_source": source, "feedforward": False}
+
+    def reference(time: float) -> float:
+        return 60.0 if time < 1.0 else 0.0
+
+    for gains in ({"ki": 0.0}, {"ki": 0.0, "kp": 0.0}, {"ki": 0.001}):
+        run = drive(motor(), reference, 3.0, single_channel=False, configs=[(0.7, gains)], **before)  # type: ignore[arg-type]
+        k = round(0.7 * 200.0)
+        assert abs(run.voltage[k + 1] - run.voltage[k]) < 0.5 and run.speed[k + 5] > 50.0  # and does not jump
+        assert abs(run.speed[-1]) < 0.1 and abs(run.voltage[-1]) < (0.95 if gains["ki"] else 0.05)
+
+
 def test_another_model_takes_the_motion_over() -> None:
     info, state = Info(), controller.State()
     first, second = settings(motor(), info), settings(motor(kv=PAPER_KV * 1.1), info)

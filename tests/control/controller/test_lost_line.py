@@ -46,3 +46,16 @@ def test_a_line_that_holds_is_no_fault() -> None:
     for source in ("measured", "observer"):
         loss = lose_line(motor(), 100.0, 0.0, source=source, lost=9.0)
         assert loss.stopped is None and controller.STOPPED not in loss.reason
+
+
+@pytest.mark.parametrize(("reference", "strays"), [(0.0, 5.0), (0.0, 20.0), (0.0, 50.0), (1e-3, 20.0), (-1e-6, 20.0)])
+def test_a_line_lost_at_rest_turns_nothing(reference: float, strays: float) -> None:
+    """The observer drove against the motion that it took every stray edge for: up to 60 % of the top speed for ever."""
+    loss = lose_line(motor(), reference, strays, source="observer", model=motor())
+    assert loss.stopped is None and loss.fastest == 0.0
+
+
+def test_with_two_channels_it_turns_the_motor_by_half_the_voltage_at_most() -> None:
+    """A load may be larger than friction there; it was 78 to 96 % of the top speed, for seconds or for ever."""
+    loss = lose_line(motor(), 0.0, 20.0, source="observer", model=motor(), single_channel=False)
+    assert loss.stopped is not None and loss.stopped < 2.0 and 5.0 < loss.fastest < 0.5 * 174.0

@@ -3,6 +3,7 @@
 import pytest
 
 from motor_control.controller.plant_watch import PlantWatch, watch_plant
+from motor_model.sample import Sample
 
 PERIOD = 5_000_000  # [ns]
 
@@ -11,7 +12,7 @@ def watch(times: list[int], sample_period: float = 0.005, every: float = 0.005) 
     state: PlantWatch | None = None
     seen = []
     for k, time in enumerate(times):
-        state = watch_plant(state, time, k, k * every, sample_period)
+        state = watch_plant(state, Sample(time, 0.0, 0.0, k), k * every, sample_period)
         seen.append(state)
     return seen
 

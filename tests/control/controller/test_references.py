@@ -1,15 +1,16 @@
 """A reference is obeyed until what it was for is over; then the motor waits for a fresh one."""
 
 from dataclasses import replace
-from math import nan
+from math import nan, tau
 
 import pytest
-from bench_board import DEFAULTS
+from bench_board import DEFAULTS, motor, settings
 
 from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.controller import Config, State
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
+from motor_control.controller.reference.demand import Kind
 from motor_model.sample import Info, Sample
 
 CONFIG = config_of(DEFAULTS, Info())
@@ -52,6 +53,18 @@ def test_a_restarted_plant_waits() -> None:
     output, state = feed(running(), [0, 5, 10], later=0.3)
     waits(output, "restarted")
     assert feed(state, [15], 60.0, later=0.3)[0].state == RUNNING
+
+
+def test_a_board_that_counts_from_0_again_waits() -> None:
+    """Its driver's clock goes on; an angle that was reached before is somewhere else now."""
+    config = settings(motor(), Info(single_channel=False))
+    state = controller.refer(State(), 500.0 * tau / 96, 0.0, Kind.POSITION)
+    for k in range(4):
+        sample = Sample((100 + k) * 5 * MS, 0.0, 0.0, 500, 9 * MS, 0.01)
+        output, state = controller.update(config, state, sample, None, k * 0.005)
+    assert output.state == RUNNING and output.terms.voltage == 0.0  # it is there
+    again = Sample(104 * 5 * MS, 0.0, 0.0, 0)
+    waits(controller.update(config, state, again, None, 0.02)[0], "restarted")
 
 
 @pytest.mark.parametrize(("away", "resumes"), [(900, True), (1100, False)])

@@ -18,14 +18,16 @@ from motor_control.filter.no_edge_update import (
 LOOSE = Covariance((0.1 * SLOT) ** 2, 1e-3, 0.0, 1.0, 0.0, 0.01)
 
 
-@pytest.mark.parametrize("excess", [-1.0, 0.0, 2.0, 7.9, 8.1])
+@pytest.mark.parametrize("excess", [-1.0, 0.0, 2.0, 7.9, 8.1, 17.0, 1000.0, 9_079.0, 12_345.6, 1e6, 1e7])
 def test_the_truncated_normal_has_scipys_mean_and_variance(excess: float) -> None:
     from scipy.stats import truncnorm
 
-    mean, variance = truncnorm.stats(-np.inf, -excess)
     cut = truncate_normal(excess)
-    assert cut.shift == pytest.approx(-mean, rel=1e-3)
-    assert cut.shrink == pytest.approx(1.0 - variance, abs=0.032)  # far out it is 1, and a floor keeps the variance
+    assert cut.shrink < 1.0  # more than all of the variance would leave a covariance that is none, and soon NaN
+    if excess < 20.0:  # further out SciPy loses its digits
+        mean, variance = truncnorm.stats(-np.inf, -excess)
+        assert cut.shift == pytest.approx(-mean, rel=1e-3)
+        assert cut.shrink == pytest.approx(1.0 - variance, abs=3e-3)
 
 
 def test_within_a_slot_silence_says_nothing() -> None:

@@ -50,6 +50,13 @@ def test_a_plant_that_starts_again_moves_nothing() -> None:
     assert follow_sample(again, Sample(11_000_000, 9.0, 0.0, 25), 1.0).angle == pytest.approx(0.75 * tau)
 
 
+def test_a_board_that_counts_from_0_again_moves_nothing() -> None:
+    """It was reset, and its driver's clock goes on."""
+    before = follow_sample(turned(Info(), []), Sample(10_000_000, 9.0, 0.0, 5000, 9_000_000), 0.0)
+    again = follow_sample(before, Sample(20_000_000, 0.0, 0.0, 0), 0.0)
+    assert again.edges == before.edges and follow_sample(again, Sample(30_000_000, 9.0, 0.0, 3, 1), 0.0).edges == 3
+
+
 def test_nothing_is_counted_before_it_is_known_what_a_count_is() -> None:
     wheel = follow_sample(follow_sample(Wheel("left"), Sample(1, 0.0, 0.0, 0), 0.0), Sample(2, 9.0, 0.0, 50), 0.0)
     assert replace(wheel, info=TWO).angle == 0.0

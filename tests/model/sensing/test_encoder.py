@@ -34,7 +34,7 @@ def edges(
     p = parameters.vector()
     times, directions = np.full(room, np.nan), np.zeros(room, dtype=np.int64)
     u = effective_voltage(p, voltage)
-    state, count = turn(p, u, state, start, seconds, disc.forward, disc.backward, offset, times, directions)
+    state, count = turn(p, u, state, start, seconds, disc.forward, disc.backward, offset, times, directions, False)
     return state, times[:count], directions[:count]
 
 

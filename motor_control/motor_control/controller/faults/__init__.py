@@ -11,6 +11,8 @@ In goes what a sample shows (`evidence`), out comes a sentence, or none (`detect
     runaway          the voltage is 0 or strongly against the motion, and yet the speed grows: a wrong sign, a bridge
                      that stays on, a load
     wrong_direction  pulses against the motion, beyond what a load takes, that make it faster: exchanged channels
+    plugging         a motion that the voltage against it, all that `plug_limit` leaves, does not slow down
+    push_at_rest     voltages that no load needs where the motor shall stand
     overspeed        faster than full voltage can drive the motor of the model: edges that are none, or a load
 
 The speed is the one the law uses, or counted edges (`controller.motion`); the voltage is the one the plant says it

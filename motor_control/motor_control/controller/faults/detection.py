@@ -1,11 +1,13 @@
 """Detect whether the motor has to stop for good: every check is asked at every sample."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from motor_control.controller.faults import (
     few_edges,
     irregular_edges,
     overspeed,
+    plugging,
+    push_at_rest,
     runaway,
     stall,
     unexpected_edges,
@@ -25,11 +27,19 @@ class State:
     undriven: runaway.State = runaway.State()
     too_fast: float = 0.0  # [s]
     pushed: wrong_direction.State = wrong_direction.State()
+    plugged: plugging.State = plugging.State()
+    unrest: push_at_rest.State = push_at_rest.State()
 
 
-def begin(speed: float) -> State:
-    """Begin with a motor that turns at a speed [rad/s]."""
-    return State(missing=few_edges.State(expected=speed))
+def begin(speed: float, before: State | None = None) -> State:
+    """Begin with a motor that turns at a speed [rad/s].
+
+    before: of a run that has ended a moment ago; what spoke against that one speaks against this one, too. Only what
+    the speed should have done meanwhile is not known: the motor had 0 V, or was somebody else's.
+    """
+    if before is None:
+        return State(missing=few_edges.State(expected=speed))
+    return replace(before, missing=replace(before.missing, expected=speed), undriven=runaway.State())
 
 
 def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
@@ -42,6 +52,8 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     away, undriven = runaway.check(config, state.undriven, seen)
     fast, too_fast = overspeed.check(config, state.too_fast, seen)
     wrong, pushed = wrong_direction.check(config, state.pushed, seen)
-    return still or few or irregular or odd or away or fast or wrong, State(
-        stalled, missing, periods, unexpected, undriven, too_fast, pushed
+    kept, plugged = plugging.check(config, state.plugged, seen)
+    restless, unrest = push_at_rest.check(config, state.unrest, seen)
+    return still or few or irregular or odd or away or fast or wrong or kept or restless, State(
+        stalled, missing, periods, unexpected, undriven, too_fast, pushed, plugged, unrest
     )

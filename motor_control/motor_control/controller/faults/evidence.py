@@ -8,6 +8,10 @@ from motor_control.controller.motion import Motion
 from motor_model.sample import Sample
 
 FULL = 0.98  # of the voltage limit
+ALL = 0.93  # of a measured supply below it, which a driver smooths by as much as 5 %: there is no more
+# Times a measured supply: a motor that gets more disproves it, as with a divider that has come loose. A driver takes
+# the voltage of a smoothed supply: while the measured one falls, it is more by what the noise and the sag have (5 %).
+DISPROVED = 1.1
 # Of the voltage limit that a load may take before anything is wrong. A motor with two channels may hold a weight, and
 # the weight drives it where it falls: of a load of a quarter of the stall torque only the difference is known. With one
 # channel friction has to hold 0 rad/s, so that a load is no larger than friction.
@@ -51,11 +55,15 @@ class Seen:
     dt: float  # [s] since the sample before
     voltage_limit: float  # [V]
     innovation: float = nan  # [rad] angle at the latest edge less the observer's prediction; NaN: no observer
+    plugs: bool = False  # the law asks for all the voltage against the motion that `plug_limit` leaves
 
     @property
     def full(self) -> bool:
         """Whether the motor gets all that it may."""
-        return abs(self.sample.voltage) >= FULL * self.voltage_limit > 0.0
+        supply, most, given = self.sample.supply_voltage, FULL * self.voltage_limit, abs(self.sample.voltage)
+        if supply > 0.0 and given <= DISPROVED * supply:  # false if it is not measured
+            most = min(most, ALL * supply)
+        return given >= most > 0.0
 
 
 def find_allowed_voltage(config: Config, motion: Motion, voltage_limit: float) -> float:

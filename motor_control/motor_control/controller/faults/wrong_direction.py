@@ -3,7 +3,8 @@
 A loop that lets a fast motor coast until it is slow (`plug_limit`, where the back-EMF is not known) pushes a motor
 whose channels are exchanged from one standstill to the next: each pulse is too short to last, and at 0 V a load could
 drive it too. But a pulse beyond what a load takes makes a motion against it slower, whatever the load. `PULSES` that
-made it faster, and not one that did anything else or any motion along with them in between, are a wrong direction.
+made it faster, and not one that made it slower or any motion along with them in between, are a wrong direction. Pulses
+of a few milliseconds, after which the speed is much what it was, tell nothing.
 """
 
 from dataclasses import dataclass, replace
@@ -12,7 +13,8 @@ from math import inf
 from motor_control.controller.faults.evidence import Config, Seen
 
 STRONG = 0.5  # of the voltage limit: twice a load that is allowed
-GROWTH, EDGES = 1.5, 50.0  # of the least speed in the pulse, and on top edges a second: a disc's slots are irregular
+GROWTH, EDGES = 1.4, 30.0  # of the least speed in the pulse, and on top edges a second: a disc's slots are irregular
+SLOWER = 0.9  # of the speed before the pulse
 LATE = 2  # edges after which the period shows what a pulse has done
 PULSES = 3  # one may be a hit from outside
 SENTENCE = (
@@ -29,8 +31,9 @@ class State:
     voltage: float = 0.0  # [V] of it
     pushes: bool = False  # it has not ended
     edges: int = LATE  # since it ended
-    slowest: float = inf  # [rad/s] against it
-    fastest: float = 0.0  # [rad/s] likewise
+    begun: float = 0.0  # [rad/s] against it
+    slowest: float = inf  # [rad/s] likewise, since it has begun
+    fastest: float = 0.0  # [rad/s] after that
     pulses: int = 0  # that made the motion faster
 
 
@@ -44,11 +47,11 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     along = speed * (direction or state.direction) > 0.0
     if not config.two_channels or along or direction * state.direction < 0 or config.stall_time == 0.0:
         return "", NONE
-    state = replace(state, fastest=max(state.fastest, abs(speed)))  # also where the voltage was on until now
     if direction and not state.pushes:
-        state = replace(state, pushes=True, edges=0) if state.edges < LATE else _begin_pulse(state, speed)
+        state = replace(state, pushes=True, edges=0) if state.edges < LATE else _begin_pulse(state, abs(speed))
+    state = _follow_speed(state, abs(speed))  # also where the voltage was on until now
     if direction:
-        return "", replace(state, direction=direction, voltage=abs(voltage), slowest=min(state.slowest, abs(speed)))
+        return "", replace(state, direction=direction, voltage=abs(voltage))
     if state.edges >= LATE:
         return "", state
     state = replace(state, pushes=False, edges=state.edges + seen.motion.edges)
@@ -57,12 +60,19 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
 
 def _begin_pulse(state: State, speed: float) -> State:
     """Begin a pulse, at a speed [rad/s] against it, after one whose edges are all in."""
-    return State(pushes=True, edges=0, fastest=abs(speed), pulses=state.pulses)
+    return State(pushes=True, edges=0, begun=speed, pulses=state.pulses)
+
+
+def _follow_speed(state: State, speed: float) -> State:
+    """Follow the speed [rad/s] against a pulse: its least, and its largest after that."""
+    if speed < state.slowest:
+        return replace(state, slowest=speed, fastest=speed)
+    return replace(state, fastest=max(state.fastest, speed))
 
 
 def _count_pulse(config: Config, state: State) -> tuple[str, State]:
-    """Count a pulse that has ended if it made the motion faster; else begin anew."""
+    """Count a pulse that has ended if it made the motion faster; begin anew after one that made it slower."""
     faster = state.fastest > GROWTH * state.slowest + EDGES * config.slot
-    pulses = state.pulses + 1 if faster else 0
+    pulses = state.pulses + faster if state.fastest >= SLOWER * state.begun else 0
     reason = SENTENCE.format(pulses, state.voltage, state.fastest) if pulses >= PULSES else ""
     return reason, replace(state, pulses=pulses)

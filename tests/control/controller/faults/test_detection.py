@@ -1,16 +1,19 @@
 """What stops a loop for good, and what must not."""
 
 from dataclasses import replace
+from math import nan
 
 import numpy as np
 import pytest
-from bench_board import DEFAULTS, drive, motor
+from bench_board import DEFAULTS, drive, motor, settings
 from bench_motor import Plant, close_loop
 
 from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.controller import State
+from motor_control.controller.faults import detection, stall
 from motor_control.controller.output import Output
+from motor_control.controller.reference.demand import Kind
 from motor_model.sample import Info, Sample
 
 
@@ -66,6 +69,44 @@ def test_an_output_that_is_off_does_not_wind_up_the_integral() -> None:
     assert all(output.state == controller.RUNNING for output in outputs)
     assert on[-1].reason == "" and on[-1].terms.integral > off[-1].terms.integral
     assert max(output.terms.integral for output in ignoring([True] * 205)) > 11.0
+
+
+def ask(state: State, k: int, wanted: str) -> State:
+    """Ask anew before the k-th sample, in one of the ways that end a run."""
+    if wanted == "angle" and k % 2:
+        return controller.refer(state, 500.0, 0.005 * k, Kind.POSITION)
+    if wanted == "no number" and k % 10 == 5:
+        return controller.refer(state, nan, 0.005 * k)
+    return controller.release(state)[1] if wanted == "release" and k % 10 == 5 else state
+
+
+@pytest.mark.parametrize("wanted", ["speed", "angle", "no number", "release"])
+def test_whoever_asks_for_something_else_again_and_again_blinds_no_check(wanted: str) -> None:
+    """Stray edges on a lost line, of which the plant's own check knows nothing: the motor ran at full speed on."""
+    random, state, voltage = np.random.default_rng(4), State(), 0.0
+    config, count, time = settings(motor(), Info(single_channel=False)), 0, 0
+    for k in range(400):
+        sample = Sample(k * 5_000_000, 0.0, voltage, count, time, 0.01)
+        if random.random() < 0.4:  # 80 a second
+            period, time = max((k * 5_000_000 - time) * 1e-9 - 0.004 * random.random(), 1e-4), k * 5_000_000 - 10_000
+            count += 1
+            sample = replace(sample, edge_count=count, edge_time=time, edge_period=period, speed=0.065 / period)
+        state = ask(state, k, wanted)
+        fresh = 60.0 if k % 10 == 6 or wanted == "angle" and k % 2 == 0 else None
+        output, state = controller.update(config, state, sample, fresh, 0.005 * k)
+        voltage = output.terms.voltage
+        if state.latched:
+            break
+    assert "Edges do not fit" in state.latched and 0.005 * k < 1.0
+
+
+def test_what_a_run_has_shown_is_not_held_against_one_much_later() -> None:
+    known = detection.State(stalled=stall.State(0.4, 1))
+    state = replace(State(), faults=known, judged=1_000_000_000)
+    for later, kept in ((900_000_000, True), (1_100_000_000, False)):
+        sample = Sample(1_000_000_000 + later, 0.0, 12.0)
+        _, after = controller.update(config_of(DEFAULTS, Info()), state, sample, 50.0, 0.0)
+        assert after.run is not None and (after.run.faults.stalled.time >= 0.4) == kept
 
 
 def test_no_fault_in_ordinary_motion() -> None:

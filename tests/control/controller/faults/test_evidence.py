@@ -13,6 +13,23 @@ def test_full_is_all_that_the_motor_may_get(voltage: float, full: bool) -> None:
     assert Seen(Sample(0, 0.0, voltage), 0.0, Motion(), 0.0, 0.005, 12.0).full == full
 
 
+@pytest.mark.parametrize(("supply", "voltage", "full"), [(5.0, 4.7, True), (5.0, 4.6, False), (14.0, 11.7, False)])
+def test_all_that_a_measured_supply_gives_is_full_too(supply: float, voltage: float, full: bool) -> None:
+    """A motor of 12 V on a battery of 5 V never got 12 V, and with a lost encoder ran on for ever."""
+    sample = Sample(0, 0.0, voltage, supply_voltage=supply)
+    assert Seen(sample, 0.0, Motion(), 0.0, 0.005, 12.0).full == full
+
+
+@pytest.mark.parametrize(
+    ("supply", "voltage", "full"),
+    [(0.05, 1.0, False), (0.05, 11.8, True), (5.0, 5.4, True), (5.0, 5.6, False), (0.0, 1.0, False)],
+)
+def test_a_supply_below_what_the_motor_gets_is_not_believed(supply: float, voltage: float, full: bool) -> None:
+    """A loose divider read 0.05 V: 1 V that held a shaft at a reference of 0 was all it may get, and a stall."""
+    sample = Sample(0, 0.0, voltage, supply_voltage=supply)
+    assert Seen(sample, 0.0, Motion(), 0.0, 0.005, 12.0).full == full
+
+
 def test_a_time_is_not_negative() -> None:
     with pytest.raises(MotorError):
         Config(stall_time=-1.0)

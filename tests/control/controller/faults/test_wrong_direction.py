@@ -26,6 +26,10 @@ def test_pulses_that_drive_the_motor_the_other_way_are_a_wrong_direction() -> No
     reason, when = feed(push(4.0) * 10, TWO)
     assert "3 pulses against the motion, of 12 V, made it faster, to 240 rad/s" in reason
     assert when == pytest.approx((3 * 23 - 1) * 0.005)  # with the sample that ends the third
+    assert feed((push(4.0) + push(1.0)) * 3, TWO)[0]  # pulses that do nothing are none
+    assert (
+        feed([turning(-90.0, 0.0), *[turning(-w, 12.0) for w in (90.0, 60.0)], turning(-62.0, 0.0)] * 9, TWO)[0] == ""
+    )
     few = [(-3.0, 12.0, 0.0), (-3.0, 12.0, 0.0), (-3.0, 0.0, 0.0), *[turning(-12.0, 0.0)] * 3, turning(-3.0, 0.0)]
     assert feed(few * 3, TWO)[1] < 0.1  # its edges come when it has ended
 
@@ -38,11 +42,12 @@ def test_pulses_that_drive_the_motor_the_other_way_are_a_wrong_direction() -> No
         push(4.0, voltage=5.9) * 10,  # a loop answers a load that drives the motor
         push(0.5) * 10,
         (push(4.0) * 2 + push(0.5)) * 5,
+        push(4.0)[:1] * 9 + (push(4.0) + push(0.89)) * 10,
         (push(4.0) * 2 + [turning(0.5, 12.0)]) * 5,  # it turns as it is told
         (push(4.0) * 2 + [turning(0.5, 0.0)]) * 5,
         (push(4.0) + [turning(-9.0, -12.0)]) * 10,
     ],
-    ids=["two", "little", "weak", "slower", "slower once", "along", "along by itself", "both ways"],
+    ids=["two", "little", "weak", "slower", "slower once", "little slower", "along", "along by itself", "both ways"],
 )
 def test_other_pulses_are_not(rows: list[Row]) -> None:
     assert feed(rows, TWO) == ("", inf)

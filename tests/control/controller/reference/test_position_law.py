@@ -1,11 +1,12 @@
 """An angle is reached within one slot, at 0 V, without hunting: friction, backlash, coarse discs and fine ones."""
 
 from dataclasses import replace
-from math import tau
+from math import nan, tau
 
 import numpy as np
 import pytest
 from bench_board import motor, settings
+from lost_line import LostLine
 
 from motor_control.controller import controller
 from motor_control.controller.output import Output
@@ -122,3 +123,93 @@ def test_who_jumps_over_the_slot_comes_back_slower_and_stays_in_the_end() -> Non
     assert speeds == sorted(speeds, reverse=True) and speeds[-1] < 0.1 * speeds[0]
     assert aim.rests and aim.note == position_law.STAYS.format(5) and turn < 2 * position_law.TRIES - 1
     assert position_law.approach(LAW, replace(state), 10.0, 95, True)[0].rests
+
+
+@pytest.mark.parametrize(
+    ("edges", "strays", "stream"),
+    [
+        (96, 50.0, ()),
+        (960, 5.0, ()),
+        (960, 5.0, (1, 0)),
+        (960, 20.0, (1, 0)),
+        (960, 5.0, (nan, 0)),
+        (960, 5.0, (0.0, 0)),
+    ],
+)
+def test_a_line_lost_at_rest_turns_the_motor_for_a_second_at_most(
+    edges: int, strays: float, stream: tuple[float, ...]
+) -> None:
+    """Each stray edge pushed it out of its angle: 174 rad/s and 960 edges turned at 30 % of the top speed for ever.
+
+    So it did under a stream of other angles, slots away, of NaN or of speeds (0.0 here) in between.
+    """
+    board = BoardConfig(edges_per_revolution=edges, single_channel=False)
+    config = settings(motor(), board.info(motor()), 0.02)
+    simulated, state, voltage, line = SimulatedBoard(motor(), board), controller.State(), 0.0, None
+    state, driven = controller.refer(state, 20.0, 0.0, Kind.POSITION), []
+    for k in range(1000):
+        sample = simulated.sample(voltage)
+        if k >= 400:
+            line = line or LostLine(strays, tau / edges, 1.0)
+            sample = line.report(sample, k > 400)
+            if stream and k % 20 == 0:
+                asked = stream[k // 20 % 2]
+                speed = isinstance(asked, float) and asked == 0.0
+                angle = 0.0 if speed else (round(20.0 * edges / tau) + asked) * tau / edges
+                state = controller.refer(state, angle, k / 200.0, Kind.SPEED if speed else Kind.POSITION)
+        output, state = controller.update(config, state, sample, None, k / 200.0)
+        voltage = output.terms.voltage
+        driven += [k / 200.0] * (k > 400 and voltage != 0.0)
+    assert state.latched or stream or "does not come back" in output.reason
+    assert len(driven) / 200.0 < (1.2 if stream else 1.0) and abs(simulated.speed) < 0.1
+    assert stream or driven[-1] - driven[0] < 1.0
+
+
+def test_a_motor_that_is_pushed_out_of_an_angle_has_to_come_nearer() -> None:
+    def push(counts: list[int]) -> tuple[position_law.Aim, position_law.State]:
+        state = position_law.State(0, resting=True)
+        for count in counts:
+            aim, state = position_law.approach(LAW, state, 0.0, count, False, 0.1)
+        return aim, state
+
+    assert push([5] * 10)[0].speed < 0.0  # for 0.9 s, and
+    aim, state = push([5] * 11)
+    assert aim.rests and aim.note == position_law.AWAY
+    assert position_law.approach(LAW, state, 0.0, 0, True, 0.1)[0].rests  # until somebody asks for something else
+    _, asked = position_law.approach(LAW, state, 1.0, 0, True, 0.1)  # a stream of other angles does not count as that
+    assert position_law.approach(LAW, asked, 0.0, 5, True, 0.1)[0].rests
+    for _ in range(11):
+        _, state = position_law.approach(LAW, state, 0.0, 5, True, 0.1)
+    assert position_law.approach(LAW, state, 1.0, 0, True, 0.1)[0].speed > 0.0
+    assert not push([5, 9, 20, 40, 40, 40, 38, 38, 38, 36, 36, 36, 34] * 2)[0].rests  # nearer, then away, then nearer
+    assert not push([5, 6, 7, 8, 9, 10, 11, 10, 9])[0].rests
+
+
+def test_a_stream_that_runs_away_from_a_pushed_motor_counts_what_it_follows() -> None:
+    """One slot a sample, and the motor three behind: never two slots nearer to an angle, and well on its way."""
+    state = position_law.State(0, resting=True, count=0)
+    _, state = position_law.approach(LAW, state, 0.0, -3, False, 0.1)
+    for k in range(30):
+        aim, state = position_law.approach(LAW, state, 0.1 * k, k - 3, False, 0.1)
+        assert aim.speed > 0.0
+    for _ in range(12):
+        aim, state = position_law.approach(LAW, state, 2.9, 26, False, 0.1)
+    assert aim.note == position_law.AWAY  # it is held now
+
+
+def test_who_comes_back_more_slowly_and_a_flywheel_have_more_time() -> None:
+    """Friction half again the model's: 5 of 12 pushes were given up though the motor came back to within a slot."""
+
+    def held(state: position_law.State, config: position_law.Config = LAW) -> float:
+        for k in range(99):
+            aim, state = position_law.approach(config, state, 0.0, 5, False, 0.1)
+            if aim.rests:
+                return 0.1 * k
+        return nan
+
+    pushed = position_law.State(0, side=-1, pushed=True)
+    assert held(pushed) == pytest.approx(0.9, abs=0.15)
+    assert held(replace(pushed, overshoots=1)) == pytest.approx(1.8, abs=0.15)
+    flywheel = position_law.design(tau / 24, 1.0, 4.0, 12.0, 30.0)  # two slots at 0.75 rad/s²: 1.2 s
+    assert 2.3 < flywheel.return_time < 2.5 and held(pushed, flywheel) == pytest.approx(flywheel.return_time, abs=0.15)
+    assert position_law.design(tau / 96, 0.2, 0.0034, 12.0, 174.0).return_time == position_law.RETURN_TIME
