@@ -30,6 +30,7 @@ class BoardLoop:
     motor: Motor = MOTORS[2]
     channels: int = 1
     supply: float = 0.0  # [V] 0: the motor's voltage, and not measured
+    told: float = 0.0  # [V] supply_voltage
     alive: bool = True  # the controller
     driving: bool = True  # the driver
     plugged: bool = True
@@ -49,7 +50,8 @@ class BoardLoop:
 
     def start(self) -> None:
         """The driver starts, or starts again."""
-        config = Config(sample_rate=self.rate, single_channel=self.channels == 1, max_voltage=self.motor.voltage)
+        motor = {"max_voltage": self.motor.voltage, "supply_voltage": self.told}
+        config = Config(sample_rate=self.rate, single_channel=self.channels == 1, **motor)
         self.driver, self.gate, self._begun = Driver(config), Gate(True, TIMEOUT, 1.0 / self.rate), 0
         self.driver.opened("the port", self._now)
 

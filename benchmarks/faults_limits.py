@@ -76,8 +76,64 @@ def dither(rate: float) -> str:
     return f"{sample.edge_count * 2 * np.pi / 96:.2f} rad counted, {board.angle:.2f} rad true"
 
 
+def no_gain(rate: float) -> str:
+    """What a motor does 3 s after a reference of 0, whose `ki` was set to 0 while it ran."""
+    loop = Loop(MOTOR, rate, single_channel=False)
+    loop.run(0.2)
+    loop.reference = 0.5 * MOTOR.top
+    loop.run(1.0)
+    loop.config = replace(loop.config, gains=replace(loop.config.gains, ki=0.0))
+    loop.run(0.3)
+    return _rest(loop)
+
+
+def large_gain(rate: float) -> str:
+    """What a motor does 3 s after a reference of 0 under four times the gain."""
+    loop = Loop(MOTOR, rate, single_channel=False)
+    gains = loop.config.gains
+    loop.config = replace(loop.config, gains=replace(gains, kp=4.0 * gains.kp))
+    loop.run(0.2)
+    loop.reference = 0.5 * MOTOR.top
+    loop.run(1.0)
+    return f"{_rest(loop)}. {loop.state.latched}".strip()
+
+
+def few_edges(rate: float) -> str:
+    """What a motor of 6 rad/s with 24 edges a turn does 3 s after a reference of 0."""
+    loop = Loop(MOTORS[0], rate, single_channel=False, edges=24)
+    loop.run(0.2)
+    loop.reference = 0.04 * MOTORS[0].top
+    loop.run(1.5)
+    return _rest(loop)
+
+
+def _rest(loop: Loop) -> str:
+    """Let a loop come to rest for 3 s; its true speed then."""
+    loop.reference = 0.0
+    loop.run(3.0)
+    fast = max(abs(moment.speed) for moment in loop.moments[-round(0.5 * loop.rate) :])
+    return f"{fast / loop.motor.top:.1%} of the top speed"
+
+
+def loose_divider(rate: float) -> str:
+    """Largest voltage at the pins of a 12 V motor on 24 V, of which a loose divider measures 3.5."""
+    loop = BoardLoop(rate, supply=24.0, told=24.0)
+    loop.emulator.chip.supply(5.0 * 3.5 / 60.0)
+    loop.run(0.6)
+    loop.raw = 0.0
+    loop.run(0.05)
+    loop.raw = 6.0
+    loop.run(0.5)
+    loop.emulator.close()
+    return f"{max(abs(moment.voltage) for moment in loop.moments):.2f} V"
+
+
 CASES = {
     "12 V motor on a 24 V supply, 100 V asked for: largest voltage": higher_supply,
+    "the same on 24 V that supply_voltage says, 6 V asked for, a loose divider that reads 3.5 V": loose_divider,
+    "two channels, `ki` set to 0 in a running loop, then a reference of 0: 3 s later": no_gain,
+    "two channels, four times the gain `kp`, measured, then a reference of 0: 3 s later": large_gain,
+    "two channels, 24 edges a turn, 6 rad/s, 4 % of it, then a reference of 0: 3 s later": few_edges,
     "second sender of −6 V beside one of 6 V: change of the voltage": second_sender,
     "reversal from +86 % to −86 % of the top speed, measured speed": reversal(False),
     "the same with a model": reversal(True),

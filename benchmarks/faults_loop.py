@@ -11,6 +11,7 @@ from faults_motor import Motor
 
 from motor_control.configuration import config_of
 from motor_control.controller import controller
+from motor_control.controller.reference.demand import Kind
 from motor_control.parameters import ROWS
 from motor_model.sample import Sample
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
@@ -53,9 +54,12 @@ class Loop:
     reference: float | None = None  # [rad/s] to be sent once
     moments: list[Moment] = field(default_factory=list)
     rival: Sample | None = None  # of a second plant, once it speaks
+    measured: bool = False  # the supply, which nobody has said
+    alternate: bool = False  # somebody asks for an angle before every other sample, and for the speed before the others
 
     def __post_init__(self) -> None:
-        self.limit = min(self.motor.voltage, self.supply or self.motor.voltage)
+        known = self.supply if not self.measured else 0.0
+        self.limit = min(self.motor.voltage, known or self.motor.voltage)
         self._samples = self._commands = 0
         self.come_up()
         parameters = self.motor.parameters(self.supply)
@@ -99,7 +103,7 @@ class Loop:
     def _step(self) -> None:
         voltage = min(max(self.gate.voltage(self._now), -self.limit), self.limit)
         true = self.board.sample(voltage)
-        sample = self.line(true)
+        sample = self.line(replace(true, supply_voltage=self.supply) if self.measured else true)
         self.check = self.check.see(sample)
         if self.check.stop and self.gate.enabled:
             self.gate = self.gate.stop(self.check.stop)
@@ -120,6 +124,8 @@ class Loop:
             came.append(self.rival)
         for sample in came if self.heard else []:
             fresh, self.reference = self.reference, None
+            if self.alternate:
+                fresh = self._ask_in_turn()
             output, self.state = controller.update(self.config, self.state, sample, fresh, self.time)
             self._reason = output.reason if output.state != "running" else ""
             if output.drives:
@@ -129,6 +135,13 @@ class Loop:
             self._reason = output.reason
             if output.drives:
                 self._command(0.0)
+
+    def _ask_in_turn(self) -> float | None:
+        """A speed for every other sample; before the others an angle far away."""
+        if self._samples % 2:
+            return 0.5 * self.motor.top
+        self.state = controller.refer(self.state, 1e3, self.time, Kind.POSITION)
+        return None
 
     def _command(self, voltage: float) -> None:
         self._commands += 1

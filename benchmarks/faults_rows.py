@@ -22,6 +22,8 @@ class Fault:
     reference: float = 0.5  # of the top speed; 0: no controller, but plain motor/voltage
     two_channels: bool = False
     raw: float = 0.0  # of the motor's voltage
+    supply: float = 0.0  # of the motor's voltage, measured; 0: not measured, and all of it
+    at_start: bool = False  # it is there before the reference comes
 
     @property
     def controlled(self) -> bool:
@@ -52,6 +54,11 @@ def swap(loop: Loop) -> None:
 def be_late(loop: Loop) -> None:
     """Samples wait for 100 ms before they are answered."""
     loop.delay = 0.1
+
+
+def ask_in_turn(loop: Loop) -> None:
+    """Stray edges on a lost line, and two who ask for a speed and an angle in turn."""
+    loop.line, loop.alternate = CableOff(50.0), True
 
 
 def fall_silent(loop: Loop) -> None:
@@ -95,10 +102,13 @@ FAULTS = (
     Fault("cable off at 3 % of the top speed, 5 stray edges a second", MOTION, cable_off(5.0), reference=0.03),
     Fault("cable off at 3 % of the top speed, 20 stray edges a second", MOTION, cable_off(20.0), reference=0.03),
     Fault("cable off at 3 % of the top speed, 50 stray edges a second", MOTION, cable_off(50.0), reference=0.03),
+    Fault("no encoder from the start, supply measured as 0.4 of it", MOTION, cable_off(), supply=0.4, at_start=True),
+    Fault("50 stray edges a second, speed and angle in turn", MOTION, ask_in_turn, two_channels=True),
     Fault("shaft blocked", MOTION, block),
     Fault("two channels exchanged", MOTION, swap, two_channels=True),
     Fault("two channels exchanged at 5 % of the top speed", MOTION, swap, reference=0.05, two_channels=True),
     Fault("two channels exchanged at 3 % of the top speed", MOTION, swap, reference=0.03, two_channels=True),
+    Fault("two channels exchanged at 2 % of the top speed", MOTION, swap, reference=0.02, two_channels=True),
     Fault("samples 100 ms late", KNOWN, be_late),
     Fault("no samples reach the controller", KNOWN, fall_silent),
     Fault("controller killed", KNOWN, die),
