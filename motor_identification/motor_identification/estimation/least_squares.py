@@ -155,6 +155,13 @@ class Scatter:
 
 
 def measure_scatter(estimate: Estimate) -> Scatter:
-    """Measure the scatter of the weighted speed residuals of an estimate."""
-    residuals = SpeedResiduals(estimate.problem).residuals(estimate.theta)
+    """Measure the scatter of the weighted speed residuals of an estimate, but for those of exactly 0.
+
+    While model and motor both stand, the residuals are exactly 0; more than half of them would make the middle half's
+    standard deviation 0, too.
+    """
+    every = SpeedResiduals(estimate.problem).residuals(estimate.theta)
+    residuals = every[every != 0.0]
+    if len(residuals) == 0:
+        return Scatter(0.0, 0.0)
     return Scatter(float(np.sqrt(np.mean(residuals**2))), ROBUST_SIGMA * float(np.median(np.abs(residuals))))

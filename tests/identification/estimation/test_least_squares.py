@@ -127,3 +127,15 @@ def test_the_scatter_by_the_middle_half_does_not_mind_tails() -> None:
     spoilt = clean.on(clean.problem.with_intervals((replace(data, speed=data.speed + wrong),)))
     assert measure_scatter(spoilt).rms > 5.0 * scatter.rms
     assert measure_scatter(spoilt).robust == pytest.approx(scatter.robust, rel=0.1)
+
+
+def test_the_scatter_of_a_motor_that_mostly_stands_is_that_of_its_motion() -> None:
+    moving = small_estimate()
+    (data,) = moving.problem.intervals
+    rest = np.arange(len(data.speed)) % 3 > 0
+    slack = np.where(rest, 1e9, data.slack)  # two thirds of the residuals are exactly 0, as at a standstill
+    standing = moving.on(moving.problem.with_intervals((replace(data, slack=slack),)))
+    scatter, whole = measure_scatter(standing), measure_scatter(moving)
+    assert scatter.robust == pytest.approx(whole.robust, rel=0.3) and scatter.robust > 0.0
+    still = moving.on(moving.problem.with_intervals((replace(data, slack=np.full(len(rest), 1e9)),)))
+    assert (measure_scatter(still).rms, measure_scatter(still).robust) == (0.0, 0.0)
