@@ -46,6 +46,7 @@ def import_source(source: Source, said: Said) -> Imported:
     Raises:
         RecordingError: as above.
     """
+    said = said.with_names(source.table.names)
     if said.sample_period is None:
         table = mend_table(source.table)
     else:

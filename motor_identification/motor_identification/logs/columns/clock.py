@@ -1,5 +1,7 @@
 """The unit of a column of times, where its name does not say it: by when it is, and by how often rows come."""
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -31,6 +33,22 @@ def row_period(values: Floats) -> float:
     steps = np.diff(values)
     forward = steps[steps > 0.0]
     return float(np.median(forward)) if len(forward) else 0.0
+
+
+def find_clock(columns: Mapping[str, Floats]) -> str | None:
+    """The column, of several by name, whose values of shape (K,) are most like times; None where none can be.
+
+    A motor's angle may go on as times do, but not in every row of a start from rest, and not so evenly.
+    """
+    able = {name: values for name, values in columns.items() if runs_forward(values)}
+    return min(able, key=lambda name: _unevenness(able[name]), default=None)
+
+
+def _unevenness(values: Floats) -> tuple[float, float]:
+    """The share of rows in which values, shape (K,), do not go on, and how far the other steps are from equal."""
+    steps = np.diff(values)
+    few, many = np.quantile(steps[steps > 0.0], (0.1, 0.9))
+    return float(np.mean(steps <= 0.0)), float(many / few)
 
 
 def runs_forward(values: Floats) -> bool:

@@ -15,6 +15,7 @@ from motor_identification.logs.columns.movement import ASKED, Unit, guess_kind, 
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.columns.turn_counts import say_turn_counts
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import UNITS, CsvForm, Kind, time_unit_size
@@ -35,10 +36,17 @@ class Rows:
     unit: str  # of the times
     period: float  # [s]
 
+    def stamps(self, table: Table) -> Floats | None:
+        """[s] of a table's rows, shape (K,); None where they are steady states."""
+        if self.time is None:
+            return None
+        return np.asarray(table.nanoseconds(self.time, time_unit_size(self.unit)) * 1e-9, dtype=np.float64)
+
 
 def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, notes: Notes) -> CsvForm:
     """The form of one motor; what is guessed and what is missing goes to the notes."""
     whose = f" of {pair.label}" if pair.label else ""
+    said = say_turn_counts(table, pair, rows.stamps(table), said, notes)
     drive, scale, supply = _drive(table, pair, roles, said, notes)
     driven = bool(pair.label or np.any(table.numbers(pair.voltage)))  # of several motors, one may not be
     volts = supply_scale(read_heading(supply), table.numbers(supply)) if supply else (1.0, "")
@@ -118,6 +126,8 @@ def _motion(table: Table, pair: Pair, said: Said, period: float, notes: Notes) -
     """Kind and unit of the column of motion."""
     heading, values = read_heading(pair.motion), table.numbers(pair.motion)
     kind = said.kind or _kind_of(heading)
+    if kind is Kind.COUNT and said.kind is None and np.any(values % 1.0):
+        kind = None  # nobody counts in fractions: an encoder's angle, or its voltage
     if said.unit and not said.kind and (kind is None or said.unit not in UNITS[kind]):
         kind = next(one for one in _ORDER if said.unit in UNITS[one])
     if kind is None:
@@ -177,7 +187,8 @@ def _rest(table: Table, rows: Rows, pair: Pair, kind: Kind, said: Said, notes: N
     """0, where every run's clock begins with its voltage, just before its first row, and the motor may have stood."""
     if rows.time is None or said.rest_until is not None:
         return said.rest_until
-    stamps = np.asarray(table.nanoseconds(rows.time, time_unit_size(rows.unit)) * 1e-9, dtype=np.float64)
+    stamps = rows.stamps(table)
+    assert stamps is not None
     begins = np.concatenate(([0], np.flatnonzero(np.diff(stamps) < 0.0) + 1, [len(stamps)]))
     if len(begins) < 3:
         return None

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from motor_identification.logs.columns.behaviour import find_position, present_values
-from motor_identification.logs.columns.clock import runs_forward
+from motor_identification.logs.columns.clock import find_clock, runs_forward
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.said import Pair, Said
@@ -82,9 +82,7 @@ def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
         named = forward or named
     if named:
         return named[0]
-    unnamed = [heading.name for heading in headings if heading.quantity is None]
-    forward = [name for name in unnamed if runs_forward(table.numbers(name))]
-    return forward[0] if forward else None
+    return find_clock({heading.name: table.numbers(heading.name) for heading in headings if heading.quantity is None})
 
 
 def _pairs(table: Table, headings: Sequence[Heading], said: Said, time: str | None) -> tuple[Pair, ...]:
@@ -123,6 +121,8 @@ def _by_behaviour(table: Table, headings: Sequence[Heading], time: str | None) -
     fewest = min((changes[name] for name in others), default=0)
     position = (find_position(table, others, time) if len(others) == 2 else others[0]) if len(others) in (1, 2) else ""
     if not position or fewest < max(2 * changes[drive] + 1, FEWEST_CHANGES):
+        if len(unnamed) == 1 or (len(unnamed) == 2 and find_position(table, unnamed, time)):
+            raise _no_drive(table)
         raise _ask(table, "voltage or duty", "--voltage", unnamed or table.names)
     return Pair("", drive, position)  # what drives changes in fewer rows, and to fewer values
 
@@ -165,11 +165,15 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
         return unnamed[0]
     candidates = _unnamed(table, headings)
     if not candidates:
-        raise RecordingError(
-            f"{table.path}: no column is the voltage or duty: say which one is (--voltage COL), or --constant-voltage "
-            "V for a log of one step."
-        )
+        raise _no_drive(table)
     raise _ask(table, "voltage or duty", "--voltage", candidates)
+
+
+def _no_drive(table: Table) -> RecordingError:
+    return RecordingError(
+        f"{table.path}: no column is the voltage or duty: say which one is (--voltage COL), or --constant-voltage V "
+        "for a log of one step."
+    )
 
 
 def _supply_of(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair]) -> str | None:

@@ -1,6 +1,7 @@
 """What a user said about a log; everything else is guessed."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from motor_identification.logs.form import Kind
@@ -47,3 +48,21 @@ class Said:
     max_voltage: float | None = None
     name: str = "motor"
     motors: tuple[Pair, ...] = ()
+
+    def with_names(self, names: Sequence[str]) -> "Said":
+        """The same, with the columns' names in place of their numbers: 4 is the fourth, if none is called 4."""
+
+        def name(said: str | None) -> str | None:
+            place = int(said) if said and said.isascii() and said.isdigit() and len(said) < 6 else 0
+            return names[place - 1] if said not in names and 0 < place <= len(names) else said
+
+        return replace(
+            self,
+            time=name(self.time),
+            voltage=name(self.voltage),
+            motion=name(self.motion),
+            supply=name(self.supply),
+            direction=name(self.direction),
+            split=name(self.split),
+            motors=tuple(Pair(one.label, name(one.voltage) or "", name(one.motion) or "") for one in self.motors),
+        )

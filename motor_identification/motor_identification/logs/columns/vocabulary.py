@@ -42,7 +42,7 @@ WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.DUTY: _row("duty pwm dutycycle throttle power command cmd effort ctrl control output"),
     Quantity.COUNT: _row("count counts tick ticks encoder enc pulses pulse edges qei"),
     Quantity.SPEED: _row(
-        "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w rpm rps dps "
+        "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w wm rpm rps dps "
         "tacho tachometer "
         "velocita snelheid toerental hastighed hastighet prędkość predkosc obroty rychlost otáčky otacky hız hiz "
         "скорость обороты 速度 转速 角速度 回転数"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.clock import guess_time_unit, runs_forward
+from motor_identification.logs.columns.clock import find_clock, guess_time_unit, runs_forward
 
 
 @pytest.mark.parametrize(
@@ -41,3 +41,13 @@ def test_a_clock_of_many_digits_may_have_late_rows() -> None:
     assert runs_forward(np.cumsum(steps)) and not runs_forward(np.repeat(np.cumsum(steps), 2))
     steps[::4] = 0.021
     assert not runs_forward(np.cumsum(steps))
+
+
+def test_times_are_told_from_an_angle_that_goes_on_too() -> None:
+    time = np.round(0.018 + np.cumsum(np.resize([0.005, 0.006, 0.006, 0.007], 300)), 3)
+    angle = np.floor(400.0 * (time + 0.05 * np.exp(-20.0 * time) - 0.05))
+    assert runs_forward(angle), "it can be one"
+    assert find_clock({"angle": angle, "time": time}) == "time" == find_clock({"time": time, "angle": angle})
+    assert find_clock({"angle": -angle, "down": -time}) is None and find_clock({}) is None
+    even = np.arange(300.0)
+    assert find_clock({"uneven": even + 0.4 * (even % 2), "even": even}) == "even"

@@ -128,3 +128,12 @@ def test_a_column_that_is_not_there() -> None:
     for said in (Said(time="x"), Said(voltage="x"), Said(motion="x")):
         with pytest.raises(RecordingError, match="log.csv has no column x: name one of t, u, speed"):
             find_roles(table(t="t", u="u", speed="y"), said)
+
+
+def test_a_log_of_one_step_that_has_no_drive_is_told_of_the_option() -> None:
+    """Time and position, or these and the speed, a file for each voltage: no column is offered as the voltage."""
+    angle = np.floor(300.0 * (TIME + 0.1 * np.exp(-10.0 * TIME) - 0.1))
+    KINDS.update(a=angle, w=300.0 * (1.0 - np.exp(-10.0 * TIME)))
+    for columns in ({"column 1": "a", "column 2": "t"}, {"column 1": "t", "column 2": "a", "column 3": "w"}):
+        with pytest.raises(RecordingError, match="no column is the voltage or duty: .* --constant-voltage V for a log"):
+            find_roles(table(**columns), Said())
