@@ -31,7 +31,9 @@ def add_log_options(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_columns(parser: argparse.ArgumentParser) -> None:
-    group = parser.add_argument_group("which columns are read, by name or place: 4 is the fourth (default: guessed from names and numbers)")
+    group = parser.add_argument_group(
+        "which columns are read, by name or number (default: guessed from names and numbers)"
+    )
     rows = group.add_mutually_exclusive_group()
     rows.add_argument("--time", metavar="COL", help="column of times")
     rows.add_argument(
