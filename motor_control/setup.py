@@ -5,7 +5,7 @@ package_name = "motor_control"
 setup(
     name=package_name,
     version="0.1.0",
-    description="PI speed controller that acts on every encoder sample.",
+    description="Speed controller that acts on every encoder sample: PI, observer, feed-forward, tuning.",
     license="Apache-2.0",
     packages=find_packages(exclude=["test"]),
     package_data={package_name: ["py.typed"]},

@@ -5,7 +5,7 @@ package_name = "motor_identification"
 setup(
     name=package_name,
     version="0.1.0",
-    description="Fits motor models to recorded bags by particle swarm and least squares; records and imports them.",
+    description="Identifies motors from bags and names the effects that a model lacks; experiments, imports, monitor.",
     license="Apache-2.0",
     packages=find_packages(exclude=["test"]),
     package_data={package_name: ["py.typed", "reporting/html/*.html", "reporting/html/*.css"]},

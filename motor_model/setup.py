@@ -5,7 +5,7 @@ package_name = "motor_model"
 setup(
     name=package_name,
     version="0.1.0",
-    description="The motor itself, without ROS: one compiled step, its effects, encoder, roll-outs, profiles.",
+    description="The motor itself, without ROS: one compiled step, its effects, the encoder, roll-outs, model files.",
     license="Apache-2.0",
     packages=find_packages(exclude=["test"]),
     package_data={package_name: ["py.typed"]},

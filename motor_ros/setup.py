@@ -5,7 +5,7 @@ package_name = "motor_ros"
 setup(
     name=package_name,
     version="0.1.0",
-    description="What every node does alike: QoS, parameter tables, the plant's shell, starting and stopping.",
+    description="What all nodes do alike: QoS, parameter tables, the plant's shell, starting and stopping.",
     license="Apache-2.0",
     packages=find_packages(exclude=["test"]),
     package_data={package_name: ["py.typed", "loopback.xml", "quick_discovery.xml"]},

@@ -196,6 +196,14 @@ def test_serial_ports_are_opened_in_one_place() -> None:
     assert len(ports) == 1 and users == pseudo + ports
 
 
+@pytest.mark.parametrize("package", sorted(path.parent.name for path in ROOT.glob("motor_*/setup.py")))
+def test_setup_py_says_of_a_package_what_its_package_xml_says(package: str) -> None:
+    setup, manifest = ((ROOT / package / name).read_text(encoding="utf-8") for name in ("setup.py", "package.xml"))
+    for tag in ("description", "version", "license"):
+        said = re.search(rf"<{tag}>(.*)</{tag}>", manifest)
+        assert said is not None and f'{tag}="{said[1]}"' in setup, tag
+
+
 @pytest.mark.parametrize("package", [package for package in PACKAGES if package != "motor_msgs"])
 def test_package_xml_names_what_is_imported(package: str) -> None:
     """Every imported package is a dependency by its rosdep key, or one of those that come from PyPI."""

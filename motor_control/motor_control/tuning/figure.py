@@ -2,7 +2,7 @@
 
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,7 +14,10 @@ from motor_model.regular_file import write_bytes
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-PREDICTED, SIMULATED, REFERENCE, FAINT = "#1d4ed8", "#c2410c", "#475569", "#9aa5b1"
+PREDICTED, REFERENCE, FAINT = "#1d4ed8", "#475569", "#9aa5b1"
+# Two curves that should lie on each other: a broad one, and a thin dashed one on top of it.
+SIMULATED: dict[str, Any] = {"color": "#f4a582", "linewidth": 3.5}
+BESIDE: dict[str, Any] = {"color": PREDICTED, "linewidth": 1.3, "linestyle": (0, (4, 2))}
 
 
 def draw_tuning(tuning: Tuning, rehearsal: Rehearsal, title: str, path: Path) -> None:
@@ -52,15 +55,15 @@ def draw_tuning(tuning: Tuning, rehearsal: Rehearsal, title: str, path: Path) ->
 def _draw_large(speed: "Axes", voltage: "Axes", tuning: Tuning, rehearsal: Rehearsal) -> None:
     step = tuning.large_step
     speed.axhline(step.reference, color=REFERENCE, linewidth=0.8, linestyle="--")
-    speed.plot(1e3 * rehearsal.time, rehearsal.speed, color=SIMULATED, label="simulated: full model, disc, controller")
-    speed.plot(1e3 * step.time, step.speed, color=PREDICTED, linewidth=1.1, label="predicted: linear model")
+    speed.plot(1e3 * rehearsal.time, rehearsal.speed, **SIMULATED, label="simulated: full model, disc, controller")
+    speed.plot(1e3 * step.time, step.speed, **BESIDE, label="predicted: linear model")
     speed.set_title(f"step from 0 to {step.reference:.3g} rad/s, with the voltage limit", fontsize=10)
     speed.set_ylabel("shaft speed [rad/s]")
     speed.legend(frameon=False, loc="lower right", fontsize=8)
     speed.sharex(voltage)
     speed.tick_params(labelbottom=False)
-    voltage.step(1e3 * rehearsal.time, rehearsal.voltage, where="post", color=SIMULATED, linewidth=1.0)
-    voltage.step(1e3 * step.time, step.voltage, where="post", color=PREDICTED, linewidth=1.1)
+    voltage.step(1e3 * rehearsal.time, rehearsal.voltage, where="post", **SIMULATED)
+    voltage.step(1e3 * step.time, step.voltage, where="post", **BESIDE)
     voltage.set_ylabel("voltage [V]")
     voltage.set_xlabel("time [ms]")
     voltage.set_xlim(0.0, 1e3 * float(step.time[-1]))

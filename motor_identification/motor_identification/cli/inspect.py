@@ -17,6 +17,7 @@ what moves in a bag that another robot recorded, and a mapping to correct by han
   identify bag --mapping mapping.yaml
 """
 _SHOWN = 5  # pairs
+OURS_NEEDS_NONE = "{bag} was recorded from this workbench's topics: identify and diagnose read it without a mapping."
 
 
 def main(args: list[str] | None = None) -> int:
@@ -41,6 +42,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _inspect(options: argparse.Namespace) -> int:
+    from motor_identification.bag.cdr import SPEED_TYPE
     from motor_identification.mapping import mapping_text
     from motor_identification.mapping.candidates import find_candidates
     from motor_identification.mapping.inventory import take_inventory
@@ -58,6 +60,8 @@ def _inspect(options: argparse.Namespace) -> int:
             "by hand."
         )
     print("", *_pairs(pairs), sep="\n")
+    if any(topic.type_name == SPEED_TYPE for topic in topics):
+        print("", OURS_NEEDS_NONE.format(bag=options.bag), sep="\n")
     text = mapping_text(pairs[0].mapping())
     if options.output:
         try:
@@ -76,7 +80,8 @@ def _lines(topics: "list[TopicRow]") -> list[str]:
     lines = []
     for topic in topics:
         stamps = "stamped" if topic.stamped else f"no stamps, jitter {topic.jitter * 1e3:.3f} ms"
-        about = f"{topic.messages} messages, {topic.rate:.4g} Hz, {stamps}"
+        rate = f"{topic.messages} messages, {topic.rate:.4g} Hz" if topic.messages != 1 else "1 message"
+        about = f"{rate}, {stamps}"
         lines.append(escape(f"{topic.name}  {topic.type_name}  ({topic.trouble or about})"))
         lines += [
             escape(f"  {field.path.field}  {field.values.min():.4g} to {field.values.max():.4g}")
@@ -91,7 +96,7 @@ def _pairs(pairs: "list[Candidate]") -> list[str]:
     return [
         escape(
             f"{pair.drive.path} drives {pair.motion.path}, a {pair.kind.value} "
-            f"({100 * pair.share:.0f} % of its unpredictable changes)"
+            f"(it explains {100 * pair.share:.0f} % of the changes that its own past does not)"
         )
         for pair in pairs[:_SHOWN]
     ]

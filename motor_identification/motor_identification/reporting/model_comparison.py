@@ -49,11 +49,15 @@ def compare_text(motors: Sequence[Identified]) -> str:
 
 
 def _difference(first: Identified, other: Identified, name: str) -> str:
-    """Write how a parameter differs: in per cent, and in standard errors."""
+    """Write how a parameter differs: in per cent of what is more than its error, else by how much, and in errors."""
     if name not in first.parameters.values or name not in other.parameters.values:
         return ""
     one, two = first.parameters.value(name), other.parameters.value(name)
-    share = f"{100.0 * (two / one - 1.0):+.3g} %" if one else ""
+    own = first.errors.get(name, float("nan"))
+    if one == 0.0 or abs(one) <= DIFFERENT * own:  # a per cent of nothing says nothing
+        share = f"{two - one:+.3g} {format_unit(name)}".rstrip()
+    else:
+        share = f"{100.0 * (two / one - 1.0):+.3g} %"
     deviations = deviations_of(first, other, name)
     known = f" ({format_deviations(deviations)} σ)" if isfinite(deviations) else ""
     return f"{share}{known}"

@@ -1,12 +1,14 @@
 """Format numbers for people: a value to the digits that its standard error leaves, with its unit."""
 
-from math import floor, inf, isfinite, isnan, log10
+from math import exp, floor, inf, isfinite, isnan, log, log10
 
 from motor_model.effects import EFFECTS, SPEC_BY_NAME
 
 MOST_DIGITS = 8  # of a value, however small its error: more than any encoder and clock are good for
 FEW_DIGITS = 4  # of a value whose error is not known
 PLAIN = (1e-4, 1e6)  # sizes that are written without an exponent
+ODDS_IN_FULL = 1000.0  # beyond, odds are written as a power of ten
+SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 TWO_SIDED = 1.96  # standard errors: within them of no effect, a 95 % interval holds "no effect"
 # The parameter that says how large an effect is, and its value where there is none.
 SIZES = {effect.parameters[0].name: effect.parameters[0].off for effect in EFFECTS if effect.parameters}
@@ -58,6 +60,13 @@ def format_measured(value: float, error: float, unit: str) -> str:
 def format_ratio(value: float) -> str:
     """Write how many times larger something is, to two digits: 1.3, 28, 148."""
     return f"{value:.2g}" if value < 99.5 else f"{value:.0f}"
+
+
+def format_odds(log_ratio: float) -> str:
+    """Write a likelihood ratio of its logarithm: 1.3, 150, then as a power of ten: 10²⁰."""
+    if log_ratio < log(ODDS_IN_FULL):
+        return format_ratio(exp(log_ratio))
+    return "10" + f"{log_ratio / log(10.0):.0f}".translate(SUPERSCRIPTS)
 
 
 def format_change(before: float, after: float) -> str:

@@ -22,7 +22,8 @@ def test_from_a_bag_to_a_fit(bag: Path, tmp_path: Path, capsys: pytest.CaptureFi
     assert main([str(bag), "--output", str(mapping)]) == 0
     out = capsys.readouterr().out
     assert "/joint_states  sensor_msgs/msg/JointState  (1600 messages, 200 Hz, stamped)" in out
-    assert "/wheels/commands:data[1] drives /joint_states:velocity[right_wheel], a speed" in out
+    assert "/wheels/commands:data[1] drives /joint_states:velocity[right_wheel], a speed (it explains " in out
+    assert "without a mapping" not in out
     assert load_mapping(mapping).voltage.scale == 1.0
     mapping.write_text(mapping.read_text().replace("scale: 1.0", "scale: 12.0", 1))
     assert identify([str(bag), "--mapping", str(mapping), "--effects", "coulomb_friction"]) == 0
@@ -30,6 +31,16 @@ def test_from_a_bag_to_a_fit(bag: Path, tmp_path: Path, capsys: pytest.CaptureFi
     more = ["--position-from", "/joint_states:position[right_wheel]", "--effects", "coulomb_friction"]
     assert identify([str(bag), "--mapping", str(mapping), *more]) == 0
     assert "kv         0.350" in capsys.readouterr().out
+
+
+def test_a_bag_of_ours_needs_no_mapping(capsys: pytest.CaptureFixture[str]) -> None:
+    bag = str(Path(__file__).parents[3] / "bags" / "step")
+    assert main([bag]) == 0
+    out = capsys.readouterr().out
+    assert "(1 message, stamped)" in out
+    assert (
+        f"\n{bag} was recorded from this workbench's topics: identify and diagnose read it without a mapping.\n" in out
+    )
 
 
 def test_a_mapping_that_is_there_stays(bag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

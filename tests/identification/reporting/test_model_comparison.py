@@ -36,6 +36,16 @@ def test_a_number_that_says_nothing_more_is_not_written() -> None:
     assert [format_deviations(x) for x in (1.26, 148.2, 0.999 * MANY, MANY)] == ["1.3", "148", "999", "> 1000"]
 
 
+def test_a_difference_from_nothing_is_no_per_cent() -> None:
+    """A friction of 0 ± 0.1 V, or of 0.29, has no percentage; one of 0.31 is beyond three errors, and has."""
+
+    def rubbing(name: str, ks: float) -> Identified:
+        return Identified(name, motor(name, 0.5, ks=ks).parameters, {"kv": 0.003, "ka": 0.001, "ks": 0.1})
+
+    for ks, shown in ((0.0, "+0.6 V (4.2 σ)"), (0.29, "+0.31 V (2.2 σ)"), (0.31, "+93.5 % (2.1 σ)")):
+        assert shown in compare_text([rubbing("left", ks), rubbing("right", 0.6)])
+
+
 def test_what_one_lacks_and_errors_that_are_not_known() -> None:
     text = compare_text([motor("left", 0.5), motor("right", 0.5, ks=0.4), motor("third", 0.7, float("nan"))])
     assert "left has no ks: fit both with the same effects" in text

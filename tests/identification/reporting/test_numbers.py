@@ -8,6 +8,7 @@ from motor_identification.reporting.numbers import (
     describe_absence,
     format_change,
     format_error,
+    format_odds,
     format_quantity,
     format_ratio,
     format_value,
@@ -66,3 +67,8 @@ def test_an_effect_may_be_consistent_with_none() -> None:
     assert describe_absence("ks", 0.0, nan) == ""
     assert describe_absence("kv", 0.0, 1.0) == "" and describe_absence("ripple_phase", 0.0, 1.0) == ""
     assert describe_absence("limit_voltage", 5.0, 1.0) == ""  # no limit is infinite
+
+
+def test_odds_are_a_number_or_a_power_of_ten() -> None:
+    odds = [format_odds(log_ratio) for log_ratio in (0.26, 5.0, 6.9, 6.92, 46.05, 2072.3)]
+    assert odds == ["1.3", "148", "992", "10³", "10²⁰", "10⁹⁰⁰"]

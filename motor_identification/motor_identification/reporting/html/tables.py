@@ -6,7 +6,14 @@ from math import inf, isfinite, isnan, log
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding
 from motor_identification.reporting.fit_text import describe_parameter
 from motor_identification.reporting.names import effect_name, join_names
-from motor_identification.reporting.numbers import TWO_SIDED, format_error, format_ratio, format_unit, format_value
+from motor_identification.reporting.numbers import (
+    TWO_SIDED,
+    format_error,
+    format_odds,
+    format_ratio,
+    format_unit,
+    format_value,
+)
 from motor_identification.uncertainty.result import Fit
 from motor_model.effects import SPEC_BY_NAME
 
@@ -79,7 +86,7 @@ def explain_rejection(other: Alternative, finding: Finding) -> str:
         return f"gap {format_ratio(other.gap_after / finding.gap_after)} times as large"
     if behind <= 0.0:
         return "explains as much alone, but not together with the other effects"
-    return f"10^{behind / log(10.0):.0f} times less likely"
+    return f"{format_odds(behind)} times less likely"
 
 
 def list_parameters(fit: Fit, baseline: Fit | None = None) -> list[ParameterRow]:
