@@ -14,6 +14,7 @@ from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
     count_parameters,
     find_rivals,
+    is_alike,
     list_candidates,
     sort_by_table,
     try_effects,
@@ -94,7 +95,11 @@ def add_rivals_beside_torque(selection: Selection, reporter: ProgressReporter) -
 
 def _list_rivals(tests: Sequence[CandidateTest], effect: str, current: Model) -> tuple[str, ...]:
     """List what does as well as an effect of the current model, with no more parameters."""
-    alike = [test.effect for test in tests if find_loss(test, effect, current) < thresholds.RIVAL_MARGIN]
+    alike = [
+        test.effect
+        for test in tests
+        if find_loss(test, effect, current) < thresholds.RIVAL_MARGIN or is_alike(test.model, current)
+    ]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
 
 
@@ -123,7 +128,7 @@ def _is_as_likely_from_there(effect: str, better: CandidateTest, selection: Sele
         return False
     bare = refit_without(better.model, better.effect, selection.hold_out)
     (test,) = try_effects(bare, selection.hold_out, [effect], selection.workers, lambda test: None)
-    return test.model.likelihood > better.model.likelihood - thresholds.RIVAL_MARGIN
+    return is_alike(test.model, better.model)
 
 
 def _catch_up(current: Model, tests: Sequence[CandidateTest], hold_out: HoldOut) -> Model:

@@ -39,6 +39,11 @@ class Model:
     moments: Floats = field(default_factory=lambda: np.zeros(0))  # of all motion, what each adds to the likelihood
 
     @property
+    def likelihood_of_all(self) -> float:
+        """Logarithm of the likelihood of held-out and of training data."""
+        return self.likelihood + self.training
+
+    @property
     def beside_torque(self) -> bool:
         """Whether its likelihood is that beside a random torque."""
         return self.learned is not None

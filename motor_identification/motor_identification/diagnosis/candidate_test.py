@@ -38,7 +38,7 @@ class CandidateTest:
     @property
     def evidence_of_all(self) -> float:
         """The same of all data, which flatters a fit by its parameters: to tell effects with as many parameters."""
-        return self.evidence + self.model.training - self.before.training
+        return self.model.likelihood_of_all - self.before.likelihood_of_all
 
     @property
     def fits_training(self) -> bool:

@@ -119,10 +119,19 @@ def is_beyond_chance(eccentricity: float, slot: float, share: float) -> bool:
 
 
 def find_rivals(found: CandidateTest, tests: Sequence[CandidateTest]) -> tuple[str, ...]:
-    """Find the effects that explain as much as a finding does, and with no more parameters."""
-    least = max(found.evidence - thresholds.RIVAL_MARGIN, likelihood_threshold())
-    alike = [test.effect for test in tests if test.effect != found.effect and test.evidence > least]
+    """Find the effects that explain as much as a finding does, of held-out or of all data, with no more parameters."""
+    others = [test for test in tests if test.effect != found.effect and test.evidence > likelihood_threshold()]
+    alike = [test.effect for test in others if is_alike(test.model, found.model)]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(found.effect))
+
+
+def is_alike(other: Model, found: Model) -> bool:
+    """Decide whether held-out data do not tell a model from the one that was found, or all data are against them.
+
+    Beside a torque that is not in the models both are off, and the one held-out part of the motion chooses.
+    """
+    less = other.likelihood > found.likelihood - thresholds.RIVAL_MARGIN
+    return less or other.likelihood_of_all > found.likelihood_of_all
 
 
 def sort_by_table(names: Iterable[str]) -> tuple[str, ...]:
