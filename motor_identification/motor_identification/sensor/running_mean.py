@@ -8,6 +8,7 @@ sum of unrelated changes and walk away at random. A window of one row explains e
 from math import ceil
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d, minimum_filter1d
 
 from motor_identification.recording import Floats, Integers
 from motor_identification.sensor.value_lattice import find_lattice
@@ -17,6 +18,7 @@ FEWEST_WINDOWS = 10  # in the motion: a random walk of so many steps leaves the 
 FEWEST_CHANGES = 20  # each way: a value that only rises fits any window
 MOST_COUNTS = 10_000  # in a window
 ROOM = 1  # counts that a row may have above the mean of its window
+NEAR_MEAN = 0.95  # of the rows in motion have nearly the mean of their window; by jitter and ripple not all
 OFF_GRID = 0.2  # of a count: what is farther beside is no count
 
 
@@ -48,7 +50,13 @@ def _fits(counts: Integers, window: int) -> bool:
     most, least = int(counts.max(initial=0)), int(counts.min(initial=0))
     high, low = (ceil(most / window) + ROOM if most else 0), (-ceil(-least / window) - ROOM if least else 0)
     single = _single_rows(counts, window)
-    return bool(low <= single.min() and single.max() <= high)
+    if not (low <= single.min() and single.max() <= high):
+        return False
+    # No farther from the mean than windows near by are from each other: many counts in a row leave a walk much room.
+    reach, moving = 2 * window + 1, counts != 0
+    change = maximum_filter1d(counts, reach) - minimum_filter1d(counts, reach)
+    near = np.abs(single - counts / window) <= change + ROOM
+    return bool(np.mean(near[moving]) >= NEAR_MEAN)
 
 
 def _single_rows(counts: Integers, window: int) -> Integers:

@@ -43,6 +43,13 @@ def test_counts_of_single_rows_are_none(edges: float) -> None:
     assert [find_running_mean(running(1, edges, seed)) for seed in range(5)] == [0] * 5
 
 
+def test_many_counts_in_each_of_few_rows_are_none() -> None:
+    """A random walk has room between 0 and 150 counts; it is far from the mean of its windows."""
+    for seed in range(10):
+        every = angle(8000, seed=seed)[::20] * 400.0 / 2.0 / np.pi
+        assert find_running_mean(np.diff(np.floor(every), prepend=0.0) * 26.2) == 0
+
+
 def test_windows_that_follow_each_other_are_none() -> None:
     for window in (5, 10):
         assert find_running_mean(running(window, 300.0)[::window]) == 0
