@@ -28,7 +28,7 @@ class MotionHistory:
     angle: Floats  # [rad] of the encoder's shaft
     since: Floats  # [s] since the motion began or turned round
     travel: Floats  # [rad] since then
-    past: Floats  # (S, LAGS) [V] how the command has changed at each of the latest samples
+    past: Floats  # (S, LAGS) [V] how the command has changed at each of the samples before the latest
     at_start: Integers  # (I,) segment that begins where each interval does
     at_end: Integers  # (I,) segment that begins where each interval ends
 
@@ -56,7 +56,9 @@ def make_history(
     sample = np.maximum(np.searchsorted(sampled, middle, side="right") - 1, 0)
     voltage = np.where(middle >= sampled[0], recording.voltage[sample], 0.0)
     changes = np.diff(recording.voltage, prepend=0.0)
-    past = np.stack([np.where(sample >= lag, changes[np.maximum(sample - lag, 0)], 0.0) for lag in range(LAGS)], axis=1)
+    # Not at the latest: a loop answers the noise of the speed in its own row, and would predict it.
+    lags = range(1, LAGS + 1)
+    past = np.stack([np.where(sample >= lag, changes[np.maximum(sample - lag, 0)], 0.0) for lag in lags], axis=1)
     began = np.flatnonzero(still[:-1] & ~still[1:] | (speed[:-1] * speed[1:] < 0.0)) + 1
     latest = np.searchsorted(began, np.arange(len(middle)), side="right") - 1
     begin = np.where(latest >= 0, edges[began[np.maximum(latest, 0)]] if len(began) else 0.0, -np.inf)

@@ -43,6 +43,19 @@ def test_the_past_is_the_command_s_and_ends() -> None:
     assert np.count_nonzero(history.past.any(axis=1)) < 0.5 * len(history.time)
 
 
+def test_the_past_does_not_know_the_row_that_a_loop_answers_in() -> None:
+    recording, history, _speed = measured()
+    acts = recording.time + DELAY
+    for k in np.flatnonzero(np.diff(recording.voltage)) + 1:
+        own, next_row, last = (
+            history.past[(history.time > acts[k + lag]) & (history.time < acts[k + lag + 1])] for lag in (0, 1, LAGS)
+        )
+        change = recording.voltage[k] - recording.voltage[k - 1]
+        assert len(own) and np.all(own[:, 0] == 0.0)
+        assert len(next_row) and np.all(next_row[:, 0] == change)
+        assert len(last) and np.all(last[:, -1] == change)
+
+
 def test_time_and_travel_since_the_motion_turned() -> None:
     _recording, history, speed = measured()
     after = (history.time > 2.75) & (history.time < 3.4) & (speed < -20.0)
