@@ -46,7 +46,8 @@ def test_the_past_is_the_command_s_and_ends() -> None:
 def test_the_past_does_not_know_the_row_that_a_loop_answers_in() -> None:
     recording, history, _speed = measured()
     acts = recording.time + DELAY
-    for k in np.flatnonzero(np.diff(recording.voltage)) + 1:
+    changed = np.flatnonzero(np.diff(recording.voltage)) + 1
+    for k in changed[changed + LAGS + 1 < len(acts)]:
         own, next_row, last = (
             history.past[(history.time > acts[k + lag]) & (history.time < acts[k + lag + 1])] for lag in (0, 1, LAGS)
         )
