@@ -33,11 +33,12 @@ def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = N
     held = hold_out.validate(estimate)
     rows = list(zip(estimate.problem.intervals, estimate.increments, strict=True))
     noise = estimate_noise(rows)
-    training = sum(log_likelihood(data, increments, noise) for data, increments in rows)
+    each = tuple(log_likelihood(data, increments, noise) for data, increments in rows)
+    training = sum(each)
     if held.seen:
-        model = Model(estimate, held, noise, training - compute_price(estimate))
+        model = Model(estimate, held, noise, training - compute_price(estimate), by_recording=each)
     else:
-        model = Model(estimate, held, noise, held.log_likelihood(noise), training)
+        model = Model(estimate, held, noise, held.log_likelihood(noise), training, each)
     if like is None or not like.beside_torque:
         return model
     return judge_beside_torque(model, hold_out, like.learned, thresholds.CANDIDATE_EVALUATIONS)
@@ -54,6 +55,7 @@ def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | Non
         learned=errors,
         likelihood=sum(part.likelihood for part in parts),
         training=0.0,
+        by_recording=(),
         held_out=held.likelihood,
         scored=sum(map(np.count_nonzero, mark_common_set(hold_out))),
         moments=np.concatenate([part.moments for part in parts]),

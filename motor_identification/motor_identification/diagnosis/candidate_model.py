@@ -33,6 +33,7 @@ class Model:
     noise: Noise  # what it leaves in the training data
     likelihood: float  # logarithm, of unseen data; beside a random torque, or where none is, of all less a price
     training: float = 0.0  # logarithm of the likelihood of the data it was fitted to, where that is not part of it
+    by_recording: tuple[float, ...] = ()  # the same of each; not beside a random torque
     learned: ErrorModel | None = None  # of what it leaves, where it is judged beside a random torque
     held_out: float = 0.0  # the held-out data's part of that likelihood
     scored: int = 0  # intervals that it is of

@@ -5,11 +5,14 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from math import sqrt, tau
 
+import numpy as np
+
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refine_beside_torque, validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_fit import fit_with_effect
+from motor_identification.recording import Floats
 from motor_identification.validation.hold_out import HoldOut
 from motor_identification.validation.instants import needs_instant
 from motor_model.effects import EFFECT_BY_NAME
@@ -126,12 +129,26 @@ def find_rivals(found: CandidateTest, tests: Sequence[CandidateTest]) -> tuple[s
 
 
 def is_alike(other: Model, found: Model) -> bool:
-    """Decide whether held-out data do not tell a model from the one that was found, or all data are against them.
+    """Decide whether nothing tells a model from the one that was found, or all data are against what held-out data say.
 
-    Beside a torque that is not in the models both are off, and the one held-out part of the motion chooses.
+    Where both models are off, one part of the motion chooses between them: the held-out one, or a few of many runs.
     """
-    less = other.likelihood > found.likelihood - thresholds.RIVAL_MARGIN
-    return less or other.likelihood_of_all > found.likelihood_of_all
+    if other.likelihood > found.likelihood - thresholds.RIVAL_MARGIN:
+        return True
+    return other.likelihood_of_all > found.likelihood_of_all or not is_told_by_most(
+        np.subtract(found.by_recording, other.by_recording)
+    )
+
+
+def is_told_by_most(gains: Floats) -> bool:
+    """Decide whether what recordings (K,) gain of log likelihood is more than chance between them; few tell nothing.
+
+    A test of models neither of which is in the other, if both may be wrong (Vuong, Econometrica 57(2), 1989).
+    """
+    if len(gains) < thresholds.FEWEST_RUNS:
+        return True
+    scatter = float(np.std(gains, ddof=1)) * sqrt(len(gains))
+    return bool(np.sum(gains) > thresholds.RUNS_SIGMA * scatter)
 
 
 def sort_by_table(names: Iterable[str]) -> tuple[str, ...]:

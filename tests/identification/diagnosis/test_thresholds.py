@@ -94,6 +94,34 @@ def test_rival_margin(times: float, passes: bool) -> None:
     assert find_rivals(found, [found, other]) == (() if passes else ("dead_zone",))
 
 
+@pytest.mark.parametrize(
+    ("runs", "sigma", "told"),
+    [
+        (thresholds.FEWEST_RUNS, BELOW * thresholds.RUNS_SIGMA, False),
+        (thresholds.FEWEST_RUNS, ABOVE * thresholds.RUNS_SIGMA, True),
+        (thresholds.FEWEST_RUNS - 1, BELOW * thresholds.RUNS_SIGMA, True),
+    ],
+)
+def test_a_few_of_many_runs_do_not_tell_rivals_apart(runs: int, sigma: float, told: bool) -> None:
+    scatter = np.linspace(-1.0, 1.0, runs)
+    gains = scatter + sigma * np.std(scatter, ddof=1) / sqrt(runs)
+    before = stub_model(5.0)
+    found = stub_test("transport_delay", before, 1.0, 100.0)
+    other = stub_test("armature_inductance", before, 1.0, 100.0 - 2.0 * thresholds.RIVAL_MARGIN)
+    found = replace(found, model=replace(found.model, by_recording=tuple(50.0 + gains)))
+    other = replace(other, model=replace(other.model, by_recording=(50.0,) * runs))
+    assert find_rivals(found, [found, other]) == (() if told else ("armature_inductance",))
+
+
+@SIDES
+def test_what_all_data_prefer_is_a_rival(times: float, passes: bool) -> None:
+    before = stub_model(5.0)
+    found = stub_test("transport_delay", before, 1.0, 100.0)
+    other = stub_test("armature_inductance", before, 1.0, 80.0)
+    other = replace(other, model=replace(other.model, training=20.0 * times))
+    assert find_rivals(found, [found, other]) == (("armature_inductance",) if passes else ())
+
+
 @SIDES
 def test_relevant_gap(times: float, passes: bool) -> None:
     before = stub_model(5.0, times * thresholds.RELEVANT_GAP * LASTING_FLOOR)
