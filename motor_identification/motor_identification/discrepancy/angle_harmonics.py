@@ -1,6 +1,7 @@
 """Find harmonics of the shaft's angle in the residual: does it repeat with every turn, and how often in a turn?"""
 
 from dataclasses import dataclass
+from math import pi
 
 import numpy as np
 
@@ -35,7 +36,9 @@ def find_angle_harmonic(held: HeldOut, share: float) -> AngleHarmonic | None:
     chosen = _longest_runs(seen)
     if not chosen or held.gap < HARMONIC_GAP * held.floor(share):
         return None
-    lines = np.arange(1, MOST_CYCLES + 1)
+    lines = np.arange(1, count_visible_cycles(seen) + 1)
+    if not len(lines):
+        return None
     explained = [_share(held, seen, squares, chosen, float(cycles)) for cycles in lines]
     imitated = max(_share(held, seen, squares, chosen, cycles - 0.5) for cycles in lines)
     best = int(np.argmax(explained))
@@ -44,6 +47,13 @@ def find_angle_harmonic(held: HeldOut, share: float) -> AngleHarmonic | None:
         if explained[best] > LINE_CONTRAST * max(imitated, CHANCE_SHARE)
         else None
     )
+
+
+def count_visible_cycles(seen: OperatingConditions) -> int:
+    """Count the cycles a turn that intervals still show: half a wave in most of those in motion."""
+    travel = np.abs(seen.speed * seen.duration)
+    moving = travel[travel > 0.0]
+    return min(int(pi / float(np.median(moving))), MOST_CYCLES) if len(moving) else 0
 
 
 def _longest_runs(seen: OperatingConditions) -> list[Integers]:

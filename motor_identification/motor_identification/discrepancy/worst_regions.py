@@ -106,7 +106,7 @@ def _region(
     inside = np.all([one.inside for one in chosen], axis=0) & open_
     weight = held.weight[inside]
     left, still = held.residuals[inside], seen.still[inside]
-    bias = np.where(still, np.abs(left), left * np.sign(seen.speed[inside]))
+    bias = np.where(still | (seen.speed[inside] == 0.0), np.abs(left), left * np.sign(seen.speed[inside]))
     total = max(float(weight.sum()), 1e-300)
     everything = bool(inside.all())
     return Region(

@@ -20,9 +20,10 @@ def join_names(names: Sequence[str], last: str = "and") -> str:
 def join_effects(effects: Sequence[str], last: str = "or") -> str:
     """Join effects by name, at most six of them, and count the others."""
     names = [effect_name(effect) for effect in effects]
-    return (
-        join_names(names, last) if len(names) <= MOST else f"{', '.join(names[:MOST])} and {len(names) - MOST} others"
-    )
+    more = len(names) - MOST
+    if more <= 0:
+        return join_names(names, last)
+    return f"{', '.join(names[:MOST])} and {more} {'other' if more == 1 else 'others'}"
 
 
 def capitalize(text: str) -> str:

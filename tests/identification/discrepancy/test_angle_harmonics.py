@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 from diagnosed import held
 
-from motor_identification.discrepancy.angle_harmonics import HARMONIC_GAP, MOST_CYCLES, find_angle_harmonic
+from motor_identification.discrepancy.angle_harmonics import (
+    HARMONIC_GAP,
+    MOST_CYCLES,
+    count_visible_cycles,
+    find_angle_harmonic,
+)
 from motor_identification.discrepancy.operating_conditions import find_conditions
 from motor_identification.validation.held_out import HeldOut
 
@@ -42,6 +47,15 @@ def test_near_the_floor_it_is_not_asked(times: float, asked: bool) -> None:
     one = waving(3, float(np.sqrt((wanted**2 - complete.gap**2) / a_unit)))
     assert (one.gap > HARMONIC_GAP * one.floor(SHARE)) is asked
     assert (find_angle_harmonic(one, SHARE) is not None) is asked
+
+
+@pytest.mark.parametrize(("times", "cycles"), [(0.9, MOST_CYCLES), (1.1, 21), (30.0, 0)])
+def test_cycles_of_which_intervals_show_half_a_wave_are_visible(times: float, cycles: int) -> None:
+    seen = find_conditions(waving(11, 3.0))
+    travel = np.abs(seen.speed * seen.duration)
+    stretch = times * np.pi / MOST_CYCLES / float(np.median(travel[travel > 0.0]))
+    assert count_visible_cycles(replace(seen, duration=seen.duration * stretch)) == cycles
+    assert count_visible_cycles(replace(seen, speed=0.0 * seen.speed)) == 0
 
 
 def test_missing_friction_does_not_repeat() -> None:

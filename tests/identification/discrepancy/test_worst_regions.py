@@ -1,5 +1,7 @@
 """The worst regions: disjoint, where the excess error is, and chosen by their contrast."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosed import held
@@ -27,3 +29,14 @@ def test_contrast_prefers_much_in_little() -> None:
     assert much[0] > much[1] > 0.0 and much[0] > much[2] > 0.0
     assert much[3] == pytest.approx(0.0) and much[4] == 0.0
     assert choose_thresholds(np.array([0.0, 123.4]))[0] == 1.2 and choose_thresholds(np.zeros(2)) == []
+
+
+def test_a_motor_that_is_measured_to_stand_is_simulated_too_fast_and_not_one_way_too_slow() -> None:
+    one = held()
+    (data,) = one.intervals
+    still = replace(data, speed=np.zeros_like(data.speed), slack=np.zeros_like(data.slack))
+    runs = replace(one, intervals=(still,))
+    (region,) = find_worst_regions(runs, SHARE, 1)
+    errors, weight = np.abs(runs.residuals[region.inside]), runs.weight[region.inside]
+    assert region.bias == pytest.approx(np.average(errors, weights=weight)) and region.bias > 10.0
+    assert "too fast" in describe_region(region) and "too slow" not in describe_region(region)

@@ -18,4 +18,5 @@ def test_names_are_joined_as_a_sentence_lists_them() -> None:
 def test_six_effects_are_named_and_the_others_counted() -> None:
     names = [effect.name for effect in EFFECTS]
     assert join_effects(names[:6]).count(",") == 4 and " or " in join_effects(names[:6])
+    assert join_effects(names[:7]).endswith(" and 1 other")
     assert join_effects(names).endswith(f" and {len(EFFECTS) - 6} others")
