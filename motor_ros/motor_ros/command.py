@@ -4,7 +4,7 @@ import argparse
 import os
 import signal
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from math import inf, nan
 from shutil import get_terminal_size
@@ -27,8 +27,13 @@ class CommandParser(argparse.ArgumentParser):
     """
 
     def __init__(self, package: str, prog: str, description: str, epilog: str = "") -> None:
+        self._package = package
         super().__init__(prog=prog, description=description, epilog=epilog, formatter_class=_Formatter)
         self.add_argument("--version", action=_Version, package=package, help="print the version and exit")
+
+    def _get_formatter(self) -> "_Formatter":
+        """As it has to be typed, with what has to be said; the options are listed below it."""
+        return _Formatter(f"ros2 run {self._package} {self.prog} [options]")
 
     def error(self, message: str) -> NoReturn:
         """Say what is wrong with the command line; what was typed, or pasted, steers no terminal."""
@@ -44,7 +49,11 @@ class CommandParser(argparse.ArgumentParser):
 
 
 class _Formatter(argparse.HelpFormatter):
-    """Keeps the lines of a text that has several, such as a table, and fills a paragraph."""
+    """Keeps the lines of a text that has several, such as a table, and fills a paragraph; a usage is one short line."""
+
+    def add_usage(self, usage: Any, actions: Iterable[argparse.Action], groups: Any, prefix: Any = None) -> None:
+        required = [action for action in actions if action.required or not action.option_strings]
+        super().add_usage(usage, required, (), prefix)
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         if "\n" in text:

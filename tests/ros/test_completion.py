@@ -68,11 +68,13 @@ def test_every_executable_answers_before_it_starts(package: str, name: str, caps
     assert complete(line) == ["--version"]
     declared = re.search(r"<version>(.*)</version>", (ROOT / package / "package.xml").read_text(encoding="utf-8"))
     assert declared is not None
-    for word, start in {"--version": f"{name} {declared[1]}\n", "--help": "usage: "}.items():
+    starts = {"--version": f"{name} {declared[1]}\n", "--help": f"usage: ros2 run {package} {name} ["}
+    for word, start in starts.items():
         with pytest.raises(SystemExit) as ended:
             import_module(EXECUTABLES[package, name]).main([word])
         out, err = capsys.readouterr()
         assert (ended.value.code, err) == (0, "") and out.startswith(start)
+    assert f"\n  ros2 run {package} {name} " in out  # an example, to be typed as it stands
 
 
 def test_the_versions_of_the_packages_agree() -> None:

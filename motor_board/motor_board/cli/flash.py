@@ -14,7 +14,10 @@ from motor_ros.command import CommandParser
 def parser() -> argparse.ArgumentParser:
     """The command line."""
     parser = CommandParser(
-        "motor_board", "flash", "Build the firmware and flash it onto an Arduino Uno, Nano or Mega 2560."
+        "motor_board",
+        "flash",
+        "Build the firmware and flash it onto an Arduino Uno, Nano or Mega 2560.",
+        "example:\n  ros2 run motor_board flash --board nano --bridge tb6612 --channels 2",
     )
     parser.add_argument("--port", metavar="PORT", help="the board's serial port (default: the only one there is)")
     parser.add_argument("--board", choices=list(KINDS), default="uno", help="default uno; nano-old: its old bootloader")

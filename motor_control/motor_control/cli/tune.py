@@ -26,7 +26,9 @@ def parser() -> argparse.ArgumentParser:
         "motor_control",
         "tune",
         "Design the gains of the speed controller from a motor model, and predict the loop.",
-        "To use the gains: ros2 run motor_control motor_control --ros-args --params-file gains.yaml",
+        "example, and the gains in use:\n"
+        "  ros2 run motor_control tune model.yaml --speed-source observer --output gains.yaml --figure gains.png\n"
+        "  ros2 run motor_control motor_control --ros-args --params-file gains.yaml",
     )
     parser.add_argument("model", metavar="MODEL", help="model file (YAML), as 'identify --output' writes it")
     parser.add_argument(

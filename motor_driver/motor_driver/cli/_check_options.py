@@ -20,7 +20,7 @@ def parser() -> argparse.ArgumentParser:
         "check",
         "Check a new board step by step: supply, encoder, a little voltage both ways. Says what is wired wrong, and "
         "writes the driver's parameter file if all is right. The driver must not run at the same time.",
-        "example: ros2 run motor_driver check --max-voltage 12 --edges-per-revolution 96 --output motor.yaml",
+        "example:\n  ros2 run motor_driver check --max-voltage 12 --edges-per-revolution 96 --output motor.yaml",
     )
     _add_port(made)
     _add_motor(made)

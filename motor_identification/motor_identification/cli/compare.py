@@ -7,7 +7,7 @@ from motor_ros.command import CommandParser, shell
 
 EXAMPLES = """\
 the motors of a robot, each recorded and identified with the same effects:
-  compare left.yaml right.yaml
+  ros2 run motor_identification compare left.yaml right.yaml
 """
 
 

@@ -21,6 +21,7 @@ def parser() -> argparse.ArgumentParser:
         "Find where simulation and measurement disagree, name the effects that are missing from the\n"
         "model, and show on data that no fit has seen how far they close the gap. (`explore` also\n"
         "drives the motor, and records what a diagnosis asks for.)",
+        "example:\n  ros2 run motor_identification diagnose bag --output model.yaml --report diagnosis\n\n"
         f"effects:\n{effects}",
     )
     parser.add_argument("bags", nargs="+", metavar="BAG", help="recordings of one motor")

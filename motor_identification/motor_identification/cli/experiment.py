@@ -31,7 +31,8 @@ def parser() -> argparse.ArgumentParser:
         "plant (motor_sim or motor_driver) is driven; with --model a simulated motor runs offline, at full speed. "
         "However a live experiment ends, the motor gets 0 V; a bag that is not complete is named "
         "BAG_incomplete. The bag says which profile it was, under custom_data in its metadata.yaml.",
-        f"profiles:\n{rows}",
+        "examples:\n  ros2 run motor_identification experiment rich --output bag --voltage 6\n"
+        f"  ros2 run motor_identification experiment step --model model.yaml --output bag\n\nprofiles:\n{rows}",
     )
     parser.add_argument("profile", choices=list(PROFILES), metavar="PROFILE", help="one of the profiles below")
     parser.add_argument("--output", required=True, metavar="BAG", help="the bag to write; must not exist")

@@ -27,8 +27,9 @@ def parser() -> argparse.ArgumentParser:
         "suggests, and diagnose all recordings together, until nothing is open. Drives the live plant (motor_sim or "
         "motor_driver), or with --model a simulated motor offline. The motor stands still whenever nothing is "
         "recorded, and however this ends.",
-        "DIRECTORY gets a bag for every round, and after each report.html, model.yaml and diagnosis.json. "
-        "Profiles: see experiment --help.",
+        "DIRECTORY gets a bag for every round, and after each report.html, model.yaml and diagnosis.json.\n"
+        "Profiles: see experiment --help.\n\n"
+        "example:\n  ros2 run motor_identification explore explored --voltage 6",
     )
     parser.add_argument("directory", metavar="DIRECTORY", help="for everything; must not exist, or be empty")
     parser.add_argument("--profile", choices=list(PROFILES), default="rich", metavar="P", help="first (default rich)")

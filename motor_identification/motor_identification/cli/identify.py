@@ -34,6 +34,7 @@ def parser() -> argparse.ArgumentParser:
         "motor_identification",
         "identify",
         "Fit a motor model to recorded bags: particle swarm over the whole box, then least squares.",
+        "example:\n  ros2 run motor_identification identify bag --effects coulomb_friction --report report\n\n"
         f"effects:\n{effects}",
     )
     parser.add_argument("bags", nargs="+", metavar="BAG", help="recordings of one motor")

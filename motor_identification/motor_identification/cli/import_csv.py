@@ -14,14 +14,15 @@ if TYPE_CHECKING:
 
 EXAMPLES = """\
 columns by their names, units by the encoder's steps; what was guessed is said:
-  import_csv log.csv --output log
+  ros2 run motor_identification import_csv log.csv --output log
 speeds, each the mean over the 20 ms before its row:
-  import_csv log.csv --output log --time t --voltage u --speed y --unit deg/s --speed-window 0.02
+  ros2 run motor_identification import_csv log.csv --output log --time t --voltage u --speed y --unit deg/s \\
+    --speed-window 0.02
 positions of an encoder of 360 counts, steps of several duties (of 7.4 V) from rest, a bag for each:
-  import_csv steps.csv --output steps --time t_s --voltage duty_pct --voltage-scale 0.074 \\
-    --position pos_deg --unit deg --split duty_pct --rest-until 0
+  ros2 run motor_identification import_csv steps.csv --output steps --time t_s --voltage duty_pct \\
+    --voltage-scale 0.074 --position pos_deg --unit deg --split duty_pct --rest-until 0
 a static curve, without time:
-  import_csv static.csv --output static --steady --voltage u --speed y --unit deg/s
+  ros2 run motor_identification import_csv static.csv --output static --steady --voltage u --speed y --unit deg/s
 """
 
 

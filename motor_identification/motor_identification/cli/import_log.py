@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 EXAMPLES = """\
 what is in it, and what could be identified from it:
-  import_log log.csv --dry-run
+  ros2 run motor_identification import_log log.csv --dry-run
 a duty of -255 to 255 of a 7.4 V battery, speeds whose unit no name tells:
-  import_log log.csv --output log --supply-voltage 7.4 --unit rpm
+  ros2 run motor_identification import_log log.csv --output log --supply-voltage 7.4 --unit rpm
 two motors in one file, a bag for each:
-  import_log log.csv --output robot --motor left:lc,ls --motor right:rc,rs
+  ros2 run motor_identification import_log log.csv --output robot --motor left:lc,ls --motor right:rc,rs
 SysId's own log of a drivetrain, a bag for every test and side:
-  import_log drivetrain_sysid.json --output drivetrain
+  ros2 run motor_identification import_log drivetrain_sysid.json --output drivetrain
 """
 
 

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 EXAMPLES = """\
 what moves in a bag that another robot recorded, and a mapping to correct by hand:
-  inspect bag --output mapping.yaml
-  identify bag --mapping mapping.yaml
+  ros2 run motor_identification inspect bag --output mapping.yaml
+  ros2 run motor_identification identify bag --mapping mapping.yaml
 """
 _SHOWN = 5  # pairs
 OURS_NEEDS_NONE = "{bag} was recorded from this workbench's topics: identify and diagnose read it without a mapping."

@@ -14,9 +14,11 @@ _EXAMPLE = """\
 a recording beside a motor, by eye: let the motor (motor_sim with the model that identify found, or the real one) run
 under the recorded voltages, give the recorded speed a name of its own, and draw both in one plot
 
-  play BAG --topics motor/voltage motor/speed --remap motor/speed:=recorded/motor/speed
+  ros2 run motor_identification play bag --topics motor/voltage motor/speed --remap motor/speed:=recorded/motor/speed
 
-and the recorded speed alone, from the tenth second on, as if the motor ran:  play BAG --start-offset 10
+and the recorded speed alone, from the tenth second on, as if the motor ran:
+
+  ros2 run motor_identification play bag --start-offset 10
 """
 
 

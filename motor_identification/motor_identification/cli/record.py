@@ -27,6 +27,7 @@ def parser() -> CommandParser:
         f"Record topics into a bag until Ctrl-C, by default {names}. They may appear later; "
         "the bag is a rosbag2 directory with MCAP storage. What is older than half a second survives whatever happens "
         "to this program, and a bag that was cut off is read as it is.",
+        "example:\n  ros2 run motor_identification record bag --duration 10",
     )
     parser.add_argument("bag", metavar="BAG", help="where the bag goes; must not exist")
     parser.add_argument("topics", metavar="TOPIC", nargs="*", help="relative names are in --topic-namespace")

@@ -150,4 +150,4 @@ def test_usage(options: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit) as stop:
         main(["model.yaml", *options] if options else [])
     assert stop.value.code == 2
-    assert "usage: tune" in capsys.readouterr().err
+    assert "usage: ros2 run motor_control tune [options] MODEL\n" in capsys.readouterr().err

@@ -112,8 +112,9 @@ def test_a_misused_command_exits_with_2(
 ) -> None:
     with pytest.raises(SystemExit) as stopped:
         command(arguments)
+    name = command.__module__.rpartition(".")[2]
     assert stopped.value.code == 2
-    assert f"usage: {command.__module__.rpartition('.')[2]}" in capsys.readouterr().err
+    assert f"usage: ros2 run motor_identification {name} [options]" in capsys.readouterr().err
 
 
 def test_a_file_that_cannot_be_written_after_all_takes_no_other_with_it(

@@ -191,7 +191,7 @@ def test_a_misused_command_exits_with_2(arguments: list[str], capsys: pytest.Cap
     with pytest.raises(SystemExit) as stopped:
         identify(arguments)
     assert stopped.value.code == 2
-    assert "usage: identify" in capsys.readouterr().err
+    assert "usage: ros2 run motor_identification identify [options] BAG [BAG ...]\n" in capsys.readouterr().err
 
 
 def test_a_bag_that_was_cut_off_is_read_up_to_the_cut_and_that_is_said(
