@@ -13,6 +13,7 @@ from math import isfinite, nan
 
 from motor_control.controller import pi
 from motor_control.controller import speed_law as law
+from motor_control.controller.interruptions import count_interruption
 from motor_control.controller.latency import track_latency
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
 from motor_control.controller.plant_watch import PlantWatch, watch_plant
@@ -77,7 +78,7 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     state = _drop_old_reference(config, state, plant, now)
     if reference is not None:
         state = refer(state, reference, now)
-    output, after = _answer(config, state, sample, age)
+    output, after = _answer(config, state, sample, age, now)
     ours = after.demand is not None or bool(after.latched) and state.drives
     drives = state.drives or after.demand is not None
     begins = ours and (not state.drives or state.silent is not None) or _is_unheard(state.run, after, now)
@@ -129,11 +130,18 @@ def _is_unheard(before: Run | None, after: State, now: float) -> bool:
     return before.ignored // law.IGNORED_TIME < after.run.ignored // law.IGNORED_TIME
 
 
-def _answer(config: Config, state: State, sample: Sample, age: float) -> tuple[Output, State]:
-    """Answer a sample of an age [s] with the reference in force."""
+def _answer(config: Config, state: State, sample: Sample, age: float, now: float) -> tuple[Output, State]:
+    """Answer a sample of an age [s], at a time [s], with the reference in force."""
     demand = state.demand
     name, reason = _find_obstacle(config, state, sample)
     mistake = _find_mistake(config, demand, sample) if name == RUNNING and demand is not None else ""
+    if demand is not None and not state.latched:
+        no_number = mistake or (reason if not _is_finite(sample) else "")
+        often, interruptions = count_interruption(state.interruptions, no_number, now)
+        state = replace(state, interruptions=interruptions)
+        if often:
+            output = halt(STOPPED, CALL_RESET.format(often), nan, sample.speed)
+            return replace(output, fault=often), stop(state, often)
     shown = demand.value if demand is not None and demand.kind is Kind.SPEED else nan
     if demand is None or name != RUNNING or (mistake and state.run is None):
         name, reason = (STOPPED, mistake) if mistake else (name, reason)
@@ -167,6 +175,11 @@ def _find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, s
     if state.demand is None:
         return DISABLED, FRESH.format(state.dropped) if state.dropped else NO_REFERENCE
     return RUNNING, ""
+
+
+def _is_finite(sample: Sample) -> bool:
+    """Tell whether all that a law needs of a sample is a number."""
+    return isfinite(sample.speed) and isfinite(sample.voltage) and isfinite(sample.edge_period)
 
 
 def _find_mistake(config: Config, demand: Demand, sample: Sample) -> str:

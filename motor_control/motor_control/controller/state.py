@@ -6,6 +6,7 @@ One source drives at a time. A stop is latched until `reset`; whoever asks meanw
 from dataclasses import dataclass, replace
 
 from motor_control.controller.faults import detection
+from motor_control.controller.interruptions import Interruptions
 from motor_control.controller.latency import LatencyState
 from motor_control.controller.motion import Motion
 from motor_control.controller.plant_watch import PlantWatch
@@ -46,6 +47,7 @@ class State:
     motion: Motion | None = None  # what is known of the motor, from run to run
     faults: detection.State | None = None  # what the latest run has seen of faults
     judged: int = 0  # [ns] its latest sample
+    interruptions: Interruptions = Interruptions()
     speakers: str = ""  # who publishes motor/speed, for the sentence about two plants
 
 
@@ -94,7 +96,8 @@ def release(state: State) -> tuple[str, State]:
 
 def stop(state: State, reason: str) -> State:
     """Latch 0 V from the next sample on, until `reset`; `reason` is a sentence."""
-    return replace(state, run=None, faults=None, latched=reason, demand=None, dropped=CLEARED)
+    state = replace(state, run=None, faults=None, interruptions=Interruptions())
+    return replace(state, latched=reason, demand=None, dropped=CLEARED)
 
 
 def reset(state: State) -> tuple[str, State]:

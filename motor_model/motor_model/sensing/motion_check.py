@@ -9,6 +9,7 @@ plant switches the motor off by itself, whoever sends the voltage. Simulated and
 """
 
 from dataclasses import dataclass, replace
+from math import exp, sqrt
 
 from motor_model.sample import Sample
 
@@ -27,6 +28,9 @@ SLOWER = 0.98  # of the speed at the beginning; a motor that is braked by STRONG
 # by a limit on plugging. More than PRESSING in the mean is more than a load of a quarter of the motor's voltage asks a
 # brake for, and slows that load down: of 73 random motors with such loads none was pressed so for the stall time.
 PRESSING = 0.27
+# A voltage that comes and goes, or turns to and fro, is never strong for long. In the mean square over so many stall
+# times, without an edge, it is no more than STRONG: that is what heats a motor that does not turn.
+HEATING = 4.0
 PRESSED = 0.01  # [s] of the motor's voltage beyond that
 # A plant reports 0 rad/s where edges are further apart than SLOW; the count of two channels still says which way they
 # went. BACK of them against a strong voltage, none of them much later than the one before, are no motor that is being
@@ -43,6 +47,10 @@ CUT_OFF = (
     "cable is off, or the shaft has jammed"
 )
 STALLED = "no edges at {voltage:.1f} V: the motor is stalled, or the encoder's cable is off"
+HEATED = (
+    "no edges, and {voltage:.1f} V in the mean square for {time:.2g} s: the motor is stalled, or the encoder's cable "
+    "is off"
+)
 AGAINST = "the motor turns against its voltage: swap the motor's two wires, or the encoder's two channels"
 
 
@@ -64,6 +72,7 @@ class MotionCheck:
     begun_at: int = 0  # [ns]
     pressed: float = 0.0  # [s] of the motor's voltage against that speed, beyond PRESSING
     back: int = 0  # slow edges against the strong voltage since then
+    heat: float = 0.0  # [s] mean square of the voltage's share, times the time that it is taken over
     even: bool = False  # the latest edge came hardly later than the one before had
 
     def see(self, sample: Sample) -> "MotionCheck":
@@ -92,6 +101,7 @@ class MotionCheck:
             pressed=pressed,
             back=0 if anew else self._count_back(sample, strong),
             even=self._is_even(sample) if moved else self.even,
+            heat=0.0 if moved else self._heat(share, now),
         )
 
     @property
@@ -114,6 +124,8 @@ class MotionCheck:
         lasts &= sample.sample_time - self.begun_at >= most
         if lasts and self.pressed >= PRESSED:
             return AGAINST
+        if self.heat >= STRONG**2 * self._heating > 0.0:
+            return HEATED.format(voltage=sqrt(self.heat / self._heating) * self.max_voltage, time=self._heating)
         if self.strong == 0:
             return ""
         if not self.single_channel and self.back >= BACK and sample.sample_time - self.strong_since >= most:
@@ -124,6 +136,19 @@ class MotionCheck:
     def _is_even(self, sample: Sample) -> bool:
         """Whether the period of this edge is hardly longer than that of the one before."""
         return self.latest is not None and 0.0 < sample.edge_period <= SLOWED * self.latest.edge_period
+
+    @property
+    def _heating(self) -> float:
+        """[s] over which the mean square is taken."""
+        return HEATING * self.stall_time
+
+    def _heat(self, share: float, now: int) -> float:
+        """Follow the mean square of a voltage, as a share of the motor's."""
+        if self.latest is None or self.stall_time == 0.0:
+            return 0.0
+        dt = max(now - self.latest.sample_time, 0) * 1e-9
+        kept = exp(-dt / self._heating)
+        return self.heat * kept + share**2 * self._heating * (1.0 - kept)
 
     def _press(self, share: float, strong: int, now: int) -> float:
         """Sum up a voltage, as a share of the motor's, that pushes against the motion."""

@@ -162,3 +162,37 @@ def test_a_load_that_drives_the_motor_is_braked_by_what_presses_against_it() -> 
     held = [sample(0.005 * k, -k, -(10.0 + 0.1 * min(k, 100)), 0.2 * 12.0) for k in range(300)]
     braked = [sample(1.5 + 0.005 * k, -300 - k, -20.0 + 0.6 * k, 12.0) for k in range(15)]
     assert not any(checked(False, *held, *braked[: k + 1]).stop for k in range(15))
+
+
+@pytest.mark.parametrize(
+    ("volts", "low", "high"),
+    [
+        ([12.0, -12.0], 0.4, 0.55),
+        ([12.0, 0.0], 1.0, 1.2),
+        ([7.2] * 20 + [-7.2] * 20, 1.8, 2.0),
+        ([12.0] * 60 + [0.0] * 20, 0.4, 0.7),
+        ([8.4, 0.0], np.inf, np.inf),  # 0.495 of 12 V in the mean square
+        ([5.9, -5.9], np.inf, np.inf),
+    ],
+)
+def test_a_voltage_that_comes_and_goes_heats_a_motor_as_one_that_stays(
+    volts: list[float], low: float, high: float
+) -> None:
+    """It was never strong for the stall time, and never stopped."""
+    check, stopped = MotionCheck(12.0, False), np.inf
+    for k in range(4000):
+        check = check.see(sample(0.005 * k, 7, 0.0, volts[k % len(volts)]))
+        if check.stop:
+            stopped = 0.005 * k
+            break
+    assert low <= stopped <= high
+    if stopped < np.inf:
+        assert check.stop.startswith("no edges, and 6.") and " V in the mean square for 1.6 s: " in check.stop
+    moving = MotionCheck(12.0, True)
+    for k in range(4000):
+        moving = moving.see(sample(0.005 * k, k // 50, 0.0, volts[k % len(volts)]))  # four edges a second
+        assert moving.heat < 0.4
+    never = MotionCheck(12.0, True, stall_time=0.0)
+    for k in range(1000):
+        never = never.see(sample(0.005 * k, 7, 0.0, 12.0 if k % 2 else -12.0))
+        assert never.stop == ""

@@ -3,7 +3,10 @@
 from dataclasses import dataclass, replace
 
 from motor_control.controller.faults import (
+    contradiction,
+    dropouts,
     few_edges,
+    insensitive_speed,
     irregular_edges,
     overspeed,
     plugging,
@@ -29,6 +32,9 @@ class State:
     pushed: wrong_direction.State = wrong_direction.State()
     plugged: plugging.State = plugging.State()
     unrest: push_at_rest.State = push_at_rest.State()
+    contradicted: contradiction.State = contradiction.State()
+    insensitive: insensitive_speed.State = insensitive_speed.State()
+    dropped: dropouts.State = dropouts.State()
 
 
 def begin(speed: float, before: State | None = None) -> State:
@@ -38,7 +44,7 @@ def begin(speed: float, before: State | None = None) -> State:
     the speed should have done meanwhile is not known: the motor had 0 V, or was somebody else's.
     """
     if before is None:
-        return State(missing=few_edges.State(expected=speed))
+        return State(missing=few_edges.State(expected=speed), contradicted=contradiction.begin(speed))
     return replace(before, missing=replace(before.missing, expected=speed), undriven=runaway.State())
 
 
@@ -54,6 +60,21 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     wrong, pushed = wrong_direction.check(config, state.pushed, seen)
     kept, plugged = plugging.check(config, state.plugged, seen)
     restless, unrest = push_at_rest.check(config, state.unrest, seen)
-    return still or few or irregular or odd or away or fast or wrong or kept or restless, State(
-        stalled, missing, periods, unexpected, undriven, too_fast, pushed, plugged, unrest
+    false, contradicted = contradiction.check(config, state.contradicted, seen)
+    same, insensitive = insensitive_speed.check(config, state.insensitive, seen)
+    loose, dropped = dropouts.check(config, state.dropped, seen)
+    found = (still, few, irregular, odd, away, fast, wrong, kept, restless, false, same, loose)
+    return next((one for one in found if one), ""), State(
+        stalled,
+        missing,
+        periods,
+        unexpected,
+        undriven,
+        too_fast,
+        pushed,
+        plugged,
+        unrest,
+        contradicted,
+        insensitive,
+        dropped,
     )

@@ -17,6 +17,9 @@ DISPROVED = 1.1
 # channel friction has to hold 0 rad/s, so that a load is no larger than friction.
 SPARE, SPARE_SINGLE = 0.25, 0.15
 MORE = 1.25  # times the friction of the model that may be needed without a fault
+# Of the voltage limit, that a load takes at most beside friction: no steady motion is learnt to need more. More than
+# twice `SPARE`: a random torque, a sagging supply and a model some per cent off have what is left of it.
+HEAVY = 0.6
 KEPT = 0.75  # of the voltage of the last steady motion that may be needed at a standstill: the rest was back-EMF
 USUAL_TIME_CONSTANT = 0.05  # [s] of a motor of which there is no model
 
@@ -70,7 +73,8 @@ def find_allowed_voltage(config: Config, motion: Motion, voltage_limit: float) -
     """Find the voltage [V] that a motor of this motion may need without a fault, by the model or by what was learnt."""
     if config.kv > 0.0:
         load = max(config.friction, motion.steady_voltage - config.kv * motion.steady_speed)
-        return MORE * load + config.kv * motion.speed + config.spare * voltage_limit
+        load = min(MORE * load + config.spare * voltage_limit, config.friction + HEAVY * voltage_limit)
+        return load + config.kv * motion.speed
     return KEPT * motion.steady_voltage + config.spare * voltage_limit
 
 

@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 from math import copysign, exp
 
-from motor_control.controller.faults.evidence import KEPT, Config, Seen, find_allowed_voltage
+from motor_control.controller.faults.evidence import HEAVY, KEPT, Config, Seen, find_allowed_voltage
 from motor_control.controller.motion import FAST
 
 FEW = 0.3  # of the expected speed; a load that slows a motor down to this takes 70 % of its stall torque
 SPIN_UP = 0.3  # [s] time constant that a motor may have of which there is no model
 FORGET = 0.3  # [s] time constant with which that is forgotten while edges fit
-BEHIND = 0.5  # of the reference: a motor that turns as it is told has no fault, whatever its load
+BEHIND = 0.5  # of the reference: a motor that turns as it is told has no fault, whatever its load up to `HEAVY`
 GROWING = 1.2  # of the average of the last 0.15 s: a heavy disc that is still being spun up
 SILENT = 0.1  # [s] without an edge, and so many slots in which some should have come:
 SILENT_SLOTS = 5.0
@@ -42,8 +42,13 @@ def check(config: Config, state: State, seen: Seen, regular: bool) -> tuple[str,
         foreseen = 0.0 if braking else extrapolate_speed(config, state.expected, seen)
     expected = abs(foreseen)
     obeys = regular and min(motion.speed, motion.slow_speed) >= BEHIND * abs(seen.reference)
-    if motion.speed >= FEW * expected or obeys or voltage <= allowed:
-        return "", State(foreseen, state.excess * exp(-seen.dt / FORGET), 0.0)
+    if config.kv > 0.0:
+        obeys &= voltage <= config.kv * motion.speed + config.friction + HEAVY * limit
+    kept = state.excess * exp(-seen.dt / FORGET)
+    if motion.speed >= FEW * expected or obeys:
+        return "", State(foreseen, kept, 0.0)
+    if voltage <= allowed:  # for now: a voltage that comes and goes is no other motion
+        return "", State(foreseen, kept, 0.0 if motion.edges else state.travel)
     growing = motion.speed > GROWING * motion.slow_speed and motion.speed > 2.0 * config.slot / FAST
     excess = state.excess + (0.0 if growing or braking else (voltage - allowed) / limit * seen.dt)
     travel = 0.0 if motion.edges else state.travel + expected * seen.dt
