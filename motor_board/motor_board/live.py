@@ -139,7 +139,9 @@ class LiveBoard:
         self._emulator.encoder_connected, self._emulator.stray_edges = faults.encoder_connected, faults.stray_edges
         self._emulator.wiring = faults
         opened = self._port.opened()
-        if opened:
+        if opened:  # what the board has said until now is lost, also where it was held up and says it only now
+            self._emulator.run(self._goal(time.monotonic_ns()))
+            self._emulator.chip.drain()
             self._in.cut()
             self._out.cut()
         if self._reset_asked.is_set() or (opened and faults.reset_on_open):

@@ -5,9 +5,11 @@ from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
+from threading import Event
 
 import pytest
 from emulated_board import Client
+from patience import PATIENCE
 
 from motor_board.errors import BoardError
 from motor_board.live import LiveBoard
@@ -143,12 +145,25 @@ def test_without_its_encoder_it_counts_nothing(connect: Connect, live: LiveBoard
     assert not client.all(Telemetry)[-1].edge_valid
 
 
+def leave(client: Client, live: LiveBoard) -> None:
+    client.close()
+    while live._port._connected:
+        time.sleep(0.001)
+
+
+def first_heard_by(client: Client) -> int:
+    """The time [tick] of the first sample that a client gets."""
+    client.wait_for(Telemetry)
+    return client.all(Telemetry)[0].time
+
+
 def test_a_late_client_gets_no_old_frames(connect: Connect, live: LiveBoard) -> None:
     first = connect()
     seen = first.wait_for(Telemetry).time
-    while live.truth().cycle < first.all(Telemetry)[-1].time * 8 + 4_000_000:
+    leave(first, live)
+    while live.truth().cycle < 8 * seen + 4_000_000:
         time.sleep(0.001)
-    assert connect().wait_for(Telemetry).time - seen > 300_000
+    assert first_heard_by(connect()) - seen > 480_000  # it may have been on its way
 
 
 def test_what_a_client_left_unread_is_not_for_the_next(connect: Connect, live: LiveBoard) -> None:
@@ -156,10 +171,32 @@ def test_what_a_client_left_unread_is_not_for_the_next(connect: Connect, live: L
     seen = first.wait_for(Telemetry).time
     while live.truth().cycle < 8 * seen + 4_000_000:
         time.sleep(0.001)
-    first.close()
-    while live._port._connected:
+    leave(first, live)
+    assert first_heard_by(connect()) - seen > 480_000
+
+
+def test_a_board_that_was_held_up_does_not_say_afterwards_what_was_before_a_client_came(
+    connect: Connect, live: LiveBoard, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first = connect()
+    configure(first, 2_000)
+    leave(first, live)
+    hold, held, look = Event(), Event(), live._port.opened
+
+    def opened() -> bool:
+        held.set()
+        assert hold.wait(PATIENCE)
+        return look()
+
+    monkeypatch.setattr(live._port, "opened", opened)
+    held.wait(PATIENCE)
+    behind = live.truth()
+    while time.monotonic_ns() < behind.start + (behind.cycle / behind.rate) + 30_000_000:
         time.sleep(0.001)
-    assert connect().wait_for(Telemetry).time - seen > 300_000
+    late, now = connect(), time.monotonic_ns()
+    hold.set()
+    heard = first_heard_by(late)
+    assert 8 * heard > (now - behind.start) * behind.rate - behind.clock_zero - 3 * 8 * 2_000
 
 
 def test_the_truth_says_when_a_sample_was(connect: Connect, live: LiveBoard) -> None:

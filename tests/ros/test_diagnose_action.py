@@ -2,7 +2,6 @@
 
 import os
 import signal
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from subprocess import Popen
@@ -41,9 +40,6 @@ def node(bags: Path, models: Path) -> Iterator["Popen[str]"]:
     assert process.returncode == 0
 
 
-SETTLED = 0.6  # [s] two announcements and a bit
-
-
 class Asked:
     """A goal that was sent, and everything that is said about it."""
 
@@ -76,9 +72,7 @@ class Asked:
 def ask(bench: Bench, node: "Popen[str]") -> Iterator[Callable[..., Asked]]:
     client = ActionClient(bench.node, Diagnose, "motor/diagnose")
     bench.wait(client.server_is_ready, "motor/diagnose")
-    # The server may not have found this client's reader yet, and its answer would be lost; nothing tells of that.
-    begun = time.monotonic()
-    bench.wait(lambda: time.monotonic() - begun > SETTLED, "the server to find its client")
+    bench.known_to("motor_identification")
     yield lambda **goal: Asked(bench, client, **goal)
     client.destroy()
 
@@ -165,6 +159,7 @@ def test_ends_at_once_in_the_middle_of_a_goal(bench: Bench, start: Callable[...,
     process = start("motor_identification", "motor_identification", "--ros-args", *elsewhere)
     client = ActionClient(bench.node, Diagnose, "other/motor/diagnose")
     bench.wait(client.server_is_ready, "other/motor/diagnose")
+    bench.known_to("/other/motor_identification")
     Asked(bench, client, bag_uris=["staircase"]).begun()
     end(process)
     assert process.returncode == 0

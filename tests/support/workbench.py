@@ -15,7 +15,7 @@ from domains import free_domain
 from forked import Forked
 from patience import PATIENCE
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import SetParameters
+from rcl_interfaces.srv import ListParameters, SetParameters
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile
 
@@ -63,6 +63,23 @@ class Bench:
     def heard(self, *publishers: Any) -> None:
         """Wait until each of the publishers has a subscriber."""
         self.wait(lambda: all(publisher.get_subscription_count() for publisher in publishers), "subscribers")
+
+    def known_to(self, node: str) -> None:
+        """Wait until a node knows all readers that this one has by now: else it answers them, and nobody hears it.
+
+        Who serves is told of readers one after the other, in the order in which they were made. So when it answers one
+        that is made now, it knows those before; its answers until then are lost, and asked for again.
+        """
+        client = self.node.create_client(ListParameters, f"{node}/list_parameters")
+        self.wait(client.service_is_ready, f"{node}/list_parameters")
+        asked: list[Any] = []
+
+        def answered() -> bool:
+            asked.append(client.call_async(ListParameters.Request()))
+            return any(one.done() for one in asked)
+
+        self.wait(answered, f"an answer of {node}")
+        client.destroy()
 
     def call(self, kind: type, name: str, request: object) -> Any:
         """The response of a service; who gets none asks again, for a server that was held up may not know us yet."""
