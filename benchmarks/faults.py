@@ -54,6 +54,28 @@ slower tells, 0.9 to 1.2 s after the exchange.
 Without an encoder on 0.48 V, measured, of a 1.2 V motor: the plant's own check takes less than 3 V for a supply that is
 off, and the controller's `stall_time` of 0.5 s is what remains.
 
+Hum that is a little slower than what is wanted (100 Hz at 5 % of 174 rad/s) looks like a motor that nearly does as
+told: a loop raises its voltage at the rate of its integral, and the motor runs away meanwhile. That no voltage changes
+the speed by a fiftieth is known once the voltage has grown by half of all there is, and with a model that it has grown
+beyond what 0.6 of the stall torque asks for. Before these rules it was 97 % of the top speed for ever. The 6 and 30
+rad/s motors are slower there than the hum of any mains; of theirs (3 and 17 edges a second, with a model) the faster
+one is stopped after 6.3 s, and the slower one turns at up to 35 %. Without a model a motor that has never been seen
+without hum, wanted at several times its edges' speed, gets all the voltage within 0.2 s, and is taken for one that is
+as slow as that: it is not stopped.
+
+A contact that is there for 20 of every 100 ms showed a fifth of the edges, and the loop made up for the rest (77 % of
+the top speed for ever in place of 50). The third gap that no motor could have come out of so fast is the end of it; at
+6 rad/s and 1 kHz other checks have to tell. Below 3 % of the top speed of the 6 rad/s motor (2.7 edges a second) a
+driver that repeats one sample says, as true ones do, that the motor stands.
+
+Tried, and let be: two channels whose direction flips now and then (at 0.5 to 50 % of the samples, at half of the top
+speed: 50 % without a model, 61 % with one, and stopped after 0.5 s where it flips seldom); 40 % of the edges lost,
+which is a stop after 1.2 to 7 s at up to 84 %; a plant that reports half of its speed, and edges to match: nothing but
+another sensor could tell. Somebody who answers every stop at once with `motor/reset`, `motor/enable` and a fresh
+reference gets the motor each time, for as long as it takes to tell the fault: 25 % of the voltage on average with
+exchanged channels; without edges the mean square of the voltage counts on through all of that, so that a blocked motor
+gets 39 %, and `motor/reset` alone is not enough.
+
 Not in the table: the cable lost at a reference of 0 rad/s. A motor of one channel that has come to rest gets 0 V there,
 whatever edges come, and stands: 5, 20 and 50 stray edges a second, four sequences each, on motors of 6 to 600 rad/s.
 Under the observer each stray edge used to be pushed back as if a hand turned the shaft, at up to 60 % of the top speed,

@@ -44,6 +44,79 @@ class CableOff:
         return float(self.random.exponential(1e9 / self.stray)) if self.stray else float("inf")
 
 
+@dataclass
+class Hum:
+    """From the first sample on the line picks up the mains: edges that are perfectly regular, at a rate."""
+
+    rate: float  # [1/s]
+    slot: float = tau / 96  # [rad]
+    before: Sample | None = None
+
+    def __call__(self, sample: Sample) -> Sample:
+        """What the board says instead."""
+        if self.before is None:
+            self.before = sample
+        passed = int((sample.sample_time - self.before.sample_time) * 1e-9 * self.rate)
+        at = self.before.sample_time + round(passed / self.rate * 1e9) if passed else self.before.edge_time
+        return replace(
+            sample,
+            speed=copysign(self.slot * self.rate, sample.voltage),
+            edge_count=self.before.edge_count + passed,
+            edge_time=at,
+            edge_period=1.0 / self.rate,
+        )
+
+
+@dataclass
+class LooseContact:
+    """Edges reach the board for a part of every period of time only; the count leaves the others out."""
+
+    period: float = 0.1  # [s]
+    there: float = 0.02  # [s]
+    slot: float = tau / 96  # [rad]
+    begun: int = 0  # [ns]
+    true: Sample | None = None  # the latest one
+    told: Sample | None = None
+
+    def __call__(self, sample: Sample) -> Sample:
+        """What the board says instead."""
+        if self.true is None or self.told is None:
+            self.begun, self.true, self.told = sample.sample_time, sample, sample
+        passed, self.true = sample.edge_count - self.true.edge_count, sample
+        if (sample.sample_time - self.begun) * 1e-9 % self.period < self.there:
+            self.told = replace(sample, edge_count=self.told.edge_count + passed)
+            return self.told
+        age = (sample.sample_time - self.told.edge_time) * 1e-9
+        moving = self.told.edge_period > 0.0 and age < STANDSTILL
+        speed = copysign(self.slot / max(self.told.edge_period, age), sample.voltage) if moving else 0.0
+        self.told = replace(self.told, sample_time=sample.sample_time, voltage=sample.voltage, speed=speed)
+        return self.told
+
+
+@dataclass
+class Stuck:
+    """A driver that repeats its latest sample for ever, with times that go on."""
+
+    latest: Sample | None = None
+
+    def __call__(self, sample: Sample) -> Sample:
+        """What the board says instead."""
+        self.latest = self.latest or sample
+        return replace(self.latest, sample_time=sample.sample_time)
+
+
+@dataclass
+class NowAndThen:
+    """A plant that has gone wrong at every other sample."""
+
+    odd: bool = False
+
+    def __call__(self, sample: Sample) -> Sample:
+        """What the board says instead."""
+        self.odd = not self.odd
+        return not_a_number(sample) if self.odd else sample
+
+
 def swapped(sample: Sample) -> Sample:
     """Two channels, exchanged: everything runs the other way."""
     return replace(sample, speed=-sample.speed, edge_count=-sample.edge_count)

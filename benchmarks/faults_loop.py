@@ -51,6 +51,7 @@ class Loop:
     heard: bool = True  # samples reach the controller
     alive: bool = True  # the controller
     raw: float | None = None  # [V] that somebody sends on motor/voltage in the controller's place
+    to_and_fro: bool = False  # that voltage turns its sign at every sample
     reference: float | None = None  # [rad/s] to be sent once
     moments: list[Moment] = field(default_factory=list)
     rival: Sample | None = None  # of a second plant, once it speaks
@@ -109,7 +110,7 @@ class Loop:
             self.gate = self.gate.stop(self.check.stop)
         self._queue.append((self.time + self.delay, sample))
         if self.raw is not None:
-            self._command(self.raw)
+            self._command(-self.raw if self.to_and_fro and self._samples % 2 else self.raw)
             self._reason = ""
         elif self.alive:
             self._control()

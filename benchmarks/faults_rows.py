@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import nan
 
-from faults_line import CableOff, not_a_number, swapped
+from faults_line import CableOff, Hum, LooseContact, NowAndThen, Stuck, not_a_number, swapped
 from faults_loop import Loop
 
 from motor_model.effects import INDEX
@@ -38,6 +38,34 @@ def cable_off(stray: float = 0.0) -> Callable[[Loop], None]:
         loop.line = CableOff(stray)
 
     return apply
+
+
+def hum(loop: Loop) -> None:
+    """The encoder's cable is off at its far end, and picks up edges at three quarters of the rate that is wanted."""
+    slot, wanted = Hum(1.0).slot, loop.state.demand
+    loop.line = Hum(0.75 * wanted.value / slot if wanted is not None else 0.0)
+
+
+def loosen(loop: Loop) -> None:
+    """A contact of the encoder's cable is loose."""
+    loop.line = LooseContact()
+
+
+def repeat(loop: Loop) -> None:
+    """The driver repeats one sample."""
+    loop.line = Stuck()
+
+
+def go_wrong_now_and_then(loop: Loop) -> None:
+    """The speed is not a number in every other sample, and no edge comes."""
+    off, wrong = CableOff(), NowAndThen()
+    loop.line = lambda sample: wrong(off(sample))
+
+
+def shake(loop: Loop) -> None:
+    """Something holds the shaft, and the voltage turns to and fro."""
+    block(loop)
+    loop.to_and_fro = True
 
 
 def block(loop: Loop) -> None:
@@ -104,6 +132,9 @@ FAULTS = (
     Fault("cable off at 3 % of the top speed, 50 stray edges a second", MOTION, cable_off(50.0), reference=0.03),
     Fault("no encoder from the start, supply measured as 0.4 of it", MOTION, cable_off(), supply=0.4, at_start=True),
     Fault("50 stray edges a second, speed and angle in turn", MOTION, ask_in_turn, two_channels=True),
+    Fault("edges for 20 of every 100 ms: a loose contact", MOTION, loosen),
+    Fault("hum at 5 % of the top speed, of 0.75 of the edges that are wanted", MOTION, hum, reference=0.05),
+    Fault("the driver repeats one sample, at 3 % of the top speed", MOTION, repeat, reference=0.03),
     Fault("shaft blocked", MOTION, block),
     Fault("two channels exchanged", MOTION, swap, two_channels=True),
     Fault("two channels exchanged at 5 % of the top speed", MOTION, swap, reference=0.05, two_channels=True),
@@ -113,11 +144,13 @@ FAULTS = (
     Fault("no samples reach the controller", KNOWN, fall_silent),
     Fault("controller killed", KNOWN, die),
     Fault("speed is not a number", KNOWN, go_wrong),
+    Fault("speed is not a number in every other sample, cable off", KNOWN, go_wrong_now_and_then),
     Fault("voltage is not a number", KNOWN, send_nonsense),
     Fault("a second plant on the topic", KNOWN, second_plant),
     Fault("plant restarted under a held reference", KNOWN, restart),
     Fault("plain voltage, plant restarted", KNOWN, restart, raw=0.6),
     Fault("plain voltage, shaft blocked", MOTION, block, raw=0.6),
+    Fault("plain voltage to and fro at every sample, shaft blocked", MOTION, shake, raw=1.0),
     Fault("plain voltage, encoder's cable off", MOTION, cable_off(), raw=0.6),
     Fault("plain voltage, two channels exchanged", MOTION, swap, two_channels=True, raw=0.6),
 )

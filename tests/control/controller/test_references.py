@@ -171,8 +171,8 @@ def test_voltages_begin_anew_after_silence() -> None:
 
 OBSTACLES: dict[str, tuple[Config, float, float]] = {  # config, speed that is said, age [s] of the samples
     "speed = nan": (CONFIG, nan, 0.0),
-    "sample_period = 0": (replace(CONFIG, unusable="motor/info says sample_period = 0."), 1.0, 0.0),
-    "The sample is": (CONFIG, 1.0, 0.1),
+    "sample_period = 0": (replace(CONFIG, unusable="motor/info says sample_period = 0."), 0.0, 0.0),
+    "The sample is": (CONFIG, 0.0, 0.1),
 }
 
 
@@ -187,7 +187,7 @@ def test_what_holds_the_motor_for_long_ends_the_reference(name: str, seconds: fl
     for k in range(end + 20):
         held = late <= k < end
         now = 0.005 * k + (age if held else 0.0)
-        sample = Sample(k * 5_000_000, speed if held else 1.0, 1.0)
+        sample = Sample(k * 5_000_000, speed if held else 0.0, 1.0)
         output, state = controller.update(config if held else replace(config, unusable=""), state, sample, None, now)
         if held:
             assert output.state == "stopped" or output.state == "disabled" and output.terms.voltage == 0.0

@@ -16,6 +16,7 @@ from motor_control.controller.motion import SLOW
 FACTOR = 3.0
 LEAST = 40.0  # [edges/s] of the larger one: two edges close together every 60 ms make 33
 JUMP = 4.0
+SILENT = 0.2  # [s] without an edge, twice that after which 0 is reported: a speed is at most a slot in that time
 LASTS = 0.3  # [s] for which it does: a standstill is reported 0.1 s after the latest edge
 SENTENCE = (
     "The plant says {:.3g} rad/s on motor/speed, and its edges {:.3g} rad/s: see whether the driver repeats itself, "
@@ -47,5 +48,8 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     now = min(seen.motion.edges, most) * config.slot / seen.dt if seen.dt > 0.0 else state.counted
     counted = state.counted + share * (now - state.counted)
     low, high = sorted((reported, counted))
-    after = State(reported, counted, state.time + seen.dt if high >= least and high > FACTOR * low else 0.0)
+    silent = seen.motion.silent
+    false = high >= least and high > FACTOR * low
+    false |= silent >= SILENT and abs(seen.sample.speed) > FACTOR * config.slot / silent
+    after = State(reported, counted, state.time + seen.dt if false else 0.0)
     return (SENTENCE.format(reported, counted) if after.time >= LASTS else ""), after

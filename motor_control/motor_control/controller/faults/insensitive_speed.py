@@ -14,7 +14,7 @@ from motor_control.controller.motion import FAST
 
 BAND = 0.02  # of the speed: hum stays within it, and a flywheel of 5 s leaves it under full voltage in a second
 GROWTH = 0.5  # of the voltage limit
-EXCESS = 0.5  # of stall_time that the whole voltage may be in excess
+EXCESS = 0.25  # of stall_time that the whole voltage may be in excess
 SENTENCE = (
     "{:.3g} V turn the motor no faster than {:.3g} V did, at {:.3g} rad/s: see whether the encoder's line is connected "
     "and quiet (hum of the mains has such edges), or what brakes the motor."

@@ -15,29 +15,35 @@ ENCODER = Config(slot=SLOT)
 
 def told(reported: float, counted: float, config: Config = ENCODER, jump: int = 0) -> tuple[float, str]:
     """When [s] a reported speed and one by edges [rad/s] contradict each other, and what is said; jump: of a count."""
-    state, rest = contradiction.begin(reported), 0.0
+    state, rest, silent = contradiction.begin(reported), 0.0, 0.0
     for k in range(400):
         rest += counted / SLOT * 0.005
         edges, rest = int(rest) + (jump if k == 100 else 0), rest - int(rest)
         sample = Sample(k * 5_000_000, reported, 6.0)
-        look = Seen(sample, reported, Motion(edges=edges), 50.0, 0.005, LIMIT)
+        silent = 0.0 if edges else silent + 0.005
+        look = Seen(sample, reported, Motion(edges=edges, silent=silent), 50.0, 0.005, LIMIT)
         reason, state = contradiction.check(config, state, look)
         if reason:
             return k * 0.005, reason
     return inf, ""
 
 
-@pytest.mark.parametrize(("reported", "counted"), [(0.0, 100.0), (-50.0, 170.0), (50.0, 0.0), (8.0, 1.5)])
+@pytest.mark.parametrize(("reported", "counted"), [(0.0, 100.0), (-50.0, 170.0), (50.0, 0.0), (8.0, 1.5), (1.0, 0.0)])
 def test_a_speed_that_is_not_the_one_of_the_edges_is_told(reported: float, counted: float) -> None:
     when, reason = told(reported, counted)
     assert 0.3 <= when < 1.0
     assert reason.startswith("The plant says ") and "whether the driver repeats itself" in reason
 
 
-@pytest.mark.parametrize(("reported", "counted"), [(100.0, 40.0), (40.0, 100.0), (0.0, 2.5), (2.5, 0.0), (-3.0, 3.0)])
+@pytest.mark.parametrize(("reported", "counted"), [(100.0, 40.0), (40.0, 100.0), (0.0, 2.5), (0.05, 0.0), (-3.0, 3.0)])
 def test_bursts_slow_edges_and_a_direction_are_none(reported: float, counted: float) -> None:
-    """Below 40 edges a second (2.6 rad/s) a plant may say what it likes; beyond, up to a factor of 3."""
+    """Below 40 edges a second (2.6 rad/s) nothing is averaged; an edge may be on its way; beyond, a factor of 3."""
     assert told(reported, counted) == (inf, "")
+
+
+def test_a_slow_speed_without_an_edge_is_told_when_three_should_have_come() -> None:
+    when, reason = told(0.2, 0.0)  # an edge every third of a second
+    assert 1.2 < when < 1.4 and reason.startswith("The plant says 0.2 rad/s on motor/speed, and its edges ")
 
 
 def test_a_count_that_jumps_once_is_none() -> None:
