@@ -15,7 +15,7 @@ from motor_driver.check.look import Prompt
 from motor_driver.check.settings import Settings
 from motor_driver.check.words import board_row, line_of, plan_of, prompt_of, verdict_of
 
-README = Path(__file__).resolve().parents[3] / "README.md"
+README = Path(__file__).resolve().parents[3] / "motor_driver" / "README.md"
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
 TOLD = Settings(edges_per_revolution=96)
 BOARD = FirmwareConfig(channels=2, supply_full_scale=60_000, board_id=7)
