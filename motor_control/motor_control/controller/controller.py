@@ -17,6 +17,7 @@ from motor_control.controller.interruptions import count_interruption
 from motor_control.controller.latency import track_latency
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
 from motor_control.controller.plant_watch import PlantWatch, watch_plant
+from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.reference.position_law import FARTHEST
 from motor_control.controller.run import Config, Run, begin
@@ -106,7 +107,7 @@ def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: fl
     if state.demand is None:
         return state
     if plant.restarted:
-        return drop(replace(state, motion=None, faults=None), RESTARTED)
+        return drop(replace(state, motion=None, faults=None, place=None), RESTARTED)
     if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
         return drop(state, RETURNED)
     if state.held is not None and now - state.held > AWAY and now - state.referred > AWAY:
@@ -160,7 +161,8 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
     elif late:  # what it says is over; the run goes on with the next one that is in time
         output = halt(STOPPED, STALE.format(1e3 * age, 1e3 * config.latency_limit), shown, sample.speed)
         run = replace(run, asked=0.0, paused=True)
-    return output, replace(state, run=run, motion=run.motion, faults=run.faults, judged=run.sample_time)
+    state = replace(state, motion=run.motion, faults=run.faults, judged=run.sample_time)
+    return output, replace(state, run=run, place=run.place)
 
 
 def _find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, str]:
@@ -198,13 +200,15 @@ def _continue_run(config: Config, state: State, sample: Sample) -> Run:
 
     A new one begins where there was none, and after a gap that the plant's own watchdog does not survive either: what
     the integral knew is of another motion. What its faults have shown so far holds for a while: whoever ends a run
-    again and again, with a reference that is no number or samples that do not come, would else blind every check.
+    again and again, with a reference that is no number or samples that do not come, would else blind every check. So
+    does what a motor was pushed out of: to let go of it and to ask for an angle again does not begin anew.
     """
     run = state.run
     if run is not None and 0 <= sample.sample_time - run.sample_time <= config.sample_timeout * 1e9:
         return run
     just_now = 0 <= sample.sample_time - state.judged <= AWAY * 1e9
-    return begin(config, sample, state.motion, state.faults if just_now else None)
+    run = begin(config, sample, state.motion, state.faults if just_now else None)
+    return replace(run, place=position_law.leave(state.place, 0.0)) if just_now else run
 
 
 Change = Callable[[State], tuple[str, State]]

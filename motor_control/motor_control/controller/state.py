@@ -47,6 +47,7 @@ class State:
     motion: Motion | None = None  # what is known of the motor, from run to run
     faults: detection.State | None = None  # what the latest run has seen of faults
     judged: int = 0  # [ns] its latest sample
+    place: position_law.State | None = None  # what the latest run knows of an angle that was approached
     interruptions: Interruptions = Interruptions()
     speakers: str = ""  # who publishes motor/speed, for the sentence about two plants
 
@@ -96,7 +97,7 @@ def release(state: State) -> tuple[str, State]:
 
 def stop(state: State, reason: str) -> State:
     """Latch 0 V from the next sample on, until `reset`; `reason` is a sentence."""
-    state = replace(state, run=None, faults=None, interruptions=Interruptions())
+    state = replace(state, run=None, faults=None, place=None, interruptions=Interruptions())
     return replace(state, latched=reason, demand=None, dropped=CLEARED)
 
 
@@ -114,5 +115,5 @@ def drop(state: State, why: str) -> State:
 
 def meet_other_plant(state: State) -> State:
     """Forget what was asked of a plant that is another one now: edges, limits, all that a reference was for."""
-    state = replace(state, motion=None, faults=None)
+    state = replace(state, motion=None, faults=None, place=None)
     return drop(state, OTHER_PLANT) if state.demand is not None else state

@@ -29,7 +29,7 @@ PUSHED = (
 )
 AWAY = (
     "The motor was pushed out of the angle that it had reached, and does not come back: see what turns the shaft, and "
-    "the encoder's line. It gets 0 V; ask for another angle after a second, or call motor/release first."
+    "the encoder's line. It gets 0 V; ask for another angle after a second."
 )
 STAYS = "It stands {} counts from the angle that was asked for: friction lets it move no less."
 

@@ -134,14 +134,16 @@ def test_who_jumps_over_the_slot_comes_back_slower_and_stays_in_the_end() -> Non
         (960, 20.0, (1, 0)),
         (960, 5.0, (nan, 0)),
         (960, 5.0, (0.0, 0)),
+        (960, 5.0, (None, 0)),
+        (960, 20.0, (None, 1)),
     ],
 )
 def test_a_line_lost_at_rest_turns_the_motor_for_a_second_at_most(
-    edges: int, strays: float, stream: tuple[float, ...]
+    edges: int, strays: float, stream: tuple[float | None, ...]
 ) -> None:
     """Each stray edge pushed it out of its angle: 174 rad/s and 960 edges turned at 30 % of the top speed for ever.
 
-    So it did under a stream of other angles, slots away, of NaN or of speeds (0.0 here) in between.
+    So it did under a stream of other angles, slots away, of NaN, of speeds (0.0 here) or of releases (None) in between.
     """
     board = BoardConfig(edges_per_revolution=edges, single_channel=False)
     config = settings(motor(), board.info(motor()), 0.02)
@@ -154,9 +156,12 @@ def test_a_line_lost_at_rest_turns_the_motor_for_a_second_at_most(
             sample = line.report(sample, k > 400)
             if stream and k % 20 == 0:
                 asked = stream[k // 20 % 2]
-                speed = isinstance(asked, float) and asked == 0.0
-                angle = 0.0 if speed else (round(20.0 * edges / tau) + asked) * tau / edges
-                state = controller.refer(state, angle, k / 200.0, Kind.SPEED if speed else Kind.POSITION)
+                if asked is None:
+                    state = controller.release(state)[1]
+                else:
+                    speed = isinstance(asked, float) and asked == 0.0
+                    angle = 0.0 if speed else (round(20.0 * edges / tau) + asked) * tau / edges
+                    state = controller.refer(state, angle, k / 200.0, Kind.SPEED if speed else Kind.POSITION)
         output, state = controller.update(config, state, sample, None, k / 200.0)
         voltage = output.terms.voltage
         driven += [k / 200.0] * (k > 400 and voltage != 0.0)
