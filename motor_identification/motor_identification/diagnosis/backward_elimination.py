@@ -13,6 +13,7 @@ from motor_identification.diagnosis.candidate_test import CandidateTest, likelih
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
     count_parameters,
+    drop_chance_harmonics,
     find_rivals,
     is_alike,
     list_candidates,
@@ -61,9 +62,8 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
         reporter.report(f"{test.effect} in place of {effect}", 0.9, effect, current.held.gap)
 
     tried = try_effects(without, selection.hold_out, others, selection.workers, heard)
-    tests = sorted(
-        (_settle(test, current, selection.hold_out) for test in tried), key=lambda test: test.evidence, reverse=True
-    )
+    settled = [_settle(test, current, selection.hold_out) for test in drop_chance_harmonics(tried)]
+    tests = sorted(settled, key=lambda test: test.evidence, reverse=True)
     current = _catch_up(current, tests, selection.hold_out)
     better = choose_better(tests, effect, current)
     if better is not None:
@@ -87,6 +87,7 @@ def add_rivals_beside_torque(selection: Selection, reporter: ProgressReporter) -
         without = refit_without(current, effect, begun.hold_out)
         others = list_replacements(step, without.effects, current.effects)
         tests = try_effects(without, begun.hold_out, others, begun.workers, lambda test: None)
+        tests = drop_chance_harmonics(tests)
         told = [test for test in tests if test.evidence > thresholds.TIE_LIKELIHOOD]  # what does nothing is no rival
         rivals = _list_rivals([_settle(test, current, begun.hold_out) for test in told], effect, current)
         steps.append(replace(step, rivals=sort_by_table({*step.rivals, *rivals})))

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from math import sqrt, tau
+from math import inf, sqrt, tau
 
 import numpy as np
 
@@ -75,6 +75,7 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
     Of what held-out data hardly tell apart, all data choose: there are several times as many. What needs an instant, or
     one for every recording, has to be more likely than what needs none.
     """
+    tests = drop_chance_harmonics(tests)
     best = next((test for test in tests if _is_finding(test)), None)
     if best is None:
         return None
@@ -92,8 +93,7 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
 
 
 def _is_finding(test: CandidateTest) -> bool:
-    likely = test.is_likely(likelihood_threshold()) and test.fits_training
-    return likely and test.relevant and _exceeds_chance_harmonic(test)
+    return test.is_likely(likelihood_threshold()) and test.fits_training and test.relevant
 
 
 def count_parameters(effect: str) -> int:
@@ -101,16 +101,32 @@ def count_parameters(effect: str) -> int:
     return len(EFFECT_BY_NAME[effect].parameters)
 
 
-def _exceeds_chance_harmonic(test: CandidateTest) -> bool:
-    """Whether an eccentricity is more than the first harmonic that random slots have by chance."""
-    effect = EFFECT_BY_NAME[test.effect]
-    if not effect.on_disc:
-        return True
-    estimate = test.model.estimate
-    size = float(estimate.theta[estimate.problem.unknowns.names.index(effect.parameters[0].name)])
-    slot = max(data.slot * data.gear for data in estimate.problem.intervals)  # of the encoder's shaft, as it is
+def drop_chance_harmonics(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
+    """Drop tests of the first harmonic that random slots have by chance: of the disc, and of a torque less likely."""
+    chance = [test for test in tests if EFFECT_BY_NAME[test.effect].on_disc and _is_by_random_slots(test)]
+    most = max((test.evidence for test in chance), default=-inf)
+    chance += [test for test in tests if test.evidence < most and _is_once_a_turn(test)]
+    return [test for test in tests if not any(test is one for one in chance)]
+
+
+def _is_by_random_slots(test: CandidateTest) -> bool:
+    size = _fitted(test, EFFECT_BY_NAME[test.effect].parameters[0].name)
+    slot = max(data.slot * data.gear for data in test.model.estimate.problem.intervals)  # of the encoder's shaft
     share = test.model.noise.share if test.model.learned is None else test.model.learned.share
-    return is_beyond_chance(size, slot, share)
+    return size is not None and not is_beyond_chance(size, slot, share)
+
+
+def _is_once_a_turn(test: CandidateTest) -> bool:
+    """Whether an effect has cycles in a turn of the encoder's shaft, and they are one."""
+    cycles = [_fitted(test, spec.name) for spec in EFFECT_BY_NAME[test.effect].parameters if spec.of_encoder]
+    return any(one is not None and abs(one - 1.0) < thresholds.ONCE_A_TURN for one in cycles)
+
+
+def _fitted(test: CandidateTest, parameter: str) -> float | None:
+    """Value that a test's model was fitted to have of a parameter; None where no line was found to fit."""
+    estimate = test.model.estimate
+    names = estimate.problem.unknowns.names
+    return float(estimate.theta[names.index(parameter)]) if parameter in names else None
 
 
 def is_beyond_chance(eccentricity: float, slot: float, share: float) -> bool:
@@ -123,7 +139,8 @@ def is_beyond_chance(eccentricity: float, slot: float, share: float) -> bool:
 
 def find_rivals(found: CandidateTest, tests: Sequence[CandidateTest]) -> tuple[str, ...]:
     """Find the effects that explain as much as a finding does, of held-out or of all data, with no more parameters."""
-    others = [test for test in tests if test.effect != found.effect and test.evidence > likelihood_threshold()]
+    others = [test for test in drop_chance_harmonics(tests) if test.effect != found.effect]
+    others = [test for test in others if test.evidence > likelihood_threshold()]
     alike = [test.effect for test in others if is_alike(test.model, found.model)]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(found.effect))
 

@@ -76,6 +76,8 @@ VERIFICATIONS = 3
 # Times the standard deviation that random slots give to sine and cosine of their first harmonic, which an eccentricity
 # has to exceed: the amplitude has a Rayleigh distribution, beyond 5 with a chance of e^-12.5 = 4e-6.
 CHANCE_HARMONIC = 5.0
+# Cycles a turn, beside one: a torque so near to it is what such slots do, where they are likelier. Measured: 3e-5.
+ONCE_A_TURN = 0.05
 
 # May it only stand in for what is not in the table?
 # Of the excess over the floor: what explains less, and leaves the gap above the floor, may. Measured: the right single
