@@ -34,9 +34,13 @@ class Row:
 
     def meaning(self) -> str:
         """Unit, range, description and whether it can be changed, for a line of text."""
+        return f"{self.summary()}{'; fixed at the start' if self.read_only else ''}"
+
+    def summary(self) -> str:
+        """Unit, range and description."""
         unit = f"[{self.unit}] " if self.unit else ""
         span = f"{self.low:.10g} to {self.high:.10g}: " if self.low is not None and self.high is not None else ""
-        return f"{unit}{span}{self.description}{'; fixed at the start' if self.read_only else ''}"
+        return f"{unit}{span}{self.description}"
 
     def descriptor(self) -> ParameterDescriptor:
         """What `ros2 param describe` shows."""

@@ -106,8 +106,10 @@ def describe(program: Program) -> str:
     """What the node is for, its parameters, topics and services, and an example."""
     topics = {topic.name: topic for topic in (*TOPICS, *ROBOT_TOPICS)}
     services = {service.name: service for service in SERVICES}
+    fixed = all(row.read_only for row in program.rows)
+    title = f"parameters{', fixed at the start,' if fixed else ''} and their defaults"
     sections = {
-        "parameters and their defaults": [(row.name, row.shown(), row.meaning()) for row in program.rows],
+        title: [(row.name, row.shown(), row.summary() if fixed else row.meaning()) for row in program.rows],
         "publishes": [(name, topics[own(name)].type_name, topics[own(name)].way) for name in program.publishes],
         "subscribes to": [(name, topics[own(name)].type_name, topics[own(name)].way) for name in program.subscribes],
         "services and actions": [(name, services[name].type_name, services[name].does) for name in program.services],

@@ -216,7 +216,9 @@ def test_another_plant_and_another_voltage(stand: Stand) -> None:
         stand.bench.node.destroy_publisher(second)
 
 
-def test_plants_elsewhere_are_named(stand: Stand, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_plants_elsewhere_are_named(
+    stand: Stand, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(run_plan, "PATIENCE", 2.0)
     left = stand.bench.publisher(MotorInfo, "/left/motor/info", qos.INFO)
     start_ros()
@@ -226,6 +228,7 @@ def test_plants_elsewhere_are_named(stand: Stand, monkeypatch: pytest.MonkeyPatc
         drive(driver, str(stand.bag), After(lambda: False))  # type: ignore[arg-type]
     stand.bench.node.destroy_publisher(left)
     assert not stand.bag.exists()
+    assert "Waiting for a plant on /nowhere/motor/info, 2 s at most.\n" in capsys.readouterr().err
 
 
 def test_a_bag_that_exists_moves_nothing(stand: Stand) -> None:

@@ -2,16 +2,14 @@
 
 import subprocess
 import time
-from collections.abc import Iterator
 from itertools import pairwise
 from math import isnan
 from pathlib import Path
 
 import pytest
-from controller_bench import FakePlant
+from controller_bench import PATIENT, FakePlant
 from diagnostic_msgs.msg import DiagnosticStatus
 from rcl_interfaces.srv import DescribeParameters
-from std_srvs.srv import Trigger
 from workbench import PATIENCE, end, start
 
 from motor_model.model_file import save
@@ -22,28 +20,6 @@ from motor_ros import qos
 from motor_ros.messages import time_message
 
 KV, KA = 12.0 / 174.097, 0.0055
-# A busy machine does not interrupt, nor a plant whose time is slower than ours.
-PATIENT = ("--ros-args", "-p", "sample_timeout:=5.0", "-p", "latency_limit:=10.0")
-
-
-@pytest.fixture
-def plant() -> Iterator[FakePlant]:
-    plant = FakePlant()
-    yield plant
-    plant.close()
-
-
-@pytest.fixture
-def process(plant: FakePlant) -> Iterator[subprocess.Popen[str]]:
-    """A controller that hears the plant and is heard."""
-    process = start("motor_control", "motor_control", *PATIENT)
-    try:
-        plant.meet()
-        yield process
-    finally:
-        if process.poll() is None:
-            end(process)
-            assert process.returncode == 0
 
 
 @pytest.mark.usefixtures("process")
@@ -63,51 +39,6 @@ def test_from_no_reference_to_a_held_speed(plant: FakePlant) -> None:
     assert last.voltage == pytest.approx(KV * 100.0, abs=0.1) and not last.saturated
     assert last.voltage == pytest.approx(last.proportional + last.integral + last.feedforward)
     assert last.error == last.reference - last.speed and last.speed_sigma != last.speed_sigma
-
-
-@pytest.mark.on_time
-@pytest.mark.usefixtures("process")
-def test_silence_is_zero_volts_and_said(plant: FakePlant) -> None:
-    assert plant.set("motor_control", "sample_timeout", 0.1) == (True, "")
-    plant.refer(100.0)
-    assert plant.answer(97.0).voltage > 0.0
-    begin, voltages, states = time.monotonic(), len(plant.voltages), len(plant.states)
-    plant.wait(lambda: len(plant.states) >= states + 4, "no_samples, four times")
-    assert 0.4 < time.monotonic() - begin < 3.0
-    assert [message.voltage for message in plant.voltages[voltages:]] == [0.0]
-    for state in plant.states[states:]:
-        assert (state.state, state.voltage) == ("no_samples", 0.0)
-        assert "motor/speed" in state.reason
-    resumed = plant.answer(97.0)
-    assert (resumed.state, resumed.reference, resumed.integral) == ("running", 100.0, 0.0)
-
-
-@pytest.mark.usefixtures("process")
-def test_numbers_that_are_none(plant: FakePlant) -> None:
-    plant.refer(100.0)
-    plant.refer(float("nan"))
-    state = plant.answer(50.0)
-    assert (state.state, state.voltage) == ("stopped", 0.0)
-    assert "nan" in state.reason and "motor/reference" in state.reason
-    plant.refer(100.0)
-    assert plant.answer(50.0).voltage >= 10.0
-    state = plant.answer(float("inf"))
-    assert (state.state, state.voltage) == ("stopped", 0.0)
-    assert "speed = inf" in state.reason
-    assert plant.answer(50.0).state == "running"
-
-
-def test_ctrl_c_leaves_zero_volts(plant: FakePlant, process: subprocess.Popen[str]) -> None:
-    plant.refer(100.0)
-    assert plant.answer(50.0).voltage > 0.0
-    count = len(plant.voltages)
-    out, err = end(process)
-    plant.wait(lambda: len(plant.voltages) > count, "the last voltage")
-    assert [message.voltage for message in plant.voltages[count:]] == [0.0]
-    assert (process.returncode, out) == (0, "") and "Traceback" not in err
-    started, reference = err.splitlines()  # a line a change, none a sample
-    assert "kp 0.2 V/(rad/s), ki 2.5 V/rad, speed source measured, feed-forward off, at most 12 V" in started
-    assert "Reference 100 rad/s." in reference and "motor/release" in reference
 
 
 @pytest.mark.usefixtures("process")
@@ -151,12 +82,6 @@ def test_what_the_plant_says_of_itself_counts(plant: FakePlant) -> None:
     plant.wait(lambda: "another one than before" in plant.answer(100.0).reason, "the next info")
     plant.refer(40.0)
     plant.wait(lambda: plant.answer(100.0).voltage == -5.0, "its limit")
-
-
-@pytest.mark.usefixtures("process")
-def test_reset_answers(plant: FakePlant) -> None:
-    response = plant.call(Trigger, "motor/reset", Trigger.Request())
-    assert response.success and response.message  # type: ignore[attr-defined]
 
 
 @pytest.fixture
@@ -206,76 +131,6 @@ def test_a_model_at_the_start_is_ready_for_the_first_sample(plant: FakePlant, mo
         assert plant.states[-1].feedforward == pytest.approx(KV * 40.0 + 0.4, abs=0.05)
     finally:
         end(process)
-
-
-@pytest.mark.usefixtures("process")
-def test_a_stall_is_latched_until_reset_and_said(plant: FakePlant) -> None:
-    plant.refer(100.0)
-    plant.wait(lambda: plant.answer(0.0).state == "stopped", "the stop")
-    state = plant.answer(0.0)
-    assert "no edge came" in state.reason and "motor/reset" in state.reason and state.voltage == 0.0
-    count = len(plant.diagnostics)
-    plant.wait(lambda: plant.answer(0.0).state == "stopped" and len(plant.diagnostics) > count, "diagnostics")
-    status = plant.diagnostics[-1].status[0]
-    assert status.level == DiagnosticStatus.ERROR and "no edge came" in status.message
-    response = plant.call(Trigger, "motor/reset", Trigger.Request())
-    assert "no edge came" in response.message
-    state = plant.answer(0.0)
-    assert state.state == "disabled" and "fresh reference" in state.reason
-    plant.refer(100.0)
-    assert plant.answer(50.0).state == "running"
-
-
-@pytest.mark.usefixtures("process")
-def test_release_leaves_the_motor_to_others(plant: FakePlant) -> None:
-    plant.refer(100.0)
-    assert plant.answer(50.0).voltage > 0.0
-    response = plant.call(Trigger, "motor/release", Trigger.Request())
-    assert response.message == "The motor was released."
-    state = plant.answer(50.0)
-    assert state.state == "disabled" and plant.voltages[-1].voltage == 0.0
-    count = len(plant.voltages)
-    for _ in range(5):
-        plant.answer(50.0)
-    assert len(plant.voltages) == count
-
-
-@pytest.mark.usefixtures("process")
-def test_a_plant_that_was_restarted_waits_for_a_fresh_reference(plant: FakePlant) -> None:
-    plant.refer(100.0)
-    assert plant.answer(50.0).voltage > 0.0
-    plant.time = 0
-    state = plant.answer(0.0)
-    assert state.state == "disabled" and "restarted" in state.reason
-    plant.refer(20.0)
-    assert plant.answer(0.0).voltage > 0.0
-
-
-@pytest.mark.usefixtures("process")
-def test_an_info_that_cannot_be_is_a_sentence_and_zero_volts(plant: FakePlant) -> None:
-    plant.refer(100.0)
-    plant.tell(Info(name="wheel", edges_per_revolution=0))
-    plant.wait(lambda: plant.answer(50.0).state == "stopped", "the stop")
-    assert "motor/info says edges_per_revolution = 0, which cannot be" in plant.states[-1].reason
-    plant.tell(Info(name="wheel", sample_period=0.0))
-    plant.wait(lambda: "sample_period 0: it must be from" in plant.answer(50.0).reason, "the next one")
-    assert plant.states[-1].voltage == 0.0
-    plant.tell(Info(name="wheel"))
-    plant.wait(lambda: plant.answer(50.0).state == "disabled", "a good one")
-    plant.refer(100.0)
-    assert plant.answer(50.0).state == "running"
-
-
-@pytest.mark.usefixtures("process")
-def test_an_output_that_is_off_is_said_and_winds_nothing_up(plant: FakePlant) -> None:
-    plant.refer(20.0)
-    plant.enabled = False
-    plant.wait(lambda: "motor/enable" in plant.answer(10.0).reason, "the reason")
-    first, last = plant.states[-1].integral, [plant.answer(10.0) for _ in range(20)][-1]
-    assert last.integral == first and last.state == "running"
-    plant.enabled = True
-    plant.answer(10.0)
-    assert plant.answer(10.0).reason == "" and plant.answer(10.0).integral > first
 
 
 @pytest.mark.on_time

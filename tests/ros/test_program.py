@@ -57,6 +57,7 @@ def test_help_says_what_it_is_and_every_parameter_with_its_default(
         default = str(row.default).lower() if isinstance(row.default, bool) else repr(row.default)
         assert re.match(rf"  {row.name} +{re.escape(default)} +", line), line
         assert row.description in line and (not row.unit or f"[{row.unit}]" in line)
+        assert row.read_only == ("fixed at the start" in line or "parameters, fixed at the start," in printed)
 
 
 @pytest.mark.parametrize(

@@ -1,10 +1,14 @@
 """A plant that a test owns, and a user beside it: what the tests of the controller node share."""
 
+import subprocess
+from collections.abc import Iterator
+
+import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from std_msgs.msg import Float64
-from workbench import Bench
+from workbench import Bench, end, start
 
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed, MotorVoltage
@@ -12,6 +16,8 @@ from motor_ros import qos
 from motor_ros.messages import info_message, speed_message, time_message
 
 SAMPLE_NS = 5_000_000
+# A busy machine does not interrupt, nor a plant whose time is slower than ours.
+PATIENT = ("--ros-args", "-p", "sample_timeout:=5.0", "-p", "latency_limit:=10.0")
 
 
 class FakePlant(Bench):
@@ -85,3 +91,23 @@ class FakePlant(Bench):
         message = info_message(info, time_message(self.time))
         message.measurement = measurement
         self._info.publish(message)
+
+
+@pytest.fixture
+def plant() -> Iterator[FakePlant]:
+    plant = FakePlant()
+    yield plant
+    plant.close()
+
+
+@pytest.fixture
+def process(plant: FakePlant) -> Iterator[subprocess.Popen[str]]:
+    """A controller that hears the plant and is heard."""
+    process = start("motor_control", "motor_control", *PATIENT)
+    try:
+        plant.meet()
+        yield process
+    finally:
+        if process.poll() is None:
+            end(process)
+            assert process.returncode == 0

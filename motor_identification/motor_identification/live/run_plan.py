@@ -16,6 +16,7 @@ from motor_model.errors import MotorError
 from motor_ros.run import Interrupt, spin
 
 PATIENCE = 10.0  # [s] for a plant to appear
+SILENT = 1.0  # [s] of that, before somebody who looks is told what is waited for
 DIAGNOSTICS = 1.5  # [s] in which a plant, which says how it is once a second, has said so
 SWITCH = "motor/enable"  # in what a plant's diagnostics say of an output that is off
 RECORDED = ("motor/speed", "motor/info", "motor/voltage", "motor/model")
@@ -86,15 +87,21 @@ def _raise_problem(refusal: MotorError | None, node: Driver, bag: Path | None) -
 
 def _wait_for_plant(node: Driver, interrupt: Interrupt) -> None:
     deadline = time.monotonic() + PATIENCE
-    spin(
-        node,
-        lambda: bool((node.plan and node.heard) or node.failed() or interrupt) or time.monotonic() > deadline,
-    )
-    if node.problem:
-        raise MotorError(node.problem)
-    if (node.plan is None or node.heard is None) and not interrupt:
+    for until in (deadline - PATIENCE + SILENT, deadline):
+        spin(
+            node,
+            lambda until=until: (
+                bool((node.plan and node.heard) or node.failed() or interrupt) or time.monotonic() > until
+            ),
+        )
+        if node.problem:
+            raise MotorError(node.problem)
+        if (node.plan is not None and node.heard is not None) or interrupt:
+            return
         topic = node.resolve_topic_name("motor/info" if node.plan is None else "motor/speed")
-        raise MotorError(f"Nothing on {topic}: {_elsewhere(node)}")
+        if until < deadline:
+            print(f"Waiting for a plant on {topic}, {PATIENCE:g} s at most.", file=sys.stderr, flush=True)
+    raise MotorError(f"Nothing on {topic}: {_elsewhere(node)}")
 
 
 def _elsewhere(node: Driver) -> str:
