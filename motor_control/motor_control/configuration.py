@@ -61,14 +61,6 @@ def config_of(
     if info is not None:
         limit, two_samples = min(limit, info.max_voltage), 2.0 * info.sample_period
     single = info is None or info.single_channel
-    faults = FaultConfig(
-        float(values["stall_time"]),
-        slot=slot_of(info),
-        even=info is None or info.quadrature <= 1,
-        tick=info.edge_resolution if info is not None else 0.0,
-        spare=SPARE_SINGLE if single else SPARE,
-        two_channels=not single,
-    )
     config = Config(
         gains=pi.Config(float(values["kp"]), float(values["ki"]), limit),
         voltage_limit=limit,
@@ -76,7 +68,7 @@ def config_of(
         reference_rate_limit=max(float(values["reference_rate_limit"]), 0.0),
         reversal_speed=float(values["reversal_speed"]),
         single_channel=single,
-        faults=faults,
+        faults=_make_fault_config(float(values["stall_time"]), info),
         note=_lack(values, info, motor, ready),
         plug_limit=float(values["plug_limit"]),
         latency_limit=max(float(values["latency_limit"]), two_samples),
@@ -89,6 +81,19 @@ def config_of(
         unusable=unusable,
     )
     return config if motor is None or not ready else _add_model(config, values, info, motor)
+
+
+def _make_fault_config(stall_time: float, info: Info | None) -> FaultConfig:
+    """Make what the faults are judged by from what the encoder is; `_add_model` adds what a model knows."""
+    single = info is None or info.single_channel
+    return FaultConfig(
+        stall_time,
+        slot=slot_of(info),
+        even=info is None or info.quadrature <= 1,
+        tick=info.edge_resolution if info is not None else 0.0,
+        spare=SPARE_SINGLE if single else SPARE,
+        two_channels=not single,
+    )
 
 
 def slot_of(info: Info | None) -> float:
