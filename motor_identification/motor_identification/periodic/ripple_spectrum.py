@@ -15,6 +15,7 @@ import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.measured_angle import Track
+from motor_identification.periodic.response_products import sum_products
 from motor_identification.periodic.run_alignment import align_runs
 from motor_identification.periodic.whitened_run import BLOCK_TURNS, WhitenedRun, whiten_runs
 from motor_identification.recording import Floats, Integers
@@ -96,7 +97,7 @@ def _powers(run: WhitenedRun, cycles: Floats, block: Integers, go_on: Callable[[
     knots = 0.5 * (shapes[:, :, 0] + shapes[:, :, 2])  # sine and cosine are as good as independent in every block
     powers: list[Floats] = []
     done = 0
-    for along, across in run.course.products(run.pull_back(), cycles, block):
+    for along, across in sum_products(run.course, run.pull_back(), cycles, block):
         go_on()
         at = (done + np.arange(len(along))) / KNOT_DISTANCE
         done += len(along)
