@@ -93,7 +93,7 @@ def line(effect: str, evidence: float, **values: float) -> CandidateTest:
 @pytest.mark.parametrize(
     ("eccentricity", "evidence", "cycles", "left"),
     [
-        (0.0075, 30.0, 1.0, ["encoder_eccentricity", "torque_ripple"]),
+        (0.0080, 30.0, 1.0, ["encoder_eccentricity", "torque_ripple"]),
         (0.0002, 30.0, 1.0, []),  # a first harmonic by chance, and a torque in its place
         (0.0002, 19.0, 1.0, ["torque_ripple"]),
         (0.0002, 30.0, 0.99 * thresholds.ONCE_A_TURN + 1.0, []),
