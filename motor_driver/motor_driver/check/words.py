@@ -47,6 +47,6 @@ def verdict_of(check: Check) -> str:
     wrong = [found for found in check.record.findings if not found.cured]
     if wrong:
         return "Not everything is right: no parameter file is written."
-    if check.record.findings:
-        return "All is right with the parameters that make up for the wiring."
-    return "All is right."
+    right = "All is right with the parameters that make up for the wiring" if check.record.findings else "All is right"
+    unknown = ", ".join(row.step for row in check.record.rows if row.mark == UNKNOWN)
+    return f"{right}, as far as it was checked (not: {unknown})." if unknown else f"{right}."

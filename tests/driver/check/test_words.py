@@ -1,5 +1,7 @@
 """What a person reads: what will happen with its voltages, what he is asked, one line a step, the verdict."""
 
+from dataclasses import replace
+
 import pytest
 from first_run_bench import SimulatedRun, hello
 
@@ -30,6 +32,9 @@ def test_the_board_and_a_step_are_a_line_each() -> None:
 
 
 def test_the_verdict_is_right_cured_or_not() -> None:
-    assert verdict_of(SimulatedRun(TOLD).run()) == "All is right."
+    assert verdict_of(SimulatedRun(TOLD, supply=12.0).run()) == "All is right."
+    assert verdict_of(SimulatedRun(TOLD).run()) == "All is right, as far as it was checked (not: supply)."
+    alone = verdict_of(SimulatedRun(replace(TOLD, hand=False), supply=12.0).run())
+    assert alone == "All is right, as far as it was checked (not: encoder, direction)."
     assert "make up for" in verdict_of(SimulatedRun(TOLD, wiring=Wiring(motor_swapped=True)).run())
     assert "no parameter file" in verdict_of(SimulatedRun(TOLD, wiring=Wiring(a_connected=False)).run())
