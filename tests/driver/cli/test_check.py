@@ -37,8 +37,9 @@ def interrupted(board: LiveBoard, port: Path) -> "tuple[int, str]":
     return running.returncode, said
 
 
-@pytest.mark.on_time  # beside six other processes the emulated chip is silent for 120 ms in three of four first runs
+@pytest.mark.on_time
 def test_a_first_run_stops_at_ctrl_c_and_else_writes_the_parameters(live: LiveBoard, tmp_path: Path) -> None:  # noqa: F811
+    """Beside six other processes the emulated chip is silent for 120 ms in three of four first runs: they stop."""
     port, output, found = tmp_path / "port", tmp_path / "motor.yaml", tmp_path / "found.json"
     for _ in range(TIMES):
         status, said = interrupted(live, port)

@@ -3,8 +3,9 @@
 A driver that repeats an old sample, or a speed that is worked out by other counts than the edges, makes a loop drive
 the motor to full speed: what it regulates does not answer. Both are averaged over the same 0.15 s. At each edge the
 reported speed jumps, and in between it falls as one over the time since the latest, so that where edges come in bursts
-the two averages differ by a factor of 2 and a half; and below `LEAST` edges a second a plant may report a standstill.
-A count that jumps once, as that of a board which was reset, counts as `JUMP` times what was there and an edge at most.
+the two averages differ by a factor of 2 and a half; where they are `MANY`, by a tenth. Below `LEAST` edges a second a
+plant may report a standstill. A count that jumps once, as that of a board which was reset, counts as `JUMP` times what
+was there and an edge at most.
 """
 
 from dataclasses import dataclass
@@ -13,7 +14,8 @@ from math import exp
 from motor_control.controller.faults.evidence import Config, Seen
 from motor_control.controller.motion import SLOW
 
-FACTOR = 3.0
+FACTOR, CLOSE = 3.0, 1.6  # CLOSE where edges are many: counts of another disc, or of both its polarities, are 2
+MANY = 400.0  # [edges/s] of the larger one
 LEAST = 40.0  # [edges/s] of the larger one: two edges close together every 60 ms make 33
 JUMP = 4.0
 SILENT = 0.2  # [s] without an edge, twice that after which 0 is reported: a speed is at most a slot in that time
@@ -49,7 +51,7 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     counted = state.counted + share * (now - state.counted)
     low, high = sorted((reported, counted))
     silent = seen.motion.silent
-    false = high >= least and high > FACTOR * low
+    false = high >= least and high > (CLOSE if high >= MANY * config.slot else FACTOR) * low
     false |= silent >= SILENT and abs(seen.sample.speed) > FACTOR * config.slot / silent
     after = State(reported, counted, state.time + seen.dt if false else 0.0)
     return (SENTENCE.format(reported, counted) if after.time >= LASTS else ""), after

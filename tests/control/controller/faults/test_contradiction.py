@@ -17,7 +17,7 @@ def told(reported: float, counted: float, config: Config = ENCODER, jump: int = 
     """When [s] a reported speed and one by edges [rad/s] contradict each other, and what is said; jump: of a count."""
     state, rest, silent = contradiction.begin(reported), 0.0, 0.0
     for k in range(400):
-        rest += counted / SLOT * 0.005
+        rest += abs(counted) / SLOT * 0.005
         edges, rest = int(rest) + (jump if k == 100 else 0), rest - int(rest)
         sample = Sample(k * 5_000_000, reported, 6.0)
         silent = 0.0 if edges else silent + 0.005
@@ -28,16 +28,22 @@ def told(reported: float, counted: float, config: Config = ENCODER, jump: int = 
     return inf, ""
 
 
-@pytest.mark.parametrize(("reported", "counted"), [(0.0, 100.0), (-50.0, 170.0), (50.0, 0.0), (8.0, 1.5), (1.0, 0.0)])
+@pytest.mark.parametrize(
+    ("reported", "counted"),
+    [(0.0, 100.0), (-50.0, 170.0), (50.0, 0.0), (8.0, 1.5), (1.0, 0.0), (100.0, 50.0), (50.0, 100.0)],
+)
 def test_a_speed_that_is_not_the_one_of_the_edges_is_told(reported: float, counted: float) -> None:
     when, reason = told(reported, counted)
     assert 0.3 <= when < 1.0
     assert reason.startswith("The plant says ") and "whether the driver repeats itself" in reason
 
 
-@pytest.mark.parametrize(("reported", "counted"), [(100.0, 40.0), (40.0, 100.0), (0.0, 2.5), (0.05, 0.0), (-3.0, 3.0)])
+@pytest.mark.parametrize(
+    ("reported", "counted"),
+    [(100.0, 65.0), (65.0, -100.0), (24.0, 12.0), (12.0, 24.0), (0.0, 2.5), (0.05, 0.0), (-3.0, 3.0)],
+)
 def test_bursts_slow_edges_and_a_direction_are_none(reported: float, counted: float) -> None:
-    """Below 40 edges a second (2.6 rad/s) nothing is averaged; an edge may be on its way; beyond, a factor of 3."""
+    """Below 40 edges a second (2.6 rad/s) nothing is averaged; beyond, a factor of 3, and from 400 on of 1.6."""
     assert told(reported, counted) == (inf, "")
 
 
