@@ -61,6 +61,8 @@ def _noise_floor(diagnosis: Diagnosis) -> list[str]:
         parts.append(f"{rest:.3g} rad/s from a random torque of {diagnosis.disturbance.rms_voltage:.2g} V RMS")
     if not parts:
         return [NO_NOISE]
+    if len(parts) == 1:
+        return [f"The noise floor is {parts[0]}."]
     return [f"The noise floor is {diagnosis.noise_floor:.3g} rad/s: {' and '.join(parts)} (root sum of squares)."]
 
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 TEXT, FAINT = "#010203", "#010204"  # stand for the page's own colours
 MEASURED, BEFORE, AFTER, FLOOR = "#b4bdc8", "#e0672a", "#2f7fe0", "#9aa7b6"
-WORST = ("#c026a8", "#7c3aed", "#0d9488")
+WORST = ("#c026a8", "#111827", "#14b8a6")  # of different lightness: told apart without their hues, too
 FONT = 9.0  # points
 
 

@@ -23,6 +23,8 @@ def test_every_limit_has_its_sentence(found: Diagnosis) -> None:
         f"The noise floor is {found.noise_floor:.3g} rad/s: {tick:.3g} rad/s from the timer's tick of 4 µs and "
         f"{rest:.3g} rad/s from slots that are irregular by {100 * found.slot_share:.2g} % (root sum of squares)."
     ) in said
+    alone = list_limits(replace(found, slot_share=0.0))
+    assert f"The noise floor is {tick:.3g} rad/s from the timer's tick of 4 µs." in alone  # one part is no sum
     assert "Validated on held_out.bag; no physical parameter was fitted to this motion." in said
 
 
