@@ -12,10 +12,10 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
+    are_alike,
     count_parameters,
     drop_chance_harmonics,
     find_rivals,
-    is_alike,
     list_candidates,
     sort_by_table,
     try_effects,
@@ -99,7 +99,7 @@ def _list_rivals(tests: Sequence[CandidateTest], effect: str, current: Model) ->
     alike = [
         test.effect
         for test in tests
-        if find_loss(test, effect, current) < thresholds.RIVAL_MARGIN or is_alike(test.model, current)
+        if find_loss(test, effect, current) < thresholds.RIVAL_MARGIN or are_alike(test.model, current)
     ]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
 
@@ -129,7 +129,7 @@ def _is_as_likely_from_there(effect: str, better: CandidateTest, selection: Sele
         return False
     bare = refit_without(better.model, better.effect, selection.hold_out)
     (test,) = try_effects(bare, selection.hold_out, [effect], selection.workers, lambda test: None)
-    return is_alike(test.model, better.model)
+    return are_alike(test.model, better.model)
 
 
 def _catch_up(current: Model, tests: Sequence[CandidateTest], hold_out: HoldOut) -> Model:

@@ -141,31 +141,39 @@ def find_rivals(found: CandidateTest, tests: Sequence[CandidateTest]) -> tuple[s
     """Find the effects that explain as much as a finding does, of held-out or of all data, with no more parameters."""
     others = [test for test in drop_chance_harmonics(tests) if test.effect != found.effect]
     others = [test for test in others if test.evidence > likelihood_threshold()]
-    alike = [test.effect for test in others if is_alike(test.model, found.model)]
+    alike = [
+        test.effect
+        for test in others
+        if is_alike(
+            found.evidence - test.evidence,
+            found.evidence_of_all - test.evidence_of_all,
+            np.subtract(found.model.by_recording, test.model.by_recording),
+        )
+    ]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(found.effect))
 
 
-def is_alike(other: Model, found: Model) -> bool:
-    """Decide whether nothing tells a model from the one that was found, or all data are against what held-out data say.
+def is_alike(gain: float, of_all: float, by_recording: Floats) -> bool:
+    """Decide whether a finding is told from another effect by little, against all data, or against most recordings.
 
     Where both models are off, one part of the motion chooses between them: the held-out one, or a few of many runs.
+    gain, of_all: of log likelihood, of unseen and of all data; by_recording: of those it was fitted to, shape (K,).
     """
-    if other.likelihood > found.likelihood - thresholds.RIVAL_MARGIN:
-        return True
-    return other.likelihood_of_all > found.likelihood_of_all or not is_told_by_most(
-        np.subtract(found.by_recording, other.by_recording)
-    )
+    return gain < thresholds.RIVAL_MARGIN or of_all < 0.0 or is_against_most(by_recording)
 
 
-def is_told_by_most(gains: Floats) -> bool:
-    """Decide whether what recordings (K,) gain of log likelihood is more than chance between them; few tell nothing.
+def are_alike(other: Model, found: Model) -> bool:
+    """Decide the same of two models that were judged by the same data."""
+    gains = np.subtract(found.by_recording, other.by_recording)
+    return is_alike(found.likelihood - other.likelihood, found.likelihood_of_all - other.likelihood_of_all, gains)
 
-    A test of models neither of which is in the other, if both may be wrong (Vuong, Econometrica 57(2), 1989).
-    """
+
+def is_against_most(gains: Floats) -> bool:
+    """Decide whether most recordings (K,) lose log likelihood, together more than chance, without the few best."""
     if len(gains) < thresholds.FEWEST_RUNS:
-        return True
-    scatter = float(np.std(gains, ddof=1)) * sqrt(len(gains))
-    return bool(np.sum(gains) > thresholds.RUNS_SIGMA * scatter)
+        return False
+    most = np.sort(gains)[: len(gains) - int(thresholds.FEW_RUNS * len(gains))]
+    return bool(np.sum(most) < -thresholds.COMMON_LIKELIHOOD and np.count_nonzero(gains < 0.0) > 0.5 * len(gains))
 
 
 def sort_by_table(names: Iterable[str]) -> tuple[str, ...]:

@@ -94,23 +94,28 @@ def test_rival_margin(times: float, passes: bool) -> None:
     assert find_rivals(found, [found, other]) == (() if passes else ("dead_zone",))
 
 
+LOST = -thresholds.COMMON_LIKELIHOOD
+
+
 @pytest.mark.parametrize(
-    ("runs", "sigma", "told"),
+    ("gains", "rival"),
     [
-        (thresholds.FEWEST_RUNS, BELOW * thresholds.RUNS_SIGMA, False),
-        (thresholds.FEWEST_RUNS, ABOVE * thresholds.RUNS_SIGMA, True),
-        (thresholds.FEWEST_RUNS - 1, BELOW * thresholds.RUNS_SIGMA, True),
+        ([50.0, *[LOST / 4.0 * ABOVE] * 4], True),
+        ([50.0, *[LOST / 4.0 * BELOW] * 4], False),
+        ([50.0, *[LOST / 3.0 * ABOVE] * 3], False),  # too few recordings
+        ([50.0, 0.0, 0.0, ABOVE * LOST / 2.0, ABOVE * LOST / 2.0], False),  # most are for it, or say nothing
+        ([600.0, 0.0, 0.0, 0.0, 0.0], False),  # one that tells everything
+        ([600.0, 600.0, 0.0, 0.0, 0.0], False),
+        ([5000.0, 40.0, 30.0, 20.0, 10.0], False),
     ],
 )
-def test_a_few_of_many_runs_do_not_tell_rivals_apart(runs: int, sigma: float, told: bool) -> None:
-    scatter = np.linspace(-1.0, 1.0, runs)
-    gains = scatter + sigma * np.std(scatter, ddof=1) / sqrt(runs)
+def test_what_most_of_many_recordings_prefer_is_a_rival(gains: list[float], rival: bool) -> None:
     before = stub_model(5.0)
     found = stub_test("transport_delay", before, 1.0, 100.0)
     other = stub_test("armature_inductance", before, 1.0, 100.0 - 2.0 * thresholds.RIVAL_MARGIN)
-    found = replace(found, model=replace(found.model, by_recording=tuple(50.0 + gains)))
-    other = replace(other, model=replace(other.model, by_recording=(50.0,) * runs))
-    assert find_rivals(found, [found, other]) == (() if told else ("armature_inductance",))
+    found = replace(found, model=replace(found.model, by_recording=tuple(np.add(50.0, gains))))
+    other = replace(other, model=replace(other.model, by_recording=(50.0,) * len(gains)))
+    assert find_rivals(found, [found, other]) == (("armature_inductance",) if rival else ())
 
 
 @SIDES
