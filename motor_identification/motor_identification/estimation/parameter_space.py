@@ -17,6 +17,8 @@ from motor_model.sample import Measurement
 
 SLOW_SPEED = 0.03  # of the largest speed: slower, a ripple holds the shaft or turns it back
 FEW_COUNTS = 4.0  # a mean speed over so many is wrong by a quarter at most; boxes allow four times as much
+BURSTS, FAR_BEYOND = 0.03, 3.0  # share of speeds that may be false for many rows, and how far beyond all others
+LEAST_REACH = 0.125  # of the largest speed: the box begins at a tenth of kv = voltage / speed
 TURNING_SPEED = 0.1  # of the largest speed: as slow as a motor turns for long enough to show a ripple
 
 
@@ -104,7 +106,7 @@ def _reach(speed: Floats) -> float:
     millisecond is 65 rad/s): then it is the largest mean over so many samples that a few counts are in it.
     """
     size = np.abs(speed)
-    in_a_row = float(np.minimum(size[1:], size[:-1]).max())
+    in_a_row = _without_bursts(np.minimum(size[1:], size[:-1]))
     count = float(size[size > 0.0].min(initial=inf))  # the smallest speed, which is a count a sample where they are so
     if in_a_row >= 2.0 * count or count == inf:
         return in_a_row
@@ -115,6 +117,17 @@ def _reach(speed: Floats) -> float:
             return most / rows
         rows *= 2
     return in_a_row or float(size.max())
+
+
+def _without_bursts(size: Floats) -> float:
+    """[rad/s] largest of speeds' sizes (K,); where a few are far beyond all others, what the others reach.
+
+    They may be what a filter makes of a jump, at a potentiometer's gap or a lost line, for many rows: no motor. If they
+    are motion after all, the box still holds it: no less than LEAST_REACH of them is returned.
+    """
+    largest, moving = float(size.max()), size[size > 0.0]
+    usual = float(np.quantile(moving, 1.0 - BURSTS)) if len(moving) else 0.0
+    return max(usual, LEAST_REACH * largest) if largest > FAR_BEYOND * usual else largest
 
 
 def _turning_speeds(recordings: Sequence[Recording]) -> Floats:

@@ -10,6 +10,9 @@ from motor_identification.logs.form import TIME_UNITS
 Floats = NDArray[np.float64]
 
 SLOWEST = 0.4  # [s] between rows of a recording that shows motion; also the border between units, which are 1,000 apart
+EVEN = (
+    0.2  # of the step of most rows: clocks of whole milliseconds, 5 and 6 in turn, are even, an encoder's 2 and 3 not
+)
 _SINCE_1970 = (1e9, 2.2e9)  # [s] 2001 to 2039
 _ROUND = 100.0  # times that are all multiples of it are no microseconds: nobody's loop is that even
 
@@ -38,17 +41,16 @@ def row_period(values: Floats) -> float:
 def find_clock(columns: Mapping[str, Floats]) -> str | None:
     """The column, of several by name, whose values of shape (K,) are most like times; None where none can be.
 
-    A motor's angle may go on as times do, but not in every row of a start from rest, and not so evenly.
+    A motor's angle may go on as times do, but not from the first row on, and not so evenly.
     """
     able = {name: values for name, values in columns.items() if runs_forward(values)}
-    return min(able, key=lambda name: _unevenness(able[name]), default=None)
+    return min(able, key=lambda name: _share_uneven(able[name]), default=None)
 
 
-def _unevenness(values: Floats) -> tuple[float, float]:
-    """The share of rows in which values, shape (K,), do not go on, and how far the other steps are from equal."""
+def _share_uneven(values: Floats) -> float:
+    """The share of rows in which values, shape (K,), do not go on by about as much as in most."""
     steps = np.diff(values)
-    few, many = np.quantile(steps[steps > 0.0], (0.1, 0.9))
-    return float(np.mean(steps <= 0.0)), float(many / few)
+    return float(np.mean(np.abs(steps - np.median(steps)) > EVEN * np.median(steps)))
 
 
 def runs_forward(values: Floats) -> bool:

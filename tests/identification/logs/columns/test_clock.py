@@ -51,3 +51,7 @@ def test_times_are_told_from_an_angle_that_goes_on_too() -> None:
     assert find_clock({"angle": -angle, "down": -time}) is None and find_clock({}) is None
     even = np.arange(300.0)
     assert find_clock({"uneven": even + 0.4 * (even % 2), "even": even}) == "even"
+    twice = np.round(np.arange(300) * 0.01 - 0.004, 2)
+    twice[7] = twice[6]  # a clock of whole hundredths says one of them twice
+    counts = np.cumsum(np.concatenate([np.arange(1.0, 49.0), np.full(252, 48.0)]))
+    assert find_clock({"counts": counts, "time": twice}) == "time"
