@@ -1,7 +1,7 @@
 """How many counts a turn has, and whether they begin anew in every row, where a speed stands beside the counts."""
 
 from dataclasses import dataclass, replace
-from math import tau
+from math import inf, tau
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,10 @@ Floats = NDArray[np.float64]
 
 PARTS, FEWEST_PARTS = 40, 5  # of a log, over which both are summed up: a row's count and speed are both coarse
 AGREE = 0.999  # correlation of the counts of a part with its angle: the speed was made of these counts
-NEAR = 0.02  # from a whole number, relative to it, that the counts of a turn may be off
+NEAR = 0.02  # from a whole number, relative to it, that the counts of a turn may be off; of few
+MOST_PLACES = 7  # behind the point, of a digit
+FEWEST_LEVELS = 5  # of counts in a row: what is cut off of fewer grows with them
+ALIKE, TOLD = 1.1, 0.01  # times what fits the rows best; share of the counts that does not matter then
 
 
 @dataclass(frozen=True)
@@ -75,21 +78,48 @@ def find_turn_counts(table: Table, count: Heading, stamps: Floats) -> TurnCounts
         if size is None:
             continue
         angle = np.where(forward, speeds[1:] * size * steps, 0.0)
+        digit = np.where(forward, _find_last_digit(speeds) * size * steps, 0.0)
         for way, anew in ways:
-            counts = _counts_per_turn(way, angle)
+            counts = _counts_per_turn(way, angle, digit)
             if counts is not None:
                 return TurnCounts(counts, anew, name, unit)
     return None
 
 
-def _counts_per_turn(way: Floats, angle: Floats) -> int | None:
-    """Whole counts of a turn, of counts and angles [rad] of the rows, shape (K - 1,); None where they do not agree."""
+def _counts_per_turn(way: Floats, angle: Floats, step: Floats) -> int | None:
+    """Whole counts of a turn, of counts and angles [rad] of the rows, shape (K - 1,); None where they do not agree.
+
+    step: [rad] of one digit of the speed in each row. Firmware rounds, or cuts what is behind the digit off: what fits
+    the rows better; None where both fit alike and differ.
+    """
+    told = angle != 0.0  # less than a digit may be cut off
+    as_it_is = _fit_counts(way[told], np.abs(angle[told]))
+    if as_it_is is None:
+        return None
+    as_cut = _fit_counts(way[told], np.abs(angle[told]) + 0.5 * step[told]) or (as_it_is[0], inf)
+    (rounded, off), (cut, off_cut) = as_it_is, as_cut
+    number = rounded if off <= off_cut else cut
+    few = len(np.unique(np.abs(way[told]))) < FEWEST_LEVELS
+    alike = few or max(off, off_cut) < ALIKE * min(off, off_cut)
+    whole = round(number)
+    if not 1 <= whole <= MOST_EDGES or abs(number - whole) > NEAR * whole:
+        return None
+    return None if alike and abs(rounded - cut) > max(TOLD * number, 0.5) else whole
+
+
+def _find_last_digit(values: Floats) -> float:
+    """Find the largest 1, 2 or 5 of a decimal place that all values are multiples of, to tens; 0 where none is."""
+    digits = (10.0**place * unit for place in range(0, -MOST_PLACES, -1) for unit in (10.0, 5.0, 2.0, 1.0))
+    return next((one for one in digits if np.allclose(values / one, np.rint(values / one), rtol=0.0, atol=1e-6)), 0.0)
+
+
+def _fit_counts(way: Floats, angle: Floats) -> tuple[float, float] | None:
+    """Counts of a turn that fit sizes of angles [rad] (K,), and what they leave in the rows, RMS [rad]."""
     ends = np.unique(np.linspace(0, len(way), min(PARTS, len(way) // 3) + 1).astype(np.int64))
     if len(ends) <= FEWEST_PARTS:
         return None
-    counted, turned = np.abs(np.add.reduceat(way, ends[:-1])), np.abs(np.add.reduceat(angle, ends[:-1]))
+    counted, turned = np.add.reduceat(np.abs(way), ends[:-1]), np.add.reduceat(angle, ends[:-1])
     if np.ptp(counted) == 0.0 or np.ptp(turned) == 0.0 or np.corrcoef(counted, turned)[0, 1] < AGREE:
         return None
     number = tau * float(counted @ turned) / float(turned @ turned)
-    whole = round(number)
-    return whole if 1 <= whole <= MOST_EDGES and abs(number - whole) <= NEAR * whole else None
+    return number, float(np.sqrt(np.mean((angle - tau / number * np.abs(way)) ** 2)))

@@ -46,6 +46,26 @@ def test_the_counts_of_a_turn_are_whole(slip: float, told: bool) -> None:
     assert (found is not None and found.counts == 12) is told
 
 
+@pytest.mark.parametrize("digit", [1.0, 5.0])
+@pytest.mark.parametrize("counts", [360, 2400, 4096])
+def test_digits_that_firmware_cuts_off_do_not_make_more_counts(counts: int, digit: float) -> None:
+    cells = columns(counts)
+    fresh = cells["Pulses"] / counts / PERIOD * 60.0
+    for cells["rpm"] in (np.trunc(fresh / digit) * digit, np.round(fresh / digit) * digit):
+        found = find_turn_counts(table(cells, "enc_count", "rpm"), read_heading("enc_count"), STAMPS)
+        assert found is not None and abs(found.counts / counts - 1.0) < 0.007
+
+
+def test_what_is_cut_off_of_few_counts_in_a_row_does_not_tell_them() -> None:
+    cells = columns(24)
+    fresh = cells["Pulses"] * 31.25
+    cells["rpm"] = np.trunc(fresh / 5.0) * 5.0
+    few = np.abs(cells["Pulses"]) < 4
+    stamps = np.cumsum(np.full(400, 0.02))
+    cells["rpm"], cells["Pulses"] = cells["rpm"] * few, cells["Pulses"] * few
+    assert find_turn_counts(table(cells, "Pulses", "rpm"), read_heading("Pulses"), stamps) is None
+
+
 def test_another_shafts_speed_says_nothing_and_is_not_taken() -> None:
     cells = columns(48)
     cells["rpm"] = np.abs(np.sin(3.0 * STAMPS)) * 100.0
