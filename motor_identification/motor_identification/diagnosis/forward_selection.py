@@ -140,10 +140,10 @@ def _find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: P
 def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -> Selection:
     """Select forward again from another first effect that was nearly as likely, where the gap stays above the floor.
 
-    While others are missing too, one effect can do as well as another, and the wrong one ends in a local minimum of the
-    selection; not one that explains nearly everything.
+    Or where a complete model took many findings: fewer may do as well. While others are missing too, one effect can do
+    as well as another, and the wrong one ends in a local minimum of the selection, or with more than are there.
     """
-    if not selection.steps or selection.model.complete:
+    if not selection.steps or (selection.model.complete and len(selection.steps) < thresholds.MANY_STEPS):
         return selection
     first = selection.steps[0]
     for test in list_other_firsts(first):
@@ -151,6 +151,9 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
         begun = SelectionStep(first.before, test, first.tests, rivals, test.explains)
         start = begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
         other = select_forward(start, reporter, pairs=False)
+        if selection.model.complete:
+            selection = other if _is_simpler(other, selection) else selection
+            continue
         if _are_alike(other.model, selection.model):
             selection = _add_rival(selection, other)  # the one that was more likely stays
             continue
@@ -161,6 +164,12 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
             rest = tuple(name for name in head.rivals if name != test.effect)
             selection = replace(selection, steps=(replace(head, rivals=rest), *tail))
     return selection
+
+
+def _is_simpler(other: Selection, many: Selection) -> bool:
+    """Decide whether fewer findings explain everything, and the motion is as likely."""
+    fewer = other.model.complete and len(other.steps) < len(many.steps)
+    return fewer and other.model.likelihood >= many.model.likelihood
 
 
 def _are_alike(one: Model, other: Model) -> bool:

@@ -118,6 +118,9 @@ MISCOUNTED_GAP = 3.0
 PAIR_PARTNERS = 3
 # Findings from which on no pairs are tried any more: what is not in the table would cost minutes.
 PAIR_MOST_STEPS = 2
+# Findings of a complete model from which on another first one is tried: together, several imitate what two do.
+# Measured: a dead zone, a coasting bridge, a load and drag for a static friction.
+MANY_STEPS = 3
 # First effects that are tried instead of the most likely one where the gap stays above the floor, and the share of its
 # evidence that they need: measured, right first ones had 0.8 and more of a wrong one's.
 SECOND_STARTS = 2

@@ -172,6 +172,30 @@ def test_another_first_effect_that_leads_to_the_same_motion_is_a_rival(
     assert found.steps[0].found.effect == named and found.steps[0].rivals == rivals
 
 
+@pytest.mark.parametrize(
+    ("steps", "further", "gap", "likelier", "taken"),
+    [
+        (thresholds.MANY_STEPS, 2, 1.0, 0.0, True),
+        (thresholds.MANY_STEPS - 1, 1, 1.0, 0.0, False),  # a few findings are not doubted
+        (thresholds.MANY_STEPS, thresholds.MANY_STEPS, 1.0, 9.0, False),  # the same in another order
+        (thresholds.MANY_STEPS, 2, 1.0, -0.1, False),
+        (thresholds.MANY_STEPS, 2, 4.0, 9.0, False),  # it explains less
+    ],
+)
+def test_of_two_complete_models_the_one_with_fewer_findings_is_taken(
+    monkeypatch: pytest.MonkeyPatch, steps: int, further: int, gap: float, likelier: float, taken: bool
+) -> None:
+    before = stub_model(9.0)
+    first, other = stub_test("dead_zone", before, 4.0, 100.0), stub_test("coulomb_friction", before, 4.0, 99.0)
+    later = step_of(stub_test("load_bias", before, 1.0, 50.0))
+    many = selection_of(stub_model(1.0, 0.0), step_of(first, other), *[later] * (steps - 1))
+    model = stub_model(gap, 0.0 if gap == 1.0 else None, likelier)
+    fewer = replace(many, steps=(step_of(other), *[later] * (further - 1)), model=model)
+    monkeypatch.setattr(forward_selection, "begin_selection", lambda *rest: many)
+    monkeypatch.setattr(forward_selection, "select_forward", lambda *rest, **how: fewer)
+    assert (retry_with_another_first(many, SILENT) is fewer) is taken
+
+
 def test_friction_is_selected_from_a_recording_that_hides_it(monkeypatch: pytest.MonkeyPatch) -> None:
     names = ("coulomb_friction", "quadratic_drag", "load_bias")
     lacking = lambda effects, seen: [name for name in names if name not in effects]  # noqa: E731
