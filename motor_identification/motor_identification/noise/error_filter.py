@@ -17,6 +17,7 @@ ratios mean what they say; a clipped square is none.
 """
 
 from math import exp, log, pi, sqrt
+from typing import NamedTuple
 
 import numpy as np
 
@@ -47,8 +48,48 @@ SAME_TIME = 1e-10  # of an interval: what an even sample period is rounded by, f
 _LONG = 40.0  # time constants after which nothing is remembered
 
 
+class _Stretches(NamedTuple):
+    """The intervals of a recording, in runs, in each of which the angle is known up to a constant; `run_filter`'s."""
+
+    fresh: Bools
+    still: Bools
+    pause: Floats
+    duration: Floats
+    start: Floats
+    end: Floats
+
+
+class _Process(NamedTuple):
+    """The random process that is filtered; `run_filter`'s."""
+
+    alpha: float
+    beta: float
+    strength: float
+    growth: float
+
+
+class _Means(NamedTuple):
+    """Estimates for each of C rows of increments, arrays of shape (C,)."""
+
+    level: Floats  # [rad] sum of the increments of the run
+    b: Floats  # [rad]
+    d: Floats  # [rad/s]
+    t: Floats  # [rad/s²] T/ka
+
+
+class _Covariance(NamedTuple):
+    """The covariance of angle b, speed d and torque t = T/ka, the same for every row."""
+
+    bb: float
+    bd: float
+    bt: float
+    dd: float
+    dt: float
+    tt: float
+
+
 @compiled
-def run_filter(  # noqa: C901, PLR0915
+def run_filter(
     fresh: Bools,
     still: Bools,
     pause: Floats,
@@ -68,110 +109,209 @@ def run_filter(  # noqa: C901, PLR0915
     """Fill white residuals of C rows of increments [rad], both (C, I), and return the first row's log likelihood.
 
     The filter is linear: the other rows (derivatives, responses to other torques) pass the same gains as the first.
+    Named tuples are made in here: to take them from Python costs a tenth of the time of a short recording.
 
     fresh: a run begins, `pause` [s] after the last one ended. still: the motor stood; its increment is by how far the
     simulated one left the slot. duration [s], start, end [rad²]: of each interval, and the angle's variance at either
     end.
-    density: (I,) filled with what each interval adds to it.
-    gains: (I, GAINS), filled for `fill_white`; (0, GAINS) where that is not wanted.
     alpha, beta [1/s]: kv/ka and 1/τ. strength [rad²/s⁴] (σ/ka)². growth [rad²/s]. counted: whose likelihood is wanted.
+    gains: (I, GAINS), filled for `fill_white`; (0, GAINS) where that is not wanted.
+    density: (I,) filled with what each interval adds to it.
     """
-    rows = len(increments)
-    # State (b, d, T/ka) of every row and its covariance; a motor of which nothing is known is in the stationary state.
-    b, d, t, level = np.zeros(rows), np.zeros(rows), np.zeros(rows), np.zeros(rows)
-    bb = bd = bt = 0.0
-    dd, dt, tt = strength / (alpha * (alpha + beta)), strength / (alpha + beta), strength
-    speed_variance = dd
-    of_interval, of_pause = -1.0, -1.0
-    q, p, series, fastest = np.zeros(RESPONSES), np.zeros(RESPONSES), np.zeros((TERMS, RESPONSES)), max(alpha, beta)
+    stretches = _Stretches(fresh, still, pause, duration, start, end)
+    return _filter(stretches, _Process(alpha, beta, strength, growth), increments, counted, white, gains, density)
+
+
+@compiled
+def _filter(
+    stretches: _Stretches,
+    process: _Process,
+    increments: Floats,
+    counted: Bools,
+    white: Floats,
+    gains: Floats,
+    density: Floats,
+) -> float:
+    """Filter as `run_filter`."""
+    alpha, beta, strength, growth = process
+    rows, disturbed, noise = len(increments), strength > 0.0, 2.0 * beta * strength
+    x, p = _Means(np.zeros(rows), np.zeros(rows), np.zeros(rows), np.zeros(rows)), _stationary(process)
+    speed_variance = p.dd
+    series, fastest = np.zeros((TERMS, RESPONSES)), max(alpha, beta)
     fill_series(alpha, beta, series)
-    phi_d = phi_t = by_t = angle_d = angle_t = 0.0
-    noise = 2.0 * beta * strength
+    of_interval, of_pause = -1.0, -1.0  # [s] what the responses are known for
+    q, over_pause = np.zeros(RESPONSES), np.zeros(RESPONSES)
     value = 0.0
-    for k in range(len(fresh)):
-        h = duration[k]
-        if still[k]:
-            variance = end[k] + speed_variance * h * h
-            for c in range(rows):
-                white[c, k] = increments[c, k] / sqrt(variance)
-            if len(gains):
-                gains[k, 0] = 1.0 / sqrt(variance)
+    for k in range(len(stretches.fresh)):
+        h = stretches.duration[k]
+        if stretches.still[k]:
+            variance = stretches.end[k] + speed_variance * h * h
+            _whiten_still(k, sqrt(variance), increments, white, gains)
             density[k] = _density(increments[0, k], variance) if counted[k] else 0.0
             value += density[k]
             continue
         fd = ft = by = 0.0
-        if fresh[k]:
-            if strength > 0.0:
-                if not min(alpha, beta) * pause[k] < _LONG:
-                    d[:] = 0.0
-                    t[:] = 0.0
-                    dd, dt, tt = speed_variance, strength / (alpha + beta), strength
-                elif pause[k] == 0.0:
-                    fd, ft = 1.0, 1.0
-                elif pause[k] > 0.0:
-                    if abs(pause[k] - of_pause) > SAME_TIME * pause[k]:
-                        of_pause = pause[k]
-                        fill_response(series, fastest, of_pause, p)
-                    fd, ft, by = p[LEFT_D], p[LEFT_T], p[BY_T]
-                    for c in range(rows):
-                        d[c], t[c] = fd * d[c] + by * t[c], ft * t[c]
-                    dd, dt, tt = (
-                        fd * fd * dd + 2.0 * fd * by * dt + by * by * tt + noise * p[DD],
-                        ft * (fd * dt + by * tt) + noise * p[DT],
-                        ft * ft * tt + noise * p[TT],
-                    )
-            b[:] = 0.0
-            level[:] = 0.0
-            bb, bd, bt = start[k], 0.0, 0.0
-        if strength > 0.0:
-            if abs(h - of_interval) > SAME_TIME * h:
-                of_interval = h
-                fill_response(series, fastest, h, q)
-                phi_d, phi_t, by_t, angle_d, angle_t = q[LEFT_D], q[LEFT_T], q[BY_T], q[ANGLE_D], q[ANGLE_T]
-            for c in range(rows):
-                b[c] += angle_d * d[c] + angle_t * t[c]
-                d[c], t[c] = phi_d * d[c] + by_t * t[c], phi_t * t[c]
-            # F P Fᵀ + Q with F = [[1, angle_d, angle_t], [0, phi_d, by_t], [0, 0, phi_t]].
-            b_d, b_t = bd + angle_d * dd + angle_t * dt, bt + angle_d * dt + angle_t * tt
-            d_d, d_t = phi_d * dd + by_t * dt, phi_d * dt + by_t * tt
-            bb = bb + angle_d * (bd + b_d) + angle_t * (bt + b_t) + noise * q[BB]
-            bd, bt = phi_d * b_d + by_t * b_t + noise * q[BD], phi_t * b_t + noise * q[BT]
-            dd, dt, tt = (
-                phi_d * d_d + by_t * d_t + noise * q[DD],
-                phi_t * d_t + noise * q[DT],
-                phi_t * phi_t * tt + noise * q[TT],
+        if stretches.fresh[k]:
+            p, fd, ft, by, of_pause = _begin_run(
+                x, p, process, stretches.start[k], stretches.pause[k], series, of_pause, over_pause
             )
-        bb += growth * h
-        variance = bb + end[k]
+        if disturbed:
+            of_interval = _respond(series, fastest, h, of_interval, q)
+            _move(x, q)
+            p = _propagate(p, q, noise)
+        p = _Covariance(p.bb + growth * h, p.bd, p.bt, p.dd, p.dt, p.tt)
+        variance = p.bb + stretches.end[k]
         root = 1.0 / sqrt(variance)
-        kb, kd, kt = bb / variance, bd / variance, bt / variance
-        off = level[0] + increments[0, k] - b[0]
+        off = x.level[0] + increments[0, k] - x.b[0]
         density[k] = _density(off, variance) if counted[k] else 0.0
         value += density[k]
         trust = _trust(off, variance)
-        lost = trust < 0.5  # the angle has jumped (an uncounted edge, an unseen reversal): known from here on only
-        if lost:
-            kb, kd, kt = 1.0, 0.0, 0.0
-        else:  # moments of the mixture of a regular interval and one that says nothing
-            kb, kd, kt = trust * kb, trust * kd, trust * kt
-        for c in range(rows):
-            level[c] += increments[c, k]
-            each = level[c] - b[c]
-            white[c, k] = each * root
-            b[c] += kb * each
-            d[c] += kd * each
-            t[c] += kt * each
+        p, kb, kd, kt = _update(p, off, variance, trust, stretches.end[k], (off / h) ** 2 if disturbed else 0.0)
+        _correct(x, k, increments, root, kb, kd, kt, white)
         if len(gains):
-            gains[k] = (root * sqrt(trust), kb, kd, kt, phi_d, phi_t, by_t, angle_d, angle_t, fd, ft, by)
-        if lost:  # and the speed too, as far as it may be off by what was seen: a stop that only one of the two made
-            bb, bd, bt = end[k], 0.0, 0.0
-            if strength > 0.0:
-                dd += (off / h) ** 2
-        else:
-            taken = variance / trust - (1.0 - trust) * off * off / trust
-            bb, bd, bt = bb - taken * kb * kb, bd - taken * kb * kd, bt - taken * kb * kt
-            dd, dt, tt = dd - taken * kd * kd, dt - taken * kd * kt, tt - taken * kt * kt
+            left = q[LEFT_D], q[LEFT_T], q[BY_T], q[ANGLE_D], q[ANGLE_T]
+            gains[k] = (root * sqrt(trust), kb, kd, kt, *left, fd, ft, by)
     return value
+
+
+@compiled
+def _stationary(process: _Process) -> _Covariance:
+    """Compute the covariance of a motor of which nothing is known: the stationary state's."""
+    alpha, beta, strength, _growth = process
+    return _Covariance(0.0, 0.0, 0.0, strength / (alpha * (alpha + beta)), strength / (alpha + beta), strength)
+
+
+@compiled
+def _begin_run(
+    x: _Means,
+    p: _Covariance,
+    process: _Process,
+    start: float,
+    pause: float,
+    series: Floats,
+    known: float,
+    response: Floats,
+) -> tuple[_Covariance, float, float, float, float]:
+    """Begin a run after a pause [s], at an angle known to a variance `start` [rad²]: estimates in place, covariance.
+
+    Then what is left of a speed and of a torque, the speed that a torque has made, and what `response` is known for.
+    """
+    alpha, beta, strength, _growth = process
+    disturbed = strength > 0.0
+    fd = ft = by = 0.0
+    if disturbed and not min(alpha, beta) * pause < _LONG:
+        p = _stationary(process)
+        x.d[:] = 0.0
+        x.t[:] = 0.0
+    elif disturbed and pause == 0.0:
+        fd, ft = 1.0, 1.0
+    elif disturbed and pause > 0.0:
+        known = _respond(series, max(alpha, beta), pause, known, response)
+        fd, ft, by = response[LEFT_D], response[LEFT_T], response[BY_T]
+        _move(x, response)
+        p = _pass_pause(p, response, 2.0 * beta * strength)
+    x.b[:] = 0.0
+    x.level[:] = 0.0
+    return _Covariance(start, 0.0, 0.0, p.dd, p.dt, p.tt), fd, ft, by, known
+
+
+@compiled
+def _respond(series: Floats, fastest: float, duration: float, known: float, response: Floats) -> float:
+    """Fill the response (RESPONSES,) over a duration [s] unless it is known for as long; return what it is for."""
+    if abs(duration - known) > SAME_TIME * duration:
+        fill_response(series, fastest, duration, response)
+        return duration
+    return known
+
+
+@compiled
+def _whiten_still(k: int, deviation: float, increments: Floats, white: Floats, gains: Floats) -> None:
+    """Fill white residuals and gain of an interval in which the motor stood; deviation [rad]."""
+    for c in range(len(increments)):
+        white[c, k] = increments[c, k] / deviation
+    if len(gains):
+        gains[k, 0] = 1.0 / deviation
+
+
+@compiled
+def _move(x: _Means, response: Floats) -> None:
+    """Move estimates on in time, in place."""
+    phi_d, phi_t, by_t = response[LEFT_D], response[LEFT_T], response[BY_T]
+    angle_d, angle_t = response[ANGLE_D], response[ANGLE_T]
+    for c in range(len(x.b)):
+        x.b[c] += angle_d * x.d[c] + angle_t * x.t[c]
+        x.d[c], x.t[c] = phi_d * x.d[c] + by_t * x.t[c], phi_t * x.t[c]
+
+
+@compiled
+def _propagate(p: _Covariance, response: Floats, noise: float) -> _Covariance:
+    """Propagate the covariance: F P Fᵀ + Q with F = [[1, angle_d, angle_t], [0, phi_d, by_t], [0, 0, phi_t]]."""
+    phi_d, phi_t, by_t = response[LEFT_D], response[LEFT_T], response[BY_T]
+    angle_d, angle_t = response[ANGLE_D], response[ANGLE_T]
+    b_d, b_t = p.bd + angle_d * p.dd + angle_t * p.dt, p.bt + angle_d * p.dt + angle_t * p.tt
+    d_d, d_t = phi_d * p.dd + by_t * p.dt, phi_d * p.dt + by_t * p.tt
+    return _Covariance(
+        p.bb + angle_d * (p.bd + b_d) + angle_t * (p.bt + b_t) + noise * response[BB],
+        phi_d * b_d + by_t * b_t + noise * response[BD],
+        phi_t * b_t + noise * response[BT],
+        phi_d * d_d + by_t * d_t + noise * response[DD],
+        phi_t * d_t + noise * response[DT],
+        phi_t * phi_t * p.tt + noise * response[TT],
+    )
+
+
+@compiled
+def _pass_pause(p: _Covariance, response: Floats, noise: float) -> _Covariance:
+    """Propagate the covariance of speed and torque over a pause, after which nothing is known of the angle."""
+    fd, ft, by = response[LEFT_D], response[LEFT_T], response[BY_T]
+    return _Covariance(
+        p.bb,
+        p.bd,
+        p.bt,
+        fd * fd * p.dd + 2.0 * fd * by * p.dt + by * by * p.tt + noise * response[DD],
+        ft * (fd * p.dt + by * p.tt) + noise * response[DT],
+        ft * ft * p.tt + noise * response[TT],
+    )
+
+
+@compiled
+def _update(
+    p: _Covariance, off: float, variance: float, trust: float, end: float, jump: float
+) -> tuple[_Covariance, float, float, float]:
+    """Take in an innovation `off` [rad]: the covariance after it, and the gains of angle, speed and torque.
+
+    variance: [rad²] of the innovation. trust: probability that it is regular. end: [rad²] of the sensor alone.
+    jump: [rad²/s²] by which the speed may be off, where the angle has jumped.
+    """
+    if trust < 0.5:  # an uncounted edge, an unseen reversal: the angle is known from here on only
+        # And the speed too, as far as it may be off by what was seen: a stop that only one of the two made.
+        return _Covariance(end, 0.0, 0.0, p.dd + jump, p.dt, p.tt), 1.0, 0.0, 0.0
+    # Moments of the mixture of a regular interval and one that says nothing.
+    kb, kd, kt = trust * (p.bb / variance), trust * (p.bd / variance), trust * (p.bt / variance)
+    taken = variance / trust - (1.0 - trust) * off * off / trust
+    after = _Covariance(
+        p.bb - taken * kb * kb,
+        p.bd - taken * kb * kd,
+        p.bt - taken * kb * kt,
+        p.dd - taken * kd * kd,
+        p.dt - taken * kd * kt,
+        p.tt - taken * kt * kt,
+    )
+    return after, kb, kd, kt
+
+
+@compiled
+def _correct(
+    x: _Means, k: int, increments: Floats, root: float, kb: float, kd: float, kt: float, white: Floats
+) -> None:
+    """Correct estimates by the increments of an interval, in place, and fill its white residuals."""
+    for c in range(len(x.b)):
+        x.level[c] += increments[c, k]
+        each = x.level[c] - x.b[c]
+        white[c, k] = each * root
+        x.b[c] += kb * each
+        x.d[c] += kd * each
+        x.t[c] += kt * each
 
 
 @compiled
