@@ -65,7 +65,7 @@ class Whitening:
 def fill_gains(
     fresh: Bools, start: Floats, end: Floats, duration: Floats, drift: float, gain: Floats, scale: Floats
 ) -> None:
-    """Kalman gains K and 1/√S of every interval; `drift` is q [rad²/s]."""
+    """Fill Kalman gains K and 1/√S of every interval; `drift` is q [rad²/s]."""
     variance = 0.0
     for k in range(len(fresh)):
         if fresh[k]:
@@ -81,7 +81,7 @@ def fill_gains(
 def score_innovations(
     fresh: Bools, start: Floats, end: Floats, duration: Floats, drift: float, increments: Floats, most: float
 ) -> tuple[float, float]:
-    """Σ ν²/S and Σ ln S of increments [rad] under a drift q [rad²/s]: minus twice their logarithmic likelihood.
+    """Sum ν²/S and ln S of increments [rad] under a drift q [rad²/s]: minus twice their logarithmic likelihood.
 
     No interval adds more than `most` to the first: an outlier must not decide.
     """
@@ -102,7 +102,7 @@ def score_innovations(
 
 @compiled
 def fill_white(fresh: Bools, gain: Floats, scale: Floats, increments: Floats, white: Floats) -> None:
-    """Whitened innovations of increments [rad]."""
+    """Fill whitened innovations of increments [rad]."""
     carried = 0.0
     for k in range(len(fresh)):
         innovation = increments[k] + (0.0 if fresh[k] else carried)
@@ -112,7 +112,7 @@ def fill_white(fresh: Bools, gain: Floats, scale: Floats, increments: Floats, wh
 
 @compiled
 def fill_adjoint(fresh: Bools, gain: Floats, scale: Floats, white: Floats, increments: Floats) -> None:
-    """The transpose of `fill_white`."""
+    """Fill what the transpose of `fill_white` makes of them."""
     carried = 0.0
     for k in range(len(fresh) - 1, -1, -1):
         increments[k] = scale[k] * white[k] + carried
@@ -141,7 +141,7 @@ def whiten_adjoint(whitening: Whitening, white: Floats) -> Floats:
 
 
 def log_likelihood_of(noise: AngleNoise, drift: float, increments: Floats, clip: float = inf) -> float:
-    """Logarithmic likelihood of increments [rad] (I,) under a drift q [rad²/s], without the Gaussian's constant.
+    """Compute the log likelihood of increments [rad] (I,) under a drift q [rad²/s], without the Gaussian's constant.
 
     The likelihood of a Gaussian process from its innovations (Schweppe, IEEE Trans. Inf. Theory 11, 1965); no interval
     counts with more than `clip` squared standard deviations.

@@ -49,12 +49,12 @@ class Encoder:
         return self.slot_sigma / self.slot if self.slot > 0.0 else nan
 
     def white(self, increments: Floats) -> Floats:
-        """White residuals from angle increments [rad]."""
+        """Whiten angle increments [rad]."""
         white = whiten(self.whitening, increments)
         return white if self.projection is None else self.projection(white)
 
     def pull(self, white: Floats) -> Floats:
-        """The transpose of `white` but for the table's prior, (I,) → (I,): for products with what is white."""
+        """Apply the transpose of `white` but for the table's prior, (I,) → (I,): for products with what is white."""
         left = white if self.projection is None else self.projection(white)[: len(white)]
         return whiten_adjoint(self.whitening, left)
 

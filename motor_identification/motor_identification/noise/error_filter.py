@@ -24,19 +24,23 @@ import numpy as np
 from motor_identification.noise.torque_response import (
     ANGLE_D,
     ANGLE_T,
-    BB,
-    BD,
-    BT,
     BY_T,
-    DD,
-    DT,
     LEFT_D,
     LEFT_T,
     RESPONSES,
     TERMS,
-    TT,
     fill_response,
     fill_series,
+)
+from motor_identification.noise.torque_state import (
+    Covariance,
+    Means,
+    correct,
+    move,
+    pass_pause,
+    propagate,
+    stationary_covariance,
+    update,
 )
 from motor_identification.recording import Bools, Floats
 from motor_model.compiled import compiled
@@ -66,26 +70,6 @@ class _Process(NamedTuple):
     beta: float
     strength: float
     growth: float
-
-
-class _Means(NamedTuple):
-    """Estimates for each of C rows of increments, arrays of shape (C,)."""
-
-    level: Floats  # [rad] sum of the increments of the run
-    b: Floats  # [rad]
-    d: Floats  # [rad/s]
-    t: Floats  # [rad/s²] T/ka
-
-
-class _Covariance(NamedTuple):
-    """The covariance of angle b, speed d and torque t = T/ka, the same for every row."""
-
-    bb: float
-    bd: float
-    bt: float
-    dd: float
-    dt: float
-    tt: float
 
 
 @compiled
@@ -135,7 +119,8 @@ def _filter(
     """Filter as `run_filter`."""
     alpha, beta, strength, growth = process
     rows, disturbed, noise = len(increments), strength > 0.0, 2.0 * beta * strength
-    x, p = _Means(np.zeros(rows), np.zeros(rows), np.zeros(rows), np.zeros(rows)), _stationary(process)
+    x = Means(np.zeros(rows), np.zeros(rows), np.zeros(rows), np.zeros(rows))
+    p = stationary_covariance(alpha, beta, strength)
     speed_variance = p.dd
     series, fastest = np.zeros((TERMS, RESPONSES)), max(alpha, beta)
     fill_series(alpha, beta, series)
@@ -157,17 +142,17 @@ def _filter(
             )
         if disturbed:
             of_interval = _respond(series, fastest, h, of_interval, q)
-            _move(x, q)
-            p = _propagate(p, q, noise)
-        p = _Covariance(p.bb + growth * h, p.bd, p.bt, p.dd, p.dt, p.tt)
+            move(x, q)
+            p = propagate(p, q, noise)
+        p = Covariance(p.bb + growth * h, p.bd, p.bt, p.dd, p.dt, p.tt)
         variance = p.bb + stretches.end[k]
         root = 1.0 / sqrt(variance)
         off = x.level[0] + increments[0, k] - x.b[0]
         density[k] = _density(off, variance) if counted[k] else 0.0
         value += density[k]
         trust = _trust(off, variance)
-        p, kb, kd, kt = _update(p, off, variance, trust, stretches.end[k], (off / h) ** 2 if disturbed else 0.0)
-        _correct(x, k, increments, root, kb, kd, kt, white)
+        p, kb, kd, kt = update(p, off, variance, trust, stretches.end[k], (off / h) ** 2 if disturbed else 0.0)
+        correct(x, k, increments, root, kb, kd, kt, white)
         if len(gains):
             left = q[LEFT_D], q[LEFT_T], q[BY_T], q[ANGLE_D], q[ANGLE_T]
             gains[k] = (root * sqrt(trust), kb, kd, kt, *left, fd, ft, by)
@@ -175,23 +160,16 @@ def _filter(
 
 
 @compiled
-def _stationary(process: _Process) -> _Covariance:
-    """Compute the covariance of a motor of which nothing is known: the stationary state's."""
-    alpha, beta, strength, _growth = process
-    return _Covariance(0.0, 0.0, 0.0, strength / (alpha * (alpha + beta)), strength / (alpha + beta), strength)
-
-
-@compiled
 def _begin_run(
-    x: _Means,
-    p: _Covariance,
+    x: Means,
+    p: Covariance,
     process: _Process,
     start: float,
     pause: float,
     series: Floats,
     known: float,
     response: Floats,
-) -> tuple[_Covariance, float, float, float, float]:
+) -> tuple[Covariance, float, float, float, float]:
     """Begin a run after a pause [s], at an angle known to a variance `start` [rad²]: estimates in place, covariance.
 
     Then what is left of a speed and of a torque, the speed that a torque has made, and what `response` is known for.
@@ -200,7 +178,7 @@ def _begin_run(
     disturbed = strength > 0.0
     fd = ft = by = 0.0
     if disturbed and not min(alpha, beta) * pause < _LONG:
-        p = _stationary(process)
+        p = stationary_covariance(alpha, beta, strength)
         x.d[:] = 0.0
         x.t[:] = 0.0
     elif disturbed and pause == 0.0:
@@ -208,11 +186,11 @@ def _begin_run(
     elif disturbed and pause > 0.0:
         known = _respond(series, max(alpha, beta), pause, known, response)
         fd, ft, by = response[LEFT_D], response[LEFT_T], response[BY_T]
-        _move(x, response)
-        p = _pass_pause(p, response, 2.0 * beta * strength)
+        move(x, response)
+        p = pass_pause(p, response, 2.0 * beta * strength)
     x.b[:] = 0.0
     x.level[:] = 0.0
-    return _Covariance(start, 0.0, 0.0, p.dd, p.dt, p.tt), fd, ft, by, known
+    return Covariance(start, 0.0, 0.0, p.dd, p.dt, p.tt), fd, ft, by, known
 
 
 @compiled
@@ -231,87 +209,6 @@ def _whiten_still(k: int, deviation: float, increments: Floats, white: Floats, g
         white[c, k] = increments[c, k] / deviation
     if len(gains):
         gains[k, 0] = 1.0 / deviation
-
-
-@compiled
-def _move(x: _Means, response: Floats) -> None:
-    """Move estimates on in time, in place."""
-    phi_d, phi_t, by_t = response[LEFT_D], response[LEFT_T], response[BY_T]
-    angle_d, angle_t = response[ANGLE_D], response[ANGLE_T]
-    for c in range(len(x.b)):
-        x.b[c] += angle_d * x.d[c] + angle_t * x.t[c]
-        x.d[c], x.t[c] = phi_d * x.d[c] + by_t * x.t[c], phi_t * x.t[c]
-
-
-@compiled
-def _propagate(p: _Covariance, response: Floats, noise: float) -> _Covariance:
-    """Propagate the covariance: F P Fᵀ + Q with F = [[1, angle_d, angle_t], [0, phi_d, by_t], [0, 0, phi_t]]."""
-    phi_d, phi_t, by_t = response[LEFT_D], response[LEFT_T], response[BY_T]
-    angle_d, angle_t = response[ANGLE_D], response[ANGLE_T]
-    b_d, b_t = p.bd + angle_d * p.dd + angle_t * p.dt, p.bt + angle_d * p.dt + angle_t * p.tt
-    d_d, d_t = phi_d * p.dd + by_t * p.dt, phi_d * p.dt + by_t * p.tt
-    return _Covariance(
-        p.bb + angle_d * (p.bd + b_d) + angle_t * (p.bt + b_t) + noise * response[BB],
-        phi_d * b_d + by_t * b_t + noise * response[BD],
-        phi_t * b_t + noise * response[BT],
-        phi_d * d_d + by_t * d_t + noise * response[DD],
-        phi_t * d_t + noise * response[DT],
-        phi_t * phi_t * p.tt + noise * response[TT],
-    )
-
-
-@compiled
-def _pass_pause(p: _Covariance, response: Floats, noise: float) -> _Covariance:
-    """Propagate the covariance of speed and torque over a pause, after which nothing is known of the angle."""
-    fd, ft, by = response[LEFT_D], response[LEFT_T], response[BY_T]
-    return _Covariance(
-        p.bb,
-        p.bd,
-        p.bt,
-        fd * fd * p.dd + 2.0 * fd * by * p.dt + by * by * p.tt + noise * response[DD],
-        ft * (fd * p.dt + by * p.tt) + noise * response[DT],
-        ft * ft * p.tt + noise * response[TT],
-    )
-
-
-@compiled
-def _update(
-    p: _Covariance, off: float, variance: float, trust: float, end: float, jump: float
-) -> tuple[_Covariance, float, float, float]:
-    """Take in an innovation `off` [rad]: the covariance after it, and the gains of angle, speed and torque.
-
-    variance: [rad²] of the innovation. trust: probability that it is regular. end: [rad²] of the sensor alone.
-    jump: [rad²/s²] by which the speed may be off, where the angle has jumped.
-    """
-    if trust < 0.5:  # an uncounted edge, an unseen reversal: the angle is known from here on only
-        # And the speed too, as far as it may be off by what was seen: a stop that only one of the two made.
-        return _Covariance(end, 0.0, 0.0, p.dd + jump, p.dt, p.tt), 1.0, 0.0, 0.0
-    # Moments of the mixture of a regular interval and one that says nothing.
-    kb, kd, kt = trust * (p.bb / variance), trust * (p.bd / variance), trust * (p.bt / variance)
-    taken = variance / trust - (1.0 - trust) * off * off / trust
-    after = _Covariance(
-        p.bb - taken * kb * kb,
-        p.bd - taken * kb * kd,
-        p.bt - taken * kb * kt,
-        p.dd - taken * kd * kd,
-        p.dt - taken * kd * kt,
-        p.tt - taken * kt * kt,
-    )
-    return after, kb, kd, kt
-
-
-@compiled
-def _correct(
-    x: _Means, k: int, increments: Floats, root: float, kb: float, kd: float, kt: float, white: Floats
-) -> None:
-    """Correct estimates by the increments of an interval, in place, and fill its white residuals."""
-    for c in range(len(x.b)):
-        x.level[c] += increments[c, k]
-        each = x.level[c] - x.b[c]
-        white[c, k] = each * root
-        x.b[c] += kb * each
-        x.d[c] += kd * each
-        x.t[c] += kt * each
 
 
 @compiled
@@ -336,7 +233,7 @@ def fill_white(fresh: Bools, still: Bools, gains: Floats, increments: Floats, wh
 
 @compiled
 def _density(off: float, variance: float) -> float:
-    """Logarithm of the contaminated density of an innovation [rad] of a variance [rad²]."""
+    """Compute the logarithm of the contaminated density of an innovation [rad] of a variance [rad²]."""
     square = off * off / variance
     regular = -0.5 * (square + log(2.0 * pi * variance))
     if square < 9.0:  # there the other part is below 1e-4 of it
@@ -349,7 +246,7 @@ def _density(off: float, variance: float) -> float:
 
 @compiled
 def _trust(off: float, variance: float) -> float:
-    """Probability that an innovation is regular."""
+    """Compute the probability that an innovation [rad] of a variance [rad²] is regular."""
     square = off * off / variance
     if square < 9.0:
         return 1.0

@@ -6,6 +6,7 @@ anything can be called significant.
 """
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
@@ -22,6 +23,49 @@ LIKELIHOOD_TOLERANCE = 0.3  # [nat] that a search ends at
 PRICE = 6.0  # [nat] that a disturbance has to be worth, so that a perfect encoder's residual is called just that
 
 
+@dataclass(frozen=True)
+class _Box:
+    """Bounds of the logarithms of share, strength [V] and correlation time [s], each of shape (3,)."""
+
+    low: Floats
+    high: Floats
+
+    def clip(self, x: Floats) -> Floats:
+        """Move what is outside onto the bound."""
+        return np.clip(x, self.low, self.high)
+
+    def measure_excess(self, x: Floats) -> float:
+        """Measure how far outside a point is; 0 inside."""
+        return float(np.sum(np.maximum(self.low - x, 0.0) + np.maximum(x - self.high, 0.0)))
+
+
+@dataclass(frozen=True)
+class _Scale:
+    """What sizes of a random torque are measured by: what a model leaves, and the motor."""
+
+    step: float  # [s] the median interval
+    gap: float  # [rad/s] RMS of what is left
+    rate: float  # kv/ka [1/s]
+    ka: float  # [V·s²/rad]
+
+    @property
+    def times(self) -> tuple[float, float]:
+        """Bound the correlation times [s] that are looked for."""
+        return TIMES[0] * self.step, max(TIMES[1] / self.rate, 10.0 * self.step)
+
+    def strength(self, time: float) -> float:
+        """Compute the RMS [V] of a torque with a correlation time [s] that would leave all of it."""
+        return self.gap * self.ka * sqrt(self.rate * (self.rate + 1.0 / time))
+
+    def bound(self, shares: tuple[float, float]) -> _Box:
+        """Bound what is looked for."""
+        shortest, longest = self.times
+        return _Box(
+            np.log([shares[0], 1e-6 * self.gap * self.rate * self.ka, shortest]),
+            np.log([shares[1], 1e3 * self.gap * (self.rate + 1.0 / self.step) * self.ka, longest]),
+        )
+
+
 def learn_error_model(
     rows: Sequence[ErrorData], rate: float, ka: float, guess: ErrorModel | None = None, evaluations: int = 120
 ) -> ErrorModel:
@@ -31,50 +75,61 @@ def learn_error_model(
     """
     shares = _bound_share(rows)
     quiet, least = _learn_share(rows, shares, rate, ka)
-    duration = np.concatenate([row.duration[~row.still] for row in rows])
-    speeds = np.concatenate([(row.increments / row.duration)[~row.still] for row in rows])
-    step = float(np.median(duration))
-    gap = sqrt(float(duration @ speeds**2 / duration.sum())) + 1e-300
-    shortest, longest = TIMES[0] * step, max(TIMES[1] / rate, 10.0 * step)
-    low = np.log([shares[0], 1e-6 * gap * rate * ka, shortest])
-    high = np.log([shares[1], 1e3 * gap * (rate + 1.0 / step) * ka, longest])
+    scale = _measure_scale(rows, rate, ka)
+    box = scale.bound(shares)
 
     def of(x: Floats) -> ErrorModel:
-        share, rms, time = np.exp(np.clip(x, low, high))
+        share, rms, time = np.exp(box.clip(x))
         return ErrorModel(float(share), 0.0, float(rms), float(time))
 
     def cost(x: Floats) -> float:
-        outside = float(np.sum(np.maximum(low - x, 0.0) + np.maximum(x - high, 0.0)))
-        return 10.0 * outside - log_likelihood(rows, of(x), rate, ka)
+        return 10.0 * box.measure_excess(x) - log_likelihood(rows, of(x), rate, ka)
 
-    starts = [
-        np.log([share, gap * ka * sqrt(rate * (rate + 1.0 / time)) * part, time])
-        for time in np.geomspace(shortest, longest, 5)[1:-1]
-        for part in (1.0, 0.1)
-        for share in sorted(
-            {max(part, 10.0 * shares[0]) for part in (min(quiet.share, 50.0 * shares[0]), 0.7 * quiet.share)}
-        )
-    ]
+    starts = _list_starts(quiet.share, shares[0], scale)
     if guess is not None and guess.rms_voltage > 0.0:
-        scale = gap * ka * sqrt(rate * (rate + 1.0 / guess.correlation_time))
-        starts = [
-            np.log([max(guess.share, shares[0]), rms, guess.correlation_time]) for rms in (guess.rms_voltage, scale)
-        ]
-        starts += [np.log([max(guess.share, shares[0]), 0.2 * scale, 0.3 * guess.correlation_time])]
-    found = _minimise(cost, _choose_start(cost, starts, low, high), evaluations)
-    if (
-        guess is None
-    ):  # a share that was far off hides which of the grid's times is right: once more with the share found
+        starts = _list_starts_near(guess, shares[0], scale)
+    found = _minimise(cost, _choose_start(cost, starts, box), evaluations)
+    # A share that was far off hides which of the grid's times is right: once more with the share found.
+    if guess is None:
         others = [np.array([found.x[0], *start[1:]]) for start in starts]
-        begin = _choose_start(cost, others, low, high)
+        begin = _choose_start(cost, others, box)
         if cost(begin) < found.fun - LIKELIHOOD_TOLERANCE:
             found = min(found, _minimise(cost, begin, evaluations), key=lambda one: one.fun)
     return quiet if -least < found.fun + PRICE else of(found.x)
 
 
-def _choose_start(cost: Callable[[Floats], float], starts: Sequence[Floats], low: Floats, high: Floats) -> Floats:
+def _measure_scale(rows: Sequence[ErrorData], rate: float, ka: float) -> _Scale:
+    """Measure the scale of what is left where motors moved."""
+    duration = np.concatenate([row.duration[~row.still] for row in rows])
+    speeds = np.concatenate([(row.increments / row.duration)[~row.still] for row in rows])
+    gap = sqrt(float(duration @ speeds**2 / duration.sum())) + 1e-300
+    return _Scale(float(np.median(duration)), gap, rate, ka)
+
+
+def _list_starts(quiet: float, least: float, scale: _Scale) -> list[Floats]:
+    """List a grid of starts, logarithms of shape (3,); quiet: the share without any torque, least: the lowest."""
+    shares = sorted({max(share, 10.0 * least) for share in (min(quiet, 50.0 * least), 0.7 * quiet)})
+    return [
+        np.log([share, scale.strength(time) * part, time])
+        for time in np.geomspace(*scale.times, 5)[1:-1]
+        for part in (1.0, 0.1)
+        for share in shares
+    ]
+
+
+def _list_starts_near(guess: ErrorModel, least: float, scale: _Scale) -> list[Floats]:
+    """List starts near a guess, logarithms of shape (3,); least: the lowest share."""
+    share, time, whole = max(guess.share, least), guess.correlation_time, scale.strength(guess.correlation_time)
+    return [
+        np.log([share, guess.rms_voltage, time]),
+        np.log([share, whole, time]),
+        np.log([share, 0.2 * whole, 0.3 * time]),
+    ]
+
+
+def _choose_start(cost: Callable[[Floats], float], starts: Sequence[Floats], box: _Box) -> Floats:
     """Choose the start (3,) of the least cost, within bounds."""
-    inside = [np.clip(start, low, high) for start in starts]
+    inside = [box.clip(start) for start in starts]
     return inside[int(np.argmin([cost(start) for start in inside]))]
 
 
@@ -85,7 +140,7 @@ def _minimise(cost: Callable[[Floats], float], begin: Floats, evaluations: int) 
 
 
 def _bound_share(rows: Sequence[ErrorData]) -> tuple[float, float]:
-    """Between which shares a sensor's error is looked for."""
+    """Bound the share that a sensor's error is looked for in."""
     return SPEED_SHARES if all(row.window > 0.0 for row in rows) else SHARES
 
 

@@ -17,7 +17,7 @@ class ErrorModel:
     correlation_time: float  # [s] of it
 
     def speed_variance(self, duration: Floats, rate: float, ka: float) -> Floats:
-        """[rad²/s²] variance that the random torque leaves in mean speeds over durations [s], shape (I,).
+        """Compute the variance [rad²/s²] that the random torque leaves in mean speeds over durations [s], shape (I,).
 
         The speed's autocovariance is A e^(−βs) + B e^(−αs); over h, e^(−xs/h) averages to 2(x − 1 + e^(−x))/x².
         rate: α = kv/ka [1/s], ka [V·s²/rad].

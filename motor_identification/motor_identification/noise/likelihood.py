@@ -39,7 +39,7 @@ def make_noise(data: Intervals, share: float) -> AngleNoise:
 
 
 def log_likelihood(data: Intervals, increments: Floats, noise: Noise) -> float:
-    """Logarithmic likelihood of the increments [rad] (simulated minus measured) in one recording's intervals.
+    """Compute the log likelihood of the increments [rad] (simulated minus measured) in one recording's intervals.
 
     Without the constant of the Gaussian.
     """

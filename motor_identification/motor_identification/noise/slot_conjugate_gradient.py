@@ -109,5 +109,5 @@ class IterativeSolver:
         return np.where(self.seen, table, 0.0)
 
     def posterior(self, variance: float) -> float:
-        """[rad²] the sum of all seen entries' posterior variances; of so many each is as good as on its own."""
+        """Sum the posterior variances [rad²] of all seen entries; of so many each is as good as on its own."""
         return float(np.sum(1.0 / (self.diagonal[self.seen] + 1.0 / variance)))

@@ -45,14 +45,14 @@ class Modes:
         return out / (self.values + 1.0 / variance)
 
     def table(self, coordinates: Floats) -> Floats:
-        """Vx: (2N,) over modes → (2N,) over entries, 0 where never seen."""
+        """Compute Vx: (2N,) over modes → (2N,) over entries, 0 where never seen."""
         out = np.zeros(len(self.values))
         for block in self.blocks:
             out[block.entries] = block.vectors @ coordinates[block.places]
         return out
 
     def posterior(self, variance: float) -> float:
-        """[rad²] the sum of all seen entries' posterior variances."""
+        """Sum the posterior variances [rad²] of all seen entries."""
         return float(np.sum(self.spread / (self.values + 1.0 / variance)))
 
     @cached_property
@@ -86,7 +86,7 @@ def compute_eigenmodes(gram: Floats, seen: Bools, first_harmonic: bool) -> Modes
 
 
 def _groups(gram: Floats, seen: Bools) -> list[Integers]:
-    """Numbers of the seen entries, apart where nothing couples them: each direction has its own intervals."""
+    """List the numbers of the seen entries, apart where nothing couples them: each direction has its own intervals."""
     n, entries = len(gram) // 2, np.flatnonzero(seen)
     parts = [entries] if np.any(gram[:n, n:]) else [entries[entries < n], entries[entries >= n]]
     return [part for part in parts if len(part)]

@@ -36,7 +36,7 @@ class SlotIndex:
     size: int  # 2N
 
     def increments(self, table: Floats) -> Floats:
-        """What a table (2N,) adds to the increments [rad], shape (I,)."""
+        """Compute what a table (2N,) adds to the increments [rad], shape (I,)."""
         with_blank = np.append(table, 0.0)
         return np.asarray(with_blank[self.last] - with_blank[self.first])
 
@@ -129,7 +129,7 @@ class SlotTable:
         return sums[:-1]
 
     def left(self, white: Floats, table: Floats) -> Floats:
-        """What whitened residuals (I,) are without a table's part in them."""
+        """Take a table's part from whitened residuals (I,)."""
         left = np.array(white, dtype=np.float64)
         fill_explained(*self._filter, np.append(table, 0.0), left)
         return left
@@ -154,7 +154,7 @@ class Projection:
     variance: float
 
     def best(self, white: Floats) -> Floats:
-        """The most likely table [rad] for whitened residuals (I,), shape (2N,)."""
+        """Compute the most likely table [rad] for whitened residuals (I,), shape (2N,)."""
         solver = self.table.solver
         return solver.table(solver.coordinates(self.table.scores(white), self.variance))
 
