@@ -1,6 +1,7 @@
 """Models of made-up gaps and likelihoods: what rules of acceptance are tested on, on either side of each."""
 
-from dataclasses import dataclass, fields
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 from typing import cast
 
 import numpy as np
@@ -66,6 +67,22 @@ def stub_model(
 ) -> Model:
     """A model of this gap and logarithmic likelihood, without a disc."""
     return StubModel(cast(Estimate, estimate), stub_held(gap, lasting), Noise(0.0, 0.0), likelihood)
+
+
+def short_by(slots: Sequence[float], gap: float = 1.0, slot: float = 0.3) -> Model:
+    """A model on intervals of one slot [rad] each, some of which are short by so many slots and are not scored.
+
+    The motor turns by 0.625 rad in an interval.
+    """
+    model = stub_model(gap, 0.0)
+    (data,), count = model.held.intervals, len(model.held.counted)
+    missed = np.zeros(count)
+    missed[: len(slots)] = slots
+    edge = np.column_stack([np.arange(count), np.arange(1, count + 1)])
+    short = replace(data, slot=slot, edge=edge, speed=data.speed - missed * slot / data.duration)
+    marks = missed != 0.0
+    held = replace(model.held, intervals=(short,), scored=(~marks,), miscounted=int(marks.sum()))
+    return replace(model, held=held)
 
 
 def stub_test(effect: str, before: Model, gap: float, evidence: float, lasting: float | None = None) -> CandidateTest:

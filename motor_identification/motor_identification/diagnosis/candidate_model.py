@@ -146,7 +146,7 @@ class Model:
         return estimate_disturbance(list_error_data(self.estimate), self.errors, *self.lag)
 
     def scatter_of_travel(self) -> tuple[Floats, ...]:
-        """[rad] standard deviation that sensor and random torque leave in the travel of every held-out interval."""
+        """Compute the scatter [rad] that sensor and random torque leave in the travel of every held-out interval."""
         scatter = []
         for data in self.held.intervals:
             variance = data.floor_squared(self.errors.share * data.unit)
@@ -155,7 +155,7 @@ class Model:
         return tuple(scatter)
 
     def _random_variance(self, held: HeldOut) -> Floats:
-        """[rad²/s²] that the random torque leaves in each interval that counts."""
+        """Compute what the random torque leaves [rad²/s²] in each interval that counts."""
         duration = np.concatenate([data.duration for data in held.intervals])[held.counted]
         return self.errors.speed_variance(duration, *self.lag)
 

@@ -41,7 +41,7 @@ def remove_imitation(columns: Floats, trace: Floats, weight: Floats) -> Floats:
 
 
 def _expect_evidence(model: Model, left: Floats) -> float:
-    """The logarithm of the likelihood ratio that a trace [rad/s] would bring."""
+    """Compute the log likelihood ratio that a trace [rad/s] would bring."""
     problem = model.estimate.problem
     rows = zip(problem.intervals, problem.to_travel(left), strict=True)
     return sum(

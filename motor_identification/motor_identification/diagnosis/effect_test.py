@@ -123,7 +123,7 @@ def _is_once_a_turn(test: CandidateTest) -> bool:
 
 
 def _fitted(test: CandidateTest, parameter: str) -> float | None:
-    """Value that a test's model was fitted to have of a parameter; None where no line was found to fit."""
+    """Look up the value that a test's model was fitted to have of a parameter; None where no line was found to fit."""
     estimate = test.model.estimate
     names = estimate.problem.unknowns.names
     return float(estimate.theta[names.index(parameter)]) if parameter in names else None

@@ -77,6 +77,9 @@ VERIFICATIONS = 3
 CHANCE_HARMONIC = 5.0
 # Cycles a turn, beside one: a torque so near to it is what such slots do, where they are likelier. Measured: 3e-5.
 ONCE_A_TURN = 0.05
+# Standard errors that the size of what begins at an instant is beyond none at least, as the report says of any size.
+# Measured: beside a torque of 0.1 V a load step of 0.04 ± 0.13 V in a motor with backlash; right ones 5 and more.
+SURE_SIZE = 1.96
 
 # May it only stand in for what is not in the table?
 # Of the excess over the floor: what explains less, and leaves the gap above the floor, may. Measured: the right single
@@ -94,15 +97,13 @@ MINOR_SHARE = 0.3
 # 3 to 6 times as much, those that stand in for a friction that builds up after a reversal 0.7 to 1.0 times.
 CURVE_MARGIN = 1.5
 
+# Does it hold the motor?
 # Of squares of travel, in units of the sensor's own: what a model moves where the motor stood under a voltage. A motion
 # of ten slots, or one interval in which a speed that was measured as zero is off by ten standard deviations.
 LEAST_FALSE_MOTION = 100.0
 # Of those squares: what an effect takes away that holds the motor. The rest, half of the travel, is of a level that
 # everything else in the recording pulls at.
 HELD_SHARE = 0.75
-# Standard errors that the size of what begins at an instant is beyond none at least, as the report says of any size.
-# Measured: beside a torque of 0.1 V a load step of 0.04 ± 0.13 V in a motor with backlash; right ones 5 and more.
-SURE_SIZE = 1.96
 # Of the largest voltage in a recording: less need not move any motor.
 HOLDING_VOLTAGE = 0.01
 
@@ -127,6 +128,8 @@ SECOND_STARTS = 2
 SECOND_START_EVIDENCE = 0.75
 # Effects that are tried instead of a finding in backward elimination: the likely ones where it was found.
 ELIMINATION_RIVALS = 3
+
+# Is it a missed edge?
 # Miscounted intervals from which on edges are missing: one to four may be wrong stamps.
 LEAST_MISSED_EDGES = 5
 # Standard deviations of what sensor and random torque leave, beyond which an interval that is short by whole slots has
@@ -138,6 +141,8 @@ WHOLE_SLOT = (0.2, 0.4)
 # Of the edges that are missing: intervals that are far off otherwise. Missed edges leave next to none, a simulated
 # motion that goes astray now and then at least as many.
 MOST_ODD = 0.5
+
+# Is the rest random?
 # Times the noise floor of sensor and random torque together: a gap beyond is not what that torque leaves. Measured on
 # complete models beside 0.03 and 0.15 V: 0.92 to 1.12; a slewing bridge that an inductance stood in for: 0.29.
 RANDOM_GAP = (0.75, 1.33)

@@ -8,6 +8,7 @@ import numpy as np
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.detectability import find_undetectable
+from motor_identification.diagnosis.evidence.missed_edges import count_missed_edges
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Verdict
 from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.discrepancy.region_text import describe_error
@@ -107,36 +108,18 @@ def _locate(step: SelectionStep) -> str:
 
 
 def find_missed_edges(model: Model) -> Finding | None:
-    """Find missed edges: intervals that a complete model sees short by whole slots.
-
-    Where as many are long, or off by anything, it is the simulated motion that left the true one now and then.
-    """
-    held = model.held
-    short = total = 0.0
-    odd = 0
-    for data, increments, scatter in zip(held.intervals, held.increments, model.scatter_of_travel(), strict=True):
-        if data.slot == 0.0:
-            return None
-        counted = (data.slack == 0.0) & (data.edge[:, 0] >= 0)
-        surprising = np.abs(increments) > thresholds.MISSED_EDGE_SIGMA * scatter  # no random torque did it
-        size = np.abs(increments) / data.slot
-        slots = np.round(size) * np.sign(increments * data.speed)
-        near = np.abs(size - np.round(size)) < np.clip(2.0 * scatter / data.slot, *thresholds.WHOLE_SLOT)
-        short += float(np.sum(slots[counted & surprising & (slots > 0.0)]))
-        odd += int(np.count_nonzero(counted & surprising & ~(near & (slots > 0.0))))
-        total += float(np.sum(np.abs(data.edge[counted, 1] - data.edge[counted, 0])))
-    least = thresholds.LEAST_MISSED_EDGES
-    if short < least or held.miscounted < least or odd > thresholds.MOST_ODD * short or not model.complete:
+    """Find missed edges, which only a complete model tells: as many as no wrong stamps make."""
+    held, missed = model.held, count_missed_edges(model)
+    if missed is None or not missed.certain or held.miscounted < thresholds.LEAST_MISSED_EDGES or not model.complete:
         return None
-    rate = short / (total + short)
     everything = replace(held, scored=tuple(np.ones_like(part) for part in held.scored))
     return Finding(
         effect="missed_edges",
         gap_before=everything.gap,
         gap_after=held.gap,
-        evidence=short,
+        evidence=missed.short,
         where=f"{held.miscounted} intervals are short by whole slots, whatever the motor does",
-        parameters={"miss_rate": (rate, float(np.sqrt(short)) / (total + short))},
+        parameters={"miss_rate": (missed.rate, missed.rate_error)},
         alternatives=(),
         ambiguous_with=(),
         suggested_experiment="",

@@ -84,7 +84,12 @@ def find_structure(
             )
             judged = min(judged, again, key=lambda one: one.significance)
         found.append(judged)
-    return tuple(sorted(found, key=lambda one: -one.share if one.certain else 1.0 - one.significance * 1e-9))
+    return tuple(sorted(found, key=_rank))
+
+
+def _rank(one: Structure) -> tuple[bool, float]:
+    """Rank what is certain first, by its share; then the others by their significance."""
+    return not one.certain, -one.share if one.certain else -one.significance
 
 
 def _to_judge(rest: Rest) -> Rest:
