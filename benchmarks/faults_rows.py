@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import nan
+from math import nan, tau
 
 from faults_line import CableOff, Hum, LooseContact, NowAndThen, Stuck, not_a_number, swapped
 from faults_loop import Loop
@@ -24,6 +24,7 @@ class Fault:
     raw: float = 0.0  # of the motor's voltage
     supply: float = 0.0  # of the motor's voltage, measured; 0: not measured, and all of it
     at_start: bool = False  # it is there before the reference comes
+    edges: int = 96  # a turn
 
     @property
     def controlled(self) -> bool:
@@ -40,10 +41,15 @@ def cable_off(stray: float = 0.0) -> Callable[[Loop], None]:
     return apply
 
 
-def hum(loop: Loop) -> None:
-    """The encoder's cable is off at its far end, and picks up edges at three quarters of the rate that is wanted."""
-    slot, wanted = Hum(1.0).slot, loop.state.demand
-    loop.line = Hum(0.75 * wanted.value / slot if wanted is not None else 0.0)
+def hum(share: float = 0.75) -> Callable[[Loop], None]:
+    """The encoder's cable is off at its far end, and picks up edges at a share of the rate that is wanted."""
+
+    def apply(loop: Loop) -> None:
+        slot, wanted = tau / loop.edges, loop.state.demand
+        if wanted is not None:  # a motor that is too slow for its disc is refused, or has been stopped
+            loop.line = Hum(share * wanted.value / slot, slot)
+
+    return apply
 
 
 def loosen(loop: Loop) -> None:
@@ -133,7 +139,14 @@ FAULTS = (
     Fault("no encoder from the start, supply measured as 0.4 of it", MOTION, cable_off(), supply=0.4, at_start=True),
     Fault("50 stray edges a second, speed and angle in turn", MOTION, ask_in_turn, two_channels=True),
     Fault("edges for 20 of every 100 ms: a loose contact", MOTION, loosen),
-    Fault("hum at 5 % of the top speed, of 0.75 of the edges that are wanted", MOTION, hum, reference=0.05),
+    Fault("hum at 5 % of the top speed, of 0.75 of the edges that are wanted", MOTION, hum(), reference=0.05),
+    *(
+        Fault(
+            f"hum, of {share:g} of the edges that are wanted, {edges} a turn", MOTION, hum(share), edges=edges, **more
+        )
+        for edges, more in ((8, {"reference": 0.35}), (20, {"reference": 0.35}), (8, {}))
+        for share in (0.55, 0.75, 0.9)
+    ),
     Fault("the driver repeats one sample, at 3 % of the top speed", MOTION, repeat, reference=0.03),
     Fault("shaft blocked", MOTION, block),
     Fault("two channels exchanged", MOTION, swap, two_channels=True),

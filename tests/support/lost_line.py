@@ -15,12 +15,13 @@ from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
 @dataclass
 class LostLine:
-    """Reports the board's samples until the line is lost, then edges at random times."""
+    """Reports the board's samples until the line is lost, then edges at random times, or regular ones."""
 
     strays: float  # [edges/s]
     slot: float  # [rad]
     reference: float  # [rad/s] whose sign the report has
     seed: int = 0
+    regular: bool = False  # the mains' hum in place of random edges
 
     def __post_init__(self) -> None:
         self._random, self._next, self._last = np.random.default_rng(self.seed), 0.0, Sample(0, 0.0, 0.0)
@@ -35,7 +36,7 @@ class LostLine:
             stamp = int(self._next * 1e9)
             if stamp > edge:
                 count, edge, period = count + 1, stamp, (stamp - edge) * 1e-9
-            self._next += float(self._random.exponential(1.0 / self.strays))
+            self._next += 1.0 / self.strays if self.regular else float(self._random.exponential(1.0 / self.strays))
         age = (sample.sample_time - edge) * 1e-9
         speed = copysign(self.slot / max(period, age), self.reference) if age < 0.1 and period > 0.0 else 0.0
         self._last = replace(sample, speed=speed, edge_count=count, edge_time=edge, edge_period=period)
@@ -63,9 +64,10 @@ def lose_line(
     lost: float = 0.8,
     duration: float = 3.0,
     single_channel: bool = True,
+    hum: bool = False,
     **changes: object,
 ) -> Loss:
-    """From rest to a reference [rad/s]; the line is lost after `lost` [s]."""
+    """From rest to a reference [rad/s]; after `lost` [s] the line is: strays a second are left, at random or as hum."""
     board = BoardConfig(
         sample_rate=rate, slot_irregularity=0.01, edges_per_revolution=edges, single_channel=single_channel
     )
@@ -74,7 +76,8 @@ def lose_line(
         config = settings(model or plant, info, **changes)  # type: ignore[arg-type]
     else:
         config = config_of({**DEFAULTS, **changes}, info, model)  # type: ignore[dict-item]
-    line, state, voltage, fastest = LostLine(strays, tau / edges, reference), controller.State(), 0.0, 0.0
+    line = LostLine(strays, tau / edges, reference, regular=hum)
+    state, voltage, fastest = controller.State(), 0.0, 0.0
     for k in range(round(duration * rate)):
         time = k / rate
         sample = line.report(simulated.sample(voltage), time >= lost)

@@ -17,6 +17,16 @@ def test_a_line_lost_at_100_rad_per_s(source: str, known: bool, strays: float, r
     assert loss.reason.startswith("Edges do not fit") and "motor/reset" in loss.reason
 
 
+@pytest.mark.parametrize("known", [False, True])
+@pytest.mark.parametrize(("edges", "hum", "reference"), [(8, 50.0, 60.0), (8, 50.0, 75.0), (16, 100.0, 60.0)])
+def test_hum_on_a_coarse_disc_stops_the_motor(edges: int, hum: float, reference: float, known: bool) -> None:
+    """It was the top speed for ever: all the voltage was there before the speed's average had settled."""
+    model = motor() if known else None
+    loss = lose_line(motor(), reference, hum, edges=edges, model=model, lost=1.0, hum=True, duration=6.0)
+    assert loss.stopped is not None and 0.2 < loss.stopped < 4.0 and loss.fastest > 100.0
+    assert lose_line(motor(), reference, hum, edges=edges, model=model, lost=9.0, duration=5.0).stopped is None
+
+
 @pytest.mark.parametrize(("source", "known"), [("measured", False), ("measured", True), ("observer", True)])
 def test_a_line_lost_at_3_rad_per_s_does_not_take_the_motor_to_full_speed(source: str, known: bool) -> None:
     """It was 168 rad/s for 1.3 to 1.9 s."""

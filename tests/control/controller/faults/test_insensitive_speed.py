@@ -1,5 +1,6 @@
 """A speed that no voltage changes."""
 
+from dataclasses import replace
 from math import inf
 
 import pytest
@@ -11,13 +12,16 @@ from motor_control.controller.motion import Motion
 from motor_model.sample import Sample
 
 ENCODER = Config(slot=SLOT)
+UNKNOWN = Motion()
+LEARNT = Motion(steady_speed=60.0, steady_voltage=4.5, most=60.0)
 
 
-def told(rows: list[tuple[float, float]], config: Config = ENCODER) -> tuple[float, str]:
+def told(rows: list[tuple[float, float]], config: Config = ENCODER, known: Motion = UNKNOWN) -> tuple[float, str]:
     """When [s] speeds [rad/s] under mean voltages [V], a sample each, are a fault, and what is said."""
     state = insensitive_speed.State()
     for k, (speed, voltage) in enumerate(rows):
-        look = Seen(Sample(k * 5_000_000, speed, voltage), speed, Motion(slow_voltage=voltage), 9.0, 0.005, LIMIT)
+        motion = replace(known, slow_voltage=voltage)
+        look = Seen(Sample(k * 5_000_000, speed, voltage), speed, motion, 9.0, 0.005, LIMIT)
         reason, state = insensitive_speed.check(config, state, look)
         if reason:
             return k * 0.005, reason
@@ -47,14 +51,43 @@ def test_a_motor_that_answers_is_none() -> None:
     assert told([(0.0, volts) for volts in RISE]) == (inf, "")  # a standstill is the matter of others
 
 
-def test_a_flywheel_of_five_seconds_under_full_voltage_is_none() -> None:
-    """It had coasted from 100 rad/s of 174."""
-    speed, rows = 100.0, []
-    for k in range(2000):
-        voltage = 0.0 if k < 100 else 12.0
-        speed += 0.005 / 5.0 * (voltage / LIMIT * 174.0 - speed)
-        rows.append((speed, voltage))
-    assert told(rows) == (inf, "")
+def lost_at(hum: float) -> list[tuple[float, float]]:
+    """A line that is lost under 60 rad/s: the loop is at all the voltage before any average has settled."""
+    rows, mean = [], 4.5
+    for k in range(1200):
+        mean += 0.033 * ((4.5 if k < 200 else 12.0) - mean)
+        rows.append((60.0 if k < 200 else hum, mean))
+    return rows
+
+
+def test_hum_after_a_motion_is_told_by_what_that_motion_needed() -> None:
+    """The average of the speed has not settled before the voltage has grown by more than half of the rest."""
+    when, reason = told(lost_at(39.0), known=LEARNT)
+    assert 1.2 < when < 3.0 and " no faster than 2.9" in reason
+    assert told(lost_at(39.0), Config(slot=SLOT, kv=0.069, time_constant=0.06), LEARNT)[0] < 3.5
+    assert told(lost_at(39.0))[0] == inf  # nothing was learnt: all voltages that it has been seen under are near 12 V
+
+
+@pytest.mark.parametrize(("needed", "stops"), [(4.0, True), (4.4, False)])
+def test_the_bound_is_a_heavy_load_beyond_what_a_motion_needed(needed: float, stops: bool) -> None:
+    known = Motion(steady_speed=39.0, steady_voltage=needed, most=150.0)
+    assert (told([(39.0, 12.0)] * 2000, known=known)[0] < inf) == stops
+
+
+@pytest.mark.parametrize("time_constant", [1.0, 3.0, 5.0])
+@pytest.mark.parametrize("share", [0.6, 0.9, 0.95, 0.98])
+@pytest.mark.parametrize("known", [UNKNOWN, None])
+def test_a_flywheel_under_full_voltage_is_none(time_constant: float, share: float, known: Motion | None) -> None:
+    """It has run at a share of its top speed, coasted for a moment, and gets all there is: it hardly answers."""
+    motion = known or Motion(steady_speed=174.0 * share, steady_voltage=12.0 * share, most=174.0 * share)
+    for coasts in (0.1, 0.15, 0.2, 0.3, 0.5, 1.0):
+        speed, mean, rows = 174.0 * share, 12.0 * share, []
+        for k in range(3000):
+            voltage = 12.0 * share if k < 200 else 0.0 if k < 200 + 200 * coasts else 12.0
+            speed += 0.005 / time_constant * (voltage / LIMIT * 174.0 - speed)
+            mean += 0.033 * (voltage - mean)
+            rows.append((speed, mean))
+        assert told(rows, known=motion) == (inf, "")
 
 
 def test_without_a_stall_time_nothing_is_a_fault() -> None:
