@@ -61,6 +61,10 @@ class StubModel(Model):
     def lag(self) -> tuple[float, float]:
         return PAPER_KV / PAPER_KA, PAPER_KA
 
+    @property
+    def effects(self) -> tuple[str, ...]:
+        return () if self.estimate is None else self.estimate.problem.unknowns.effects
+
 
 def stub_model(
     gap: float, lasting: float | None = None, likelihood: float = 0.0, estimate: Estimate | None = None

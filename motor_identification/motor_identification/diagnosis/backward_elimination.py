@@ -52,7 +52,8 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     if EFFECT_BY_NAME[effect].after_reversals and stands_in_for_curve(without, current):
         return selection.replace_step(step, None, without)
     judged_alike = step.found.model.beside_torque == current.beside_torque
-    if step is selection.steps[-1] and judged_alike:  # what could be in its place was tried beside it
+    lost = [name for name in step.before.effects if name not in current.effects]
+    if step is selection.steps[-1] and judged_alike and not lost:  # what could be in its place was tried beside it
         return selection
     others = list_replacements(step, without.effects, current.effects)
     if not others:
@@ -144,13 +145,14 @@ def _catch_up(current: Model, tests: Sequence[CandidateTest], hold_out: HoldOut)
 def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequence[str]) -> list[str]:
     """List the effects to try instead of a step's: likely where it was found, and not in the current model already.
 
-    First those that did as well there, then what explained more of what was found since. without: effects of the model
-    that lacks the step's own.
+    First those that did as well there, then what was beside it and is not any more, then what explained more of what
+    was found since. without: effects of the model that lacks the step's own.
     """
     likely = [test.effect for test in step.tests if test is not step.found and test.evidence > likelihood_threshold()]
     free = {name for name in list_candidates(without) if name not in current}
-    names = [name for name in dict.fromkeys((*step.rivals, *likely)) if name in free]
-    return names[: max(thresholds.ELIMINATION_RIVALS, len(free.intersection(step.rivals)))]
+    lost = [name for name in step.before.effects if name not in current]
+    names = [name for name in dict.fromkeys((*step.rivals, *lost, *likely)) if name in free]
+    return names[: max(thresholds.ELIMINATION_RIVALS, len(free.intersection((*step.rivals, *lost))))]
 
 
 def choose_better(tests: Sequence[CandidateTest], effect: str, current: Model) -> CandidateTest | None:

@@ -103,6 +103,16 @@ def test_replacements_were_likely_where_it_was_found_and_are_not_there_already()
     assert list_replacements(many, (), ()) == list(names)
     weak = SelectionStep(before, found, (found, stub_test("dead_zone", before, 5.0, BELOW * least)), (), 0.99)
     assert list_replacements(weak, (), ()) == []
+    estimate, hold_out = fitted(ks=0.4)
+    friction = fit_with_effect(estimate, "coulomb_friction")
+    assert friction is not None
+    beside = replace(step, before=validate_model(hold_out, friction), rivals=("load_bias",))
+    assert list_replacements(beside, (), ()) == [
+        "load_bias",
+        "coulomb_friction",
+        "dead_zone",
+    ]  # and what was lost since
+    assert list_replacements(beside, (), ("coulomb_friction",)) == ["load_bias", "dead_zone", "quadratic_drag"]
 
 
 def test_what_is_not_needed_beside_the_others_is_taken_back() -> None:
