@@ -13,7 +13,7 @@ import serial
 from serial.tools import list_ports
 
 from motor_driver.link_events import Closed, Event, Opened, Received
-from motor_driver.ports.port_error import FAILED, PortError, cannot_open
+from motor_driver.ports.port_error import FAILED, NODE, PortError, Wording, cannot_open
 from motor_driver.ports.search import Search
 
 LOOK_AGAIN = 0.1  # [s] for a port that is not there
@@ -28,7 +28,7 @@ def ports() -> str:
     return f"the ports here are {', '.join(found)}" if found else "there is no serial port here at all"
 
 
-def candidates(port: str, search: bool = False) -> list[str]:
+def candidates(port: str, search: bool = False, wording: Wording = NODE) -> list[str]:
     """The ports that may be opened: the one, or those of the pattern, that was asked for, or else those on USB.
 
     Raises:
@@ -39,15 +39,15 @@ def candidates(port: str, search: bool = False) -> list[str]:
     found = sorted(glob.glob(port) or (str(one.device) for one in list_ports.comports() if not port and one.vid))
     if not found:
         which = f"There is no port '{port}'" if port else "No board is plugged in"
-        raise PortError(f"{which} ({ports()}): plug it in, or set the parameter port; retrying.")
+        raise PortError(f"{which} ({ports()}): plug it in, or {wording.port}{wording.end}.")
     if len(found) > 1 and not search:
         raise PortError(
-            f"There are several boards here: set the parameter port to one of {', '.join(found)}, or board_id."
+            f"There are several boards here: {wording.port} to one of {', '.join(found)}, or {wording.board_id}."
         )
     return found
 
 
-def open_port(port: str, baud: int) -> serial.Serial:
+def open_port(port: str, baud: int, wording: Wording = NODE) -> serial.Serial:
     """Open a port for ourselves alone.
 
     Raises:
@@ -56,7 +56,7 @@ def open_port(port: str, baud: int) -> serial.Serial:
     try:
         opened = serial.Serial(port, baud, exclusive=True)
     except (OSError, ValueError) as error:  # SerialException is an OSError
-        raise PortError(cannot_open(port, baud, getattr(error, "errno", None), ports())) from error
+        raise PortError(cannot_open(port, baud, getattr(error, "errno", None), ports(), wording)) from error
     with suppress(OSError, ValueError):  # an FTDI adapter then passes bytes on after 1 ms instead of 16; others cannot
         opened.set_low_latency_mode(True)
     return opened

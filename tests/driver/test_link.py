@@ -18,6 +18,7 @@ from motor_board.port import Port
 from motor_driver import link
 from motor_driver.link import Link, PortError, candidates, open_port
 from motor_driver.link_events import Closed, Event, Opened, Received
+from motor_driver.ports.port_error import COMMAND
 
 
 class Listener:
@@ -147,6 +148,9 @@ def test_without_a_name_the_only_port_on_usb_is_taken(
     monkeypatch.setattr(link.list_ports, "comports", lambda: found)
     with pytest.raises(PortError, match=words):
         candidates("")
+    with pytest.raises(PortError) as error:
+        candidates("", wording=COMMAND)
+    assert "--port" in str(error.value) and "parameter" not in str(error.value) and "retrying" not in str(error.value)
     found.append(SimpleNamespace(device="/dev/ttyACM7", vid=1, description="Uno"))
     if len(devices) < 2:
         assert candidates("") == ["/dev/ttyACM7"]

@@ -15,6 +15,7 @@ from motor_driver.check.look import Prompt
 from motor_driver.check.settings import Settings, config_of
 from motor_driver.frames import Decay, Pwm
 from motor_driver.link import open_port
+from motor_driver.ports.port_error import COMMAND
 from motor_ros.run import Interrupt
 
 LOOK_EVERY = 0.004  # [s]
@@ -57,7 +58,7 @@ class _Terminal:
     ) -> None:
         decay = Decay[options.decay.upper()]
         self._interrupt, self._settings, self._name = interrupt, settings, port
-        self._port = open_port(port, options.baud)
+        self._port = open_port(port, options.baud, COMMAND)
         config = config_of(settings, options.baud, decay, Pwm.SILENT if options.silent_pwm else Pwm.STANDARD)
         self._run = FirstRun(settings, config, port, time.monotonic_ns(), roll_call)
         self._shown, self._ended, self._hung_up = 0, False, False

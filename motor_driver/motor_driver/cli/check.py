@@ -12,7 +12,7 @@ from motor_driver.check.settings import Settings
 from motor_driver.cli._check_options import parser, settings_of
 from motor_driver.cli._check_terminal import run_on
 from motor_driver.link import candidates
-from motor_driver.ports.port_error import PortError
+from motor_driver.ports.port_error import COMMAND, PortError
 from motor_driver.ports.search import the_only
 from motor_model.errors import MotorError
 from motor_model.regular_file import write_text
@@ -40,12 +40,12 @@ def _run(options: argparse.Namespace, settings: Settings) -> tuple[FirstRun, str
         MotorError: there is none, or nobody knows which.
     """
     try:
-        found = candidates(options.port, search=settings.board_id is not None)
+        found = candidates(options.port, settings.board_id is not None, COMMAND)
         matches = found if len(found) == 1 else [port for port in found if _matches(options, settings, port)]
-        port = the_only(matches, found)
+        port = the_only(matches, found, COMMAND)
         return run_on(options, settings, port), port
-    except PortError as error:  # nobody tries again here
-        raise MotorError(str(error).replace("; retrying", "")) from error
+    except PortError as error:
+        raise MotorError(str(error)) from error
 
 
 def _matches(options: argparse.Namespace, settings: Settings, port: str) -> bool:

@@ -2,27 +2,27 @@
 
 from dataclasses import dataclass, field
 
-from motor_driver.ports.port_error import PortError
+from motor_driver.ports.port_error import NODE, PortError, Wording
 
 BUSY_ROUNDS = 20  # times that ports in use are tried again (4 s): another driver that is asking has done so by then
 
-MISSING = "None of {} has the board with that board_id: plug it in, or see which number it was flashed with; retrying."
+MISSING = "None of {} has the board with that board_id: plug it in, or see which number it was flashed with{}."
 DOUBLED = (
     "Several boards have that board_id ({}): nobody knows which one is meant. Flash one of them with another number "
-    "(ros2 run motor_board flash --board-id); retrying."
+    "(ros2 run motor_board flash --board-id){}."
 )
 
 
-def the_only(matches: list[str], found: list[str]) -> str:
+def the_only(matches: list[str], found: list[str], wording: Wording = NODE) -> str:
     """The port of the board that has the number, of those that were found.
 
     Raises:
         PortError: none has it, or several have.
     """
     if not matches:
-        raise PortError(MISSING.format(", ".join(found)))
+        raise PortError(MISSING.format(", ".join(found), wording.end))
     if len(matches) > 1:
-        raise PortError(DOUBLED.format(", ".join(matches)))
+        raise PortError(DOUBLED.format(", ".join(matches), wording.end))
     return matches[0]
 
 
