@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from diagnosed import fitted
 from stub_models import stub_model, stub_test, with_effects
+from stub_selections import stub_selection
 
 from motor_identification.diagnosis import backward_elimination, thresholds
 from motor_identification.diagnosis.backward_elimination import (
@@ -30,17 +31,6 @@ from motor_identification.validation.hold_out import HoldOut
 
 BELOW, ABOVE = 0.999, 1.001
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
-
-
-def selection_of(gap: float, *steps: SelectionStep) -> Selection:
-    _, hold_out = fitted()
-    return Selection(steps, stub_model(gap, 0.0), hold_out, 1)
-
-
-def step_of(effect: str, explains: float) -> SelectionStep:
-    before = stub_model(9.0)
-    found = stub_test(effect, before, 5.0, 100.0)
-    return SelectionStep(before, found, (found,), (), explains)
 
 
 @pytest.mark.parametrize(("likelihood", "better"), [(90.0, False), (110.0, True)])
@@ -185,7 +175,7 @@ def test_what_does_as_well_beside_the_torque_that_is_left_is_a_rival(
         stub_test("dead_zone", before, 5.0, 900.0),
         stub_test("coulomb_friction", before, 5.0, 600.0),
     )
-    selection = selection_of(2.0, SelectionStep(before, found, (found, other), (), 0.99))
+    selection = stub_selection(2.0, SelectionStep(before, found, (found, other), (), 0.99))
     begun = replace(selection, model=with_effects(stub_model(2.0, likelihood=loss), "dead_zone"))
     without = with_effects(stub_model(4.0, likelihood=-evidence))
     monkeypatch.setattr(backward_elimination, "begin_beside_torque", lambda *_: begun)
@@ -236,4 +226,4 @@ def test_what_is_replaced_is_a_rival_if_it_is_as_likely_from_where_the_other_lea
         backward_elimination, "try_effects", lambda model, _, names, *__: [CandidateTest(*names, model, again)]
     )
     test = CandidateTest(instead, bare, better)
-    assert backward_elimination._is_as_likely_from_there(effect, test, selection_of(2.0)) is alike
+    assert backward_elimination._is_as_likely_from_there(effect, test, stub_selection(2.0)) is alike

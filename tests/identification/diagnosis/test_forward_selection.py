@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from diagnosed import fitted
 from stub_models import stub_model, stub_test
+from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import forward_selection, thresholds
 from motor_identification.diagnosis.candidate_model import Model
@@ -26,15 +27,6 @@ from motor_identification.progress import ProgressReporter, Stage
 
 BELOW, ABOVE = 0.999, 1.001
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
-
-
-def step_of(found: CandidateTest, *others: CandidateTest, explains: float = 0.5) -> SelectionStep:
-    return SelectionStep(found.before, found, (found, *others), (), explains)
-
-
-def selection_of(model: Model, *steps: SelectionStep) -> Selection:
-    _, hold_out = fitted()
-    return Selection(steps, model, hold_out, 1)
 
 
 def test_partners_are_likely_and_not_periodic_and_few() -> None:

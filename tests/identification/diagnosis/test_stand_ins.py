@@ -6,12 +6,11 @@ from types import SimpleNamespace
 from typing import cast
 
 import pytest
-from diagnosed import fitted
-from stub_models import stub_model, stub_test, with_effects
+from stub_models import stub_model, with_effects
+from stub_selections import stub_selection, stub_step
 
 from motor_identification.diagnosis import stand_ins, thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.diagnosis.stand_ins import (
     drop_stand_ins,
     drop_stand_ins_of_either,
@@ -24,28 +23,17 @@ from motor_identification.discrepancy.structure import Structure
 BELOW, ABOVE = 0.999, 1.001
 
 
-def selection_of(gap: float, *steps: SelectionStep) -> Selection:
-    _, hold_out = fitted()
-    return Selection(steps, stub_model(gap, 0.0), hold_out, 1)
-
-
-def step_of(effect: str, explains: float) -> SelectionStep:
-    before = stub_model(9.0)
-    found = stub_test(effect, before, 5.0, 100.0)
-    return SelectionStep(before, found, (found,), (), explains)
-
-
 @pytest.mark.parametrize(("times", "kept"), [(BELOW, 0), (ABOVE, 2)])
 def test_a_stand_in_goes_and_all_that_was_found_after_it(times: float, kept: int) -> None:
-    steps = step_of("quadratic_drag", times * thresholds.STAND_IN_SHARE), step_of("load_bias", 0.99)
-    left = drop_stand_ins(selection_of(5.0, *steps))
+    steps = stub_step("quadratic_drag", times * thresholds.STAND_IN_SHARE), stub_step("load_bias", 0.99)
+    left = drop_stand_ins(stub_selection(5.0, *steps))
     assert left.steps == steps[:kept]
     assert (left.model is steps[0].before) == (kept == 0)
 
 
 @pytest.mark.parametrize(("times", "kept"), [(BELOW, 1), (ABOVE, 0)])
 def test_at_the_floor_nothing_stands_in(times: float, kept: int) -> None:
-    selection = selection_of(times * thresholds.EXPLAINED_GAP, step_of("load_bias", 0.5))
+    selection = stub_selection(times * thresholds.EXPLAINED_GAP, stub_step("load_bias", 0.5))
     assert len(drop_stand_ins(selection).steps) == kept
 
 
@@ -55,8 +43,8 @@ def test_what_holds_the_motor_is_its_own_evidence_where_it_explains_standstills(
 ) -> None:
     asked: list[tuple[Model, Model]] = []
     monkeypatch.setattr(stand_ins, "explains_standstills", lambda *models: bool(asked.append(models)) or held)
-    steps = step_of("coulomb_friction", 0.7), step_of("quadratic_drag", 0.3)
-    left = drop_stand_ins(selection_of(5.0, *steps))
+    steps = stub_step("coulomb_friction", 0.7), stub_step("quadratic_drag", 0.3)
+    left = drop_stand_ins(stub_selection(5.0, *steps))
     assert left.steps == steps[: int(held)] and left.model is (steps[1].before if held else steps[0].before)
     assert asked == [(steps[0].before, steps[1].before)]
 
@@ -75,7 +63,7 @@ def test_what_holds_the_motor_is_its_own_evidence_where_it_explains_standstills(
 def test_what_only_angle_or_time_predict_is_nothing_that_a_finding_stands_in_for(
     effect: str, explains: float, left: tuple[str, ...], kept: int
 ) -> None:
-    selection = selection_of(5.0, step_of(effect, explains))
+    selection = stub_selection(5.0, stub_step(effect, explains))
     rest = tuple(Structure(name, 0.5, 100.0) for name in left)
     model = cast(Model, SimpleNamespace(complete=False, structure=rest))
     assert len(drop_stand_ins(replace(selection, model=model)).steps) == kept
@@ -96,10 +84,10 @@ def test_friction_stands_in_for_nothing_that_goes_with_the_past(
     monkeypatch.setattr(stand_ins, "explains_standstills", lambda *models: False)
     rest = (Structure("past", 0.8, 100.0), Structure("drive", 0.8 * drive, 100.0))
     model = cast(Model, SimpleNamespace(complete=False, structure=rest))
-    assert len(drop_stand_ins(replace(selection_of(5.0, step_of(effect, explains)), model=model)).steps) == kept
+    assert len(drop_stand_ins(replace(stub_selection(5.0, stub_step(effect, explains)), model=model)).steps) == kept
     left = replace(rest[0], significance=0.0)  # no curve over the past is certain
     model = cast(Model, SimpleNamespace(complete=False, structure=(left, rest[1])))
-    assert not drop_stand_ins(replace(selection_of(5.0, step_of(effect, explains)), model=model)).steps
+    assert not drop_stand_ins(replace(stub_selection(5.0, stub_step(effect, explains)), model=model)).steps
 
 
 @pytest.mark.parametrize(
@@ -150,8 +138,8 @@ def test_findings_are_kept_that_nothing_does_without_beside_the_others(
     without = {("coulomb_friction", 2): friction, ("coast_drive", 2): coasting, (rest.effects[0], 1): plain}
     monkeypatch.setattr(stand_ins, "refit_without", lambda model, effect, _: without[effect, len(model.effects)])
     monkeypatch.setattr(stand_ins, "explains_standstills", lambda *models: False)
-    steps = step_of("coast_drive", 0.5), step_of("coulomb_friction", 0.5)
-    selection = replace(selection_of(2.0, *steps), model=both)
+    steps = stub_step("coast_drive", 0.5), stub_step("coulomb_friction", 0.5)
+    selection = replace(stub_selection(2.0, *steps), model=both)
     left = drop_unneeded(selection)
     assert len(left.steps) == kept and not drop_stand_ins(selection).steps
     assert left.model is (plain, rest, both)[kept]
@@ -167,32 +155,32 @@ def test_what_holds_the_motor_stays_beside_others_whatever_it_explains(
     without = {("coulomb_friction", 2): coasting, ("coast_drive", 2): friction, ("coast_drive", 1): plain}
     monkeypatch.setattr(stand_ins, "refit_without", lambda model, effect, _: without[effect, len(model.effects)])
     monkeypatch.setattr(stand_ins, "explains_standstills", lambda before, after: held and before is coasting)
-    steps = step_of("coast_drive", 0.5), step_of("coulomb_friction", 0.5)
-    left = drop_unneeded(replace(selection_of(2.0, *steps), model=both))
+    steps = stub_step("coast_drive", 0.5), stub_step("coulomb_friction", 0.5)
+    left = drop_unneeded(replace(stub_selection(2.0, *steps), model=both))
     assert left.steps == (steps if held else ())
 
 
 def test_at_the_floor_nothing_is_unneeded() -> None:
-    selection = replace(selection_of(1.0, step_of("load_bias", 0.5)), model=stub_with(BELOW * 1.3, "load_bias"))
+    selection = replace(stub_selection(1.0, stub_step("load_bias", 0.5)), model=stub_with(BELOW * 1.3, "load_bias"))
     assert drop_unneeded(selection) is selection
 
 
 def test_of_two_selections_the_one_that_keeps_more(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stand_ins, "drop_unneeded", drop_stand_ins)
-    poor, rich = selection_of(4.0, step_of("load_bias", 0.9)), selection_of(5.0, step_of("load_bias", 0.99))
+    poor, rich = stub_selection(4.0, stub_step("load_bias", 0.9)), stub_selection(5.0, stub_step("load_bias", 0.99))
     assert drop_stand_ins_of_either(rich, poor).steps == rich.steps == drop_stand_ins_of_either(poor, rich).steps
-    done = selection_of(1.0)
+    done = stub_selection(1.0)
     assert drop_stand_ins_of_either(rich, done) is done
 
 
 def test_findings_that_another_selection_confirms_are_kept() -> None:
-    steps = step_of("coulomb_friction", 0.7), step_of("quadratic_drag", 0.3), step_of("load_bias", 0.3)
-    selection = selection_of(5.0, *steps)
+    steps = stub_step("coulomb_friction", 0.7), stub_step("quadratic_drag", 0.3), stub_step("load_bias", 0.3)
+    selection = stub_selection(5.0, *steps)
     kept = keep_confirmed(selection, ("coulomb_friction", "load_bias", "backlash"))
     assert kept.steps == steps[:1] and kept.model is steps[1].before
     assert keep_confirmed(selection, ("coulomb_friction", "quadratic_drag", "load_bias")) is selection
 
 
 def test_a_line_in_the_spectrum_is_its_own_evidence() -> None:
-    steps = step_of("torque_ripple", 0.1), step_of("load_bias", 0.99)
-    assert drop_stand_ins(selection_of(5.0, *steps)).steps == steps
+    steps = stub_step("torque_ripple", 0.1), stub_step("load_bias", 0.99)
+    assert drop_stand_ins(stub_selection(5.0, *steps)).steps == steps
