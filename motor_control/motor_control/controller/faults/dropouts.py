@@ -7,6 +7,9 @@ A motor that has nearly stopped has to be spun up again. From rest it reaches sq
 within a time t, under an acceleration a that is twice the one of full voltage at rest (voltage and back-EMF, or a load,
 may help one another). If right after a gap it is faster than that by half, and as fast as before, it was never slow,
 and the edges have been lost. Of slow motors and coarse discs that cannot be told.
+
+Nor is a light motor that is switched off and on again a loose contact: it may have a tenth of the time constant that is
+assumed where no model says it. A loop that misses edges drives; so a gap counts where the motor was driven through it.
 """
 
 from dataclasses import dataclass, replace
@@ -18,6 +21,7 @@ GAP = 5.0  # periods without an edge: the speed would be down to a fifth
 AFTER = 3.0  # slots in which the motor is as fast as before: two edges make a period, and one is on the way
 AS_FAST = 0.8  # of the speed before
 HELP, MARGIN = 2.0, 1.5
+DRIVEN = 0.25  # of the largest voltage in a gap, that the mean one has at least; a loop's may rise from 0
 FORGET = 1.0  # [s] time constant
 MOST = 2.4  # of them that are not forgotten: three in half a second, or one every half second for long
 SENTENCE = (
@@ -32,6 +36,8 @@ class State:
 
     speed: float = 0.0  # [rad/s] by the latest period; 0: not known
     silent: float = 0.0  # [s] since the latest edge
+    peak: float = 0.0  # [V] largest magnitude since then
+    push: float = 0.0  # [V·s] of the magnitude since then
     gap: float = 0.0  # [s] the latest one, until it is known what comes after
     before: float = 0.0  # [rad/s] before it
     edges: int = 0  # since it has ended
@@ -44,13 +50,18 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     if config.slot == 0.0 or config.stall_time == 0.0:
         return "", state
     state = replace(state, gaps=state.gaps * exp(-seen.dt / FORGET))
+    volts = abs(seen.sample.voltage)
+    peak, push = max(state.peak, volts), state.push + volts * seen.dt
     if not seen.motion.edges:
-        return "", replace(state, silent=state.silent + seen.dt)
+        return "", replace(state, silent=state.silent + seen.dt, peak=peak, push=push)
+    driven = push > 0.0 and push >= DRIVEN * peak * (state.silent + seen.dt)
     period, silent = seen.sample.edge_period, state.silent
     speed = config.slot / period if period > 0.0 else 0.0
-    if silent > seen.dt and silent * state.speed > GAP * config.slot:
+    if driven and silent > seen.dt and silent * state.speed > GAP * config.slot:
         state = replace(state, gap=silent, before=state.speed, edges=0, time=0.0)
-    state = replace(state, silent=0.0, edges=state.edges + seen.motion.edges, time=state.time + seen.dt)
+    state = replace(
+        state, silent=0.0, peak=0.0, push=0.0, edges=state.edges + seen.motion.edges, time=state.time + seen.dt
+    )
     if not state.gap:
         return "", replace(state, speed=speed)
     if speed >= AS_FAST * state.before and speed > MARGIN * find_reachable_speed(config, seen, state):

@@ -15,9 +15,12 @@ LEARNT = Motion(steady_speed=87.0, steady_voltage=6.0, most=87.0)
 
 
 def told(
-    speed: float, on: int, off: int, config: Config = MODEL, motion: Motion = LEARNT, spin: int = 0
+    speed: float, on: int, off: int, config: Config = MODEL, motion: Motion = LEARNT, spin: int = 0, gap: float = 6.0
 ) -> tuple[float, str]:
-    """When [s] edges that come for `on` samples and are missing for `off` are told; spin: samples to full speed."""
+    """When [s] edges that come for `on` samples and are missing for `off` are told.
+
+    spin: samples to full speed; gap: [V] at its samples, but for the last one.
+    """
     state, rest = dropouts.State(), 0.0
     for k in range(800):
         phase = k % (on + off)
@@ -26,7 +29,14 @@ def told(
         edges, rest = int(rest), rest - int(rest)
         period = SLOT / now
         seen_motion = Motion(edges=edges, steady_speed=motion.steady_speed, steady_voltage=motion.steady_voltage)
-        look = Seen(Sample(k * 5_000_000, now, 6.0, edge_period=period), now, seen_motion, 87.0, 0.005, LIMIT)
+        look = Seen(
+            Sample(k * 5_000_000, now, gap if on <= phase < on + off - 1 else 6.0, edge_period=period),
+            now,
+            seen_motion,
+            87.0,
+            0.005,
+            LIMIT,
+        )
         reason, state = dropouts.check(config, state, look)
         if reason:
             return k * 0.005, reason
@@ -39,6 +49,12 @@ def test_a_loose_contact_is_told_at_the_third_gap(config: Config, on: int, off: 
     when, reason = told(87.0, on, off, config)
     assert when == pytest.approx(3 * (on + off) * 0.005, abs=0.011)
     assert reason.startswith(f"Edges stop for {off * 0.005:.2g} s and go on at 87 rad/s as if nothing had been")
+
+
+@pytest.mark.parametrize(("gap", "stops"), [(0.0, False), (1.0, False), (2.0, True), (6.0, True)])
+def test_only_a_motor_that_is_driven_through_the_gap_is_one(gap: float, stops: bool) -> None:
+    """A light motor that gets 6 V for 0.1 s and none for 0.2 s is at full speed before two edges are in."""
+    assert (told(87.0, 20, 40, Config(slot=SLOT), gap=gap)[0] < inf) == stops
 
 
 def test_gaps_that_come_seldom_are_none() -> None:
