@@ -103,11 +103,12 @@ def watch(config: Config, state: State, now: float) -> tuple[Output | None, Stat
 
 
 def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: float) -> State:
-    """Drop a reference that the plant or time has ended."""
+    """Drop a reference that the plant or time has ended; of a plant that was restarted nothing is known any more."""
+    if plant.restarted:
+        state = replace(state, motion=None, faults=None, place=None)
+        return state if state.demand is None else drop(state, RESTARTED)
     if state.demand is None:
         return state
-    if plant.restarted:
-        return drop(replace(state, motion=None, faults=None, place=None), RESTARTED)
     if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
         return drop(state, RETURNED)
     if state.held is not None and now - state.held > AWAY and now - state.referred > AWAY:
@@ -201,7 +202,8 @@ def _continue_run(config: Config, state: State, sample: Sample) -> Run:
     A new one begins where there was none, and after a gap that the plant's own watchdog does not survive either: what
     the integral knew is of another motion. What its faults have shown so far holds for a while: whoever ends a run
     again and again, with a reference that is no number or samples that do not come, would else blind every check. So
-    does what a motor was pushed out of: to let go of it and to ask for an angle again does not begin anew.
+    does that a motor was pushed out of an angle, and how far: to let go of it and to ask again does not make it forget.
+    Only its pushes are counted from 0 again.
     """
     run = state.run
     if run is not None and 0 <= sample.sample_time - run.sample_time <= config.sample_timeout * 1e9:

@@ -67,6 +67,21 @@ def test_a_board_that_counts_from_0_again_waits() -> None:
     waits(controller.update(config, state, again, None, 0.02)[0], "restarted")
 
 
+@pytest.mark.parametrize("restarts", [True, False])
+def test_of_a_board_that_was_reset_after_a_release_nothing_is_known(restarts: bool) -> None:
+    """Where it was pushed out of an angle is in counts of before the reset; without one it is remembered."""
+    config = settings(motor(), Info(single_channel=False))
+    state = controller.refer(State(), 500.0 * tau / 96, 0.0, Kind.POSITION)
+    for k in range(4):
+        sample = Sample((100 + k) * 5 * MS, 0.0, 0.0, 500, 9 * MS, 0.01)
+        _, state = controller.update(config, state, sample, None, k * 0.005)
+    _, state = controller.release(state)
+    again = Sample(104 * 5 * MS, 0.0, 0.0, 0 if restarts else 500, 0 if restarts else 9 * MS, 0.0 if restarts else 0.01)
+    output, state = controller.update(config, state, again, None, 0.02)
+    assert "released" in output.reason
+    assert (state.motion is None, state.faults is None, state.place is None) == (restarts,) * 3
+
+
 @pytest.mark.parametrize(("away", "resumes"), [(900, True), (1100, False)])
 def test_a_plant_that_was_away_waits(away: int, resumes: bool) -> None:
     output, _ = feed(running(), [195 + away, 200 + away])
