@@ -74,6 +74,11 @@ the top speed for ever in place of 50). The third gap that no motor could have c
 6 rad/s and 1 kHz other checks have to tell. Below 3 % of the top speed of the 6 rad/s motor (2.7 edges a second) a
 driver that repeats one sample says, as true ones do, that the motor stands.
 
+A shaft that is blocked while the voltage turns to and fro at every sample is stopped after 1.9 s (it was 0.5 s): a
+healthy motor that oscillates within one slot, as in a chirp on a coarse disc, shows and gets the same, so that the mean
+square counts over 16 stall times there. A push one way that has brought an edge before, and a voltage that does not
+turn its sign, count over 4 as before.
+
 Tried, and let be: two channels whose direction flips now and then (at 0.5 to 50 % of the samples, at half of the top
 speed: 50 % without a model, 61 % with one, and stopped after 0.5 s where it flips seldom); 40 % of the edges lost,
 which is a stop after 1.2 to 7 s at up to 84 %; a plant that reports half of its speed, and edges to match: nothing but

@@ -6,6 +6,10 @@ does it show direction.
 
 A finding is a sentence for people. A stop is one that lasts for `stall_time` at a voltage from STRONG on: then the
 plant switches the motor off by itself, whoever sends the voltage. Simulated and real motor share this.
+
+A motor that has been heated without an edge is still warm after a stop: where this state lives on (the simulator's
+does), a motor that is enabled again within a few stall times, and shows no edge, is stopped sooner than after
+`stall_time`; an edge ends that.
 """
 
 from dataclasses import dataclass, replace
@@ -31,6 +35,10 @@ PRESSING = 0.27
 # A voltage that comes and goes, or turns to and fro, is never strong for long. In the mean square over so many stall
 # times, without an edge, it is no more than STRONG: that is what heats a motor that does not turn.
 HEATING = 4.0
+# But a motor that turns to and fro within a slot shows no edge: a chirp on a coarse disc. Where a push one way is
+# less than TURNED of what has brought an edge before (it may have to end a motion first), the mean is taken over a time
+# so many times as long: a chirp over all the voltage, half of it in the mean square, has 11 stall times.
+TURNED, PATIENT = 2.0, 4.0
 PRESSED = 0.01  # [s] of the motor's voltage beyond that
 # A plant reports 0 rad/s where edges are further apart than SLOW; the count of two channels still says which way they
 # went. BACK of them against a strong voltage, none of them much later than the one before, are no motor that is being
@@ -73,6 +81,11 @@ class MotionCheck:
     pressed: float = 0.0  # [s] of the motor's voltage against that speed, beyond PRESSING
     back: int = 0  # slow edges against the strong voltage since then
     heat: float = 0.0  # [s] mean square of the voltage's share, times the time that it is taken over
+    warmth: float = 0.0  # [s] likewise, over PATIENT times that, whatever was pushed
+    way: int = 0  # direction of the latest voltage that was not 0
+    push: float = 0.0  # [s] of the motor's voltage that way, since it turned
+    needed: float = 0.0  # [s] the same until an edge came, the first one after it had turned; 0: not known
+    brought: bool = False  # an edge has come since it turned
     even: bool = False  # the latest edge came hardly later than the one before had
 
     def see(self, sample: Sample) -> "MotionCheck":
@@ -87,9 +100,19 @@ class MotionCheck:
         against = max(-sample.speed * pushing, 0.0)
         fell = pushing != self.pushing or against == 0.0 or against < SLOWER * self.begun
         pressed = 0.0 if fell else self._press(share * pushing, strong, now)
+        way = _sign(share, 1e-9) or self.way
+        push = (self.push if way == self.way else 0.0) + abs(share) * self._since(now)
+        brought = self.brought and way == self.way
+        needed = push if moved and self.latest is not None and not brought else self.needed
+        small = push < TURNED * needed  # 0 where nothing is known: every push counts
         return replace(
             self,
             latest=sample,
+            way=way,
+            push=push,
+            needed=needed,
+            brought=brought or (moved and self.latest is not None),
+            warmth=0.0 if moved else self._heat(self.warmth, share, PATIENT * self._heating, now),
             direction=direction,
             strong=strong,
             still=now if fresh or moved else self.still,
@@ -101,7 +124,7 @@ class MotionCheck:
             pressed=pressed,
             back=0 if anew else self._count_back(sample, strong),
             even=self._is_even(sample) if moved else self.even,
-            heat=0.0 if moved else self._heat(share, now),
+            heat=0.0 if moved else self._heat(self.heat, 0.0 if small else share, self._heating, now),
         )
 
     @property
@@ -124,8 +147,9 @@ class MotionCheck:
         lasts &= sample.sample_time - self.begun_at >= most
         if lasts and self.pressed >= PRESSED:
             return AGAINST
-        if self.heat >= STRONG**2 * self._heating > 0.0:
-            return HEATED.format(voltage=sqrt(self.heat / self._heating) * self.max_voltage, time=self._heating)
+        for heat, time in ((self.heat, self._heating), (self.warmth, PATIENT * self._heating)):
+            if heat >= STRONG**2 * time > 0.0:
+                return HEATED.format(voltage=sqrt(heat / time) * self.max_voltage, time=time)
         if self.strong == 0:
             return ""
         if not self.single_channel and self.back >= BACK and sample.sample_time - self.strong_since >= most:
@@ -142,13 +166,16 @@ class MotionCheck:
         """[s] over which the mean square is taken."""
         return HEATING * self.stall_time
 
-    def _heat(self, share: float, now: int) -> float:
-        """Follow the mean square of a voltage, as a share of the motor's."""
+    def _since(self, now: int) -> float:
+        """Count the time [s] since the latest sample."""
+        return max(now - self.latest.sample_time, 0) * 1e-9 if self.latest is not None else 0.0
+
+    def _heat(self, heat: float, share: float, time: float, now: int) -> float:
+        """Follow the mean square of a voltage, as a share of the motor's, over a time [s]."""
         if self.latest is None or self.stall_time == 0.0:
             return 0.0
-        dt = max(now - self.latest.sample_time, 0) * 1e-9
-        kept = exp(-dt / self._heating)
-        return self.heat * kept + share**2 * self._heating * (1.0 - kept)
+        kept = exp(-self._since(now) / time)
+        return heat * kept + share**2 * time * (1.0 - kept)
 
     def _press(self, share: float, strong: int, now: int) -> float:
         """Sum up a voltage, as a share of the motor's, that pushes against the motion."""

@@ -6,7 +6,10 @@ from math import nan
 import numpy as np
 import pytest
 
+from motor_model.excitation import PROFILES
+from motor_model.parameters import Parameters
 from motor_model.sample import Sample
+from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_model.sensing.motion_check import MotionCheck
 
 
@@ -162,6 +165,25 @@ def test_a_load_that_drives_the_motor_is_braked_by_what_presses_against_it() -> 
     held = [sample(0.005 * k, -k, -(10.0 + 0.1 * min(k, 100)), 0.2 * 12.0) for k in range(300)]
     braked = [sample(1.5 + 0.005 * k, -300 - k, -20.0 + 0.6 * k, 12.0) for k in range(15)]
     assert not any(checked(False, *held, *braked[: k + 1]).stop for k in range(15))
+
+
+@pytest.mark.parametrize("name", ["chirp", "reversals"])
+@pytest.mark.parametrize(("top", "lag", "edges"), [(6.0, 0.15, 8), (6.0, 0.3, 8), (6.0, 0.3, 20), (30.0, 0.5, 8)])
+def test_a_healthy_motor_may_turn_to_and_fro_within_a_slot(name: str, top: float, lag: float, edges: int) -> None:
+    """The project's own profiles stopped a slow motor with a coarse disc; a shaft that is blocked then is a fault."""
+    kv = 12.0 / top
+    plant = Parameters({"kv": kv, "ka": kv * lag, "ks": 0.4}, ("coulomb_friction",))
+    board = SimulatedBoard(plant, BoardConfig(edges_per_revolution=edges, single_channel=True))
+    check, shape = MotionCheck(12.0, True), PROFILES[name]
+    for volts in shape.voltage(np.arange(0.0, shape.duration, 0.005), 12.0):
+        check = check.see(last := board.sample(float(volts)))
+        assert check.stop == ""
+    for k in range(1, 1000):
+        blocked = replace(last, sample_time=last.sample_time + 5_000_000 * k, speed=0.0, voltage=12.0 * (-1.0) ** k)
+        check = check.see(blocked)
+        if check.stop:
+            break
+    assert 0.0 < 0.005 * k < 2.0
 
 
 @pytest.mark.parametrize(
