@@ -175,7 +175,18 @@ def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
     """
     if count_parameters(test.effect) >= count_parameters(effect):
         return current.likelihood - test.model.likelihood < -thresholds.RIVAL_MARGIN
-    return find_loss(test, effect, current) < thresholds.RIVAL_MARGIN
+    return find_loss(test, effect, current) < thresholds.RIVAL_MARGIN or is_same_motion(test.model, current)
+
+
+def is_same_motion(one: Model, other: Model) -> bool:
+    """Decide whether two models move alike where it counts: a load from the first instant on is a constant load.
+
+    Whatever their likelihoods, which go with the errors that were learned of each, too.
+    """
+    if one.held.residuals.shape != other.held.residuals.shape:
+        return False
+    apart = float(other.held.weight @ (one.held.residuals - other.held.residuals) ** 2)
+    return apart < (thresholds.SAME_MOTION * other.floor) ** 2
 
 
 def find_loss(test: CandidateTest, effect: str, current: Model) -> float:

@@ -68,6 +68,9 @@ WORSE_GAP = 1.5
 # Times the gap of a model: within it another that is as likely is the same motion in other words, such as a friction
 # and a dead zone where the motor never turns back; what differs is how far a fit of each had converged.
 SAME_GAP = 1.001
+# Of the sensor's floor: two models that move so little apart are one. Measured: 0.0003 for a load that begins with the
+# recording and a constant one.
+SAME_MOTION = 0.01
 # Likelihoods that the search for a candidate's errors may ask for, and that for a model's to begin with.
 CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120
 # How often a model is fitted again from where the best finding leads, beside a random torque.

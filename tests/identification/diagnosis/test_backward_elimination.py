@@ -55,7 +55,7 @@ def test_of_what_is_as_much_better_the_most_common_replaces_a_finding() -> None:
     before = stub_model(2.0, 0.0, likelihood=-600.0)
 
     def better(name: str, evidence: float) -> CandidateTest:
-        return CandidateTest(name, before, stub_model(1.0, 0.0, likelihood=-600.0 + evidence))
+        return CandidateTest(name, before, stub_model(1.1, 0.0, likelihood=-600.0 + evidence))  # another motion
 
     zone, friction = better("dead_zone", 110.0), better("coulomb_friction", 110.0 - 0.9 * thresholds.TIE_LIKELIHOOD)
     assert choose_better([zone, friction], "load_step", current) is friction
@@ -75,7 +75,7 @@ def test_of_what_is_as_much_better_the_most_common_replaces_a_finding() -> None:
 def test_what_replaces_a_finding(instead: str, effect: str, margin: float) -> None:
     current = stub_model(1.0, 0.0, likelihood=-500.0)
     for shift, better in ((-0.01, False), (0.01, True)):
-        model = stub_model(1.0, 0.0, likelihood=-500.0 + margin + shift)
+        model = stub_model(1.1, 0.0, likelihood=-500.0 + margin + shift)  # another motion
         assert is_better(CandidateTest(instead, current, model), effect, current) is better
 
 
@@ -103,6 +103,18 @@ def test_replacements_were_likely_where_it_was_found_and_are_not_there_already()
         "dead_zone",
     ]  # and what was lost since
     assert list_replacements(beside, (), ("coulomb_friction",)) == ["load_bias", "dead_zone", "quadratic_drag"]
+
+
+@pytest.mark.parametrize(("times", "better"), [(BELOW, True), (ABOVE, False)])
+def test_a_load_from_the_first_instant_on_is_a_constant_one(times: float, better: bool) -> None:
+    step = stub_model(2.0, likelihood=170.0)
+    (angle,) = step.held.angles
+    (data,) = step.held.intervals
+    apart = times * thresholds.SAME_MOTION * step.floor * np.append(0.0, np.cumsum(data.duration))
+    test = stub_test("load_bias", stub_model(9.0), 2.0, 100.0)
+    alike = replace(test, model=replace(step, held=replace(step.held, angles=(angle + apart,)), likelihood=0.0))
+    assert is_better(alike, "load_step", step) is better
+    assert not is_better(alike, "coulomb_friction", step)  # no simpler than it is
 
 
 def test_what_is_not_needed_beside_the_others_is_taken_back() -> None:
