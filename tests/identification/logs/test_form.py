@@ -164,7 +164,8 @@ def test_help_shows_whole_commands(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["--help"])
     text = capsys.readouterr().out
-    assert text.count("  ros2 run motor_identification import_csv ") >= 3 and "--split duty_pct --rest-until 0" in text and "--steady" in text
+    assert text.count("  ros2 run motor_identification import_csv ") >= 3
+    assert "--split duty_pct --rest-until 0" in text and "--steady" in text
 
 
 @pytest.mark.parametrize(("unit", "size"), [("s", 10**9), ("ns", 1), ("8.26446e-06", 8264), ("1e-12", 1)])
