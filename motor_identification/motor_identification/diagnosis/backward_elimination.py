@@ -52,7 +52,7 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     if EFFECT_BY_NAME[effect].after_reversals and stands_in_for_curve(without, current):
         return selection.replace_step(step, None, without)
     judged_alike = step.found.model.beside_torque == current.beside_torque
-    lost = [name for name in step.before.effects if name not in current.effects]
+    lost = list_lost(step, current.effects)
     if step is selection.steps[-1] and judged_alike and not lost:  # what could be in its place was tried beside it
         return selection
     others = list_replacements(step, without.effects, current.effects)
@@ -150,9 +150,14 @@ def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequ
     """
     likely = [test.effect for test in step.tests if test is not step.found and test.evidence > likelihood_threshold()]
     free = {name for name in list_candidates(without) if name not in current}
-    lost = [name for name in step.before.effects if name not in current]
+    lost = list_lost(step, current)
     names = [name for name in dict.fromkeys((*step.rivals, *lost, *likely)) if name in free]
     return names[: max(thresholds.ELIMINATION_RIVALS, len(free.intersection((*step.rivals, *lost))))]
+
+
+def list_lost(step: SelectionStep, current: Sequence[str]) -> list[str]:
+    """List the effects that a step was found beside and that are not among the current model's any more."""
+    return [name for name in step.before.effects if name not in current]
 
 
 def choose_better(tests: Sequence[CandidateTest], effect: str, current: Model) -> CandidateTest | None:

@@ -10,9 +10,8 @@ from motor_identification.logs.form import TIME_UNITS
 Floats = NDArray[np.float64]
 
 SLOWEST = 0.4  # [s] between rows of a recording that shows motion; also the border between units, which are 1,000 apart
-EVEN = (
-    0.2  # of the step of most rows: clocks of whole milliseconds, 5 and 6 in turn, are even, an encoder's 2 and 3 not
-)
+# Of the step of most rows: clocks of whole milliseconds, 5 and 6 in turn, are even, an encoder's 2 and 3 are not.
+EVEN = 0.2
 _SINCE_1970 = (1e9, 2.2e9)  # [s] 2001 to 2039
 _ROUND = 100.0  # times that are all multiples of it are no microseconds: nobody's loop is that even
 
@@ -39,7 +38,7 @@ def row_period(values: Floats) -> float:
 
 
 def find_clock(columns: Mapping[str, Floats]) -> str | None:
-    """The column, of several by name, whose values of shape (K,) are most like times; None where none can be.
+    """Find the column, of several by name, whose values of shape (K,) are most like times; None where none can be.
 
     A motor's angle may go on as times do, but not from the first row on, and not so evenly.
     """
@@ -48,7 +47,7 @@ def find_clock(columns: Mapping[str, Floats]) -> str | None:
 
 
 def _share_uneven(values: Floats) -> float:
-    """The share of rows in which values, shape (K,), do not go on by about as much as in most."""
+    """Measure the share of rows in which values, shape (K,), do not go on by about as much as in most."""
     steps = np.diff(values)
     return float(np.mean(np.abs(steps - np.median(steps)) > EVEN * np.median(steps)))
 

@@ -37,7 +37,7 @@ class Rows:
     period: float  # [s]
 
     def stamps(self, table: Table) -> Floats | None:
-        """[s] of a table's rows, shape (K,); None where they are steady states."""
+        """Read the times [s] of a table's rows, shape (K,); None where they are steady states."""
         if self.time is None:
             return None
         return np.asarray(table.nanoseconds(self.time, time_unit_size(self.unit)) * 1e-9, dtype=np.float64)

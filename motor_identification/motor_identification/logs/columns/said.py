@@ -50,7 +50,7 @@ class Said:
     motors: tuple[Pair, ...] = ()
 
     def with_names(self, names: Sequence[str]) -> "Said":
-        """The same, with the columns' names in place of their numbers: 4 is the fourth, if none is called 4."""
+        """Name the columns that were said by number: 4 is the fourth, if none is called 4."""
 
         def name(said: str | None) -> str | None:
             place = int(said) if said and said.isascii() and said.isdigit() and len(said) < 6 else 0
