@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from motor_identification.noise.error_model import Lag
 from motor_identification.periodic.linear_response import Course
 
-RATE, INERTIA = 12.5, 0.0055
+LAG = Lag(12.5, 0.0055)
 
 
 def course(intervals: int, seed: int = 0) -> Course:
@@ -16,4 +17,4 @@ def course(intervals: int, seed: int = 0) -> Course:
     moving[intervals // 2] = False
     angle = 300.0 + np.concatenate([[0.0], np.cumsum(speed * duration)])
     run = (np.arange(intervals) >= intervals // 2).astype(np.int64)
-    return Course(np.arange(intervals), run, angle[:-1], angle[1:], duration, moving, RATE, INERTIA)
+    return Course(np.arange(intervals), run, angle[:-1], angle[1:], duration, moving, LAG)

@@ -11,7 +11,7 @@ from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.intervals import index_intervals
-from motor_identification.noise.error_model import ErrorModel
+from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.noise.likelihood import Noise
 from motor_identification.validation.held_out import HeldOut
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
@@ -58,8 +58,8 @@ class StubModel(Model):
         return True
 
     @property
-    def lag(self) -> tuple[float, float]:
-        return PAPER_KV / PAPER_KA, PAPER_KA
+    def lag(self) -> Lag:
+        return Lag(PAPER_KV / PAPER_KA, PAPER_KA)
 
     @property
     def effects(self) -> tuple[str, ...]:

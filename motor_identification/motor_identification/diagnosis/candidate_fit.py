@@ -47,7 +47,7 @@ def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = N
 def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | None, evaluations: int) -> Model:
     """Judge a model beside a random torque: its errors are learned, from a guess if there is one."""
     rows, lag = list_error_data(model.estimate), model.estimate.lag
-    errors = learn_error_model(rows, *lag, guess, evaluations)
+    errors = learn_error_model(rows, lag, guess, evaluations)
     held, training = score_held_out(hold_out, model.held, errors, lag), score_training(model.estimate, rows, errors)
     parts = (training,) if model.held.seen else (held, training)
     return replace(

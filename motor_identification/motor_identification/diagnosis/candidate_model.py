@@ -16,7 +16,7 @@ from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.noise.error_data import make_error_data
 from motor_identification.noise.error_learning import estimate_disturbance, learn_error_model
-from motor_identification.noise.error_model import Disturbance, ErrorModel
+from motor_identification.noise.error_model import Disturbance, ErrorModel, Lag
 from motor_identification.noise.likelihood import Noise
 from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.validation.held_out import HeldOut
@@ -55,8 +55,8 @@ class Model:
         return self.estimate.problem.unknowns.effects
 
     @property
-    def lag(self) -> tuple[float, float]:
-        """The motor as a first-order lag: kv/ka [1/s] and ka [V·s²/rad]."""
+    def lag(self) -> Lag:
+        """The motor as a first-order lag."""
         return self.estimate.lag
 
     @cached_property
@@ -114,7 +114,7 @@ class Model:
     @property
     def is_random(self) -> bool:
         """Whether the random torque that was learned leaves about as much as is left: else it does not describe it."""
-        time = self.errors.correlation_time + 1.0 / self.lag[0]
+        time = self.errors.correlation_time + 1.0 / self.lag.rate
         seen = sum(
             float(data.duration[marks].sum()) for data, marks in zip(self.held.intervals, self.held.scored, strict=True)
         )
@@ -143,21 +143,21 @@ class Model:
 
     def estimate_disturbance(self) -> Disturbance | None:
         """Estimate the random torque beside the model, with its standard errors; None where there is none."""
-        return estimate_disturbance(list_error_data(self.estimate), self.errors, *self.lag)
+        return estimate_disturbance(list_error_data(self.estimate), self.errors, self.lag)
 
     def scatter_of_travel(self) -> tuple[Floats, ...]:
         """Compute the scatter [rad] that sensor and random torque leave in the travel of every held-out interval."""
         scatter = []
         for data in self.held.intervals:
             variance = data.floor_squared(self.errors.share * data.unit)
-            variance = variance + self.errors.speed_variance(data.duration, *self.lag)
+            variance = variance + self.errors.speed_variance(data.duration, self.lag)
             scatter.append(np.sqrt(variance) * data.duration)
         return tuple(scatter)
 
     def _random_variance(self, held: HeldOut) -> Floats:
         """Compute what the random torque leaves [rad²/s²] in each interval that counts."""
         duration = np.concatenate([data.duration for data in held.intervals])[held.counted]
-        return self.errors.speed_variance(duration, *self.lag)
+        return self.errors.speed_variance(duration, self.lag)
 
     def _find_structure(self) -> tuple[Structure, ...]:
         values, held, problem = self.estimate.parameters.values, self.held, self.estimate.problem
@@ -181,9 +181,9 @@ class Model:
             problem.recordings, problem.intervals, self.estimate.angles, self.estimate.increments, nothing, strict=True
         )
         others = [] if same else [rest(*row) for row in training]
-        return find_structure(own, others, self.errors, *self.lag)
+        return find_structure(own, others, self.errors, self.lag)
 
 
 def learn_errors(estimate: Estimate) -> ErrorModel:
     """Learn what sensor and random torque leave of an estimate in its training data."""
-    return learn_error_model(list_error_data(estimate), *estimate.lag, None, thresholds.FINAL_EVALUATIONS)
+    return learn_error_model(list_error_data(estimate), estimate.lag, None, thresholds.FINAL_EVALUATIONS)

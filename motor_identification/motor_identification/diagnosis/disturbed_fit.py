@@ -30,7 +30,7 @@ def make_disturbed_residuals(estimate: Estimate, errors: ErrorModel) -> Disturbe
 
     The filter's gains are those of what the estimate leaves: an angle that jumps there has no weight.
     """
-    whitenings = tuple(make_whitening(data, errors, *estimate.lag) for data in list_error_data(estimate))
+    whitenings = tuple(make_whitening(data, errors, estimate.lag) for data in list_error_data(estimate))
     return DisturbedResiduals(estimate.problem, whitenings)
 
 

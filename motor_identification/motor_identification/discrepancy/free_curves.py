@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.discrepancy.motion_history import MotionHistory
+from motor_identification.noise.error_model import Lag
 from motor_identification.recording import Bools, Floats
 from motor_model.compiled import compiled
 
@@ -33,7 +34,7 @@ class Reach:
     voltage: float
     drive: float
     duration: float
-    lag: float  # [s] time constant of the fitted motor
+    time_constant: float  # [s] of the fitted motor
     lines: tuple[float, ...] = ()  # [Hz] where the spectrum of what is left is highest
 
 
@@ -97,8 +98,8 @@ def _spectrum(h: MotionHistory, most: Reach) -> Floats:
 
 def _past(h: MotionHistory, most: Reach) -> Floats:
     way = np.sign(h.speed)[:, None]
-    since = log_hats(h.since, SINCE, most.lag) * way
-    travel = log_hats(h.travel, TRAVEL, most.speed * most.lag) * way
+    since = log_hats(h.since, SINCE, most.time_constant) * way
+    travel = log_hats(h.travel, TRAVEL, most.speed * most.time_constant) * way
     share = h.past / most.voltage
     return np.concatenate([since, travel, h.past, share * np.abs(h.past)], axis=1)
 
@@ -120,10 +121,10 @@ OF_SPEED = ("speed", "drive", "speed_voltage")  # what is measured is part of th
 OF_ONE_RECORDING = ("time", "spectrum")  # what is different in every recording is learnt and judged in the same one
 
 
-def respond(history: MotionHistory, torques: Floats, rate: float, ka: float) -> Floats:
+def respond(history: MotionHistory, torques: Floats, lag: Lag) -> Floats:
     """Compute what torques [V] (S, C) make of simulated minus measured travel [rad] in every interval, shape (C, I)."""
     travel = np.zeros((len(torques) + 1, torques.shape[1]))
-    fill_travel(history.duration, history.still, np.ascontiguousarray(torques), rate, 1.0 / ka, travel)
+    fill_travel(history.duration, history.still, np.ascontiguousarray(torques), lag.rate, 1.0 / lag.ka, travel)
     return np.ascontiguousarray((travel[history.at_end] - travel[history.at_start]).T)
 
 
@@ -145,10 +146,10 @@ def fill_travel(duration: Floats, still: Bools, torque: Floats, rate: float, gai
                 speed[c] = speed[c] * decay + push * reach
 
 
-def measure_reach(histories: Sequence[MotionHistory], lag: float) -> Reach:
-    """Measure how far the motion of some recordings reaches; lag [s]: the motor's time constant."""
+def measure_reach(histories: Sequence[MotionHistory], time_constant: float) -> Reach:
+    """Measure how far the motion of some recordings reaches; time_constant [s]: the motor's."""
 
     def largest(name: str) -> float:
         return max(float(np.abs(getattr(history, name)).max(initial=0.0)) for history in histories) or 1.0
 
-    return Reach(largest("speed"), largest("voltage"), largest("drive"), largest("time"), lag)
+    return Reach(largest("speed"), largest("voltage"), largest("drive"), largest("time"), time_constant)

@@ -22,7 +22,7 @@ from motor_identification.discrepancy.free_curves import (
 )
 from motor_identification.discrepancy.motion_history import MotionHistory
 from motor_identification.noise.error_data import ErrorData
-from motor_identification.noise.error_model import ErrorModel
+from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.recording import Bools, Floats
 
 CERTAIN = log(len(FAMILIES) / 0.01)  # [nat] likelihood ratio that chance exceeds in 1 % of complete models (Markov)
@@ -64,24 +64,21 @@ class Rest:
         return np.asarray(self.errors.increments / self.errors.duration)
 
 
-def find_structure(
-    own: Sequence[Rest], others: Sequence[Rest], model: ErrorModel, rate: float, ka: float
-) -> tuple[Structure, ...]:
+def find_structure(own: Sequence[Rest], others: Sequence[Rest], model: ErrorModel, lag: Lag) -> tuple[Structure, ...]:
     """Judge every family of curves, the one that predicts most first.
 
     own: recordings with intervals to judge by. others: training recordings, to learn from what holds in all of them.
-    rate: kv/ka [1/s], ka [V·s²/rad] of the fitted motor.
+    model, lag: of what is left, and of the fitted motor.
     """
-    reach = measure_reach([rest.history for rest in (*own, *others)], 1.0 / rate)
-    reach = replace(reach, lines=find_lines(own, model, rate, ka))
+    reach = measure_reach([rest.history for rest in (*own, *others)], 1.0 / lag.rate)
+    reach = replace(reach, lines=find_lines(own, model, lag))
     found = []
     for name in FAMILIES:
         rests = own if name in OF_ONE_RECORDING or not others else (*(_to_judge(rest) for rest in own), *others)
-        judged = _judge_family(name, rests, reach, model, rate, ka)
+        judged = _judge_family(name, rests, reach, model, lag)
         if judged.certain and name in OF_SPEED:  # a torque that is in the measured speed is predicted by it, too
-            again = _judge_family(
-                name, [replace(rest, history=rest.simulated()) for rest in rests], reach, model, rate, ka
-            )
+            simulated = [replace(rest, history=rest.simulated()) for rest in rests]
+            again = _judge_family(name, simulated, reach, model, lag)
             judged = min(judged, again, key=lambda one: one.significance)
         found.append(judged)
     return tuple(sorted(found, key=_rank))
@@ -96,15 +93,13 @@ def _to_judge(rest: Rest) -> Rest:
     return replace(rest, learnt=np.zeros_like(rest.learnt))
 
 
-def _judge_family(
-    name: str, rests: Sequence[Rest], reach: Reach, model: ErrorModel, rate: float, ka: float
-) -> Structure:
+def _judge_family(name: str, rests: Sequence[Rest], reach: Reach, model: ErrorModel, lag: Lag) -> Structure:
     normal: Floats = np.zeros((0, 0))
     moment: Floats = np.zeros(0)
     kept = []
     for rest in rests:
-        response = respond(rest.history, FAMILIES[name](rest.history, reach), rate, ka)
-        _value, white = rest.errors.whiten(model, rate, ka, response)
+        response = respond(rest.history, FAMILIES[name](rest.history, reach), lag)
+        _value, white = rest.errors.whiten(model, lag, response)
         learnt, judged = (mask & ~rest.errors.still for mask in (rest.learnt, rest.judged))
         x, z = white[1:, learnt], np.clip(white[0, learnt], -ROBUST, ROBUST)
         normal, moment = (normal + x @ x.T, moment + x @ z) if len(moment) else (x @ x.T, x @ z)
@@ -158,7 +153,7 @@ def solve_ridge(normal: Floats, moment: Floats) -> Floats:
     return np.asarray(vectors @ (projected * chosen / (1.0 + chosen * values)))
 
 
-def find_lines(rests: Sequence[Rest], model: ErrorModel, rate: float, ka: float) -> tuple[float, ...]:
+def find_lines(rests: Sequence[Rest], model: ErrorModel, lag: Lag) -> tuple[float, ...]:
     """Find the frequencies [Hz] of a load, or a supply, that is periodic in time: lines in the residual's spectrum.
 
     The white residual is summed into even bins of time, as it is and times the command, and both are transformed.
@@ -169,7 +164,7 @@ def find_lines(rests: Sequence[Rest], model: ErrorModel, rate: float, ka: float)
     power: Floats = np.zeros(bins + 1)
     for rest in rests:
         used = rest.learnt & ~rest.errors.still
-        _value, white = rest.errors.whiten(model, rate, ka)
+        _value, white = rest.errors.whiten(model, lag)
         z = np.clip(white[0, used], -ROBUST, ROBUST)
         middle = np.minimum((rest.history.at_start + rest.history.at_end) // 2, len(rest.history.time) - 1)[used]
         index = np.minimum((rest.history.time[middle] / longest * bins).astype(np.int64), bins - 1)

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 from motor_identification.estimation.problem import Problem
+from motor_identification.noise.error_model import Lag
 from motor_identification.recording import Floats
 from motor_model.parameters import Parameters
 
@@ -36,10 +37,10 @@ class Estimate:
         return self.problem.unknowns.parameters(self.theta, self.problem.recordings[0].info.name)
 
     @property
-    def lag(self) -> tuple[float, float]:
-        """The motor as a first-order lag: kv/ka [1/s] and ka [V·s²/rad]."""
+    def lag(self) -> Lag:
+        """The motor as a first-order lag."""
         values = self.parameters.values
-        return values["kv"] / values["ka"], values["ka"]
+        return Lag(values["kv"] / values["ka"], values["ka"])
 
     def on(self, problem: Problem) -> "Estimate":
         """Apply the same θ to another problem with the same unknowns."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_filter import GAINS, fill_white, run_filter
-from motor_identification.noise.error_model import ErrorModel
+from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.recording import Bools, Floats
 
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
@@ -32,22 +32,20 @@ class ErrorData:
     counted: Bools
 
     def whiten(
-        self, model: ErrorModel, rate: float, ka: float, more: Floats | None = None, gains: Floats = _NO_GAINS
+        self, model: ErrorModel, lag: Lag, more: Floats | None = None, gains: Floats = _NO_GAINS
     ) -> tuple[float, Floats]:
         """Compute the log likelihood of what counts, and white residuals (1 + C, I) of the increments and C more rows.
 
-        rate: kv/ka [1/s] of the motor, ka [V·s²/rad]. more: responses [rad] that pass the same filter, shape (C, I).
+        lag: the motor. more: responses [rad] that pass the same filter, shape (C, I).
         """
-        value, white, _density = self._filter(model, rate, ka, more, gains)
+        value, white, _density = self._filter(model, lag, more, gains)
         return value, white
 
-    def densities(self, model: ErrorModel, rate: float, ka: float) -> Floats:
+    def densities(self, model: ErrorModel, lag: Lag) -> Floats:
         """Compute the log likelihood of every interval, shape (I,); 0 where it does not count."""
-        return self._filter(model, rate, ka, None, _NO_GAINS)[2]
+        return self._filter(model, lag, None, _NO_GAINS)[2]
 
-    def _filter(
-        self, model: ErrorModel, rate: float, ka: float, more: Floats | None, gains: Floats
-    ) -> tuple[float, Floats, Floats]:
+    def _filter(self, model: ErrorModel, lag: Lag, more: Floats | None, gains: Floats) -> tuple[float, Floats, Floats]:
         own, growth = (model.share * self.unit) ** 2, model.white
         if self.window > 0.0:
             own, growth = 0.0, growth + 2.0 * own / self.window
@@ -57,7 +55,7 @@ class ErrorData:
         white, density = np.empty_like(rows), np.empty(len(self.fresh))
         value = run_filter(
             self.fresh, self.still, self.pause, self.duration, sensor, end,
-            rate, 1.0 / model.correlation_time, (model.rms_voltage / ka) ** 2, growth,
+            lag.rate, 1.0 / model.correlation_time, (model.rms_voltage / lag.ka) ** 2, growth,
             rows, self.counted, white, gains, density,
         )  # fmt: skip
         return float(value), white, density
@@ -78,10 +76,10 @@ class TorqueWhitening:
         return white
 
 
-def make_whitening(data: ErrorData, model: ErrorModel, rate: float, ka: float) -> TorqueWhitening:
-    """Make the whitening of increments like those of `data`; rate is kv/ka [1/s], ka [V·s²/rad]."""
+def make_whitening(data: ErrorData, model: ErrorModel, lag: Lag) -> TorqueWhitening:
+    """Make the whitening of increments like those of `data`."""
     gains = np.empty((len(data.fresh), GAINS))
-    data.whiten(model, rate, ka, gains=gains)
+    data.whiten(model, lag, gains=gains)
     return TorqueWhitening(data.fresh, data.still, gains)
 
 
@@ -117,6 +115,6 @@ def make_error_data(data: Intervals, increments: Floats, counted: Bools | None =
     )
 
 
-def log_likelihood(rows: Sequence[ErrorData], model: ErrorModel, rate: float, ka: float) -> float:
+def log_likelihood(rows: Sequence[ErrorData], model: ErrorModel, lag: Lag) -> float:
     """Compute the log likelihood of what counts in all recordings."""
-    return sum(row.whiten(model, rate, ka)[0] for row in rows)
+    return sum(row.whiten(model, lag)[0] for row in rows)

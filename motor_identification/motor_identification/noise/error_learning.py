@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import OptimizeResult, minimize
 
 from motor_identification.noise.error_data import ErrorData, log_likelihood
-from motor_identification.noise.error_model import Disturbance, ErrorModel
+from motor_identification.noise.error_model import Disturbance, ErrorModel, Lag
 from motor_identification.recording import Floats
 
 SHARES = (1e-4, 0.2)  # of a slot: how irregular a disc may be, or the four flanks of two channels
@@ -45,37 +45,37 @@ class _Scale:
 
     step: float  # [s] the median interval
     gap: float  # [rad/s] RMS of what is left
-    rate: float  # kv/ka [1/s]
-    ka: float  # [V·s²/rad]
+    lag: Lag  # the motor
 
     @property
     def times(self) -> tuple[float, float]:
         """Bound the correlation times [s] that are looked for."""
-        return TIMES[0] * self.step, max(TIMES[1] / self.rate, 10.0 * self.step)
+        return TIMES[0] * self.step, max(TIMES[1] / self.lag.rate, 10.0 * self.step)
 
     def strength(self, time: float) -> float:
         """Compute the RMS [V] of a torque with a correlation time [s] that would leave all of it."""
-        return self.gap * self.ka * sqrt(self.rate * (self.rate + 1.0 / time))
+        rate = self.lag.rate
+        return self.gap * self.lag.ka * sqrt(rate * (rate + 1.0 / time))
 
     def bound(self, shares: tuple[float, float]) -> _Box:
         """Bound what is looked for."""
-        shortest, longest = self.times
+        (shortest, longest), rate, ka = self.times, self.lag.rate, self.lag.ka
         return _Box(
-            np.log([shares[0], 1e-6 * self.gap * self.rate * self.ka, shortest]),
-            np.log([shares[1], 1e3 * self.gap * (self.rate + 1.0 / self.step) * self.ka, longest]),
+            np.log([shares[0], 1e-6 * self.gap * rate * ka, shortest]),
+            np.log([shares[1], 1e3 * self.gap * (rate + 1.0 / self.step) * ka, longest]),
         )
 
 
 def learn_error_model(
-    rows: Sequence[ErrorData], rate: float, ka: float, guess: ErrorModel | None = None, evaluations: int = 120
+    rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel | None = None, evaluations: int = 120
 ) -> ErrorModel:
     """Find the error model under which increments are most likely.
 
-    rate: kv/ka [1/s] of the motor, ka [V·s²/rad]. guess: where to begin, of a similar model; else a grid tells.
+    lag: the motor. guess: where to begin, of a similar model; else a grid tells.
     """
     shares = _bound_share(rows)
-    quiet, least = _learn_share(rows, shares, rate, ka)
-    scale = _measure_scale(rows, rate, ka)
+    quiet, least = _learn_share(rows, shares, lag)
+    scale = _measure_scale(rows, lag)
     box = scale.bound(shares)
 
     def of(x: Floats) -> ErrorModel:
@@ -83,7 +83,7 @@ def learn_error_model(
         return ErrorModel(float(share), 0.0, float(rms), float(time))
 
     def cost(x: Floats) -> float:
-        return 10.0 * box.measure_excess(x) - log_likelihood(rows, of(x), rate, ka)
+        return 10.0 * box.measure_excess(x) - log_likelihood(rows, of(x), lag)
 
     starts = _list_starts(quiet.share, shares[0], scale)
     if guess is not None and guess.rms_voltage > 0.0:
@@ -98,12 +98,12 @@ def learn_error_model(
     return quiet if -least < found.fun + PRICE else of(found.x)
 
 
-def _measure_scale(rows: Sequence[ErrorData], rate: float, ka: float) -> _Scale:
+def _measure_scale(rows: Sequence[ErrorData], lag: Lag) -> _Scale:
     """Measure the scale of what is left where motors moved."""
     duration = np.concatenate([row.duration[~row.still] for row in rows])
     speeds = np.concatenate([(row.increments / row.duration)[~row.still] for row in rows])
     gap = sqrt(float(duration @ speeds**2 / duration.sum())) + 1e-300
-    return _Scale(float(np.median(duration)), gap, rate, ka)
+    return _Scale(float(np.median(duration)), gap, lag)
 
 
 def _list_starts(quiet: float, least: float, scale: _Scale) -> list[Floats]:
@@ -144,13 +144,11 @@ def _bound_share(rows: Sequence[ErrorData]) -> tuple[float, float]:
     return SPEED_SHARES if all(row.window > 0.0 for row in rows) else SHARES
 
 
-def _learn_share(
-    rows: Sequence[ErrorData], shares: tuple[float, float], rate: float, ka: float
-) -> tuple[ErrorModel, float]:
+def _learn_share(rows: Sequence[ErrorData], shares: tuple[float, float], lag: Lag) -> tuple[ErrorModel, float]:
     """Find the sensor's share alone, without any disturbance, and its log likelihood."""
 
     def value(share: float) -> float:
-        return log_likelihood(rows, ErrorModel(share, 0.0, 0.0, 1.0), rate, ka)
+        return log_likelihood(rows, ErrorModel(share, 0.0, 0.0, 1.0), lag)
 
     grid = [0.0, *np.geomspace(*shares, 12)]
     best = max(grid, key=value)
@@ -160,7 +158,7 @@ def _learn_share(
     return ErrorModel(best, 0.0, 0.0, 1.0), value(best)
 
 
-def estimate_disturbance(rows: Sequence[ErrorData], model: ErrorModel, rate: float, ka: float) -> Disturbance | None:
+def estimate_disturbance(rows: Sequence[ErrorData], model: ErrorModel, lag: Lag) -> Disturbance | None:
     """Estimate the standard errors of a learned random torque from the curvature of the log likelihood; None without.
 
     Central differences over the logarithms of share, strength and correlation time; NaN where there is no maximum.
@@ -172,7 +170,7 @@ def estimate_disturbance(rows: Sequence[ErrorData], model: ErrorModel, rate: flo
 
     def value(x: Floats) -> float:
         share, rms, time = np.exp(x)
-        return log_likelihood(rows, ErrorModel(share, model.white, rms, time), rate, ka)
+        return log_likelihood(rows, ErrorModel(share, model.white, rms, time), lag)
 
     hessian = np.empty((3, 3))
     for i in range(3):

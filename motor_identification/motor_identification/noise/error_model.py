@@ -8,6 +8,14 @@ from motor_identification.recording import Floats
 
 
 @dataclass(frozen=True)
+class Lag:
+    """A motor as a first-order lag, which every torque passes."""
+
+    rate: float  # [1/s] α = kv/ka, one over the time constant
+    ka: float  # [V·s²/rad]
+
+
+@dataclass(frozen=True)
 class ErrorModel:
     """What sensor and disturbance leave in simulated minus measured angles."""
 
@@ -16,18 +24,17 @@ class ErrorModel:
     rms_voltage: float  # [V] of the random torque; 0 where there is none
     correlation_time: float  # [s] of it
 
-    def speed_variance(self, duration: Floats, rate: float, ka: float) -> Floats:
+    def speed_variance(self, duration: Floats, lag: Lag) -> Floats:
         """Compute the variance [rad²/s²] that the random torque leaves in mean speeds over durations [s], shape (I,).
 
         The speed's autocovariance is A e^(−βs) + B e^(−αs); over h, e^(−xs/h) averages to 2(x − 1 + e^(−x))/x².
-        rate: α = kv/ka [1/s], ka [V·s²/rad].
         """
         if self.rms_voltage == 0.0:
             return np.zeros(len(duration))
-        beta = 1.0 / self.correlation_time
+        rate, beta = lag.rate, 1.0 / self.correlation_time
         if abs(rate - beta) < 1e-4 * beta:
             beta *= 1.001
-        scale = (self.rms_voltage / ka) ** 2 / (rate**2 - beta**2)
+        scale = (self.rms_voltage / lag.ka) ** 2 / (rate**2 - beta**2)
         return np.asarray(scale * (_mean(beta * duration) - beta / rate * _mean(rate * duration)))
 
 

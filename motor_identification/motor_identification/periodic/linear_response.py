@@ -1,6 +1,6 @@
 """Compute the linear response of a motor to a load that repeats with the angle, over measured angles.
 
-A load of 1 V, e^(i·c·θ) for c cycles a turn, moves the speed by x with dx/dt = −rate·x − e^(i·c·θ)/inertia. Within an
+A load of 1 V, e^(i·c·θ) for c cycles a turn, moves the speed by x with dx/dt = −rate·x − e^(i·c·θ)/ka. Within an
 interval between two measured angles the shaft turns evenly, and the response is had in closed form.
 """
 
@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.noise.error_model import Lag
 from motor_identification.recording import Bools, Floats, Integers
 from motor_model.compiled import compiled
 
@@ -27,20 +28,19 @@ class Course:
     end: Floats  # [rad]
     duration: Floats  # [s]
     moving: Bools
-    rate: float  # [1/s] at which a motor forgets its speed, kv/ka
-    inertia: float  # [V·s²/rad] ka
+    lag: Lag
 
     def response(self, cycles: float) -> tuple[Floats, Floats]:
         """Compute the increments [rad] that loads of sin(cycles·θ) and of cos(cycles·θ), 1 V each, make, (I,) each."""
         travel = np.zeros(len(self.start), dtype=np.complex128)
-        _fill_response(self.order, self.start, self.end, self.duration, self.moving, cycles, self.rate, travel)
-        travel /= self.rate * self.inertia
+        _fill_response(self.order, self.start, self.end, self.duration, self.moving, cycles, self.lag.rate, travel)
+        travel /= self.lag.rate * self.lag.ka
         return travel.imag, travel.real
 
     def transient(self) -> Floats:
         """Compute the increments [rad] that a speed of 1 rad/s at the beginning of every counted run makes, (I,)."""
         travel = np.zeros(len(self.start))
-        _fill_transient(self.order, self.run, self.duration, self.moving, self.rate, travel)
+        _fill_transient(self.order, self.run, self.duration, self.moving, self.lag.rate, travel)
         return travel
 
 

@@ -26,9 +26,9 @@ def sum_products(course: Course, pull: Floats, cycles: Floats, block: Integers) 
         sums = np.zeros((blocks, min(CYCLES_TOGETHER, len(cycles) - i)), dtype=np.complex128)
         _add_products(
             course.order, course.start, course.end, course.duration, course.moving,
-            float(cycles[i]), width, course.rate, pull, block, sums,
+            float(cycles[i]), width, course.lag.rate, pull, block, sums,
         )  # fmt: skip
-        sums /= course.rate * course.inertia
+        sums /= course.lag.rate * course.lag.ka
         yield sums.imag.T, sums.real.T
 
 

@@ -80,7 +80,7 @@ def whiten_runs(estimate: Estimate, tracks: Sequence[Track]) -> list[WhitenedRun
         angle, begun = data.gear * track.at(data.time), data.time[data.first]  # of the encoder's (the motor's) shaft
         course = Course(
             np.argsort(begun, kind="stable"), track.run_at(begun), angle[data.first], angle[data.last], data.duration,
-            data.slack == 0.0, *estimate.lag,
+            data.slack == 0.0, estimate.lag,
         )  # fmt: skip
         moved = np.where(course.moving, -increments, 0.0)
         colour = fit_autoregression(encoder.white(moved)[: len(moved)], course.order)

@@ -8,6 +8,7 @@ from scipy.signal import lfilter
 
 from motor_identification.discrepancy.free_curves import FAMILIES, OF_ONE_RECORDING, hats, measure_reach, respond
 from motor_identification.discrepancy.motion_history import LAGS, MotionHistory
+from motor_identification.noise.error_model import Lag
 
 RATE, KA, STEP, COUNT = 12.0, 0.0055, 1e-3, 3000
 
@@ -36,7 +37,7 @@ def test_hats_add_up_to_one_and_stay_within() -> None:
 
 def test_a_response_is_the_lag_of_the_motor() -> None:
     torque = np.where(np.arange(COUNT) < 1000, 0.5, -0.2)
-    travel = respond(history(), torque[:, None], RATE, KA)[0]
+    travel = respond(history(), torque[:, None], Lag(RATE, KA))[0]
     decay = np.exp(-RATE * STEP)
     speed = lfilter([1.0 - decay], [1.0, -decay], torque / (KA * RATE))
     exact = STEP * 0.5 * (speed + np.append(0.0, speed[:-1]))
@@ -46,7 +47,7 @@ def test_a_response_is_the_lag_of_the_motor() -> None:
 def test_a_standing_motor_does_not_respond() -> None:
     still = np.zeros(COUNT, dtype=bool)
     still[500:800] = True
-    travel = respond(replace(history(), still=still), np.ones((COUNT, 1)), RATE, KA)[0]
+    travel = respond(replace(history(), still=still), np.ones((COUNT, 1)), Lag(RATE, KA))[0]
     assert np.all(travel[500:800] == 0.0)
     assert 0.0 < travel[800] < 0.01 * travel[499]
 
@@ -84,6 +85,6 @@ def test_the_past_is_told_in_time_constants_and_angles_of_the_motor() -> None:
         travel=motion.travel * angle,
     )
     columns = [
-        FAMILIES["past"](one, measure_reach([one], lag)) for one, lag in ((motion, 0.1), (other, 2.5), (motion, 2.5))
+        FAMILIES["past"](one, measure_reach([one], time)) for one, time in ((motion, 0.1), (other, 2.5), (motion, 2.5))
     ]
     assert np.allclose(columns[0], columns[1], atol=1e-9) and not np.allclose(columns[0], columns[2], atol=0.1)

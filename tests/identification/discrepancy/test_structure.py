@@ -26,7 +26,7 @@ from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.multistart import SearchConfig
 from motor_identification.estimation.problem import make_problem
 from motor_identification.noise.error_data import ErrorData
-from motor_identification.noise.error_model import ErrorModel
+from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.recording import check
 from motor_identification.validation.hold_out import make_hold_out
 
@@ -117,7 +117,7 @@ def test_what_only_the_measured_speed_predicts_is_its_own_disturbance(
         return Structure(name, 0.5, gains[str(rests[0].history)] if name in OF_SPEED else 0.0)
 
     monkeypatch.setattr(structure, "_judge_family", judged)
-    monkeypatch.setattr(structure, "measure_reach", lambda histories, lag: Reach(1.0, 1.0, 1.0, 1.0, lag))
+    monkeypatch.setattr(structure, "measure_reach", lambda histories, time: Reach(1.0, 1.0, 1.0, 1.0, time))
     monkeypatch.setattr(structure, "find_lines", lambda *_: ())
-    found = find_structure([rest], [], ErrorModel(0.0, 0.0, 0.0, 1.0), 1.0, 1.0)
+    found = find_structure([rest], [], ErrorModel(0.0, 0.0, 0.0, 1.0), Lag(1.0, 1.0))
     assert [one.certain for one in found if one.variable in OF_SPEED] == [certain] * 3

@@ -7,9 +7,9 @@ import pytest
 
 from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data, make_whitening, unit_of
-from motor_identification.noise.error_model import ErrorModel
+from motor_identification.noise.error_model import ErrorModel, Lag
 
-RATE, KA = 12.0, 0.0055  # [1/s], [V·s²/rad]
+LAG = Lag(12.0, 0.0055)
 MODEL = ErrorModel(0.01, 0.0, 0.15, 0.05)
 SLOT = 0.06  # [rad]
 
@@ -39,16 +39,16 @@ def test_without_slots_a_share_is_one_of_the_typical_travel() -> None:
 def test_the_likelihood_is_the_sum_of_what_counts() -> None:
     half = np.arange(41) < 20
     parts = [rows(half), rows(~half)]
-    densities = rows().densities(MODEL, RATE, KA)
-    assert log_likelihood([rows()], MODEL, RATE, KA) == pytest.approx(densities.sum())
-    assert log_likelihood(parts, MODEL, RATE, KA) == pytest.approx(densities.sum())
-    assert not parts[0].densities(MODEL, RATE, KA)[20:].any()
+    densities = rows().densities(MODEL, LAG)
+    assert log_likelihood([rows()], MODEL, LAG) == pytest.approx(densities.sum())
+    assert log_likelihood(parts, MODEL, LAG) == pytest.approx(densities.sum())
+    assert not parts[0].densities(MODEL, LAG)[20:].any()
 
 
 def test_a_whitening_is_that_of_the_increments_it_was_made_of() -> None:
     data = rows()
-    _value, white = data.whiten(MODEL, RATE, KA)
-    whitening = make_whitening(data, MODEL, RATE, KA)
+    _value, white = data.whiten(MODEL, LAG)
+    whitening = make_whitening(data, MODEL, LAG)
     assert whitening.white(data.increments) == pytest.approx(white[0], rel=1e-9)
     assert whitening.white(3.0 * data.increments) == pytest.approx(3.0 * white[0], rel=1e-9)  # linear
     assert 0.0 < np.abs(white[0]).max() < 5.0

@@ -13,11 +13,11 @@ from motor_identification.estimation.problem import make_problem
 from motor_identification.noise import error_learning
 from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data
 from motor_identification.noise.error_learning import estimate_disturbance, learn_error_model
-from motor_identification.noise.error_model import ErrorModel
+from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.recording import check
 
 KV, KA = 0.07, 0.0055
-RATE = KV / KA
+LAG = Lag(KV / KA, KA)
 
 
 def leave(torque: float, time: float, irregularity: float) -> list[ErrorData]:
@@ -35,8 +35,8 @@ def leave(torque: float, time: float, irregularity: float) -> list[ErrorData]:
 @pytest.mark.parametrize(("torque", "time", "share"), [(0.15, 0.05, 0.01), (0.03, 0.05, 0.005), (0.1, 0.015, 0.0)])
 def test_strength_and_time_are_learned_within_their_errors(torque: float, time: float, share: float) -> None:
     rows = leave(torque, time, share)
-    model = learn_error_model(rows, RATE, KA)
-    found = estimate_disturbance(rows, model, RATE, KA)
+    model = learn_error_model(rows, LAG)
+    found = estimate_disturbance(rows, model, LAG)
     assert found is not None
     assert 0.8 * torque < found.rms_voltage < 1.2 * torque
     assert 0.6 * time < found.correlation_time < 1.6 * time
@@ -48,19 +48,19 @@ def test_strength_and_time_are_learned_within_their_errors(torque: float, time: 
 @pytest.mark.parametrize("share", [0.0, 0.01])
 def test_a_perfect_motor_has_no_random_torque(share: float) -> None:
     rows = leave(0.0, 0.05, share)
-    model = learn_error_model(rows, RATE, KA)
+    model = learn_error_model(rows, LAG)
     assert model.rms_voltage < 1e-3
-    assert estimate_disturbance(rows, ErrorModel(share, 0.0, 0.0, 1.0), RATE, KA) is None
+    assert estimate_disturbance(rows, ErrorModel(share, 0.0, 0.0, 1.0), LAG) is None
     assert model.share == pytest.approx(share, abs=0.0015)
 
 
 def test_the_learned_model_is_more_likely_than_its_neighbours() -> None:
     rows = leave(0.1, 0.05, 0.005)
-    model = learn_error_model(rows, RATE, KA)
-    best = log_likelihood(rows, model, RATE, KA)
+    model = learn_error_model(rows, LAG)
+    best = log_likelihood(rows, model, LAG)
     for factor in (0.7, 1.4):
         other = ErrorModel(model.share, 0.0, factor * model.rms_voltage, model.correlation_time)
-        assert log_likelihood(rows, other, RATE, KA) < best - 5.0
+        assert log_likelihood(rows, other, LAG) < best - 5.0
 
 
 def log_speeds(noise: float, step: float, torque: float = 0.0) -> tuple[list[ErrorData], float]:
@@ -83,14 +83,14 @@ def log_speeds(noise: float, step: float, torque: float = 0.0) -> tuple[list[Err
 @pytest.mark.parametrize("torque", [0.0, 0.1])
 def test_white_noise_beside_a_lattice_is_the_sensors_and_no_torque(torque: float) -> None:
     rows, counting = log_speeds(0.9, 0.7, torque)
-    model = learn_error_model(rows, RATE, KA)
+    model = learn_error_model(rows, LAG)
     assert np.sqrt(2.0) * model.share * counting == pytest.approx(0.9, rel=0.1)
     assert 0.8 * torque <= model.rms_voltage <= 1.2 * torque
 
 
 def test_a_lattice_alone_has_no_noise_beside() -> None:
     rows, _ = log_speeds(0.0, 0.7)
-    model = learn_error_model(rows, RATE, KA)
+    model = learn_error_model(rows, LAG)
     assert model.share < 0.8 and model.rms_voltage < 0.02
 
 
@@ -99,7 +99,7 @@ def test_a_share_that_was_far_off_does_not_hide_the_right_correlation_time(monke
     rows = leave(0.0, 0.05, 0.0)
     far, slow = 0.08, 0.5
 
-    def log_likelihood_of_two_summits(rows: list[ErrorData], model: ErrorModel, rate: float, ka: float) -> float:
+    def log_likelihood_of_two_summits(rows: list[ErrorData], model: ErrorModel, lag: Lag) -> float:
         if model.rms_voltage == 0.0:
             return -10_000.0 - abs(np.log(max(model.share, 1e-9) / 0.002))
         off, away = np.log(model.share / far), np.log(model.correlation_time / slow)
@@ -107,5 +107,5 @@ def test_a_share_that_was_far_off_does_not_hide_the_right_correlation_time(monke
         return -1000.0 * off**2 + 400.0 * np.exp(-(away**2)) + (100.0 + 300.0 * abs(off)) * fast
 
     monkeypatch.setattr(error_learning, "log_likelihood", log_likelihood_of_two_summits)
-    model = learn_error_model(rows, RATE, KA)
+    model = learn_error_model(rows, LAG)
     assert model.share == pytest.approx(far, rel=0.05) and model.correlation_time == pytest.approx(slow, rel=0.1)

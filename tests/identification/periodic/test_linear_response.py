@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from periodic_course import INERTIA, RATE, course
+from periodic_course import LAG, course
 from scipy.integrate import solve_ivp
 
 
 def slope(t: float, x: list[float], begin: float, turn: float, cycles: float, phase: float) -> list[float]:
     """Speed and travel of a motor under a load sin(cycles·θ + phase), while the shaft turns evenly."""
-    return [-RATE * x[0] - np.sin(cycles * (begin + turn * t) + phase) / INERTIA, x[0]]
+    return [-LAG.rate * x[0] - np.sin(cycles * (begin + turn * t) + phase) / LAG.ka, x[0]]
 
 
 @pytest.mark.parametrize("cycles", [0.0, 1.0, 7.3, 48.0])
@@ -34,6 +34,6 @@ def test_a_speed_at_the_beginning_fades_in_every_run() -> None:
     for number in (0, 1):
         here = (seen.run == number) & seen.moving
         begins = np.concatenate([[0.0], np.cumsum(seen.duration[here])[:-1]])
-        expected = np.exp(-RATE * begins) * (1.0 - np.exp(-RATE * seen.duration[here])) / RATE
+        expected = np.exp(-LAG.rate * begins) * (1.0 - np.exp(-LAG.rate * seen.duration[here])) / LAG.rate
         assert np.allclose(travel[here], expected, rtol=1e-12)
     assert travel[~seen.moving].sum() == 0.0

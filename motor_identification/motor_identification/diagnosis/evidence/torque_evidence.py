@@ -17,7 +17,7 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data, measure_travel
-from motor_identification.noise.error_model import ErrorModel
+from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.recording import Bools, Floats, Integers
 from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, HeldOut, mix_likelihoods
 from motor_identification.validation.hold_out import HoldOut
@@ -50,11 +50,11 @@ def compute_price(estimate: Estimate) -> float:
     return 0.5 * log(count) * len(estimate.theta)
 
 
-def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: tuple[float, float]) -> Score:
+def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: Lag) -> Score:
     """Compute the log likelihood of held-out motion under the errors that a model leaves.
 
     Under the training data's torque, or one of a few larger ones, or an angle that drifts: one restart that nobody
-    could predict must not refute a model. lag: kv/ka [1/s] and ka [V·s²/rad].
+    could predict must not refute a model.
     """
     parts = zip(held.intervals, held.increments, mark_common_set(hold_out), strict=True)
     rows = [make_error_data(*part) for part in parts]
@@ -63,7 +63,7 @@ def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: tu
     if errors.rms_voltage > 0.0:
         others += [replace(errors, rms_voltage=factor * errors.rms_voltage) for factor in UNFORESEEN_TORQUES]
     moments = _add_moments(held.intervals, rows, errors, lag)
-    others_too = [log_likelihood(rows, model, *lag) for model in others]
+    others_too = [log_likelihood(rows, model, lag) for model in others]
     return Score(mix_likelihoods(float(moments.sum()), others_too), moments)
 
 
@@ -73,12 +73,10 @@ def mark_common_set(hold_out: HoldOut) -> tuple[Bools, ...]:
     return hold_out.scored_blocks.mark_each(problem.intervals, problem.sample_period)
 
 
-def _add_moments(
-    intervals: Sequence[Intervals], rows: Sequence[ErrorData], errors: ErrorModel, lag: tuple[float, float]
-) -> Floats:
+def _add_moments(intervals: Sequence[Intervals], rows: Sequence[ErrorData], errors: ErrorModel, lag: Lag) -> Floats:
     """Add up what the intervals of each moment of every recording say, all recordings one after the other."""
     pairs = zip(intervals, rows, strict=True)
-    return np.concatenate([np.bincount(_moment_of(data), row.densities(errors, *lag), MOMENTS) for data, row in pairs])
+    return np.concatenate([np.bincount(_moment_of(data), row.densities(errors, lag), MOMENTS) for data, row in pairs])
 
 
 def _moment_of(data: Intervals) -> Integers:
