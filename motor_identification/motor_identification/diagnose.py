@@ -7,11 +7,11 @@ back what is not needed beside the others.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from time import perf_counter
 
-from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import add_rivals_beside_torque, eliminate_backward
+from motor_identification.diagnosis.candidate_test import fits_torque, predicts_far_worse
 from motor_identification.diagnosis.determination import drop_undetermined
 from motor_identification.diagnosis.forward_selection import retry_with_another_first, select_forward
 from motor_identification.diagnosis.result import Diagnosis, Verdict
@@ -27,7 +27,7 @@ from motor_identification.progress import ProgressReporter, Stage, Stopped, Time
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
 from motor_identification.timing.speed_timing import find_timing
-from motor_identification.validation.hold_out import HoldOut, make_hold_out
+from motor_identification.validation.hold_out import make_hold_out
 from motor_model.effects import EFFECT_BY_NAME, normalised
 from motor_model.errors import RecordingError
 
@@ -61,30 +61,81 @@ def diagnose(
     limit = TimeLimit(request.time_limit, stopped or (lambda: False), _has_smaller_gap)
     reporter = ProgressReporter(progress or (lambda stage: None), limit.over, limit.keep)
     reporter.report("first fit", 0.0, "", float("nan"))
-    hold_out = make_hold_out(recordings, validation, reporter.stopped)
-    start, search = _fit_known(recordings, request, hold_out)
-    timing = find_timing(recordings, start.model.estimate, hold_out.restrict)
-    if timing is not None:
-        recordings, validation = timing.set_on(recordings), timing.set_on(validation)
-        hold_out = make_hold_out(recordings, validation, reporter.stopped)
-        start, search = _fit_known(recordings, request, hold_out)
-    try:
-        selection, undetermined = _select(start, reporter)
-        unfinished = 0.0
-    except Stopped:
-        if not limit.reached or limit.best is None:
-            raise
-        limit.done, unfinished = True, limit.seconds
-        selection, undetermined = drop_stand_ins(limit.best), ()
-    limit.done = True  # what is left is to say it
+    start = _begin_again(_begin(recordings, validation, request, reporter.stopped), request, reporter.stopped)
+    selected = _select_in_time(start.selection, reporter, limit)
     found = conclude(
-        start.model, selection, recordings, validation, search, lambda: perf_counter() - begun, undetermined
+        start.selection.model,
+        selected.selection,
+        start.recordings,
+        start.validation,
+        start.search,
+        lambda: perf_counter() - begun,
+        selected.undetermined,
     )
-    return replace(found, verdict=Verdict.UNDECIDED, time_limit=unfinished) if unfinished else found
+    if selected.finished:
+        return found
+    return replace(found, verdict=Verdict.UNDECIDED, time_limit=limit.seconds)
 
 
 def _has_smaller_gap(one: Selection, other: Selection) -> bool:
     return one.model.held.gap < other.model.held.gap
+
+
+@dataclass(frozen=True)
+class _Start:
+    """What a diagnosis begins with: recordings, and the known model fitted to them."""
+
+    recordings: Sequence[Recording]
+    validation: Sequence[Recording]
+    selection: Selection  # without steps
+    search: SearchReport
+
+
+def _begin(
+    recordings: Sequence[Recording],
+    validation: Sequence[Recording],
+    request: Request,
+    stopped: Callable[[], bool],
+) -> _Start:
+    """Hold out what the diagnosis is judged by, and fit the known model to the rest, searched globally."""
+    known = normalised(request.effects)
+    hold_out = make_hold_out(recordings, validation, stopped)
+    whole = make_problem(recordings, drop_periodic_effects(known), request.workers, hold_out.problem.stopped)
+    estimate, search = search_globally(hold_out.restrict(whole), request.search)
+    single = estimate.on(replace(estimate.problem, workers=1))  # effects are tried at a time instead
+    selection = begin_selection(add_periodic_effects(single, known), hold_out, request.workers)
+    return _Start(recordings, validation, selection, search)
+
+
+def _begin_again(start: _Start, request: Request, stopped: Callable[[], bool]) -> _Start:
+    """Begin again where the first fit says that speeds, which nobody timed, were made otherwise than assumed."""
+    selection = start.selection
+    timing = find_timing(start.recordings, selection.model.estimate, selection.hold_out.restrict)
+    if timing is None:
+        return start
+    return _begin(timing.set_on(start.recordings), timing.set_on(start.validation), request, stopped)
+
+
+@dataclass(frozen=True)
+class _Selected:
+    """What was selected, and whether there was time to finish."""
+
+    selection: Selection
+    undetermined: tuple[str, ...]  # effects one of which may be missing
+    finished: bool
+
+
+def _select_in_time(start: Selection, reporter: ProgressReporter, limit: TimeLimit[Selection]) -> _Selected:
+    """Select what is missing, or return the best selection so far once the time is used up."""
+    try:
+        selected = _Selected(*_select(start, reporter), finished=True)
+    except Stopped:
+        if not limit.reached or limit.best is None:
+            raise
+        limit.done = True
+        selected = _Selected(drop_stand_ins(limit.best), (), finished=False)
+    limit.done = True  # what is left is to say it
+    return selected
 
 
 def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tuple[str, ...]]:
@@ -102,19 +153,6 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     else:
         selection = beside
     return drop_undetermined(selection, reporter)
-
-
-def fits_torque(beside: float, start: float) -> bool:
-    """Decide by gaps [rad/s] whether a model beside a random torque fits the torque instead of the motion.
-
-    It predicts worse than the model that the diagnosis began with.
-    """
-    return beside > thresholds.GAP_CHANCE * start
-
-
-def predicts_far_worse(beside: float, plain: float) -> bool:
-    """Decide by gaps [rad/s] whether a torque was learned of what a model without it predicts."""
-    return beside > thresholds.WORSE_GAP * plain
 
 
 def _select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
@@ -135,12 +173,3 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
         if selection.model.complete and not predicts_far_worse(selection.model.held.gap, plain.model.held.gap):
             return selection
     return None
-
-
-def _fit_known(recordings: Sequence[Recording], request: Request, hold_out: HoldOut) -> tuple[Selection, SearchReport]:
-    """Fit the model to begin with, searched globally."""
-    known = normalised(request.effects)
-    whole = make_problem(recordings, drop_periodic_effects(known), request.workers, hold_out.problem.stopped)
-    estimate, search = search_globally(hold_out.restrict(whole), request.search)
-    single = estimate.on(replace(estimate.problem, workers=1))  # effects are tried at a time instead
-    return begin_selection(add_periodic_effects(single, known), hold_out, request.workers), search

@@ -91,6 +91,19 @@ def share_explained(before: float, after: float, floor: float) -> float:
     return (before**2 - after**2) / (before**2 - floor**2) if before > floor else 1.0
 
 
+def fits_torque(beside: float, start: float) -> bool:
+    """Decide by gaps [rad/s] whether a model beside a random torque fits the torque instead of the motion.
+
+    It predicts worse than the model that the diagnosis began with.
+    """
+    return beside > thresholds.GAP_CHANCE * start
+
+
+def predicts_far_worse(beside: float, plain: float) -> bool:
+    """Decide by gaps [rad/s] whether a torque was learned of what a model without it predicts."""
+    return beside > thresholds.WORSE_GAP * plain
+
+
 def likelihood_threshold() -> float:
     """Compute what a log likelihood ratio has to exceed, by Markov's inequality for all effects together."""
     return log(len(EFFECT_BY_NAME) / thresholds.FALSE_ALARM_RATE)

@@ -8,9 +8,13 @@ import numpy as np
 import pytest
 from stub_models import LASTING_FLOOR, stub_held, stub_model, stub_test
 
-from motor_identification.diagnose import fits_torque, predicts_far_worse
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
+from motor_identification.diagnosis.candidate_test import (
+    CandidateTest,
+    fits_torque,
+    likelihood_threshold,
+    predicts_far_worse,
+)
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     find_rivals,
