@@ -27,7 +27,7 @@ from motor_identification.progress import ProgressReporter, Stage, Stopped, Time
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
 from motor_identification.timing.speed_timing import find_timing
-from motor_identification.validation.hold_out import make_hold_out
+from motor_identification.validation.hold_out import HoldOut, make_hold_out
 from motor_model.effects import EFFECT_BY_NAME, normalised
 from motor_model.errors import RecordingError
 
@@ -97,14 +97,18 @@ def _begin(
     request: Request,
     stopped: Callable[[], bool],
 ) -> _Start:
-    """Hold out what the diagnosis is judged by, and fit the known model to the rest, searched globally."""
-    known = normalised(request.effects)
+    """Hold out what the diagnosis is judged by, and fit the known model to the rest."""
     hold_out = make_hold_out(recordings, validation, stopped)
+    return _Start(recordings, validation, *fit_known(recordings, request, hold_out))
+
+
+def fit_known(recordings: Sequence[Recording], request: Request, hold_out: HoldOut) -> tuple[Selection, SearchReport]:
+    """Fit the model to begin with to what is not held out, searched globally."""
+    known = normalised(request.effects)
     whole = make_problem(recordings, drop_periodic_effects(known), request.workers, hold_out.problem.stopped)
     estimate, search = search_globally(hold_out.restrict(whole), request.search)
     single = estimate.on(replace(estimate.problem, workers=1))  # effects are tried at a time instead
-    selection = begin_selection(add_periodic_effects(single, known), hold_out, request.workers)
-    return _Start(recordings, validation, selection, search)
+    return begin_selection(add_periodic_effects(single, known), hold_out, request.workers), search
 
 
 def _begin_again(start: _Start, request: Request, stopped: Callable[[], bool]) -> _Start:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from plant import profiles, record
 
-from motor_identification.diagnose import Request, _fit_known
+from motor_identification.diagnose import Request, fit_known
 from motor_identification.diagnosis.effect_test import try_effects
 from motor_identification.diagnosis.selection import begin_beside_torque
 from motor_identification.estimation.request import SearchConfig
@@ -43,7 +43,7 @@ def corrupt(recording: Recording, blocks: TimeBlocks) -> Recording:
 
 def list_fits(train: Recording, hold_out: HoldOut) -> tuple[list[Any], int]:
     """All that a diagnosis fits at its first step, and how many held-out intervals are seen to be miscounted."""
-    start, _ = _fit_known([train], KNOWN, hold_out)
+    start, _ = fit_known([train], KNOWN, hold_out)
     tests = try_effects(start.model, start.hold_out, TRIED, 1, lambda test: None)
     beside = begin_beside_torque(start.model, start.hold_out, 1)
     fits: list[Any] = [start.model.noise, beside.model.learned]
