@@ -6,7 +6,7 @@ from typing import cast
 
 import numpy as np
 
-from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate
@@ -70,7 +70,12 @@ def stub_model(
     gap: float, lasting: float | None = None, likelihood: float = 0.0, estimate: Estimate | None = None
 ) -> Model:
     """A model of this gap and logarithmic likelihood, without a disc."""
-    return StubModel(cast(Estimate, estimate), stub_held(gap, lasting), Noise(0.0, 0.0), likelihood)
+    return StubModel(cast(Estimate, estimate), stub_held(gap, lasting), Noise(0.0, 0.0), Score(likelihood))
+
+
+def rescored(model: Model, **changed: object) -> Model:
+    """The model with other parts of its score."""
+    return replace(model, score=replace(model.score, **changed))
 
 
 def short_by(slots: Sequence[float], gap: float = 1.0, slot: float = 0.3) -> Model:

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.disturbed_fit import fit_beside_torque, list_error_data
 from motor_identification.diagnosis.evidence.torque_evidence import (
     compute_price,
@@ -36,9 +36,10 @@ def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = N
     each = tuple(log_likelihood(data, increments, noise) for data, increments in rows)
     training = sum(each)
     if held.seen:
-        model = Model(estimate, held, noise, training - compute_price(estimate), by_recording=each)
+        score = Score(training - compute_price(estimate), by_recording=each)
     else:
-        model = Model(estimate, held, noise, held.log_likelihood(noise), training, each)
+        score = Score(held.log_likelihood(noise), training, each)
+    model = Model(estimate, held, noise, score)
     if like is None or not like.beside_torque:
         return model
     return judge_beside_torque(model, hold_out, like.learned, thresholds.CANDIDATE_EVALUATIONS)
@@ -50,16 +51,13 @@ def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | Non
     errors = learn_error_model(rows, lag, guess, evaluations)
     held, training = score_held_out(hold_out, model.held, errors, lag), score_training(model.estimate, rows, errors)
     parts = (training,) if model.held.seen else (held, training)
-    return replace(
-        model,
-        learned=errors,
-        likelihood=sum(part.likelihood for part in parts),
-        training=0.0,
-        by_recording=(),
+    score = Score(
+        sum(part.likelihood for part in parts),
         held_out=held.likelihood,
         scored=sum(map(np.count_nonzero, mark_common_set(hold_out))),
         moments=np.concatenate([part.moments for part in parts]),
     )
+    return replace(model, learned=errors, score=score)
 
 
 def refine_beside_torque(model: Model, hold_out: HoldOut) -> Model:

@@ -25,24 +25,36 @@ CURVE_BLOCKS = TimeBlocks(4)  # that curves are judged by where nothing is held 
 
 
 @dataclass(frozen=True)
+class Score:
+    """How likely recordings are under a fitted motor: logarithms of likelihoods."""
+
+    likelihood: float  # of unseen data; beside a random torque, or where none is, of all less a price
+    training: float = 0.0  # of the data that it was fitted to, where that is not part of it
+    by_recording: tuple[float, ...] = ()  # the same of each; not beside a random torque
+    held_out: float = 0.0  # beside a random torque, the held-out data's part of `likelihood`
+    scored: int = 0  # intervals that it is of
+    moments: Floats = field(default_factory=lambda: np.zeros(0))  # of all motion, what each adds to the likelihood
+
+    @property
+    def of_all(self) -> float:
+        """Of held-out and of training data."""
+        return self.likelihood + self.training
+
+
+@dataclass(frozen=True)
 class Model:
     """A fitted motor, and how it does on held-out data."""
 
     estimate: Estimate  # on its training data
     held: HeldOut
     noise: Noise  # what it leaves in the training data
-    likelihood: float  # logarithm, of unseen data; beside a random torque, or where none is, of all less a price
-    training: float = 0.0  # logarithm of the likelihood of the data it was fitted to, where that is not part of it
-    by_recording: tuple[float, ...] = ()  # the same of each; not beside a random torque
+    score: Score
     learned: ErrorModel | None = None  # of what it leaves, where it is judged beside a random torque
-    held_out: float = 0.0  # the held-out data's part of that likelihood
-    scored: int = 0  # intervals that it is of
-    moments: Floats = field(default_factory=lambda: np.zeros(0))  # of all motion, what each adds to the likelihood
 
     @property
-    def likelihood_of_all(self) -> float:
-        """Logarithm of the likelihood of held-out and of training data."""
-        return self.likelihood + self.training
+    def likelihood(self) -> float:
+        """Logarithm of the likelihood that it is judged by."""
+        return self.score.likelihood
 
     @property
     def beside_torque(self) -> bool:

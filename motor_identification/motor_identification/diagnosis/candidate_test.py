@@ -38,7 +38,7 @@ class CandidateTest:
     @property
     def evidence_of_all(self) -> float:
         """The same of all data, which flatters a fit by its parameters: to tell effects with as many parameters."""
-        return self.model.likelihood_of_all - self.before.likelihood_of_all
+        return self.model.score.of_all - self.before.score.of_all
 
     @property
     def fits_training(self) -> bool:
@@ -48,7 +48,7 @@ class CandidateTest:
     @property
     def steadiness(self) -> float:
         """Evidence without the few moments that speak most for it, beside a random torque."""
-        return measure_steadiness(self.before.moments, self.model.moments)
+        return measure_steadiness(self.before.score.moments, self.model.score.moments)
 
     @property
     def explains(self) -> float:
@@ -69,13 +69,7 @@ class CandidateTest:
     def relevant(self) -> bool:
         """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual."""
         if self.model.beside_torque:
-            # A slow torque, which most of the gap may be of, is another one beside what is fast or speaks for itself.
-            said = self.model.held_out - self.before.held_out
-            free = EFFECT_BY_NAME[self.effect].periodic or said > likelihood_threshold()
-            shrinks = self.model.held.gap <= self.held_before.gap * (thresholds.GAP_CHANCE if free else 1.0)
-            return (
-                shrinks and said > 0.0 and 2.0 * self.steadiness > thresholds.RELEVANT_WHITE_SHARE * self.model.scored
-            )
+            return self._is_relevant_beside_torque()
         before, after = self._lasting_before, self.model.lasting
         floor = after.floor(self.model.noise.share)
         if before.gap < (thresholds.SEEN_GAP if before.seen else thresholds.RELEVANT_GAP) * floor:
@@ -84,6 +78,14 @@ class CandidateTest:
         near = before.gap < near_floor * floor or self.has_instants
         least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE
         return self.model.held.gap < self.held_before.gap and share_explained(before.gap, after.gap, floor) > least
+
+    def _is_relevant_beside_torque(self) -> bool:
+        said = self.model.score.held_out - self.before.score.held_out
+        # A slow torque, which most of the gap may be of, is another one beside what is fast or speaks for itself.
+        free = EFFECT_BY_NAME[self.effect].periodic or said > likelihood_threshold()
+        shrinks = self.model.held.gap <= self.held_before.gap * (thresholds.GAP_CHANCE if free else 1.0)
+        least = thresholds.RELEVANT_WHITE_SHARE * self.model.score.scored
+        return shrinks and said > 0.0 and 2.0 * self.steadiness > least
 
 
 def share_explained(before: float, after: float, floor: float) -> float:

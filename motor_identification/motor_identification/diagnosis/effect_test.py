@@ -147,7 +147,7 @@ def find_rivals(found: CandidateTest, tests: Sequence[CandidateTest]) -> tuple[s
         if is_alike(
             found.evidence - test.evidence,
             found.evidence_of_all - test.evidence_of_all,
-            np.subtract(found.model.by_recording, test.model.by_recording),
+            np.subtract(found.model.score.by_recording, test.model.score.by_recording),
         )
     ]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(found.effect))
@@ -164,8 +164,9 @@ def is_alike(gain: float, of_all: float, by_recording: Floats) -> bool:
 
 def are_alike(other: Model, found: Model) -> bool:
     """Decide the same of two models that were judged by the same data."""
-    gains = np.subtract(found.by_recording, other.by_recording)
-    return is_alike(found.likelihood - other.likelihood, found.likelihood_of_all - other.likelihood_of_all, gains)
+    one, two = found.score, other.score
+    gains = np.subtract(one.by_recording, two.by_recording)
+    return is_alike(one.likelihood - two.likelihood, one.of_all - two.of_all, gains)
 
 
 def is_against_most(gains: Floats) -> bool:

@@ -7,7 +7,7 @@ from typing import cast
 import numpy as np
 import pytest
 from diagnosed import fitted
-from stub_models import stub_model, stub_test, with_effects
+from stub_models import rescored, stub_model, stub_test, with_effects
 from stub_selections import stub_selection
 
 from motor_identification.diagnosis import backward_elimination, thresholds
@@ -20,7 +20,7 @@ from motor_identification.diagnosis.backward_elimination import (
     list_replacements,
 )
 from motor_identification.diagnosis.candidate_fit import validate_model
-from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.diagnosis.selection import Selection, SelectionStep
@@ -38,8 +38,8 @@ def test_a_model_is_judged_by_the_errors_of_one_without_an_effect_too(
     monkeypatch: pytest.MonkeyPatch, likelihood: float, better: bool
 ) -> None:
     """Their search may end in another place, where the larger model is likelier, too."""
-    model, other = replace(stub_model(2.0), likelihood=100.0), ErrorModel(0.003, 0.0, 0.1, 0.05)
-    again, asked = replace(model, likelihood=likelihood), []
+    model, other = stub_model(2.0, likelihood=100.0), ErrorModel(0.003, 0.0, 0.1, 0.05)
+    again, asked = rescored(model, likelihood=likelihood), []
 
     def judged(one: Model, hold_out: HoldOut, guess: ErrorModel, evaluations: int) -> Model:
         asked.append((one, guess))
@@ -112,7 +112,8 @@ def test_a_load_from_the_first_instant_on_is_a_constant_one(times: float, better
     (data,) = step.held.intervals
     apart = times * thresholds.SAME_MOTION * step.floor * np.append(0.0, np.cumsum(data.duration))
     test = stub_test("load_bias", stub_model(9.0), 2.0, 100.0)
-    alike = replace(test, model=replace(step, held=replace(step.held, angles=(angle + apart,)), likelihood=0.0))
+    moved = replace(step, held=replace(step.held, angles=(angle + apart,)))
+    alike = replace(test, model=rescored(moved, likelihood=0.0))
     assert is_better(alike, "load_step", step) is better
     assert not is_better(alike, "coulomb_friction", step)  # no simpler than it is
 
@@ -146,8 +147,8 @@ def test_a_few_moments_count_where_what_replaces_predicts_worse(times: float, fe
     moments[7] = 100.0
 
     def model(gap: float, likelihood: float, moments: Floats) -> Model:
-        held = SimpleNamespace(gap=gap)
-        return cast(Model, SimpleNamespace(likelihood=likelihood, held=held, moments=moments, beside_torque=True))
+        held, score = SimpleNamespace(gap=gap), Score(likelihood, moments=moments)
+        return cast(Model, SimpleNamespace(likelihood=likelihood, held=held, score=score, beside_torque=True))
 
     current = model(1.0, 100.0, moments)
     test = CandidateTest("load_bias", current, model(times * thresholds.WORSE_GAP, 0.0, np.zeros(60)))

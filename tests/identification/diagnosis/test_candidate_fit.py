@@ -28,10 +28,10 @@ def test_where_nothing_is_held_out_all_motion_counts_once_less_the_price_of_the_
     estimate, _ = fitted()
     whole = WholeRecordings(estimate.problem, TimeBlocks(1), False)
     model = validate_model(whole, estimate)
-    assert model.held.seen and model.training == 0.0 and model.held.counted.mean() > 0.99
+    assert model.held.seen and model.score.training == 0.0 and model.held.counted.mean() > 0.99
     assert model.likelihood == pytest.approx(model.held.log_likelihood(model.noise) - compute_price(estimate), abs=1.0)
     beside = judge_beside_torque(model, whole, None, 40)
     assert beside.learned is not None
     alone = score_training(estimate, list_error_data(estimate), beside.learned)
-    assert beside.likelihood == alone.likelihood and len(beside.moments) == len(alone.moments)
+    assert beside.likelihood == alone.likelihood and len(beside.score.moments) == len(alone.moments)
     assert len(model.structure) == 0 or not model.structure[0].certain  # judged by other blocks than it is learnt on

@@ -7,7 +7,7 @@ import pytest
 from stub_models import FLOOR, LASTING_FLOOR, stub_held, stub_model, stub_test
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, share_explained
 from motor_identification.noise.error_model import ErrorModel
 
@@ -37,7 +37,7 @@ def test_evidence_is_the_logarithm_of_a_likelihood_ratio() -> None:
 def beside_torque(gap: float, held_out: float, evidence: float = 0.0) -> Model:
     """A model beside a random torque, which 2000 intervals of even moments speak for."""
     errors, moments = ErrorModel(0.0, 0.0, 0.1, 0.1), np.full(200, evidence / 200)
-    return replace(stub_model(gap), learned=errors, held_out=held_out, scored=2000, moments=moments)
+    return replace(stub_model(gap), learned=errors, score=Score(0.0, held_out=held_out, scored=2000, moments=moments))
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from typing import cast
 import numpy as np
 import pytest
 from diagnosed import fitted
-from stub_models import stub_model, stub_test
+from stub_models import rescored, stub_model, stub_test
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
@@ -59,7 +59,7 @@ def test_what_is_likely_but_irrelevant_is_passed_over() -> None:
 def test_what_fits_its_own_training_data_worse_is_no_finding(training: float, found: bool) -> None:
     """Of a ripple's phases in held-out motion, which are fitted anew with it, any effect may make a little more."""
     test = stub_test("load_bias", stub_model(5.0), 2.0, 300.0)
-    test = replace(test, model=replace(test.model, training=test.before.training + training))
+    test = replace(test, model=rescored(test.model, training=test.before.score.training + training))
     assert (choose_finding([test]) is test) is found
 
 

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 from diagnosed import fitted
-from stub_models import stub_model, stub_test
+from stub_models import rescored, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import forward_selection, thresholds
-from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import choose_finding
 from motor_identification.diagnosis.forward_selection import (
@@ -65,9 +65,9 @@ def test_beside_a_torque_the_model_is_fitted_again_from_where_a_finding_leads(
     """What the candidate found by luck counts for the model without the effect as well."""
     errors = ErrorModel(0.0, 0.0, 0.1, 0.05)
     gains = np.ones(40)
-    before = replace(stub_model(5.0), learned=errors, scored=100, moments=0.0 * gains)
-    lucky = replace(stub_model(4.9, likelihood=40.0), learned=errors, scored=100, held_out=1.0, moments=gains)
-    again = replace(before, likelihood=39.0 if better else -1.0, moments=gains if better else 0.0 * gains)
+    before = replace(stub_model(5.0), learned=errors, score=Score(0.0, scored=100, moments=0.0 * gains))
+    lucky = replace(stub_model(4.9), learned=errors, score=Score(40.0, held_out=1.0, scored=100, moments=gains))
+    again = rescored(before, likelihood=39.0 if better else -1.0, moments=gains if better else 0.0 * gains)
     monkeypatch.setattr(forward_selection, "refit_without", lambda model, effect, hold_out: again)
     selection, tests = verify_findings(selection_of(before), [CandidateTest("load_bias", before, lucky)])
     assert (selection.model is again) == better and (choose_finding(tests) is None) == better
@@ -154,7 +154,7 @@ def test_another_first_effect_that_leads_to_the_same_motion_is_a_rival(
     other = stub_test("load_bias", before, 4.0, 99.0)
     step = replace(step_of(first), tests=(first, other), rivals=("load_bias",), explains=0.5)
     begun = replace(selection_of(after, step), model=after)
-    again = replace(after, held=stub_model(4.0 * gap).held, likelihood=after.likelihood + likelier)
+    again = rescored(replace(after, held=stub_model(4.0 * gap).held), likelihood=after.likelihood + likelier)
     second = replace(step_of(other), rivals=())
     monkeypatch.setattr(forward_selection, "begin_selection", lambda *rest: begun)
     monkeypatch.setattr(

@@ -6,7 +6,7 @@ from typing import cast
 
 import numpy as np
 import pytest
-from stub_models import LASTING_FLOOR, stub_held, stub_model, stub_test
+from stub_models import LASTING_FLOOR, rescored, stub_held, stub_model, stub_test
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_test import (
@@ -117,8 +117,8 @@ def test_what_most_of_many_recordings_prefer_is_a_rival(gains: list[float], riva
     before = stub_model(5.0)
     found = stub_test("transport_delay", before, 1.0, 100.0)
     other = stub_test("armature_inductance", before, 1.0, 100.0 - 2.0 * thresholds.RIVAL_MARGIN)
-    found = replace(found, model=replace(found.model, by_recording=tuple(np.add(50.0, gains))))
-    other = replace(other, model=replace(other.model, by_recording=(50.0,) * len(gains)))
+    found = replace(found, model=rescored(found.model, by_recording=tuple(np.add(50.0, gains))))
+    other = replace(other, model=rescored(other.model, by_recording=(50.0,) * len(gains)))
     assert find_rivals(found, [found, other]) == (("armature_inductance",) if rival else ())
 
 
@@ -127,7 +127,7 @@ def test_what_all_data_prefer_is_a_rival(times: float, passes: bool) -> None:
     before = stub_model(5.0)
     found = stub_test("transport_delay", before, 1.0, 100.0)
     other = stub_test("armature_inductance", before, 1.0, 80.0)
-    other = replace(other, model=replace(other.model, training=20.0 * times))
+    other = replace(other, model=rescored(other.model, training=20.0 * times))
     assert find_rivals(found, [found, other]) == (("armature_inductance",) if passes else ())
 
 

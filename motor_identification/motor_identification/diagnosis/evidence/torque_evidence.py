@@ -28,20 +28,20 @@ FEW = 0.05  # of the moments, which no evidence may rest on alone
 
 
 @dataclass(frozen=True)
-class Score:
+class Evidence:
     """How likely some motion is, and what each of its moments adds to that."""
 
     likelihood: float  # logarithm
     moments: Floats
 
 
-def score_training(estimate: Estimate, rows: Sequence[ErrorData], errors: ErrorModel) -> Score:
+def score_training(estimate: Estimate, rows: Sequence[ErrorData], errors: ErrorModel) -> Evidence:
     """Compute the log likelihood of training motion under an estimate and the errors that it leaves, less its price.
 
     rows: of every training recording, what the estimate leaves.
     """
     moments = _add_moments(estimate.problem.intervals, rows, errors, estimate.lag)
-    return Score(float(moments.sum()) - compute_price(estimate), moments)
+    return Evidence(float(moments.sum()) - compute_price(estimate), moments)
 
 
 def compute_price(estimate: Estimate) -> float:
@@ -50,7 +50,7 @@ def compute_price(estimate: Estimate) -> float:
     return 0.5 * log(count) * len(estimate.theta)
 
 
-def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: Lag) -> Score:
+def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: Lag) -> Evidence:
     """Compute the log likelihood of held-out motion under the errors that a model leaves.
 
     Under the training data's torque, or one of a few larger ones, or an angle that drifts: one restart that nobody
@@ -64,7 +64,7 @@ def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: La
         others += [replace(errors, rms_voltage=factor * errors.rms_voltage) for factor in UNFORESEEN_TORQUES]
     moments = _add_moments(held.intervals, rows, errors, lag)
     others_too = [log_likelihood(rows, model, lag) for model in others]
-    return Score(mix_likelihoods(float(moments.sum()), others_too), moments)
+    return Evidence(mix_likelihoods(float(moments.sum()), others_too), moments)
 
 
 def mark_common_set(hold_out: HoldOut) -> tuple[Bools, ...]:

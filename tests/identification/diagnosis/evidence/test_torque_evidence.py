@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from diagnosed import fitted, with_effect
+from stub_models import rescored
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
-from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.disturbed_fit import list_error_data
 from motor_identification.diagnosis.evidence.torque_evidence import (
@@ -74,7 +75,7 @@ def judged(**hidden: float) -> tuple[Model, Model]:
 def test_a_friction_that_is_there_has_evidence_on_both_parts() -> None:
     before, after = judged(ks=0.4)
     test = CandidateTest("coulomb_friction", before, after)
-    assert test.evidence > after.held_out - before.held_out > 100.0
+    assert test.evidence > after.score.held_out - before.score.held_out > 100.0
     assert test.evidence > test.steadiness > 100.0 and test.relevant
 
 
@@ -86,8 +87,8 @@ def test_what_matters_is_a_share_of_the_white_residual_and_shows_on_held_out_mot
     least = times * 0.5 * thresholds.RELEVANT_WHITE_SHARE * 2000
     moments = np.append(np.full(95, least / 95.0), np.full(5, least))  # the five are left out
     model = validate_model(hold_out, estimate)
-    before = replace(model, learned=ERRORS, scored=2000, likelihood=0.0, held_out=0.0, moments=0.0 * moments)
-    after = replace(before, likelihood=6.0 * least, held_out=held, moments=moments)
+    before = replace(model, learned=ERRORS, score=Score(0.0, scored=2000, moments=0.0 * moments))
+    after = rescored(before, likelihood=6.0 * least, held_out=held, moments=moments)
     assert CandidateTest("coulomb_friction", before, after).relevant == relevant
 
 
@@ -95,6 +96,6 @@ def test_what_matters_is_a_share_of_the_white_residual_and_shows_on_held_out_mot
 def test_an_effect_is_likely_without_the_best_moments_too(steady: float, likely: bool) -> None:
     estimate, hold_out = fitted()
     moments = np.append(np.full(95, steady / 95.0), np.full(5, 50.0))
-    before = replace(validate_model(hold_out, estimate), learned=ERRORS, likelihood=0.0, moments=0.0 * moments)
-    after = replace(before, likelihood=250.0 + steady, moments=moments)
+    before = replace(validate_model(hold_out, estimate), learned=ERRORS, score=Score(0.0, moments=0.0 * moments))
+    after = rescored(before, likelihood=250.0 + steady, moments=moments)
     assert CandidateTest("coulomb_friction", before, after).is_likely(10.0) == likely
