@@ -21,6 +21,7 @@ from motor_ros.parameters import unknown_parameters
 from motor_ros.program import INVALID_ARGUMENTS, Program, answer, plain_sentence
 
 LOOK_FOR_SIGNALS_EVERY = 0.1  # [s] how long an idle node takes at most to notice Ctrl-C
+CAUSES = {signal.SIGINT: "Ctrl-C", signal.SIGTERM: "it was told to end", signal.SIGHUP: "the terminal was closed"}
 
 
 def start_ros(args: list[str] | None = None) -> None:
@@ -60,16 +61,21 @@ class Interrupt:
     """
 
     def __init__(self) -> None:
-        self.received = False
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        self.received: int | None = None  # the first signal
+        for number in CAUSES:
             if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
                 signal.signal(number, self._on_signal)
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
-        self.received = True
+        self.received = self.received or number
 
     def __bool__(self) -> bool:
-        return self.received
+        return self.received is not None
+
+    @property
+    def cause(self) -> str:
+        """What the first signal meant, as a clause; empty before it."""
+        return CAUSES.get(self.received or 0, "")
 
 
 def quick_executor() -> Executor:

@@ -7,7 +7,7 @@ import signal
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from motor_driver.check import words
 from motor_driver.check.first_run import FirstRun
@@ -16,11 +16,14 @@ from motor_driver.check.settings import Settings, config_of
 from motor_driver.frames import Decay, Pwm
 from motor_driver.link import open_port
 from motor_driver.ports.port_error import COMMAND
+from motor_model.errors import MotorError
 from motor_ros.run import Interrupt
 
 LOOK_EVERY = 0.004  # [s]
 MOST_READ = 4096
 OFF_TIME = 0.3  # [s] in which the board says that its output is off
+UNREAD = "nobody reads what the check says any more"
+STOPPED = "The check has stopped the motor: {}."
 
 
 def run_on(options: argparse.Namespace, settings: Settings, port: str, roll_call: bool = False) -> FirstRun:
@@ -28,7 +31,8 @@ def run_on(options: argparse.Namespace, settings: Settings, port: str, roll_call
 
     Raises:
         PortError: it cannot be opened.
-        KeyboardInterrupt: somebody pressed Ctrl-C; the motor is off.
+        KeyboardInterrupt: somebody pressed Ctrl-C, or ended us otherwise; the motor is off.
+        MotorError: nobody reads what is said; the motor is off.
     """
     with _interruptible() as interrupt:
         return _Terminal(options, settings, port, interrupt, roll_call).run()
@@ -61,10 +65,13 @@ class _Terminal:
         self._port = open_port(port, options.baud, COMMAND)
         config = config_of(settings, options.baud, decay, Pwm.SILENT if options.silent_pwm else Pwm.STANDARD)
         self._run = FirstRun(settings, config, port, time.monotonic_ns(), roll_call)
-        self._shown, self._ended, self._hung_up = 0, False, False
+        self._shown, self._ended, self._hung_up, self._typed = 0, False, False, b""
         if settings.hand and sys.stdin is None:  # it was closed before we started
             self._run.hear("")
         self._prompt: Prompt | None = None
+        self._readers = select.poll()
+        with suppress(OSError):  # no file: nobody can close it
+            self._readers.register(sys.stdout, 0)  # hang-ups and errors are told unasked
 
     def run(self) -> FirstRun:
         """Until it has come to its end, with the output off."""
@@ -72,9 +79,13 @@ class _Terminal:
             while not self._run.done and not self._run.driver.unsuitable(time.monotonic_ns()):
                 self._step()
                 self._show()
+                if self._readers.poll(0):
+                    raise BrokenPipeError
                 if self._interrupt:
-                    self._run.abort("Ctrl-C")
+                    self._run.abort(self._interrupt.cause)
                     break
+        except BrokenPipeError as error:  # a person who sees nothing cannot answer, nor say stop
+            raise MotorError(STOPPED.format(UNREAD)) from error
         finally:
             self._leave()
         self._show()
@@ -102,9 +113,7 @@ class _Terminal:
             if data == b"":
                 raise OSError
             if keys and sys.stdin in ready:
-                line = sys.stdin.readline()
-                self._hung_up = not line
-                self._run.hear(line)
+                self._hear_keys()
             now = time.monotonic_ns()
             if data:
                 self._run.received(data, now)
@@ -115,6 +124,22 @@ class _Terminal:
             self._ended = True
             self._run.driver.closed(f"The serial port {self._name} is gone: plug the board in again.")
             self._run.abort(f"the serial port {self._name} is gone")
+
+    def _hear_keys(self) -> None:
+        """Take what was typed; nothing, or an error of its own, is the end of the terminal.
+
+        Without a newline it is no answer yet, and nobody waits for the rest: the board has to hear of us meanwhile.
+        """
+        try:
+            typed = os.read(sys.stdin.fileno(), MOST_READ)
+        except OSError:
+            typed = b""
+        if not typed:
+            self._hung_up = True
+            self._run.hear("")
+        *lines, self._typed = (self._typed + typed).split(b"\n")
+        for line in lines:
+            self._run.hear(line.decode(errors="replace") + "\n")
 
     def _show(self) -> None:
         """Say what is new."""

@@ -4,6 +4,7 @@ import argparse
 import json
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 from motor_driver.check import result, words
@@ -65,13 +66,15 @@ def _end(options: argparse.Namespace, settings: Settings, run: FirstRun, port: s
             _write(options.json, json.dumps(result.refused_json(settings, port, run.code, sentence), indent=1) + "\n")
         raise MotorError(sentence)
     chosen = result.Chosen(port, options.name, options.decay, options.silent_pwm)
-    print(words.verdict_of(run.check))
+    said = [words.verdict_of(run.check)]
     if options.json:
         _write(options.json, json.dumps(result.as_json(run.check, chosen), indent=1, ensure_ascii=False) + "\n")
     if run.check.right and options.output:
         _write(options.output, result.parameter_text(run.check, chosen))
-        print(f"parameters: {options.output}")
-        print(f"next: ros2 run motor_driver motor_driver --ros-args --params-file {options.output}")
+        said.append(f"parameters: {options.output}")
+        said.append(f"next: ros2 run motor_driver motor_driver --ros-args --params-file {options.output}")
+    with suppress(BrokenPipeError):  # who does not read to the end is told by the exit status all the same
+        print("\n".join(said), flush=True)
     return 0 if run.check.right else 1
 
 

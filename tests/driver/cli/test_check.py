@@ -1,6 +1,7 @@
 """`check` as a person runs it, on the emulated board in real time: its sentences, its exit status, its file."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -58,6 +59,69 @@ def test_a_first_run_stops_at_ctrl_c_and_else_writes_the_parameters(live: LiveBo
     assert values["port"] == str(port) and values["edges_per_revolution"] == 96
     measured = json.loads(found.read_text(encoding="utf-8"))["measured"]
     assert 160.0 < measured["top_speed"] < 190.0
+
+
+def driven(board: LiveBoard) -> "subprocess.Popen[str]":
+    """A check whose motor has voltage just now."""
+    for _ in range(TIMES):
+        running = start("--port", board_port(board), "--no-hand")
+        while board.truth().voltage == 0.0 and running.poll() is None:
+            time.sleep(0.005)
+        if running.poll() is None:
+            return running
+    raise AssertionError("no check came to give the motor voltage")
+
+
+def board_port(board: LiveBoard) -> Path:
+    return board._port._link
+
+
+def switched_off(board: LiveBoard) -> float:
+    """[s] until the pins are at 0 V."""
+    begun = time.monotonic()
+    while board.truth().voltage and time.monotonic() < begun + 5.0:
+        time.sleep(0.002)
+    return time.monotonic() - begun
+
+
+@pytest.mark.on_time
+def test_however_a_check_ends_the_motor_gets_0_v_and_the_reason_is_said(live: LiveBoard) -> None:  # noqa: F811
+    """Who no longer reads what it says is noticed at once, not at the next row, seconds of motion later."""
+    unread = driven(live)
+    assert unread.stdout is not None and unread.stderr is not None
+    unread.stdout.close()
+    assert switched_off(live) < 0.3
+    assert unread.wait(PATIENCE) == 1
+    assert unread.stderr.read() == "The check has stopped the motor: nobody reads what the check says any more.\n"
+    unread.stderr.close()
+    for number, status, words in (
+        (signal.SIGTERM, 130, "stopped the motor: it was told to end."),
+        (signal.SIGHUP, 130, "stopped the motor: the terminal was closed."),
+        (signal.SIGKILL, -signal.SIGKILL, ""),  # the board's own time-out
+    ):
+        running = driven(live)
+        running.send_signal(number)
+        assert switched_off(live) < 0.3, number
+        said, wrong = running.communicate(timeout=PATIENCE)
+        assert running.returncode == status and words in said and "Traceback" not in wrong
+    time.sleep(0.2)
+    assert live.truth().voltage == 0.0
+
+
+def test_half_a_line_is_no_answer_and_holds_nothing_up(live: LiveBoard) -> None:  # noqa: F811
+    """A letter and Ctrl-D hand on what was typed without its end; to wait for that was to wait through Ctrl-C too."""
+    terminal, ours = os.openpty()
+    words = [sys.executable, "-c", RUN, "--port", str(board_port(live))]
+    running = subprocess.Popen(words, env=workbench.ENVIRONMENT, stdin=ours, stdout=subprocess.PIPE, text=True)
+    os.close(ours)
+    assert running.stdout is not None
+    said = next(line for line in running.stdout if line.startswith("Turn the shaft"))
+    os.write(terminal, b"n\x04")
+    time.sleep(0.2)
+    running.send_signal(signal.SIGINT)
+    said, _ = running.communicate(timeout=PATIENCE)
+    os.close(terminal)
+    assert running.returncode == 130 and "Ctrl-C" in said and "motion" not in said
 
 
 def test_what_cannot_be_checked_is_one_sentence(
