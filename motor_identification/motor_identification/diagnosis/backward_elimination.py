@@ -11,7 +11,6 @@ from motor_identification.diagnosis.candidate_fit import fit_again, judge_beside
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
-    EFFECT_ORDER,
     are_alike,
     count_parameters,
     drop_chance_harmonics,
@@ -20,6 +19,7 @@ from motor_identification.diagnosis.effect_test import (
     sort_by_table,
     try_effects,
 )
+from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss
 from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_beside_torque
 from motor_identification.diagnosis.stand_ins import stands_in_for_curve
 from motor_identification.noise.error_model import ErrorModel
@@ -44,17 +44,30 @@ def eliminate_backward(selection: Selection, reporter: ProgressReporter) -> Sele
 def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressReporter) -> Selection:
     """Test one finding against the model without it, and against others instead of it."""
     effect, current = step.found.effect, selection.model
-    without = refit_without(selection.model, effect, selection.hold_out)
+    without = refit_without(current, effect, selection.hold_out)
     if without.learned is not None and without.likelihood > current.likelihood:  # by errors that it does not know
         current = _judge_by_errors_of(without.learned, current, selection.hold_out)
-    if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
-        return selection.replace_step(step, None, without)
-    if EFFECT_BY_NAME[effect].after_reversals and stands_in_for_curve(without, current):
+    if not _is_needed(effect, without, current):
         return selection.replace_step(step, None, without)
     judged_alike = step.found.model.beside_torque == current.beside_torque
     lost = list_lost(step, current.effects)
     if step is selection.steps[-1] and judged_alike and not lost:  # what could be in its place was tried beside it
         return selection
+    return _try_in_place(selection, step, without, current, reporter)
+
+
+def _is_needed(effect: str, without: Model, current: Model) -> bool:
+    """Decide whether an effect of the current model is likely beside all others, and stands in for no free curve."""
+    if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
+        return False
+    return not (EFFECT_BY_NAME[effect].after_reversals and stands_in_for_curve(without, current))
+
+
+def _try_in_place(
+    selection: Selection, step: SelectionStep, without: Model, current: Model, reporter: ProgressReporter
+) -> Selection:
+    """Try others in the place of a finding: what is better replaces it, and what does as well is a rival."""
+    effect = step.found.effect
     others = list_replacements(step, without.effects, current.effects)
     if not others:
         return selection.replace_step(step, replace(step, rivals=()), current)
@@ -67,12 +80,12 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     tests = sorted(settled, key=lambda test: test.evidence, reverse=True)
     current = _catch_up(current, tests, selection.hold_out)
     better = choose_better(tests, effect, current)
-    if better is not None:
-        rivals = find_rivals(better, tests)
-        if _is_as_likely_from_there(effect, better, selection):
-            rivals = sort_by_table({*rivals, effect})
-        return selection.replace_step(step, replace(step, found=better, rivals=rivals), better.model)
-    return selection.replace_step(step, replace(step, rivals=_list_rivals(tests, effect, current)), current)
+    if better is None:
+        return selection.replace_step(step, replace(step, rivals=_list_rivals(tests, effect, current)), current)
+    rivals = find_rivals(better, tests)
+    if _is_as_likely_from_there(effect, better, selection):
+        rivals = sort_by_table({*rivals, effect})
+    return selection.replace_step(step, replace(step, found=better, rivals=rivals), better.model)
 
 
 def add_rivals_beside_torque(selection: Selection, reporter: ProgressReporter) -> Selection:
@@ -158,52 +171,6 @@ def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequ
 def list_lost(step: SelectionStep, current: Sequence[str]) -> list[str]:
     """List the effects that a step was found beside and that are not among the current model's any more."""
     return [name for name in step.before.effects if name not in current]
-
-
-def choose_better(tests: Sequence[CandidateTest], effect: str, current: Model) -> CandidateTest | None:
-    """Choose among tests, best first, what does better than an effect of the current model; of equals the most common.
-
-    None if nothing does.
-    """
-    best = next((test for test in tests if is_better(test, effect, current)), None)
-    if best is None:
-        return None
-    least, most = best.evidence - thresholds.TIE_LIKELIHOOD, count_parameters(best.effect)
-    equals = [test for test in tests if test.evidence > least and count_parameters(test.effect) <= most]
-    return min(equals, key=lambda test: EFFECT_ORDER[test.effect])
-
-
-def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
-    """Decide whether a test's model is better: more likely by the margin, or nearly as likely with fewer parameters.
-
-    Beside a random torque the simpler one may be less likely in a few moments.
-    """
-    if count_parameters(test.effect) >= count_parameters(effect):
-        return current.likelihood - test.model.likelihood < -thresholds.RIVAL_MARGIN
-    return find_loss(test, effect, current) < thresholds.RIVAL_MARGIN or is_same_motion(test.model, current)
-
-
-def is_same_motion(one: Model, other: Model) -> bool:
-    """Decide whether two models move alike where it counts: a load from the first instant on is a constant load.
-
-    Whatever their likelihoods, which go with the errors that were learned of each, too.
-    """
-    if one.held.residuals.shape != other.held.residuals.shape:
-        return False
-    apart = float(other.held.weight @ (one.held.residuals - other.held.residuals) ** 2)
-    return apart < (thresholds.SAME_MOTION * other.floor) ** 2
-
-
-def find_loss(test: CandidateTest, effect: str, current: Model) -> float:
-    """Find what a test's model loses of log likelihood beside the current one, which has an effect instead.
-
-    Beside a random torque not counting the few moments that speak most against it, unless it predicts far worse: a
-    slow torque does in one moment what a load step does.
-    """
-    loss = current.likelihood - test.model.likelihood
-    if test.model.held.gap > thresholds.WORSE_GAP * current.held.gap:
-        return loss
-    return min(loss, CandidateTest(effect, test.model, current).steadiness) if current.beside_torque else loss
 
 
 def drop_step(selection: Selection, step: SelectionStep) -> Selection:

@@ -1,10 +1,8 @@
 """Backward elimination: what stands in is dropped, what is not needed goes, what is better replaces it."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 from typing import cast
 
-import numpy as np
 import pytest
 from diagnosed import fitted
 from stub_models import rescored, stub_model, stub_test, with_effects
@@ -13,20 +11,16 @@ from stub_selections import stub_selection
 from motor_identification.diagnosis import backward_elimination, thresholds
 from motor_identification.diagnosis.backward_elimination import (
     add_rivals_beside_torque,
-    choose_better,
     eliminate_backward,
-    find_loss,
-    is_better,
     list_replacements,
 )
 from motor_identification.diagnosis.candidate_fit import validate_model
-from motor_identification.diagnosis.candidate_model import Model, Score
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
-from motor_identification.recording import Floats
 from motor_identification.validation.hold_out import HoldOut
 
 BELOW, ABOVE = 0.999, 1.001
@@ -48,35 +42,6 @@ def test_a_model_is_judged_by_the_errors_of_one_without_an_effect_too(
     monkeypatch.setattr(backward_elimination, "judge_beside_torque", judged)
     chosen = backward_elimination._judge_by_errors_of(other, model, fitted()[1])
     assert chosen is (again if better else model) and asked == [(model, other)]
-
-
-def test_of_what_is_as_much_better_the_most_common_replaces_a_finding() -> None:
-    current = stub_model(1.0, 0.0, likelihood=-500.0)
-    before = stub_model(2.0, 0.0, likelihood=-600.0)
-
-    def better(name: str, evidence: float) -> CandidateTest:
-        return CandidateTest(name, before, stub_model(1.1, 0.0, likelihood=-600.0 + evidence))  # another motion
-
-    zone, friction = better("dead_zone", 110.0), better("coulomb_friction", 110.0 - 0.9 * thresholds.TIE_LIKELIHOOD)
-    assert choose_better([zone, friction], "load_step", current) is friction
-    behind = better("coulomb_friction", 110.0 - 1.1 * thresholds.TIE_LIKELIHOOD)
-    assert choose_better([zone, behind], "load_step", current) is zone
-    assert choose_better([better("dead_zone", 1.0)], "load_step", current) is None
-
-
-@pytest.mark.parametrize(
-    ("instead", "effect", "margin"),
-    [
-        ("load_bias", "dead_zone", thresholds.RIVAL_MARGIN),  # as many parameters: it has to be the better one
-        ("load_step", "dead_zone", thresholds.RIVAL_MARGIN),
-        ("dead_zone", "load_step", -thresholds.RIVAL_MARGIN),  # fewer: it may be a little less likely
-    ],
-)
-def test_what_replaces_a_finding(instead: str, effect: str, margin: float) -> None:
-    current = stub_model(1.0, 0.0, likelihood=-500.0)
-    for shift, better in ((-0.01, False), (0.01, True)):
-        model = stub_model(1.1, 0.0, likelihood=-500.0 + margin + shift)  # another motion
-        assert is_better(CandidateTest(instead, current, model), effect, current) is better
 
 
 def test_replacements_were_likely_where_it_was_found_and_are_not_there_already() -> None:
@@ -105,19 +70,6 @@ def test_replacements_were_likely_where_it_was_found_and_are_not_there_already()
     assert list_replacements(beside, (), ("coulomb_friction",)) == ["load_bias", "dead_zone", "quadratic_drag"]
 
 
-@pytest.mark.parametrize(("times", "better"), [(BELOW, True), (ABOVE, False)])
-def test_a_load_from_the_first_instant_on_is_a_constant_one(times: float, better: bool) -> None:
-    step = stub_model(2.0, likelihood=170.0)
-    (angle,) = step.held.angles
-    (data,) = step.held.intervals
-    apart = times * thresholds.SAME_MOTION * step.floor * np.append(0.0, np.cumsum(data.duration))
-    test = stub_test("load_bias", stub_model(9.0), 2.0, 100.0)
-    moved = replace(step, held=replace(step.held, angles=(angle + apart,)))
-    alike = replace(test, model=rescored(moved, likelihood=0.0))
-    assert is_better(alike, "load_step", step) is better
-    assert not is_better(alike, "coulomb_friction", step)  # no simpler than it is
-
-
 def test_what_is_not_needed_beside_the_others_is_taken_back() -> None:
     """A dead zone was selected where friction was missing; beside friction it explains nothing."""
     estimate, hold_out = fitted(ks=0.4)
@@ -138,21 +90,6 @@ def test_what_is_not_needed_beside_the_others_is_taken_back() -> None:
     assert [step.found.effect for step in left.steps] == ["coulomb_friction"]
     assert left.model.effects == ("coulomb_friction",) and left.model.at_floor
     assert left.model.estimate.parameters.value("ks") == pytest.approx(0.4, rel=1e-3)
-
-
-@pytest.mark.parametrize(("times", "few"), [(BELOW, True), (ABOVE, False)])
-def test_a_few_moments_count_where_what_replaces_predicts_worse(times: float, few: bool) -> None:
-    """A slow torque does in one moment what a load step does, but does not predict it."""
-    moments = np.zeros(60)
-    moments[7] = 100.0
-
-    def model(gap: float, likelihood: float, moments: Floats) -> Model:
-        held, score = SimpleNamespace(gap=gap), Score(likelihood, moments=moments)
-        return cast(Model, SimpleNamespace(likelihood=likelihood, held=held, score=score, beside_torque=True))
-
-    current = model(1.0, 100.0, moments)
-    test = CandidateTest("load_bias", current, model(times * thresholds.WORSE_GAP, 0.0, np.zeros(60)))
-    assert find_loss(test, "load_step", current) == (0.0 if few else 100.0)
 
 
 @pytest.mark.parametrize(

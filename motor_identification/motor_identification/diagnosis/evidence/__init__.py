@@ -1,1 +1,1 @@
-"""Judge what speaks for an effect beside a random torque, and what standstills alone say."""
+"""Judge what speaks for an effect: beside a random torque, at standstills, in missed edges, and in another's place."""

@@ -1,0 +1,54 @@
+"""Compare models that have something in the place of an effect with the model that has the effect."""
+
+from collections.abc import Sequence
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.effect_test import EFFECT_ORDER, count_parameters
+
+
+def choose_better(tests: Sequence[CandidateTest], effect: str, current: Model) -> CandidateTest | None:
+    """Choose among tests, best first, what does better than an effect of the current model; of equals the most common.
+
+    None if nothing does.
+    """
+    best = next((test for test in tests if is_better(test, effect, current)), None)
+    if best is None:
+        return None
+    least, most = best.evidence - thresholds.TIE_LIKELIHOOD, count_parameters(best.effect)
+    equals = [test for test in tests if test.evidence > least and count_parameters(test.effect) <= most]
+    return min(equals, key=lambda test: EFFECT_ORDER[test.effect])
+
+
+def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
+    """Decide whether a test's model is better: more likely by the margin, or nearly as likely with fewer parameters.
+
+    Beside a random torque the simpler one may be less likely in a few moments.
+    """
+    if count_parameters(test.effect) >= count_parameters(effect):
+        return current.likelihood - test.model.likelihood < -thresholds.RIVAL_MARGIN
+    return find_loss(test, effect, current) < thresholds.RIVAL_MARGIN or is_same_motion(test.model, current)
+
+
+def is_same_motion(one: Model, other: Model) -> bool:
+    """Decide whether two models move alike where it counts: a load from the first instant on is a constant load.
+
+    Whatever their likelihoods, which go with the errors that were learned of each, too.
+    """
+    if one.held.residuals.shape != other.held.residuals.shape:
+        return False
+    apart = float(other.held.weight @ (one.held.residuals - other.held.residuals) ** 2)
+    return apart < (thresholds.SAME_MOTION * other.floor) ** 2
+
+
+def find_loss(test: CandidateTest, effect: str, current: Model) -> float:
+    """Find what a test's model loses of log likelihood beside the current one, which has an effect instead.
+
+    Beside a random torque not counting the few moments that speak most against it, unless it predicts far worse: a
+    slow torque does in one moment what a load step does.
+    """
+    loss = current.likelihood - test.model.likelihood
+    if test.model.held.gap > thresholds.WORSE_GAP * current.held.gap:
+        return loss
+    return min(loss, CandidateTest(effect, test.model, current).steadiness) if current.beside_torque else loss
