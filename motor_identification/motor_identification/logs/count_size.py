@@ -5,7 +5,7 @@ turns. `motor/info` has whole counts of an encoder's turn, and the turns of the 
 counts a turn are 102, and a gear of 256/255.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil, log10, pi
 
@@ -44,8 +44,10 @@ class Count:
     stands_for: bool = False  # whether such counts are not in the data, but fine enough to stand for it
 
 
-def count_size(form: CsvForm, values: Floats, voltage: Floats) -> Count:
+def count_size(form: CsvForm, values: Floats, voltage: Floats, levels: Floats | None = None) -> Count:
     """Size one count of positions in the form's unit and of voltages [V], both of shape (K,).
+
+    levels: the positions before they were unwrapped, where they were: a fast shaft is on each level in some turn.
 
     Raises:
         RecordingError: it is not to be had, or contradicts the edges per revolution.
@@ -61,12 +63,22 @@ def count_size(form: CsvForm, values: Floats, voltage: Floats) -> Count:
     if form.edges_per_revolution:
         return _whole(form, turn / form.edges_per_revolution, form.edges_per_revolution)
     way = float(np.quantile(np.abs(np.diff(values)), 0.9))  # from row to row
-    lattice = find_position_lattice(values)
+    lattice = find_position_lattice(values) or _within_a_turn(levels, values, turn)
     if lattice and turn / lattice.step < MOST_EDGES:
         return _seen(form, lattice, turn, way <= COUNTS_A_ROW * lattice.step and lattice.holds(values))
     noise = estimate_white_noise(values, voltage)
     coarse = max(noise, way / COUNTS_A_ROW)
     return _fine(form, turn, coarse, f" (assumed: the values show no steps, and noise of {noise:.2g} {form.unit})")
+
+
+def _within_a_turn(levels: Floats | None, values: Floats, turn: float) -> Lattice | None:
+    """The lattice of positions within a turn, shape (K,), if those that go on over all turns lie on it, either way."""
+    lattice = None if levels is None else find_position_lattice(levels)
+    if lattice is None or abs(turn / lattice.step - round(turn / lattice.step)) > AGREE_COUNTS * turn / lattice.step:
+        return None
+    lattice = replace(lattice, step=turn / round(turn / lattice.step))
+    ways = (lattice, replace(lattice, origin=-lattice.origin))
+    return next((one for one in ways if one.holds(values)), None)
 
 
 def _whole(form: CsvForm, size: float, edges: int, how: str = "", origin: float = 0.0) -> Count:

@@ -52,7 +52,7 @@ def describe_excitation(log: Log) -> list[str]:
     found = measure_excitation(log)
     ways = "both ways" if min(found.forward, found.backward) > FEW else "one way only"
     about = (
-        f"Excitation: {found.low:.3g} to {found.high:.3g} V in {_many(found.levels)}, {ways}; "
+        f"Excitation: {_voltages(found)}, {ways}; "
         f"the motor stands in {100 * found.standing:.0f} % of the rows, full voltage in {100 * found.full:.0f} %."
     )
     lines = [about]
@@ -90,5 +90,8 @@ def _levels(voltage: NDArray[np.float64], apart: float) -> int:
     return int(min(np.count_nonzero(lasting), 20))
 
 
-def _many(levels: int) -> str:
-    return {1: "a single level beside 0", 20: "20 levels and more"}.get(levels, f"{levels} levels")
+def _voltages(found: Excitation) -> str:
+    if found.low == found.high:
+        return f"{found.low:.3g} V all the time"
+    many = {1: "a single level", 20: "20 levels and more"}.get(found.levels, f"{found.levels} levels")
+    return f"{found.low:.3g} to {found.high:.3g} V in {many}{' beside 0' if found.levels == 1 else ''}"

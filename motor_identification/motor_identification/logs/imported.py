@@ -6,6 +6,7 @@ from pathlib import Path
 from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.mending import mend_table
+from motor_identification.logs.csv.sparse import fill_gaps
 from motor_identification.logs.excitation import describe_excitation
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
@@ -55,10 +56,12 @@ def import_source(source: Source, said: Said) -> Imported:
     if said.constant_voltage is not None:
         table = give_voltage(table, said.constant_voltage)
         said = replace(said, voltage=CONSTANT)
-    guess = guess_forms(table, source.with_said(said))
+    filled = fill_gaps(table)
+    guess = guess_forms(filled.table, source.with_said(said))
     motors = []
     for form in guess.forms:
-        log = read_motor(replace(table, notes=()), form)
+        rows = filled.rows_of(form.time, form.motion, form.voltage, form.supply)
+        log = read_motor(replace(rows, notes=rows.notes[len(table.notes) :]), form)
         motors.append(Motor(form.label, replace(log, findings=(*log.findings, *describe_excitation(log)))))
     motors, still = _without_still(motors)
     if not any(motor.log.runs for motor in motors):

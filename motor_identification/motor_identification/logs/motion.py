@@ -7,7 +7,7 @@ import numpy as np
 
 from motor_identification.logs.count_size import AGREE_SPEED, agree_on_edges, count_size
 from motor_identification.logs.form import CsvForm, Kind
-from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID
+from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID, printed_digit
 from motor_identification.logs.rows.count_rate import count_rates
 from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.speed_sign import give_signs
@@ -122,9 +122,10 @@ def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> Non
 
 
 def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
+    levels = signals.motion
     signals, wrapped = unwrap(signals, form)
     signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=False)
-    count = count_size(form, signals.motion, signals.voltage)
+    count = count_size(form, signals.motion, signals.voltage, levels if wrapped else None)
     largest = float(np.max(np.abs(signals.motion))) / count.size
     if not largest < LARGEST_COUNT:
         raise RecordingError(
@@ -134,7 +135,8 @@ def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     signals, reset = split_at_resets(signals, form, lambda values: np.rint(values / count.size).astype(np.int64))
     exact = (signals.motion - count.origin) / count.size
     counts = np.rint(exact).astype(np.int64)
-    beside = float(np.max(np.abs(exact - counts)))
+    rounded = 0.5 * printed_digit(signals.motion) / count.size
+    beside = float(np.max(np.abs(exact - counts))) - rounded
     counts, flicker = remove_flicker(signals, counts) if form.kind is Kind.POSITION else (counts, [])
     rate, held = count_rates(signals, counts)
     speed = rate * edge_angle(count.edges, count.gear)

@@ -27,6 +27,15 @@ class Lattice:
         return bool(np.max(np.abs(exact - np.rint(exact))) < 2 * ON_GRID)
 
 
+def printed_digit(values: Floats) -> float:
+    """The place of the last digit that values, shape (K,), were printed with, down to 1e-6; 0 where they have more."""
+    for place in range(7):
+        scaled = values * 10.0**place
+        if np.all(np.abs(scaled - np.rint(scaled)) < 1e-4):
+            return float(10.0**-place)
+    return 0.0
+
+
 def position_step(values: Floats) -> float:
     """Find the smallest step of positions, or that of their printed digits; 0 where there is none."""
     lattice = find_position_lattice(values)
@@ -64,11 +73,20 @@ def _lattice_of_neighbours(values: Floats) -> Lattice | None:
     steps = np.diff(levels)
     real = steps > 1e-9 * np.ptp(levels)
     levels, steps = levels[np.append(True, real)], steps[real]
-    smallest = float(np.min(steps))
-    step = float(np.mean(steps[steps < 1.5 * smallest]))
+    step = _common_step(steps)
     lattice = _fit_lattice(levels, np.append(0.0, np.cumsum(np.rint(steps / step))))
-    beside = steps / lattice.step
-    return lattice if np.max(np.abs(beside - np.rint(beside))) < 2 * ON_GRID else None
+    return lattice if lattice.holds(levels) else None  # steps have the rounding of two levels each
+
+
+def _common_step(steps: Floats) -> float:
+    """What all steps, shape (L,), are about multiples of: by the smallest, then by ever larger ones, more exactly."""
+    smallest = float(np.min(steps))
+    step, reach = float(np.mean(steps[steps < 1.5 * smallest])), 2.0
+    while reach * step < 2.0 * np.max(steps):
+        near = steps[steps <= reach * step]
+        numbers = np.rint(near / step)
+        step, reach = float(numbers @ near / (numbers @ numbers)), 2.0 * reach
+    return step
 
 
 def _fit_lattice(levels: Floats, numbers: Floats) -> Lattice:

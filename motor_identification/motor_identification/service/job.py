@@ -13,6 +13,7 @@ from motor_identification.progress import Stage, Stopped
 from motor_identification.recording import Recording
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import RecordingError
+from motor_model.sample import Info
 
 if TYPE_CHECKING:
     from motor_identification.diagnosis.result import Diagnosis
@@ -43,7 +44,17 @@ def run_job(job: Job, progress: Callable[[str, float], None] | None = None) -> F
     refuse_repeats(job.source.uris)
     from motor_identification.identify import identify
 
-    return identify([job.source.read(uri) for uri in job.source.uris], job.request, progress)
+    recordings = say_whose([job.source.read(uri) for uri in job.source.uris])
+    return identify(recordings, job.request, progress)
+
+
+def say_whose(recordings: list[Recording]) -> list[Recording]:
+    """Add a note to the first recording where they are of motors with names that differ: the two wheels of one log."""
+    names = sorted({recording.info.name for recording in recordings} - {"", Info().name})
+    if len(names) < 2:
+        return recordings
+    note = f"The bags are of different motors ({', '.join(names)}), fitted as one: give those of one motor at a time."
+    return [replace(recordings[0], notes=(*recordings[0].notes, note)), *recordings[1:]]
 
 
 def refuse_repeats(uris: Sequence[str]) -> None:
@@ -106,7 +117,7 @@ def run_diagnosis(
                 progress(Stage(f"reading {uri}", 0.0, "", float("nan")))
             yield source.read(uri)
 
-    recordings, validation = list(read(job.source)), list(read(kept_out))
+    recordings, validation = say_whose(list(read(job.source))), list(read(kept_out))
     return diagnose(recordings, validation, job.request, progress, stopped)
 
 

@@ -48,15 +48,17 @@ def analyse_whiteness(series: tuple[Series, ...]) -> Whiteness:
 
 def autocorrelation(series: tuple[Series, ...], lags: int) -> tuple[Floats, Floats]:
     """Correlations of residuals 1 to `lags` intervals apart in one run, and the pairs behind each; shapes (lags,)."""
-    products, pairs = np.zeros(lags), np.zeros(lags)
-    square = np.mean(np.concatenate([one.white for one in series]) ** 2)
+    products, earlier, later, pairs = np.zeros((4, lags))
     for one in series:
         run = np.cumsum(one.fresh)
         for lag in range(1, min(lags, len(run) - 1) + 1):
             same = run[lag:] == run[:-lag]
-            products[lag - 1] += np.sum((one.white[lag:] * one.white[:-lag])[same])
-            pairs[lag - 1] += np.count_nonzero(same)
-    return products / np.maximum(pairs * square, 1e-300), pairs
+            before, after = one.white[:-lag][same], one.white[lag:][same]
+            products[lag - 1] += before @ after
+            earlier[lag - 1] += before @ before
+            later[lag - 1] += after @ after
+            pairs[lag - 1] += len(before)
+    return products / np.maximum(np.sqrt(earlier * later), 1e-300), pairs  # of the very pairs: 1 at most
 
 
 def _follows(series: tuple[Series, ...], rho: Floats) -> tuple[float, float, float]:

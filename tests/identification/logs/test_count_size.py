@@ -76,3 +76,14 @@ def test_a_said_count_that_drifts_off_the_values_is_refused() -> None:
     assert count_size(replace(DEGREES, count_quantum=3.515625), far, np.zeros(900)).edges == 102
     with pytest.raises(RecordingError, match="not a whole number"):
         count_size(replace(DEGREES, count_quantum=3.51555), far, np.zeros(900))  # 2e-5 of 7000 counts
+
+
+@pytest.mark.parametrize(("offset", "seen"), [(0.0, True), (0.3, False)])
+def test_a_fast_shaft_shows_its_counts_within_a_turn(offset: float, seen: bool) -> None:
+    """A quarter of a turn a row, 4096 counts a turn: no two of all angles are near each other; modulo 360 they are."""
+    numbers = np.cumsum(np.random.default_rng(7).integers(1000, 1200, 300))
+    turning = np.round(numbers % 4096 * 360.0 / 4096, 2) + 360.0 * (numbers // 4096)
+    levels = turning % 360.0
+    assert count_size(DEGREES, turning, np.zeros(300)).stands_for
+    count = count_size(DEGREES, turning + offset * 360.0 / 4096 * (numbers % 3), np.zeros(300), levels)
+    assert (count.edges == 4096 and not count.stands_for) == seen

@@ -32,7 +32,10 @@ def test_what_a_log_does_not_show() -> None:
     one_way = " ".join(describe_excitation(log(np.repeat([2.0, 4.0], 50), np.repeat([9.0, 30.0], 50))))
     assert "one way only" in one_way and "look alike (it runs one way only)" in one_way and "separated" not in one_way
     step = " ".join(describe_excitation(log(np.repeat([0.0, 4.0], 50), np.repeat([0.0, 30.0], 50))))
-    assert "a single level beside 0" in step and "kv and friction cannot be separated (one voltage only)" in step
+    assert (
+        "Excitation: 0 to 4 V in a single level beside 0, one way only" in step
+        and "kv and friction cannot be separated (one voltage only)" in step
+    )
     still = describe_excitation(log(np.repeat([0.0, 4.0], 50), np.zeros(100)))
     assert still[-1] == "The motor hardly moves: nothing can be identified from this."
     slow = " ".join(
@@ -54,3 +57,8 @@ def test_a_motor_that_mostly_stands(standing: int, said: bool) -> None:
     speed[:standing] = 0.0
     text = " ".join(describe_excitation(log(np.repeat([2.0, 4.0], 50), speed)))
     assert ("of the time, which says little" in text) == said
+
+
+def test_one_voltage_all_the_time() -> None:
+    found = describe_excitation(log(np.full(100, 1.88), np.full(100, 5.0)))[0]
+    assert found.startswith("Excitation: 1.88 V all the time, one way only;")

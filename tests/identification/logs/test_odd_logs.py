@@ -61,6 +61,14 @@ ODD = {
     "thousands": table(lambda k: f"{MS[k]};{DUTY[k]};{german(100.0 * RPM[k])}", "ms;pwm;cent rpm [rpm]"),
     "time zone": table(lambda k: f"2024-05-06T{clock(MS[k])}+02:00,{DUTY[k]},{RPM[k]}", "timestamp,pwm,rpm"),
     "month first": table(lambda k: f"05/16/2024 {clock(MS[k])} PM,{DUTY[k]},{RPM[k]}", "Date Time,pwm,rpm"),
+    "commas in quotes": table(
+        lambda k: f'"{MS[k] / 1e3:.2f}","{DUTY[k]}","{RPM[k]:.1f}"'.replace(".", ","), "s,pwm,rpm"
+    ),
+    "seconds called ms": table(lambda k: f"{1.76e9 + MS[k] / 1e3:.3f},{DUTY[k]},{RPM[k]}", "timestamp(ms),pwm,rpm"),
+    "a computer's clock beside the board's": table(
+        lambda k: f"{1.76e9 + MS[k] / 1e3 + 0.003 * (k % 3):.3f},{DUTY[k]},{RPM[k]},{MS[k]}", "timestamp,pwm,rpm,Time"
+    ),
+    "another table behind": table(plain, "ms,pwm,rpm") + "21.278\n" * 200,
     "newest first": "ms,pwm,rpm\n" + "\n".join(plain(k) for k in reversed(range(ROWS))) + "\n",
     "full clock": table(lambda k: f"{(2**32 - 2000 + MS[k]) % 2**32},{DUTY[k]},{RPM[k]}", "millis,pwm,rpm"),
     "full clock of 16 bits": table(lambda k: f"{(2**16 - 2000 + MS[k]) % 2**16},{DUTY[k]},{RPM[k]}", "ms,pwm,rpm"),
@@ -101,8 +109,8 @@ def test_a_few_garbled_rows_are_left_out_and_many_refused(tmp_path: Path) -> Non
     assert "Left out: line 201 with more cells than columns are named (3)." in said
     assert "Left out: 2 rows with a cell that is no number (the first is line 251, column pwm: '')." in said
     many = [*lines]
-    many[200:205] = ["1990,60,nan"] * 5  # of 400
-    with pytest.raises(RecordingError, match="line 201, column rpm: 'nan' is not a number"):
+    many[200:205] = ["1990,60,1x"] * 5  # of 400
+    with pytest.raises(RecordingError, match="line 201, column rpm: '1x' is not a number"):
         imported(tmp_path, "\n".join(many), SAID)
     many[200:205] = ["1990,60,1,2"] * 5
     with pytest.raises(RecordingError, match="line 201 has more cells than columns"):
@@ -167,3 +175,26 @@ def test_counts_of_a_geared_motor_are_angles_of_its_output(tmp_path: Path, ratio
     degrees = table(lambda k: f"{MS[k]},{DUTY[k]},{COUNT[k] * 360.0 / 44 / float(gear):.9f}", "ms,pwm,angle [deg]")
     again = imported(tmp_path, degrees, counts)
     assert np.array_equal(column(again, "edge_count"), COUNT) and np.allclose(column(again, "speed"), turned)
+
+
+def test_two_senders_in_one_table(tmp_path: Path) -> None:
+    """As programs write that merge topics by time: a row has the duty or the speed."""
+    text = table(lambda k: f"{MS[k]},,{RPM[k]}\n{MS[k] + 3},{DUTY[k]},", "ms,pwm,rpm", row0=f"0,{DUTY[0]},")
+    found = imported(tmp_path, text, SAID)
+    assert np.allclose(column(found, "speed") * 30.0 / np.pi, RPM, atol=0.05)
+    assert np.allclose(column(found, "voltage")[1:], DUTY[:-1] / 255.0 * 12.0)
+    said = "\n".join(found.motors[0].log.findings)
+    assert "rpm has a value in 400 of 801 rows: those rows are taken." in said
+    assert "pwm has a value in 401 of 801 rows: it holds until the next." in said
+
+
+def test_the_rounding_of_printed_digits_is_no_odd_count(tmp_path: Path) -> None:
+    """Angles of 4096 counts a turn with two digits are up to 0.057 counts beside whole ones."""
+    angle = np.round(COUNT * 360.0 / 4096, 2)
+    text = table(lambda k: f"{MS[k]},{DUTY[k]},{angle[k]:.2f}", "ms,pwm,angle [deg]")
+    found = imported(tmp_path, text, Said(supply_voltage=12.0))
+    assert np.array_equal(column(found, "edge_count"), COUNT) and found.motors[0].log.info.edges_per_revolution == 4096
+    assert "whole counts" not in "\n".join(found.motors[0].log.findings)
+    beside = table(lambda k: f"{MS[k]},{DUTY[k]},{angle[k] + 0.02 * (k % 2):.2f}", "ms,pwm,angle [deg]")
+    odd = imported(tmp_path, beside, Said(supply_voltage=12.0, edges_per_revolution=4096))
+    assert "Caution: values are up to 0.2" in "\n".join(odd.motors[0].log.findings)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.logs.position_lattice import LEAST_LEVELS, find_position_lattice, position_step
+from motor_identification.logs.position_lattice import LEAST_LEVELS, find_position_lattice, position_step, printed_digit
 
 MOTION = np.cumsum(np.random.default_rng(2).integers(-3, 9, 400))
 
@@ -41,3 +41,21 @@ def test_the_step_of_rounded_digits_is_as_sure_as_it_says() -> None:
 def test_numbers_whose_squares_are_none_have_no_lattice(largest: float, found: bool) -> None:
     values = np.append(np.arange(20.0), largest) if largest > 1e100 else np.arange(20.0) * largest / 20.0
     assert (find_position_lattice(values) is not None) == found
+
+
+@pytest.mark.parametrize(("digits", "found"), [(2, True), (1, False)])
+def test_steps_of_a_magnetic_encoder_in_printed_digits(digits: int, found: bool) -> None:
+    """4096 a turn, 0.0879 deg: with two digits neighbours are 0.08, 0.09 or 0.1 apart; one digit leaves no lattice."""
+    numbers = np.random.default_rng(6).integers(0, 4096, 300)
+    lattice = find_position_lattice(np.round(numbers * 360.0 / 4096, digits))
+    assert (lattice is not None and lattice.step == pytest.approx(360 / 4096, rel=1e-5)) == found
+
+
+@pytest.mark.parametrize(("values", "digit"), [([1.25, 3.5], 0.01), ([30.0, 7.0], 1.0), ([0.1234567], 0.0)])
+def test_the_last_digit_that_was_printed(values: list[float], digit: float) -> None:
+    assert printed_digit(np.array(values)) == pytest.approx(digit)
+
+
+def test_an_even_motion_is_no_lattice_of_its_ways() -> None:
+    """All ways from row to row are within 8 % of each other, and add up to anything."""
+    assert position_step(np.cumsum(np.random.default_rng(8).uniform(9.6, 10.4, 300))) == 0.0

@@ -1,5 +1,6 @@
 """Jobs: which recordings are read for what, and how one is stopped."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from motor_identification.bag import Source, Window
 from motor_identification.diagnose import Stage, Stopped
 from motor_identification.identify import Request
+from motor_identification.recording import Recording
 from motor_identification.service.job import DiagnosisJob, Job, run_diagnosis, run_job
 from motor_model.errors import RecordingError
 
@@ -18,6 +20,24 @@ def test_a_job_fits_every_bag_of_its_source() -> None:
     fit = run_job(Job(Source((STEP, RICH), window=Window(0.0, 1.0)), Request(("coulomb_friction",))))
     assert fit.uris == (STEP, RICH)
     assert list(fit.parameters.values) == ["kv", "ka", "ks"]
+
+
+def test_bags_of_motors_with_other_names_are_said_to_be(monkeypatch: pytest.MonkeyPatch) -> None:
+    named = {STEP: "left", RICH: "right"}
+    read = Source.read
+
+    def as_named(self: Source, uri: str) -> Recording:
+        recording = read(self, uri)
+        return replace(recording, info=replace(recording.info, name=named[uri]))
+
+    monkeypatch.setattr(Source, "read", as_named)
+    job = Job(Source((STEP, RICH), window=Window(0.0, 1.0)))
+    note = "The bags are of different motors (left, right), fitted as one: give those of one motor at a time."
+    assert note in run_job(job).notes
+    named[STEP] = "right"
+    assert note not in run_job(job).notes
+    named[STEP] = "motor"  # as one that nobody named
+    assert not [one for one in run_job(job).notes if "different motors" in one]
 
 
 def test_validation_is_read_whole_and_after_what_is_fitted() -> None:

@@ -84,6 +84,15 @@ def test_pairs_do_not_reach_over_gaps() -> None:
     assert autocorrelation(halves, 3)[1][0] == COUNT - 2
 
 
+def test_a_correlation_is_one_at_most() -> None:
+    """Single residuals between gaps are small, and the pairs large: it is the pairs' own size that counts."""
+    alone, alike = np.full(100, 0.1), np.full(100, 3.0)
+    one = series(np.concatenate([alone, alike]))
+    one.fresh[:101] = True  # the first hundred have no neighbour
+    assert autocorrelation((one,), 2)[0] == pytest.approx([1.0, 1.0], abs=1e-12)
+    assert autocorrelation((replace(one, white=one.white * np.tile([1.0, -1.0], 100)),), 2)[0][0] == pytest.approx(-1.0)
+
+
 def test_too_little_says_nothing() -> None:
     nothing = analyse_whiteness((series(noise(4), runs=COUNT),))
     assert isnan(nothing.p_value) and isnan(nothing.input_correlation)

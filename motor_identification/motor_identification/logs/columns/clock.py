@@ -16,12 +16,19 @@ _SINCE_1970 = (1e9, 2.2e9)  # [s] 2001 to 2039
 _ROUND = 100.0  # times that are all multiples of it are no microseconds: nobody's loop is that even
 
 
-def guess_time_unit(values: Floats) -> tuple[str, str]:
-    """The unit of times, shape (K,), and why."""
+def since_1970(values: Floats) -> str:
+    """The unit in which times, shape (K,), count from 1970 and lie between 2001 and 2039; empty where in none."""
     for unit, size in TIME_UNITS.items():
         low, high = (limit * 1e9 / size for limit in _SINCE_1970)
         if low <= float(np.median(values)) <= high and row_period(values) < 10.0 * 1e9 / size:
-            return unit, f"they count from 1970 in {unit}"
+            return unit
+    return ""
+
+
+def guess_time_unit(values: Floats) -> tuple[str, str]:
+    """The unit of times, shape (K,), and why."""
+    if unit := since_1970(values):
+        return unit, f"they count from 1970 in {unit}"
     period = row_period(values)
     rounded = not np.any(values % _ROUND) and bool(np.any(values))
     for unit, size in TIME_UNITS.items():

@@ -49,8 +49,12 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
     if full:
         return Drive(None, f"as a duty of ±{full:g}", full)
     largest = float(np.max(np.abs(values), initial=0.0))
-    if heading.unit == "%":
+    if heading.unit == "%" and (largest > 1.0 or not np.any(values % 1.0)):
         return Drive(None, "as a duty in %", 100.0)
+    if heading.unit == "%":  # which would be a motor that never gets 1 % of its supply
+        return Drive(
+            None, "as a share, as no value is above 1, whatever its name says (otherwise: --full-duty 100)", 1.0
+        )
     words = set(heading.words)
     for candidate in FULL_DUTIES if not _is_odd_timer(largest) else ():
         per_cent = candidate == 100.0 and np.any(values % 1.0) == 0 and largest < 100.0 and not words & _PER_CENT

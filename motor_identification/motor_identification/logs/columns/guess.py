@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motor_identification.logs.columns.clock import SLOWEST, guess_time_unit, row_period
+from motor_identification.logs.columns.clock import SLOWEST, guess_time_unit, row_period, since_1970
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.motor_form import STEPS_BETWEEN, Rows, make_form, share_of_changes
 from motor_identification.logs.columns.notes import Notes
@@ -68,12 +68,18 @@ def _time_unit(table: Table, column: str, said: Said) -> tuple[str, str]:
         known = said.time_unit in TIME_UNITS
         return said.time_unit, "" if known else " s a tick, as said"
     heading = read_heading(column)
-    if heading.unit in TIME_UNITS:
-        return heading.unit, ""
     try:
-        unit, why = guess_time_unit(table.numbers(column))
+        values = table.numbers(column)
     except RecordingError:  # times of day, or garbage, which is told with its line
-        return "s", ""
+        return heading.unit if heading.unit in TIME_UNITS else "s", ""
+    if heading.unit in TIME_UNITS:
+        seconds = heading.unit == "ms" and since_1970(values) == "s" and bool(np.any(values % 1.0))
+        return (
+            ("s", " (whatever its name says: they count from 1970 in s; otherwise: --time-unit)")
+            if seconds
+            else (heading.unit, "")
+        )
+    unit, why = guess_time_unit(values)
     return unit, f" ({why}; otherwise: --time-unit)"
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from motor_identification.logs.columns.behaviour import find_position, present_values
-from motor_identification.logs.columns.clock import find_clock, runs_forward
+from motor_identification.logs.columns.clock import find_clock, runs_forward, since_1970
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.said import Pair, Said
@@ -79,7 +79,8 @@ def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
     named = [heading.name for heading in headings if heading.quantity is Quantity.TIME]
     if len(named) > 1:
         forward = [name for name in named if runs_forward(table.numbers(name))]
-        named = forward or named
+        # A computer's clock says when rows came to it, the board's when they were made.
+        named = sorted(forward, key=lambda name: bool(since_1970(table.numbers(name)))) or named
     if named:
         return named[0]
     return find_clock({heading.name: table.numbers(heading.name) for heading in headings if heading.quantity is None})

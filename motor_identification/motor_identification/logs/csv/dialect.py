@@ -20,6 +20,7 @@ DELIMITERS = (",", ";", "\t", "|", SPACES)
 _NOTHING = " ,;\t|"  # all that is in a line without cells
 COMMENT = re.compile(r"^\s*(#|%|//)\s*")
 _NO_VALUE = ("", "nan", "NaN", "NAN", "null", "None", "-")
+_QUOTED_COMMA = re.compile(r'"([+-]?\d+,\d+)"')
 _UNIT_ROW = re.compile(r"[\[(]?[A-Za-zµμ°%/²\d.^_-]{1,10}[\])]?$")
 
 
@@ -92,7 +93,7 @@ def find_dialect(lines: Sequence[str]) -> Dialect | None:
     begin = [(index, line) for index, line in enumerate(lines[: 2 * LOOKED_AT]) if line.strip(_NOTHING)][:LOOKED_AT]
     best: tuple[int, int, str, bool] | None = None
     for delimiter in DELIMITERS:
-        for comma in (False, True) if delimiter != "," else (False,):
+        for comma in (False, True) if delimiter != "," or _quotes_commas(begin) else (False,):
             found = _first_row(begin, delimiter, comma)
             if found is not None and (best is None or found[0] > best[0]):
                 best = (*found, delimiter, comma)
@@ -104,6 +105,12 @@ def find_dialect(lines: Sequence[str]) -> Dialect | None:
     header = _header([line for _, line in begin[:place]], delimiter, comma, width, most)
     names = header or tuple(f"column {k + 1}" for k in range(width))
     return Dialect(delimiter, comma, names, begin[place][0], named=bool(header))
+
+
+def _quotes_commas(begin: Sequence[tuple[int, str]]) -> bool:
+    """Whether cells between commas are numbers with a comma in quotes, of which not all can be marks of thousands."""
+    cells = [cell for _, line in begin for cell in _QUOTED_COMMA.findall(line)]
+    return any(not is_number(f"{cell}.", comma=False) for cell in cells)
 
 
 def _first_row(begin: Sequence[tuple[int, str]], delimiter: str, comma: bool) -> tuple[int, int] | None:

@@ -42,10 +42,26 @@ def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
     for column in wanted:
         _check_column(path, dialect.header, column)
     notes = [f"The file is read as {encoding}, as it is not UTF-8."] if encoding else []
+    end = _end_of_table(lines, dialect)
+    if end < len(lines):
+        notes.append(f"Left out: the lines from {end + 1} on, which have fewer than half of the cells of those before.")
+        lines = lines[:end]
     numbers, columns = _columns(path, lines, dialect, notes)
     if len(numbers) < 2:
         raise RecordingError(f"{path} has {len(numbers)} rows below its column names: at least 2 samples are needed.")
     return Table(path, numbers, columns, dialect.decimal_comma, tuple(notes))
+
+
+def _end_of_table(lines: Sequence[str], dialect: Dialect) -> int:
+    """Where another table begins behind the rows, with at most half of their cells; the number of lines where none."""
+    first, short = len(lines), 0
+    for place in range(len(lines) - 1, dialect.first_row, -1):
+        cells = sum(map(bool, split_line(lines[place], dialect.delimiter)))
+        if 2 * cells > len(dialect.header):
+            break
+        if cells:
+            first, short = place, short + 1
+    return first if short > 1 else len(lines)  # one alone is the last, cut off
 
 
 def _named_by_lines(dialect: Dialect, taken: Lines) -> Dialect:

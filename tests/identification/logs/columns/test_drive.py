@@ -68,3 +68,9 @@ def test_the_unit_of_a_supply() -> None:
     assert supply_scale(read_heading("batteryVoltage"), np.full(5, 7931.0))[0] == 1e-3
     assert supply_scale(read_heading("battery"), np.full(5, 99.0)) == (1.0, "V")
     assert supply_scale(read_heading("battery [mV]"), np.full(5, 12.0)) == (1e-3, "mV")
+
+
+@pytest.mark.parametrize(("top", "full"), [(0.98, 1.0), (1.0, 1.0), (1.2, 100.0)])
+def test_per_cent_that_never_come_to_more_than_one_are_shares(top: float, full: float) -> None:
+    assert duty_drive(read_heading("pwm_pct"), top * WAVE / np.max(np.abs(WAVE))).full == full
+    assert duty_drive(read_heading("pwm_pct"), np.rint(WAVE)).full == 100.0  # whole ones

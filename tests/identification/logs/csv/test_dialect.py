@@ -73,3 +73,11 @@ def test_what_is_no_file_to_read(tmp_path: Path) -> None:
         file.truncate(2**30 + 1)
     with pytest.raises(RecordingError, match="has 1024 MiB, and 1024 MiB is the most: cut it"):
         read_text(sparse)
+
+
+@pytest.mark.parametrize(
+    ("cell", "comma"), [('"0,06"', True), ('"1682182517,903"', True), ('"1,234"', False), ("6", False)]
+)
+def test_commas_in_quotes_are_decimal_where_they_mark_no_thousands(cell: str, comma: bool) -> None:
+    found = find_dialect(["t,u,y", *(f'"{k}",{cell},7' for k in range(5))])
+    assert found is not None and (found.delimiter, found.decimal_comma) == (",", comma)

@@ -1,0 +1,62 @@
+"""Tables of several senders: what was said holds, a motion is known only in its own rows."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.csv.sparse import Filled, fill_gaps
+from motor_identification.logs.csv.table import Table
+
+
+def made(**columns: list[str]) -> Table:
+    rows = len(next(iter(columns.values())))
+    return Table(Path("log.csv"), np.arange(2, rows + 2), {name: np.array(one) for name, one in columns.items()})
+
+
+def two_senders() -> Filled:
+    """A duty in every fifth row, from the third on; a speed in the others."""
+    duty = [str(k) if k % 5 == 2 else "" for k in range(50)]
+    speed = ["NaN" if k % 5 == 2 else str(10 * k) for k in range(50)]
+    return fill_gaps(made(t=[str(k) for k in range(50)], duty=duty, speed=speed, note=["", "x"] * 25))
+
+
+def test_values_hold_until_the_next() -> None:
+    filled = two_senders()
+    assert filled.table.numbers("duty")[:9].tolist() == [2, 2, 2, 2, 2, 2, 2, 7, 7]
+    assert filled.table.numbers("speed")[:4].tolist() == [0, 10, 10, 30]
+    assert sorted(filled.told) == ["duty", "speed"] and filled.told["duty"].sum() == 10
+
+
+def test_rows_are_those_of_the_motion_once_the_drive_is_known() -> None:
+    rows = two_senders().rows_of("t", "speed", "duty", None)
+    assert rows.numbers("t")[:5].tolist() == [3, 4, 5, 6, 8] and len(rows) == 38
+    assert list(rows.lines[:2]) == [5, 6]
+    assert rows.notes == (
+        "speed has a value in 40 of 50 rows: those rows are taken.",
+        "duty has a value in 10 of 50 rows: it holds until the next.",
+    )
+    whole = two_senders().rows_of("t", "t", "t", None)
+    assert len(whole) == 50 and not whole.notes
+
+
+def test_a_clock_that_is_silent_in_some_rows_leaves_those_out() -> None:
+    clock = ["" if k % 4 == 1 else str(20 * k) for k in range(40)]
+    filled = fill_gaps(made(t=clock, duty=["5"] * 40, speed=[str(k) for k in range(40)]))
+    assert filled.table.numbers("t").tolist() == [20.0 * k for k in range(40)]
+    assert filled.rows_of("t", "speed", "duty", None).numbers("speed")[:4].tolist() == [0, 2, 3, 4]
+
+
+@pytest.mark.parametrize(("gap", "empty", "told"), [("", 2, True), ("", 1, False), ("x", 2, False), ("n/a", 3, True)])
+def test_what_is_no_gap_stays_as_it_is(gap: str, empty: int, told: bool) -> None:
+    """One row of a hundred is garbled, and a word is no gap: both are told with their lines."""
+    speed = [str(k) for k in range(100)]
+    speed[50 : 50 + empty] = [gap] * empty
+    filled = fill_gaps(made(t=[str(k) for k in range(100)], speed=speed))
+    assert ("speed" in filled.told) == told
+    assert filled.table.text("speed", 50) == ("49.0" if told else gap)
+
+
+def test_columns_without_any_value_are_none() -> None:
+    filled = fill_gaps(made(t=["0", "1", "2"], current=["", "", ""], speed=["1", "2", "3"]))
+    assert filled.table.names == ["t", "speed"]
