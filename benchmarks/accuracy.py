@@ -20,7 +20,7 @@ from scipy.optimize import least_squares
 
 from motor_identification.estimation.problem import make_problem
 from motor_identification.identify import Request, SearchConfig, identify
-from motor_identification.noise.slot_table import index_slots
+from motor_identification.noise.slots.slot_table import index_slots
 from motor_identification.recording import Recording, check, recording_of
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters, paper_motor
 from motor_model.sensing.board import BoardConfig, SimulatedBoard

@@ -20,8 +20,8 @@ from motor_identification.noise.angle_noise import (
     whiten_adjoint,
 )
 from motor_identification.noise.likelihood import estimate_noise
-from motor_identification.noise.slot_alignment import align_slots
-from motor_identification.noise.slot_table import Projection, SlotTable, estimate_slot_variance, index_slots
+from motor_identification.noise.slots.alignment import align_slots
+from motor_identification.noise.slots.slot_table import Projection, SlotTable, estimate_slot_variance, index_slots
 from motor_identification.recording import Floats
 
 LEAST_IRREGULARITY = 1e-4  # of a slot: to begin with at least

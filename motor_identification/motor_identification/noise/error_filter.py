@@ -11,16 +11,15 @@ of intervals e is known up to a constant. The innovations of the filter give the
 by their standard deviations they are white. With σ = 0 and a growth q [rad²/s] of b this is the filter of
 `angle_noise.py`.
 
-An interval may hold an error that no noise makes (a wrong stamp, an unseen reversal), so that its density is
-contaminated: with a probability of ε the innovation comes from a Cauchy density. It is a density, so that likelihood
-ratios mean what they say; a clipped square is none.
+An interval may hold an error that no noise makes, so that its density is contaminated (`contaminated_density.py`).
 """
 
-from math import exp, log, pi, sqrt
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 
+from motor_identification.noise.contaminated_density import compute_log_density, compute_trust
 from motor_identification.noise.torque_response import (
     ANGLE_D,
     ANGLE_T,
@@ -45,8 +44,6 @@ from motor_identification.noise.torque_state import (
 from motor_identification.recording import Bools, Floats
 from motor_model.compiled import compiled
 
-OUTLIERS = 1e-4  # ε: share of intervals whose error is none of the noise
-WIDTH = 10.0  # scale of their density, in standard deviations of the others
 GAINS = 12  # numbers of an interval that the filter of other increments needs
 SAME_TIME = 1e-10  # of an interval: what an even sample period is rounded by, far below what any stamp can tell
 _LONG = 40.0  # time constants after which nothing is remembered
@@ -132,7 +129,7 @@ def _filter(
         if stretches.still[k]:
             variance = stretches.end[k] + speed_variance * h * h
             _whiten_still(k, sqrt(variance), increments, white, gains)
-            density[k] = _density(increments[0, k], variance) if counted[k] else 0.0
+            density[k] = compute_log_density(increments[0, k], variance) if counted[k] else 0.0
             value += density[k]
             continue
         fd = ft = by = 0.0
@@ -148,9 +145,9 @@ def _filter(
         variance = p.bb + stretches.end[k]
         root = 1.0 / sqrt(variance)
         off = x.level[0] + increments[0, k] - x.b[0]
-        density[k] = _density(off, variance) if counted[k] else 0.0
+        density[k] = compute_log_density(off, variance) if counted[k] else 0.0
         value += density[k]
-        trust = _trust(off, variance)
+        trust = compute_trust(off, variance)
         p, kb, kd, kt = update(p, off, variance, trust, stretches.end[k], (off / h) ** 2 if disturbed else 0.0)
         correct(x, k, increments, root, kb, kd, kt, white)
         if len(gains):
@@ -229,27 +226,3 @@ def fill_white(fresh: Bools, still: Bools, gains: Floats, increments: Floats, wh
         off = level - b
         white[k] = off * root
         b, d, t = b + kb * off, d + kd * off, t + kt * off
-
-
-@compiled
-def _density(off: float, variance: float) -> float:
-    """Compute the logarithm of the contaminated density of an innovation [rad] of a variance [rad²]."""
-    square = off * off / variance
-    regular = -0.5 * (square + log(2.0 * pi * variance))
-    if square < 9.0:  # there the other part is below 1e-4 of it
-        return regular + log(1.0 - OUTLIERS)
-    wide = log(OUTLIERS / (pi * WIDTH)) - 0.5 * log(variance) - log(1.0 + square / (WIDTH * WIDTH))
-    regular += log(1.0 - OUTLIERS)
-    top = max(regular, wide)
-    return top + log(exp(regular - top) + exp(wide - top))
-
-
-@compiled
-def _trust(off: float, variance: float) -> float:
-    """Compute the probability that an innovation [rad] of a variance [rad²] is regular."""
-    square = off * off / variance
-    if square < 9.0:
-        return 1.0
-    regular = (1.0 - OUTLIERS) * exp(-0.5 * square) / sqrt(2.0 * pi)
-    wide = OUTLIERS / (pi * WIDTH * (1.0 + square / (WIDTH * WIDTH)))
-    return regular / (regular + wide)

@@ -5,7 +5,8 @@ import pytest
 from scipy.linalg import expm
 from scipy.stats import multivariate_normal
 
-from motor_identification.noise.error_filter import GAINS, OUTLIERS, fill_white, run_filter
+from motor_identification.noise.contaminated_density import OUTLIERS
+from motor_identification.noise.error_filter import GAINS, fill_white, run_filter
 
 RATE, KA = 12.0, 0.0055  # [1/s], [V·s²/rad]
 RMS, TIME = 0.15, 0.05  # [V], [s]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from motor_identification.noise.angle_noise import AngleNoise, make_whitening, whiten
-from motor_identification.noise.slot_normal_equations import fill_explained, fill_foresight, fill_gram, fill_scores
+from motor_identification.noise.slots.normal_equations import fill_explained, fill_foresight, fill_gram, fill_scores
 
 COUNT, SIZE = 12, 5
 FRESH = np.isin(np.arange(COUNT), [0, 5, 9])

@@ -13,8 +13,8 @@ from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.whitened_fit import learn_encoders
 from motor_identification.noise.angle_noise import whiten
 from motor_identification.noise.encoder import Encoder
-from motor_identification.noise.slot_alignment import FARTHEST, align_slots
-from motor_identification.noise.slot_table import SlotTable
+from motor_identification.noise.slots.alignment import FARTHEST, align_slots
+from motor_identification.noise.slots.slot_table import SlotTable
 from motor_identification.recording import check
 from motor_model.parameters import PAPER_KA, PAPER_KV
 

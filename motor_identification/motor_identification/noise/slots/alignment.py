@@ -7,7 +7,7 @@ in turns.
 
 import numpy as np
 
-from motor_identification.noise.slot_table import SlotIndex, SlotTable
+from motor_identification.noise.slots.slot_table import SlotIndex, SlotTable
 from motor_identification.noise.viterbi import fill_path
 from motor_identification.recording import Floats, Integers
 

@@ -10,11 +10,11 @@ from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.whitened_fit import learn_encoders
 from motor_identification.identify import Request, identify
-from motor_identification.noise import slot_table
 from motor_identification.noise.angle_noise import whiten
-from motor_identification.noise.slot_conjugate_gradient import MOST_PRODUCTS, TOLERANCE, IterativeSolver, fill_solution
-from motor_identification.noise.slot_eigenmodes import Modes
-from motor_identification.noise.slot_table import Projection, SlotTable, estimate_slot_variance
+from motor_identification.noise.slots import slot_table
+from motor_identification.noise.slots.conjugate_gradient import MOST_PRODUCTS, TOLERANCE, IterativeSolver, fill_solution
+from motor_identification.noise.slots.eigenmodes import Modes
+from motor_identification.noise.slots.slot_table import Projection, SlotTable, estimate_slot_variance
 from motor_identification.recording import Floats, check
 from motor_model.parameters import PAPER_KA, PAPER_KV
 

@@ -1,8 +1,8 @@
 """Solve for a slot table by conjugate gradients: many slots cost what their visits cost, not their number cubed.
 
 The most likely table is R·y with (R·AᵀA·R + 1/σ²)·y = R·Aᵀz, where R² is the prior's covariance for unit variance
-(`slot_eigenmodes.py`), so that all entries of y are alike. AᵀA is never written down: its product with a table is two
-passes over the intervals (`slot_normal_equations.py`). It is diagonal but for what runs of intervals share, and where
+(`eigenmodes.py`), so that all entries of y are alike. AᵀA is never written down: its product with a table is two
+passes over the intervals (`normal_equations.py`). It is diagonal but for what runs of intervals share, and where
 entries are many each has little part in that: preconditioned by its diagonal (M. Hestenes, E. Stiefel, J. Res. Nat.
 Bur. Standards 49, 1952), some ten products give all digits that a fit uses.
 """
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motor_identification.noise.slot_normal_equations import fill_explained, fill_scores
+from motor_identification.noise.slots.normal_equations import fill_explained, fill_scores
 from motor_identification.recording import Bools, Floats, Integers
 from motor_model.compiled import compiled
 
@@ -90,7 +90,7 @@ class IterativeSolver:
     """Solves for the coordinates y of a table with 2N entries, whatever the prior's variance."""
 
     filter: Filter
-    root: Floats  # U (C, 2N), see `slot_eigenmodes.py`
+    root: Floats  # U (C, 2N), see `eigenmodes.py`
     diagonal: Floats  # (2N,) [1/rad²] about what the recording knows of each entry
     seen: Bools  # (2N,)
 

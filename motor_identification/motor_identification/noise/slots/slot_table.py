@@ -7,7 +7,7 @@ Anal. 10, 1973), under a Gaussian prior of variance σ² that makes unseen slots
 
 Per direction the table has no mean, which is the starting angle. Its first harmonic is eccentricity: where that is
 fitted as an effect of its own, the table may not take it too. The linear algebra is in
-`slot_eigenmodes.py`, and for many slots in `slot_conjugate_gradient.py`.
+`eigenmodes.py`, and for many slots in `conjugate_gradient.py`.
 """
 
 from dataclasses import dataclass
@@ -17,9 +17,9 @@ import numpy as np
 
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.angle_noise import Whitening
-from motor_identification.noise.slot_conjugate_gradient import IterativeSolver
-from motor_identification.noise.slot_eigenmodes import Modes, compute_eigenmodes, forbidden_shapes, prior_root
-from motor_identification.noise.slot_normal_equations import fill_diagonal, fill_explained, fill_gram, fill_scores
+from motor_identification.noise.slots.conjugate_gradient import IterativeSolver
+from motor_identification.noise.slots.eigenmodes import Modes, compute_eigenmodes, forbidden_shapes, prior_root
+from motor_identification.noise.slots.normal_equations import fill_diagonal, fill_explained, fill_gram, fill_scores
 from motor_identification.recording import Bools, Floats, Integers
 from motor_model.compiled import compiled
 

@@ -15,8 +15,8 @@ from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.intervals import join_intervals
 from motor_identification.noise.angle_noise import AngleNoise, make_whitening, whiten
 from motor_identification.noise.encoder import Encoder
-from motor_identification.noise.slot_eigenmodes import STIFF
-from motor_identification.noise.slot_table import Projection, SlotIndex, SlotTable, estimate_slot_variance
+from motor_identification.noise.slots.eigenmodes import STIFF
+from motor_identification.noise.slots.slot_table import Projection, SlotIndex, SlotTable, estimate_slot_variance
 from motor_identification.recording import check, recording_of
 from motor_model.parameters import PAPER_KA, PAPER_KV, paper_motor
 from motor_model.sensing.board import BoardConfig, SimulatedBoard

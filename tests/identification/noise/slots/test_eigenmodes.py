@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.noise.slot_eigenmodes import STIFF, compute_eigenmodes
+from motor_identification.noise.slots.eigenmodes import STIFF, compute_eigenmodes
 
 N = 6  # slots: 12 entries of the table
 
