@@ -68,6 +68,10 @@ ODD = {
     "a computer's clock beside the board's": table(
         lambda k: f"{1.76e9 + MS[k] / 1e3 + 0.003 * (k % 3):.3f},{DUTY[k]},{RPM[k]},{MS[k]}", "timestamp,pwm,rpm,Time"
     ),
+    "dates beside the board's clock": table(
+        lambda k: f"2026-05-01T{clock(MS[k] + 2 * (k % 3))},{DUTY[k]},{RPM[k]},{MS[k]}", "iso_time,pwm,rpm,time"
+    ),
+    "comments at the end": table(plain, "ms,pwm,rpm") + "# done\n# 400 rows\n\n// battery 11.9 V, bye\n",
     "another table behind": table(plain, "ms,pwm,rpm") + "21.278\n" * 200,
     "newest first": "ms,pwm,rpm\n" + "\n".join(plain(k) for k in reversed(range(ROWS))) + "\n",
     "full clock": table(lambda k: f"{(2**32 - 2000 + MS[k]) % 2**32},{DUTY[k]},{RPM[k]}", "millis,pwm,rpm"),
@@ -175,6 +179,13 @@ def test_counts_of_a_geared_motor_are_angles_of_its_output(tmp_path: Path, ratio
     degrees = table(lambda k: f"{MS[k]},{DUTY[k]},{COUNT[k] * 360.0 / 44 / float(gear):.9f}", "ms,pwm,angle [deg]")
     again = imported(tmp_path, degrees, counts)
     assert np.array_equal(column(again, "edge_count"), COUNT) and np.allclose(column(again, "speed"), turned)
+
+
+def test_lines_behind_the_rows_are_another_table_or_comments(tmp_path: Path) -> None:
+    found = imported(tmp_path, ODD["another table behind"], SAID)
+    assert "Left out: the lines from 402 on, which have fewer than half of the cells of those before." in found.findings
+    said = imported(tmp_path, ODD["comments at the end"], SAID).findings
+    assert "Left out: 3 lines (the first is 402) without a number (comments, names of columns)." in said
 
 
 def test_two_senders_in_one_table(tmp_path: Path) -> None:

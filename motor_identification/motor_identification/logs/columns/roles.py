@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour import find_position, present_values
 from motor_identification.logs.columns.clock import find_clock, runs_forward, since_1970
@@ -14,6 +15,8 @@ from motor_identification.logs.columns.vocabulary import MOVES, SIDES, Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.row_times import ROW_TIMES
 from motor_model.errors import RecordingError
+
+Floats = NDArray[np.float64]
 
 SHOWN = 12  # names in a question
 FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
@@ -78,12 +81,23 @@ def _is_numeric(table: Table, name: str) -> bool:
 def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
     named = [heading.name for heading in headings if heading.quantity is Quantity.TIME]
     if len(named) > 1:
-        forward = [name for name in named if runs_forward(table.numbers(name))]
+        times = {name: _read_clock(table, name) for name in named}
+        forward = [name for name in named if runs_forward(times[name])]
         # A computer's clock says when rows came to it, the board's when they were made.
-        named = sorted(forward, key=lambda name: bool(since_1970(table.numbers(name)))) or named
+        named = sorted(forward, key=lambda name: bool(since_1970(times[name]))) or named
     if named:
         return named[0]
     return find_clock({heading.name: table.numbers(heading.name) for heading in headings if heading.quantity is None})
+
+
+def _read_clock(table: Table, name: str) -> Floats:
+    """Read a column of times, shape (K,): numbers, or dates and times of day [ns]; empty where it is neither."""
+    for read in (table.numbers, table.nanoseconds):
+        try:
+            return np.asarray(read(name), dtype=np.float64)
+        except RecordingError:
+            continue
+    return np.zeros(0)
 
 
 def _pairs(table: Table, headings: Sequence[Heading], said: Said, time: str | None) -> tuple[Pair, ...]:
@@ -124,7 +138,7 @@ def _by_behaviour(table: Table, headings: Sequence[Heading], time: str | None) -
     if not position or fewest < max(2 * changes[drive] + 1, FEWEST_CHANGES):
         if len(unnamed) == 1 or (len(unnamed) == 2 and find_position(table, unnamed, time)):
             raise _no_drive(table)
-        raise _ask(table, "voltage or duty", "--voltage", unnamed or table.names)
+        raise _ask_drive(table, unnamed or table.names)
     return Pair("", drive, position)  # what drives changes in fewer rows, and to fewer values
 
 
@@ -167,7 +181,12 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
     candidates = _unnamed(table, headings)
     if not candidates:
         raise _no_drive(table)
-    raise _ask(table, "voltage or duty", "--voltage", candidates)
+    raise _ask_drive(table, candidates)
+
+
+def _ask_drive(table: Table, candidates: Sequence[str]) -> RecordingError:
+    asked = _ask(table, "voltage or duty", "--voltage", candidates)
+    return RecordingError(f"{asked} Where it is none of them, as in a log of one step: --constant-voltage V.")
 
 
 def _no_drive(table: Table) -> RecordingError:

@@ -56,10 +56,10 @@ def _end_of_table(lines: Sequence[str], dialect: Dialect) -> int:
     """Where another table begins behind the rows, with at most half of their cells; the number of lines where none."""
     first, short = len(lines), 0
     for place in range(len(lines) - 1, dialect.first_row, -1):
-        cells = sum(map(bool, split_line(lines[place], dialect.delimiter)))
-        if 2 * cells > len(dialect.header):
+        cells = [cell for cell in split_line(lines[place], dialect.delimiter) if cell]
+        if 2 * len(cells) > len(dialect.header):
             break
-        if cells:
+        if any(is_number(cell, dialect.decimal_comma) for cell in cells):
             first, short = place, short + 1
     return first if short > 1 else len(lines)  # one alone is the last, cut off
 

@@ -24,7 +24,7 @@ def read_matlab(path: Path) -> Table:
     try:
         data = path.read_bytes()
         variables = read_matrices(data) if is_version_4(data) else read_variables(data)
-        for name, value in variables.items():
+        for name, value in variables.items():  # without a name: objects, and what MATLAB keeps of them
             _collect(name, value, vectors)
     except TooLargeError as error:
         raise RecordingError(f"{path} is too large ({error}): cut it into parts.") from error
@@ -39,7 +39,7 @@ def read_matlab(path: Path) -> Table:
     fitting = {name: vector for name, vector in vectors.items() if len(vector) == length}
     if len(fitting) < 2:
         raise RecordingError(f"{path} has no two vectors of one length: save time, voltage and motion with one.")
-    others = [name for name, vector in vectors.items() if 2 <= len(vector) != length]
+    others = [name for name, vector in vectors.items() if name and 2 <= len(vector) != length]
     notes = (f"Left out, as they have other lengths: {', '.join(others[:8])}.",) if others else ()
     return Table(path, np.arange(1, length + 1), fitting, notes=notes)
 

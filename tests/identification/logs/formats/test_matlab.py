@@ -63,3 +63,11 @@ def test_the_longest_three_vectors_are_the_log(tmp_path: Path) -> None:
     table = read_matlab(tmp_path / "log.mat")
     assert (len(table), table.names) == (500, ["t", "u", "w"])
     assert table.notes[0].startswith("Left out, as they have other lengths: x, y,")
+
+
+def test_variables_without_a_name_are_not_listed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """MATLAB keeps something of its own of objects, beside the signals."""
+    there = {"t": TIME[:, None], "u": TIME[:, None], "": np.zeros((1, 9)), "x": np.zeros((1, 7))}
+    monkeypatch.setattr("motor_identification.logs.formats.matlab.read_variables", lambda _: there)
+    (tmp_path / "log.mat").write_bytes(b"MATLAB 5.0 MAT-file" + bytes(200))
+    assert read_matlab(tmp_path / "log.mat").notes == ("Left out, as they have other lengths: x.",)
