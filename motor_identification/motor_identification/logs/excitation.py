@@ -58,7 +58,8 @@ def describe_excitation(log: Log) -> list[str]:
     lines = [about]
     if found.forward + found.backward < FEW:
         return [*lines, "The motor hardly moves: nothing can be identified from this."]
-    if found.low >= 0.0 and ways == "both ways":
+    unsigned = found.low >= 0.0 and ways == "both ways"
+    if unsigned:
         lines.append(
             "Caution: the voltage has no sign, and the motor runs both ways: a column with the direction is missing "
             "(--direction COL), or something else drives it."
@@ -70,9 +71,10 @@ def describe_excitation(log: Log) -> list[str]:
         missing.append("kv and friction cannot be separated (one voltage only)")
     if log.info.measurement is Measurement.SPEED and log.info.sample_period > 10.0:
         missing.append("ka and delays cannot be seen (steady states)")
-    lines.append(
-        f"Not to be had from it: {'; '.join(missing)}." if missing else "kv, ka and friction can be identified."
-    )
+    if missing:
+        lines.append(f"Not to be had from it: {'; '.join(missing)}.")
+    elif not unsigned:
+        lines.append("kv, ka and friction can be identified.")
     if found.standing > MOSTLY:
         lines.append(f"The motor stands for {100 * found.standing:.0f} % of the time, which says little.")
     return lines

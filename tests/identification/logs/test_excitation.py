@@ -62,3 +62,9 @@ def test_a_motor_that_mostly_stands(standing: int, said: bool) -> None:
 def test_one_voltage_all_the_time() -> None:
     found = describe_excitation(log(np.full(100, 1.88), np.full(100, 5.0)))[0]
     assert found.startswith("Excitation: 1.88 V all the time, one way only;")
+
+
+def test_a_voltage_without_its_sign_promises_nothing() -> None:
+    volts, speed = np.repeat([0.0, 3.0, 3.0, 6.0], 25), np.repeat([0.0, 60.0, -60.0, 120.0], 25)
+    said = describe_excitation(log(volts, speed))
+    assert said[1].startswith("Caution: the voltage has no sign, and the motor runs both ways") and len(said) == 2
