@@ -182,3 +182,12 @@ def test_a_bridge_that_coasts_is_judged_by_the_supply_not_by_what_the_motor_may_
         abs(untold.parameters.value("coast_share") / 0.5 - 1.0) > 0.1
         or abs(untold.parameters.value("kv") / 0.06 - 1.0) > 0.05
     )
+
+
+def test_a_recording_without_voltage_tells_of_friction_beside_one_with() -> None:
+    """A step alone cannot tell friction from gain; how the motor comes to rest can."""
+    step = made({"ks": 0.6}, profiles.step(10.0, 1.0), seed=1)
+    rest = made({"ks": 0.6}, profiles.pieces([0.0], [1.5]), start_speed=100.0, seed=2)
+    assert not np.any(rest.voltage)
+    fit = identify([step, rest], quick("coulomb_friction"))
+    assert all(abs(one) < 2e-3 for one in off(fit, {"ks": 0.6}).values()) and not fit.not_identifiable

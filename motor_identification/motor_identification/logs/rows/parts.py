@@ -8,6 +8,7 @@ import numpy as np
 
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm
+from motor_identification.logs.rows.bursts import spread_bursts
 from motor_identification.logs.signals import Bools, Integers, Signals
 from motor_model.errors import RecordingError
 
@@ -93,6 +94,9 @@ def split_at_gaps(signals: Signals) -> tuple[Signals, list[str]]:
     gap = _inside(signals, np.diff(signals.time, prepend=signals.time[:1]) > GAP * _period(signals))
     if not gap.any():
         return signals, []
+    spread, said = spread_bursts(signals, gap)
+    if said:
+        return spread, said
     number = int(gap.sum())
     short = number >= BURSTS and len(signals) < FEWEST_ROWS * (number + 1)
     if short:
@@ -103,8 +107,8 @@ def split_at_gaps(signals: Signals) -> tuple[Signals, list[str]]:
     parts = signals.split(gap)
     if not parts.runs:
         return signals, []
-    said = f"Rows are missing {_times(int(gap.sum()))} ({lost:.3g} s in all): {_bags(parts)}"
-    return parts, [f"{said}{_alone(signals, parts)}."]
+    missing = f"Rows are missing {_times(int(gap.sum()))} ({lost:.3g} s in all): {_bags(parts)}"
+    return parts, [f"{missing}{_alone(signals, parts)}."]
 
 
 def _check_clock(signals: Signals, gaps: int) -> None:

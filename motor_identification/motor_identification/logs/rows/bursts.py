@@ -1,0 +1,69 @@
+"""Give rows that a link stored and handed on in bursts the even times at which their board made them.
+
+A program that draws between two reads of its serial port stamps rows when it takes them: many at once, then none. Its
+last row of a burst came at once, so that those lie on the board's clock, and the time from one to the next goes with
+the number of rows between them. A board that really pauses takes as long for each pause, however many rows came before.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from motor_identification.logs.signals import Bools, Floats, Integers, Signals
+
+FEWEST = 10  # bursts that tell
+QUICK = 0.8  # of the even distance: rows within a burst are closer
+SAME = 0.2  # relative: how far the time that one more row takes may be from the even distance
+SURE = 4.0  # standard errors of that time, by which it is more than within a burst
+BESIDE, MOSTLY = 1.5, 0.9  # even distances beside the board's clock that a last row may be, and the share that is
+
+
+def spread_bursts(signals: Signals, gap: Bools) -> tuple[Signals, list[str]]:
+    """Spread rows of bursts evenly, in every run whose rows after a gap are marked, shape (K,), if all of them tell."""
+    time, period, rows = signals.time.copy(), 0.0, 0.0
+    if not gap.any():
+        return signals, []
+    for run in signals.runs.values():
+        last = np.flatnonzero(gap[run]) - 1
+        period = _board_period((signals.time[run] - signals.time[run.start]) * 1e-9, last)
+        if period == 0.0:
+            return signals, []
+        rows = float(np.median(np.diff(last)))
+        time[run] = time[run.start] + np.rint(period * 1e9 * np.arange(run.stop - run.start)).astype(np.int64)
+    said = (
+        f"Rows come in bursts, about {rows:.0f} at a time, as a link hands them on that stores them: they are taken to "
+        f"be {period * 1e3:.4g} ms apart (assumed; otherwise: --sample-period)."
+    )
+    return replace(signals, time=time), [said]
+
+
+def _board_period(time: Floats, last: Integers) -> float:
+    """[s] how far rows at times (K,) [s] are apart on the board; 0 where that is not sure.
+
+    last: the last row of each burst.
+    """
+    if len(last) < FEWEST:
+        return 0.0
+    took, rows = np.diff(time[last]), np.diff(last).astype(np.float64)
+    spread = rows - rows.mean()
+    if not np.any(spread):
+        return 0.0
+    each = float(spread @ took) / float(spread @ spread)  # what one more row takes
+    left = took - took.mean() - each * spread
+    error = float(np.sqrt(left @ left / max(len(rows) - 2, 1) / (spread @ spread)))
+    period, begin = _robust_line(last, time[last])
+    quick = float(np.median(np.diff(time)))
+    beside = np.abs(time[last] - begin - period * last)
+    even = abs(each - period) < SAME * period and each - SURE * error > quick and quick < QUICK * period
+    return period if even and np.mean(beside < BESIDE * period) >= MOSTLY else 0.0
+
+
+def _robust_line(x: Integers, y: Floats) -> tuple[float, float]:
+    """Slope and begin of a line through most points: by least squares, twice without those far beside."""
+    good = np.ones(len(x), np.bool_)
+    slope, begin = np.polyfit(x, y, 1)
+    for _ in range(2):
+        beside = np.abs(y - begin - slope * x)
+        good = beside <= 3.0 * np.median(beside) + 1e-12
+        slope, begin = np.polyfit(x[good], y[good], 1)
+    return float(slope), float(begin)

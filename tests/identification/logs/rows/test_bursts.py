@@ -1,0 +1,68 @@
+"""Rows that a link handed on in bursts."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.rows.bursts import FEWEST, spread_bursts
+from motor_identification.logs.rows.parts import GAP, split_at_gaps
+from motor_identification.logs.signals import Signals, read_signals
+
+PERIOD, WITHIN = 0.01, 0.002  # [s] on the board, within a burst
+
+
+def handed_on(bursts: int, seed: int = 0, pause: tuple[int, int] = (5, 12)) -> NDArray[np.float64]:
+    """[s] when a program took rows that a board makes every 10 ms, and that a link stores while the program draws."""
+    random = np.random.default_rng(seed)
+    times: list[float] = []
+    for rows in random.integers(*pause, bursts):
+        last = (len(times) + rows - 1) * PERIOD + random.uniform(0.0, 0.003)
+        times += [last - WITHIN * k for k in range(rows - 1, -1, -1)]
+    return np.array(times)
+
+
+def timed(times: NDArray[np.float64]) -> Signals:
+    rows = {"t": [f"{time:.6f}" for time in times], "u": ["1"] * len(times), "y": ["2"] * len(times)}
+    table = Table(Path("log.csv"), tuple(range(2, 2 + len(times))), rows)
+    return read_signals(table, CsvForm("t", "u", "y", Kind.SPEED, "rad/s"), {"": slice(0, len(times))})
+
+
+def spread(times: NDArray[np.float64], gap: float = 0.02) -> tuple[Signals, list[str]]:
+    return spread_bursts(timed(times), np.diff(times, prepend=times[0]) > gap)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_times_of_the_board(seed: int) -> None:
+    signals, said = spread(handed_on(60, seed))
+    steps = np.diff(signals.time) * 1e-9
+    assert np.ptp(steps) < 2e-9 and steps[0] == pytest.approx(PERIOD, rel=0.01)
+    assert said[0].startswith("Rows come in bursts, about 8 at a time, as a link hands them on")
+    assert "ms apart (assumed; otherwise: --sample-period)." in said[0]
+
+
+def test_a_board_that_pauses_has_a_clock_of_its_own() -> None:
+    """The pauses are as long, however many rows came before."""
+    rows = np.random.default_rng(1).integers(5, 12, 60)
+    begins = np.cumsum(WITHIN * rows + 0.05)
+    times = np.concatenate([begin + WITHIN * np.arange(count) for begin, count in zip(begins, rows, strict=True)])
+    assert not spread(times)[1]
+
+
+@pytest.mark.parametrize(("bursts", "told"), [(FEWEST + 1, True), (FEWEST, False)])
+def test_ten_bursts_tell(bursts: int, told: bool) -> None:
+    assert bool(spread(handed_on(bursts))[1]) == told
+
+
+def test_bursts_of_equal_length_tell_nothing() -> None:
+    assert not spread(handed_on(60, pause=(8, 9)))[1]
+
+
+def test_such_rows_are_one_run() -> None:
+    """Pauses of more than 20 times the distance within a burst, and more rows than a pause alone would be cut for."""
+    times = handed_on(40, pause=(30, 60))
+    parts, said = split_at_gaps(timed(times))
+    assert np.max(np.diff(times)) > GAP * WITHIN and len(parts.runs) == 1 and "in bursts, about 4" in said[0]
