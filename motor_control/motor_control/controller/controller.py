@@ -3,29 +3,29 @@
 Time between samples is the plant's own (`sample_time`); `now`, a monotonic clock of the caller's, tells how old a
 sample is and whether samples still come at all. Whatever is wrong, the answer is 0 V with a sentence that says why.
 
-A reference is obeyed from when it comes until something ends it: a stop, a reset, a plant that was restarted or was
-away, its output switched off, `reference_timeout`, `release`. Then the motor waits for a fresh one.
+A reference is obeyed from when it comes until something ends it: a stop, a reset, `release`, or what
+`reference/ending.py` lists. Then the motor waits for a fresh one.
 """
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import isfinite, nan
+from math import nan
 
 from motor_control.controller import pi
 from motor_control.controller import speed_law as law
 from motor_control.controller.interruptions import count_interruption
 from motor_control.controller.latency import track_latency
+from motor_control.controller.obstacles import CALL_RESET, find_mistake, find_obstacle, is_finite
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
-from motor_control.controller.plant_watch import PlantWatch, watch_plant
+from motor_control.controller.plant_watch import watch_plant
 from motor_control.controller.reference import position_law
-from motor_control.controller.reference.demand import Demand, Kind, Source
-from motor_control.controller.reference.position_law import FARTHEST
+from motor_control.controller.reference.demand import Demand, Kind
+from motor_control.controller.reference.ending import AWAY, OFF, drop_old_reference
 from motor_control.controller.run import Config, Run, begin
 from motor_control.controller.state import (
     NAMES,
     State,
     command_joint,
-    drop,
     meet_other_plant,
     refer,
     release,
@@ -48,26 +48,12 @@ __all__ = [
 ]
 
 REPEAT_SILENCE = 0.2  # [s] how often it is said again that no samples come
-AWAY = 1.0  # [s] of silence, or of 0 V in doubt, after which the motor is not driven on by an old reference
-OFF = 0.5  # [s] for which a plant may ignore voltages before the reference is dropped: longer than any hiccup
-
-NO_REFERENCE = "No reference yet: publish a speed in rad/s on motor/reference."
-FRESH = "{} The motor waits for a fresh reference: publish a speed in rad/s on motor/reference."
-RESTARTED = "The plant was restarted."
-RETURNED = "The plant was away for more than 1 s."
-HELD = "{} The motor was held at 0 V for more than 1 s."
-WAS_OFF = "The plant's output is off: call motor/enable with data: true."
-SILENT_JOINT = "No command on motor/joint_command for joint_command_timeout ({:g} s)."
 TOLD = 0.5  # [s] for which it is said that a demand was not taken
-TIMED_OUT = "The last reference is older than reference_timeout ({:g} s)."
+
 STALE = "The sample is {:.0f} ms old and latency_limit is {:.0f} ms: give the controller more processor time."
-BAD_REFERENCE = "The reference is {}: publish a finite speed in rad/s on motor/reference."
-TOO_FAR = "The angle {:.3g} rad is farther than any motor turns: publish one in rad on motor/position_reference."
-BAD_SAMPLE = "A sample on motor/speed says {} = {}: find out what is wrong with the plant."
 NEVER_A_SAMPLE = "No sample has come on motor/speed yet: start motor_sim or motor_driver."
 SILENCE = "No sample on motor/speed for {:.1f} s: see whether motor_sim or motor_driver still runs."
 TWO_PLANTS = f"Two plants publish motor/speed {NAMES}: end one of them."
-CALL_RESET = "{} Call motor/reset, then publish a fresh reference, to go on."
 
 
 def update(config: Config, state: State, sample: Sample, reference: float | None, now: float) -> tuple[Output, State]:
@@ -76,7 +62,7 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     plant = watch_plant(state.plant, sample, now, config.sample_period)
     if plant.two and not state.latched:
         state = stop(state, TWO_PLANTS)
-    state = _drop_old_reference(config, state, plant, now)
+    state = drop_old_reference(config, state, plant, now)
     if reference is not None:
         state = refer(state, reference, now)
     output, after = _answer(config, state, sample, age, now)
@@ -102,26 +88,6 @@ def watch(config: Config, state: State, now: float) -> tuple[Output | None, Stat
     return output, replace(state, run=None, silent=now)
 
 
-def _drop_old_reference(config: Config, state: State, plant: PlantWatch, now: float) -> State:
-    """Drop a reference that the plant or time has ended; of a plant that was restarted nothing is known any more."""
-    if plant.restarted:
-        state = replace(state, motion=None, faults=None, place=None)
-        return state if state.demand is None else drop(state, RESTARTED)
-    if state.demand is None:
-        return state
-    if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
-        return drop(state, RETURNED)
-    if state.held is not None and now - state.held > AWAY and now - state.referred > AWAY:
-        return drop(state, HELD.format(state.held_by))
-    if state.demand.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
-        return drop(state, SILENT_JOINT.format(config.joint_timeout))
-    if config.reference_timeout and now - state.referred > config.reference_timeout:
-        return drop(state, TIMED_OUT.format(config.reference_timeout))
-    if state.run is not None and state.run.ignored > OFF and now - state.referred > OFF:
-        return drop(state, WAS_OFF)
-    return state
-
-
 def _is_unheard(before: Run | None, after: State, now: float) -> bool:
     """Whether the plant still applies 0 V to a fresh reference: it may not have heard the 0 V that voltages begin with.
 
@@ -135,10 +101,10 @@ def _is_unheard(before: Run | None, after: State, now: float) -> bool:
 def _answer(config: Config, state: State, sample: Sample, age: float, now: float) -> tuple[Output, State]:
     """Answer a sample of an age [s], at a time [s], with the reference in force."""
     demand = state.demand
-    name, reason = _find_obstacle(config, state, sample)
-    mistake = _find_mistake(config, demand, sample) if name == RUNNING and demand is not None else ""
+    name, reason = find_obstacle(config, state, sample)
+    mistake = find_mistake(config, demand, sample) if name == RUNNING and demand is not None else ""
     if demand is not None and not state.latched:
-        no_number = mistake or (reason if not _is_finite(sample) else "")
+        no_number = mistake or (reason if not is_finite(sample) else "")
         often, interruptions = count_interruption(state.interruptions, no_number, now)
         state = replace(state, interruptions=interruptions)
         if often:
@@ -164,36 +130,6 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
         run = replace(run, asked=0.0, paused=True)
     state = replace(state, motion=run.motion, faults=run.faults, judged=run.sample_time)
     return output, replace(state, run=run, place=run.place)
-
-
-def _find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, str]:
-    """Find why not to run, as state and reason; (running, "") where nothing speaks against it."""
-    if state.latched:
-        return STOPPED, CALL_RESET.format(state.latched.replace(NAMES, state.speakers))
-    if config.unusable:
-        return STOPPED, config.unusable
-    for name, value in (("speed", sample.speed), ("voltage", sample.voltage), ("edge_period", sample.edge_period)):
-        if not isfinite(value):
-            return STOPPED, BAD_SAMPLE.format(name, value)
-    if state.demand is None:
-        return DISABLED, FRESH.format(state.dropped) if state.dropped else NO_REFERENCE
-    return RUNNING, ""
-
-
-def _is_finite(sample: Sample) -> bool:
-    """Tell whether all that a law needs of a sample is a number."""
-    return isfinite(sample.speed) and isfinite(sample.voltage) and isfinite(sample.edge_period)
-
-
-def _find_mistake(config: Config, demand: Demand, sample: Sample) -> str:
-    """Find why a demand cannot be obeyed, as a sentence; "" if it can."""
-    if not isfinite(demand.value - sample.speed):
-        return BAD_REFERENCE.format(demand.value)
-    if demand.kind is Kind.POSITION and config.position is None:
-        return config.no_position
-    if demand.kind is Kind.POSITION and config.position and abs(demand.value / config.position.slot) > FARTHEST:
-        return TOO_FAR.format(demand.value)
-    return ""
 
 
 def _continue_run(config: Config, state: State, sample: Sample) -> Run:

@@ -1,0 +1,38 @@
+"""End a reference that the plant or time has made an old one: restarted, away, switched off, held at 0 V, timed out."""
+
+from dataclasses import replace
+
+from motor_control.controller.plant_watch import PlantWatch
+from motor_control.controller.reference.demand import Source
+from motor_control.controller.run import Config
+from motor_control.controller.state import State, drop
+
+AWAY = 1.0  # [s] of silence, or of 0 V in doubt, after which the motor is not driven on by an old reference
+OFF = 0.5  # [s] for which a plant may ignore voltages before the reference is dropped: longer than any hiccup
+
+RESTARTED = "The plant was restarted."
+RETURNED = "The plant was away for more than 1 s."
+HELD = "{} The motor was held at 0 V for more than 1 s."
+WAS_OFF = "The plant's output is off: call motor/enable with data: true."
+SILENT_JOINT = "No command on motor/joint_command for joint_command_timeout ({:g} s)."
+TIMED_OUT = "The last reference is older than reference_timeout ({:g} s)."
+
+
+def drop_old_reference(config: Config, state: State, plant: PlantWatch, now: float) -> State:
+    """Drop a reference that the plant or time has ended; of a plant that was restarted nothing is known any more."""
+    if plant.restarted:
+        state = replace(state, motion=None, faults=None, place=None)
+        return state if state.demand is None else drop(state, RESTARTED)
+    if state.demand is None:
+        return state
+    if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
+        return drop(state, RETURNED)
+    if state.held is not None and now - state.held > AWAY and now - state.referred > AWAY:
+        return drop(state, HELD.format(state.held_by))
+    if state.demand.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
+        return drop(state, SILENT_JOINT.format(config.joint_timeout))
+    if config.reference_timeout and now - state.referred > config.reference_timeout:
+        return drop(state, TIMED_OUT.format(config.reference_timeout))
+    if state.run is not None and state.run.ignored > OFF and now - state.referred > OFF:
+        return drop(state, WAS_OFF)
+    return state

@@ -1,0 +1,74 @@
+"""A reference ends when the plant is another, was away or is off, or time is over: on either side of each."""
+
+from dataclasses import replace
+
+import pytest
+from bench_board import DEFAULTS
+
+from motor_control.configuration import config_of
+from motor_control.controller import controller
+from motor_control.controller.controller import State
+from motor_control.controller.plant_watch import PlantWatch
+from motor_control.controller.reference.demand import Demand, Kind, Source
+from motor_control.controller.reference.ending import AWAY, OFF, drop_old_reference
+from motor_model.sample import Info, Sample
+
+CONFIG = config_of(DEFAULTS, Info())
+PLANT = PlantWatch(5_000_000, 7)
+BELOW, ABOVE = 0.999, 1.001
+ASKED = State(arrival=0.0, demand=Demand(60.0))
+
+
+def end(state: State, now: float, plant: PlantWatch = PLANT, **settings: float) -> State:
+    return drop_old_reference(replace(CONFIG, **settings), state, plant, now)
+
+
+def test_a_reference_lasts() -> None:
+    still = replace(ASKED, arrival=1e6)
+    assert end(still, 1e6) is still
+
+
+def test_a_plant_that_was_restarted_is_forgotten_whether_or_not_something_is_asked_for() -> None:
+    state = controller.update(CONFIG, State(), Sample(0, 3.0, 0.0), 60.0, 0.0)[1]
+    assert state.motion is not None and state.faults is not None
+    after = end(state, 0.01, replace(PLANT, restarted=True))
+    assert after.motion is after.faults is after.demand is None and after.dropped == "The plant was restarted."
+    free = replace(state, demand=None)
+    after = end(free, 0.01, replace(PLANT, restarted=True))
+    assert after.motion is None and after.dropped == free.dropped
+
+
+@pytest.mark.parametrize(("times", "ends"), [(BELOW, False), (ABOVE, True)])
+def test_silence_ends_it_unless_it_is_as_fresh(times: float, ends: bool) -> None:
+    after = end(ASKED, times * AWAY)
+    assert (after.demand is None) is ends and ("away for more than 1 s" in after.dropped) is ends
+    assert end(replace(ASKED, referred=0.1), AWAY + 0.05).demand is not None
+
+
+@pytest.mark.parametrize(("times", "ends"), [(BELOW, False), (ABOVE, True)])
+def test_being_held_at_0_v_ends_it_with_what_held_it(times: float, ends: bool) -> None:
+    now = 3.0 + times * AWAY
+    after = end(replace(ASKED, arrival=now, held=3.0, held_by="Too late."), now)
+    assert (after.demand is None) is ends
+    assert after.dropped == ("Too late. The motor was held at 0 V for more than 1 s." if ends else "")
+
+
+@pytest.mark.parametrize(("source", "ended_by"), [(Source.JOINT, "joint"), (Source.REFERENCE, "reference")])
+def test_each_source_has_a_timeout_of_its_own(source: Source, ended_by: str) -> None:
+    state = replace(ASKED, arrival=10.0, referred=9.7, demand=Demand(60.0, Kind.SPEED, source))
+    joint, reference = (end(state, 10.0, joint_timeout=a, reference_timeout=b) for a, b in ((0.2, 0.0), (0.0, 0.2)))
+    assert (joint.demand is None) is (ended_by == "joint")
+    assert reference.demand is None and "reference_timeout (0.2 s)" in reference.dropped
+    assert end(state, 10.0, joint_timeout=0.4, reference_timeout=0.4).demand is not None
+    if ended_by == "joint":
+        assert "joint_command_timeout (0.2 s)" in joint.dropped
+
+
+@pytest.mark.parametrize(("times", "ends"), [(BELOW, False), (ABOVE, True)])
+def test_a_plant_that_ignores_voltages_ends_it(times: float, ends: bool) -> None:
+    state = controller.update(CONFIG, State(), Sample(0, 3.0, 0.0), 60.0, 0.0)[1]
+    assert state.run is not None
+    after = end(replace(state, arrival=5.0, run=replace(state.run, ignored=times * OFF)), 5.0)
+    assert (after.demand is None) is ends and ("motor/enable" in after.dropped) is ends
+    fresh = replace(state, arrival=5.0, referred=5.0, run=replace(state.run, ignored=2.0 * OFF))
+    assert end(fresh, 5.0 + BELOW * OFF).demand is not None and end(fresh, 5.0 + ABOVE * OFF).demand is None
