@@ -55,11 +55,15 @@ class Hang(IntEnum):
     TICKLESS = 2  # all runs but the sample tick
 
 
-class _Pins(Structure):
+class PinLevels(Structure):
+    """As `struct chip_pins` of the library: mean levels of the bridge's pins, in 1/256."""
+
     _fields_ = [("enable", c_uint16), ("forward", c_uint16), ("reverse", c_uint16)]
 
 
-class _Load(Structure):
+class Load(Structure):
+    """As `struct chip_load` of the library: what an interrupt has cost, in cycles."""
+
     _fields_ = [("calls", c_uint64), ("cycles", c_uint64), ("longest", c_uint64), ("waited", c_uint64)]
 
 
@@ -87,8 +91,8 @@ class InterruptLoad:
     waited: int  # [cycle] the longest that one had to wait for its turn
 
 
-def _library() -> Any:
-    """The shared library with its signatures."""
+def load_library() -> Any:
+    """Load the emulation's shared library with the signatures of its functions."""
     library = ctypes.CDLL(str(chip_library()))
     bytes_, cycles = POINTER(c_uint8), POINTER(c_uint64)
     signatures: dict[str, tuple[Any, list[Any]]] = {
@@ -97,7 +101,7 @@ def _library() -> Any:
         "name": (c_char_p, [c_void_p]),
         "cycle": (c_uint64, [c_void_p]),
         "run": (c_int, [c_void_p, c_uint64]),
-        "pins": (_Pins, [c_void_p]),
+        "pins": (PinLevels, [c_void_p]),
         "pull_ups": (c_int, [c_void_p]),
         "written": (c_uint64, [c_void_p]),
         "edges": (c_size_t, [c_void_p, c_uint64, c_void_p, c_void_p, c_size_t]),
@@ -110,7 +114,7 @@ def _library() -> Any:
         "sensing": (c_uint64, [c_void_p]),
         "sense": (None, [c_void_p, c_uint32]),
         "hang": (None, [c_void_p, c_int]),
-        "load": (c_uint64, [c_void_p, POINTER(_Load)]),
+        "load": (c_uint64, [c_void_p, POINTER(Load)]),
     }
     for name, (result, arguments) in signatures.items():
         function = getattr(library, f"chip_{name}")
@@ -123,7 +127,7 @@ class Chip:
 
     def __init__(self, elf: Path) -> None:
         """Raises: BoardError: the ELF is none for this chip, or libsimavr is missing."""
-        self._library = _library()
+        self._library = load_library()
         self._chip = self._library.chip_open(str(elf).encode())
         if not self._chip:
             raise BoardError(
@@ -231,7 +235,7 @@ class Chip:
 
     def load(self) -> tuple[dict[str, InterruptLoad], int]:
         """What interrupts have cost since the last call, and for how many cycles the program slept."""
-        loads, names = (_Load * MOST_VECTORS)(), VECTORS[self.name]
+        loads, names = (Load * MOST_VECTORS)(), VECTORS[self.name]
         slept = int(self._library.chip_load(self._chip, loads))
         rows = {names.get(i, str(i)): row for i, row in enumerate(loads) if row.calls}
         return {

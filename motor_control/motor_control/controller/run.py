@@ -32,9 +32,7 @@ class Config:
     voltage_limit: float  # [V]
     sample_timeout: float  # [s] silence after which there is no plant
     reference_rate_limit: float  # [rad/s²] 0: none
-    reversal_speed: (
-        float  # [rad/s] a single-channel motor faster than this is not pushed against its motion; 0: by itself
-    )
+    reversal_speed: float  # [rad/s] up to which one channel may be pushed against its motion; 0: found by itself
     single_channel: bool = True  # the encoder does not measure direction
     faults: FaultConfig = FaultConfig()
     observer: Observer | None = None  # None: the law goes by the reported speed

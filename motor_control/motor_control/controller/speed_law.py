@@ -34,9 +34,7 @@ IGNORED = "The plant's output is off: it applies 0 V where {:.2g} V were asked f
 NOT_FINITE = "The observer's speed is {}: look at the samples and the model; it begins anew."
 IGNORED_TIME, IGNORED_STEP = 0.05, 0.02  # [s]; at most as much a sample, so it takes three
 IGNORED_SHARE = 0.02  # of the voltage limit: a smaller duty may well be rounded to none
-REVERSAL_SHARE = (
-    0.06  # of the top speed: the paper's motor stops within a slot from there, an edge or two show its turn
-)
+REVERSAL_SHARE = 0.06  # of the top speed: from there the paper's motor stops within a slot, an edge or two show it
 REVERSAL_EDGES = 150.0  # [edges/s], where the top speed is not known
 
 

@@ -8,9 +8,7 @@ from motor_identification.measurement.timestamp_checks import mark_possible, mar
 from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_model.sample import Info
 
-LEAST_TICKS = (
-    20.0  # of the timer between two edges of a sample that both count: nearer, the speed is off by 2 % or more
-)
+LEAST_TICKS = 20.0  # of the timer between two edges of a sample that both count: nearer is off by 2 % or more
 MANY_SLOTS = 4  # slots since the voltage turned, from which on a motor that turned was slow in between
 STILL_FAST = 0.5  # of the largest speed since the voltage turned: a motor that has turned was slower than this
 SLOW_THEN = 0.3  # of the speed before: where it is slower afterwards, it turned there

@@ -15,9 +15,7 @@ from motor_model.sample import Measurement
 
 HEAD_SAMPLES = 400  # samples in which the beginning shows
 PARABOLA_EDGES = 6  # edges that are followed back
-LEAST_SPEED_SHARE = (
-    0.5  # of their mean speed that must be left at the beginning: at rest it is none, or a quarter after one τ
-)
+LEAST_SPEED_SHARE = 0.5  # of their mean speed, left at the beginning: from rest it is none, or a quarter after one τ
 MOST_SLOTS_OFF = 0.75  # slots that the parabola may lead beside the middle of the slot in which the disc was
 SURE = 4.0  # standard deviations of noise, which a speed at rest does not reach
 PARABOLA_ROWS = (6, 12, 24, 48)  # rows of logged speeds that a parabola is laid through

@@ -13,12 +13,10 @@ import numpy as np
 from motor_identification.estimation.whitened_fit import WhitenedFit
 from motor_identification.recording import Floats
 
-INCONSISTENT_SCORE = (
-    10.0  # mean square of a gained degree of freedom over that of what is left, from which on it is not noise
-)
-INCONSISTENT_RATIO = (
-    1.25  # residual beside the common motor over that beside the own one, from which on it is worth a word
-)
+# Mean square of a gained degree of freedom over that of what is left, from which on it is not noise.
+INCONSISTENT_SCORE = 10.0
+# Residual beside the common motor over that beside the own one, from which on it is worth a word.
+INCONSISTENT_RATIO = 1.25
 
 
 @dataclass(frozen=True)
