@@ -17,6 +17,7 @@ what moves in a bag that another robot recorded, and a mapping to correct by han
   ros2 run motor_identification identify bag --mapping mapping.yaml
 """
 _SHOWN = 5  # pairs
+_LONGEST = 400  # characters of what is wrong with a topic: it says at its end what to do
 OURS_NEEDS_NONE = "{bag} was recorded from this workbench's topics: identify and diagnose read it without a mapping."
 
 
@@ -55,9 +56,11 @@ def _inspect(options: argparse.Namespace) -> int:
     print(*_lines(topics), sep="\n")
     pairs = find_candidates([field for topic in topics for field in topic.fields])
     if not pairs:
+        unread = ", ".join(topic.name for topic in topics if topic.trouble)
+        cure = f"make {unread} readable first, as said above, or write" if unread else "write"
         raise RecordingError(
-            f"{options.bag}: no number in it follows another as a motor's speed follows its voltage: write the mapping "
-            "by hand."
+            f"{options.bag}: no number that can be read follows another as a motor's speed follows its voltage: {cure} "
+            "the mapping by hand."
         )
     print("", *_pairs(pairs), sep="\n")
     if any(topic.type_name == SPEED_TYPE for topic in topics):
@@ -82,7 +85,7 @@ def _lines(topics: "list[TopicRow]") -> list[str]:
         stamps = "stamped" if topic.stamped else f"no stamps, jitter {topic.jitter * 1e3:.3f} ms"
         rate = f"{topic.messages} messages, {topic.rate:.4g} Hz" if topic.messages != 1 else "1 message"
         about = f"{rate}, {stamps}"
-        lines.append(escape(f"{topic.name}  {topic.type_name}  ({topic.trouble or about})"))
+        lines.append(f"{escape(topic.name)}  {escape(topic.type_name)}  ({escape(topic.trouble or about, _LONGEST)})")
         lines += [
             escape(f"  {field.path.field}  {field.values.min():.4g} to {field.values.max():.4g}")
             for field in topic.fields

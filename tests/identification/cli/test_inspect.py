@@ -5,6 +5,7 @@ from pathlib import Path
 import foreign_bags
 import pytest
 
+from motor_identification.bag import BagWriter
 from motor_identification.cli.identify import main as identify
 from motor_identification.cli.inspect import main
 from motor_identification.mapping import load_mapping
@@ -72,3 +73,16 @@ def test_what_cannot_be_read_is_a_sentence(
     assert identify([str(bag), *options]) == 1
     err = capsys.readouterr().err
     assert complaint in err and err.count("\n") == 1
+
+
+def test_topics_that_cannot_be_read_are_named_where_nothing_else_moves(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with BagWriter(tmp_path / "bag") as writer:
+        topic = writer.topic("/wheel/state", "a_package_with_a_long_name_interfaces/msg/StateOfAWheelWithALongName")
+        for k in range(5):
+            writer.write(topic, 10**18 + k, b"\0\1\0\0" + bytes(8))
+    assert main([str(tmp_path / "bag")]) == 1
+    heard = capsys.readouterr()
+    assert "it as MCAP, which embeds definitions, or source the package that has it.)" in heard.out
+    assert "make /wheel/state readable first, as said above, or write the mapping by hand." in heard.err

@@ -123,7 +123,7 @@ def _first_row(begin: Sequence[tuple[int, str]], delimiter: str, comma: bool) ->
             continue
         if len(following) > 1 and any(len(other) != len(row) for other in following[1:]) and not _ragged(following):
             continue
-        if not _alike(following, comma):
+        if not _alike(following, comma) or _names_a_column(following, comma):
             continue
         rest = [cell for other in rows[k:] for cell in other]
         read = sum(is_number(cell, comma) for cell in rest)
@@ -137,6 +137,16 @@ def _alike(rows: Sequence[Sequence[str]], comma: bool) -> bool:
     places = [k for k, cell in enumerate(rows[0]) if is_number(cell, comma)]
     below = [is_number(row[k], comma) for row in rows[1:] for k in places if k < len(row)]
     return 2 * sum(below) > len(below) or len(rows) < FEW_ROWS
+
+
+def _names_a_column(rows: Sequence[Sequence[str]], comma: bool) -> bool:
+    """Whether a word in the first row stands above numbers: names of columns, of which some are numbers themselves."""
+    words = [k for k, cell in enumerate(rows[0]) if cell not in _NO_VALUE and not is_number(cell, comma)]
+    below = [(rows[0][k], [row[k] for row in rows[1:] if k < len(row)]) for k in words]
+    return any(
+        word not in column and 2 * sum(is_number(cell, comma) for cell in column) > len(column)
+        for word, column in below
+    )
 
 
 def _ragged(rows: Sequence[Sequence[str]]) -> bool:

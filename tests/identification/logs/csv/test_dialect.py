@@ -81,3 +81,16 @@ def test_what_is_no_file_to_read(tmp_path: Path) -> None:
 def test_commas_in_quotes_are_decimal_where_they_mark_no_thousands(cell: str, comma: bool) -> None:
     found = find_dialect(["t,u,y", *(f'"{k}",{cell},7' for k in range(5))])
     assert found is not None and (found.delimiter, found.decimal_comma) == (",", comma)
+
+
+def test_names_of_columns_may_be_numbers() -> None:
+    """As an oscilloscope writes them: its channels, and then their units."""
+    rows = [f"{k / 1e3},{0.012 * k},{0.6 + k}" for k in range(8)]
+    found = find_dialect(["x-axis,1,2", "second,Volt,Volt", *rows])
+    assert found is not None and (found.first_row, found.header) == (2, ("second", "Volt", "Volt"))
+    single = find_dialect(["x-axis,1,2", *rows])
+    assert single is not None and single.first_row == 1
+    words = find_dialect([f"{k},run,{k}" for k in range(8)])  # a column of words
+    assert words is not None and words.first_row == 0
+    mixed = find_dialect([f"{k},{'run' if k < 2 else 7},{k}" for k in range(8)])
+    assert mixed is not None and mixed.first_row == 0
