@@ -11,10 +11,13 @@ import workbench
 from workbench import PATIENCE, Bench
 
 from motor_identification.bag import read_recording
+from motor_identification.cli import experiment
+from motor_identification.cli import explore as cli
 from motor_model.model_file import load, save
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
+from motor_ros.run import Interrupt
 
 Start = Callable[..., "Popen[str]"]
 KS = 0.4
@@ -37,6 +40,24 @@ def explore(*arguments: object) -> "Popen[str]":
 def assert_at_rest(bench: Bench, samples: list[MotorSpeed]) -> None:
     del samples[:]
     bench.wait(lambda: bool(samples) and samples[-1].voltage == 0.0 and samples[-1].speed == 0.0, "a motor at rest")
+
+
+def test_a_terminal_that_is_closed_after_an_experiment_ends_the_exploration(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The signal fell on deaf ears during the diagnosis, and the next experiment drove the motor with nobody there."""
+
+    def listen(arguments: list[str]) -> int:
+        Interrupt()
+        return 0
+
+    monkeypatch.setattr(experiment, "main", listen)
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = {number: signal.getsignal(number) for number in numbers}
+    try:
+        assert cli._recorded("step", "bag", cli.parser().parse_args(["directory"])) == 0
+        assert {number: signal.getsignal(number) for number in numbers} == before
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 @pytest.mark.long

@@ -104,15 +104,16 @@ def _tune(options: argparse.Namespace) -> int:
         source=options.speed_source,
     )
     tuning = tune(parameters, encoder, wish)
-    print(as_table(tuning))
-    for caution in cautions(tuning, parameters):
-        print(f"\n{caution}")
-    if options.output:
-        save_gains(options.output, tuning, Path(options.model), options.force)
-        print(f"gains: {options.output}")
-    if options.figure:
-        _draw(options, tuning, parameters)
-        print(f"figure: {options.figure}")
+    said = [as_table(tuning), *(f"\n{caution}" for caution in cautions(tuning, parameters))]
+    try:  # files first: who reads what is said may go at any line
+        if options.output:
+            save_gains(options.output, tuning, Path(options.model), options.force)
+            said.append(f"gains: {options.output}")
+        if options.figure:
+            _draw(options, tuning, parameters)
+            said.append(f"figure: {options.figure}")
+    finally:
+        print(*said, sep="\n")
     return 0
 
 

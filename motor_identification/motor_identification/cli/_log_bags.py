@@ -24,23 +24,25 @@ _CHUNK = 50_000  # samples serialised at a time
 
 
 def run_import(file: Path, imported: "Imported", output: Path | None, force: bool) -> int:
-    """Say what was found, and write the bags where an output was given."""
-    print(*imported.findings, sep="\n")
+    """Write the bags where an output was given, and say what was found."""
+    said = [*imported.findings]
     bags: dict[Path, tuple[Run, Info]] = {}
     for motor in imported.motors:
         if motor.label:
-            print(f"\nMotor {motor.label}:")
-        print(*motor.log.findings, sep="\n")
+            said.append(f"\nMotor {motor.label}:")
+        said += motor.log.findings
         for run in motor.log.runs:
             parts = [part for part in (motor.label, run.label) if part]
             if output is not None:
                 bags[output.with_name("_".join([output.name, *parts]))] = (run, motor.log.info)
-    if not bags:
-        print("Nothing is written (--dry-run).")
-        return 0
-    write_bags(bags, _offset(file, next(iter(bags.values()))[0]), force)
-    for path, (run, _) in bags.items():
-        print(f"{path}: {len(run.samples)} samples, {run.duration:.2f} s")
+    try:  # bags first: who reads what is said may go at any line
+        if bags:
+            write_bags(bags, _offset(file, next(iter(bags.values()))[0]), force)
+            said += [f"{path}: {len(run.samples)} samples, {run.duration:.2f} s" for path, (run, _) in bags.items()]
+        else:
+            said.append("Nothing is written (--dry-run).")
+    finally:
+        print(*said, sep="\n")
     return 0
 
 

@@ -80,7 +80,7 @@ def _recorded(profile: str, bag: str, options: argparse.Namespace) -> int:
     """One experiment; returns its exit status."""
     from motor_identification.cli import experiment
 
-    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
     try:
         return experiment.main([profile, "--output", bag, *passed_on(options)])
     finally:  # a live experiment has handlers of its own, under which nothing later could be interrupted

@@ -47,34 +47,42 @@ def _inspect(options: argparse.Namespace) -> int:
     from motor_identification.mapping import mapping_text
     from motor_identification.mapping.candidates import find_candidates
     from motor_identification.mapping.inventory import take_inventory
-    from motor_model.errors import MotorError, RecordingError
-    from motor_model.regular_file import write_text
+    from motor_model.errors import RecordingError
 
     if options.output:
         check_outputs([options.output], options.force)
     topics = take_inventory(options.bag)
-    print(*_lines(topics), sep="\n")
+    said = [*_lines(topics)]
     pairs = find_candidates([field for topic in topics for field in topic.fields])
-    if not pairs:
-        unread = ", ".join(topic.name for topic in topics if topic.trouble)
-        cure = f"make {unread} readable first, as said above, or write" if unread else "write"
-        raise RecordingError(
-            f"{options.bag}: no number that can be read follows another as a motor's speed follows its voltage: {cure} "
-            "the mapping by hand."
-        )
-    print("", *_pairs(pairs), sep="\n")
-    if any(topic.type_name == SPEED_TYPE for topic in topics):
-        print("", OURS_NEEDS_NONE.format(bag=options.bag), sep="\n")
-    text = mapping_text(pairs[0].mapping())
-    if options.output:
-        try:
-            write_text(options.output, text)
-        except OSError as error:
-            raise MotorError(f"cannot write {options.output}: {error.strerror}.") from error
-        print(f"\nmapping: {options.output} (check it, and let scale make volts of the command)")
-    else:
-        print(f"\nA first mapping (--output FILE writes it):\n{text}", end="")
+    try:  # the mapping first: who reads what is said may go at any line
+        if not pairs:
+            unread = ", ".join(topic.name for topic in topics if topic.trouble)
+            cure = f"make {unread} readable first, as said above, or write" if unread else "write"
+            raise RecordingError(
+                f"{options.bag}: no number that can be read follows another as a motor's speed follows its voltage: "
+                f"{cure} the mapping by hand."
+            )
+        said += ["", *_pairs(pairs)]
+        if any(topic.type_name == SPEED_TYPE for topic in topics):
+            said += ["", OURS_NEEDS_NONE.format(bag=options.bag)]
+        said += ["", _write(options.output, mapping_text(pairs[0].mapping()))]
+    finally:
+        print(*said, sep="\n")
     return 0
+
+
+def _write(output: "Path | None", text: str) -> str:
+    """Write a mapping, or show what would be written; what is said of it."""
+    from motor_model.errors import MotorError
+    from motor_model.regular_file import write_text
+
+    if output is None:
+        return f"A first mapping (--output FILE writes it):\n{text.rstrip()}"
+    try:
+        write_text(output, text)
+    except OSError as error:
+        raise MotorError(f"cannot write {output}: {error.strerror}.") from error
+    return f"mapping: {output} (check it, and let scale make volts of the command)"
 
 
 def _lines(topics: "list[TopicRow]") -> list[str]:

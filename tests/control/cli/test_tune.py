@@ -1,5 +1,8 @@
 """`tune` as its user meets it: what it prints and writes, and one sentence for everything that is wrong."""
 
+import shlex
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -33,6 +36,16 @@ def table(printed: str) -> dict[str, float]:
     """The first table's numbers."""
     rows = (line.rsplit("  ", 1) for line in printed.split("\n\n")[0].splitlines())
     return {row[0].strip().rsplit("  ", 1)[0].strip(): float(row[0].split()[-1]) for row in rows}
+
+
+def test_the_gains_are_written_although_nobody_reads_the_table(model: Path, tmp_path: Path) -> None:
+    """`tune … --output gains.yaml | head -1` wrote no file, unbuffered, and ended with 0."""
+    gains = tmp_path / "gains.yaml"
+    command = [sys.executable, "-u", "-m", "motor_control.cli.tune", str(model), "--output", str(gains)]
+    line = f"{shlex.join(command)} | true; exit ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", line], capture_output=True, text=True, timeout=120.0)
+    assert done.returncode == 0 and done.stderr == ""
+    assert written(gains)["speed_source"] == "measured"
 
 
 def test_prints_and_writes(model: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,5 +1,6 @@
 """A fit that was computed is not lost: to a pipe that closes, a full device, a name with odd characters."""
 
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -21,6 +22,19 @@ def test_the_model_is_written_wherever_the_words_go(bags: Path, tmp_path: Path, 
     )
     assert done.returncode == status and "Traceback" not in done.stderr and done.stderr.count("\n") <= status
     assert load(tmp_path / "model.yaml").gain > 0.0
+
+
+@pytest.mark.parametrize("command", ["inspect", "import_log"])
+def test_what_is_found_is_written_although_nobody_reads_it(bags: Path, tmp_path: Path, command: str) -> None:
+    log = tmp_path / "log.csv"
+    log.write_text("t,u,speed\n" + "".join(f"{0.01 * k},{k % 50 // 25},{k % 50}\n" for k in range(300)))
+    run = f"from motor_identification.cli.{command} import main; import sys; sys.exit(main(sys.argv[1:]))"
+    read = [str(bags / "staircase")] if command == "inspect" else [str(log), "--unit", "rad/s"]
+    line = shlex.join([sys.executable, "-u", "-c", run, *read, "--output", str(tmp_path / "found")])
+    done = subprocess.run(
+        ["bash", "-c", f"{line} | true; exit ${{PIPESTATUS[0]}}"], capture_output=True, text=True, timeout=120.0
+    )
+    assert (done.returncode, done.stderr) == (0, "") and (tmp_path / "found").exists()
 
 
 def test_a_file_that_cannot_be_written_costs_neither_the_fit_nor_the_others(
