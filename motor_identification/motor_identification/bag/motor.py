@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from dataclasses import replace
-from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -62,7 +61,7 @@ def read_motor(bag: Messages, topic_namespace: str) -> Recording:
         notes.append(f"{bag.uri}: {bag.garbled} messages are garbled and were left out.")
     if bag.missing:
         notes.append(
-            f"{bag.uri} lacks {', '.join(bag.missing)}, which its metadata.yaml lists: those samples are missing."
+            f"{bag.uri} lacks {_listed(bag.missing)}, which its metadata.yaml lists: those samples are missing."
         )
     info = _info(infos, kept, info_topic, bag.uri, notes)
     return _recording(bag.uri, info, kept, tuple(notes))
@@ -162,9 +161,12 @@ def _elsewhere(topics: Iterable[Topic]) -> str:
     if others:
         choices = " or ".join(f"--topic-namespace {namespace}" for namespace in others)
         return f"it has that of another namespace: say {choices}."
-    names = sorted(topic.name for topic in topics)
-    more = f" and {len(names) - 10} more" if len(names) > 10 else ""
-    return f"it has {', '.join(islice(names, 10))}{more}: record {_SPEED} too."
+    return f"it has {_listed(sorted(topic.name for topic in topics))}: record {_SPEED} too."
+
+
+def _listed(names: list[str]) -> str:
+    """Name ten of them at most, and say how many more there are."""
+    return ", ".join(names[:10]) + (f" and {len(names) - 10} more" if len(names) > 10 else "")
 
 
 def _without_repeats(rows: Rows, uri: str) -> tuple[Rows, list[str]]:

@@ -9,7 +9,8 @@ from motor_bags import INFO, SAMPLES, assert_is, refusal, rewritten, write_bag
 from rclpy.serialization import serialize_message
 from rosbags.rosbag2 import CompressionMode, StoragePlugin, Writer
 
-from motor_identification.bag import BagWriter, messages, read_recording, topics
+from motor_identification.bag import BagWriter, contents, messages, read_recording, topics
+from motor_identification.bag.metadata import read_metadata, write_metadata
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Measurement
 from motor_msgs.msg import MotorSpeed, MotorVoltage
@@ -20,6 +21,39 @@ def test_what_was_written_is_read_bit_for_bit(tmp_path: Path) -> None:
     assert_is(recording, SAMPLES)
     assert recording.info == INFO
     assert recording.notes == ()
+
+
+@pytest.mark.parametrize(
+    ("entry", "value"),
+    [
+        ("topics_with_message_count", [{"topic_metadata": {"name": "/motor/speed", "type": "os/x"}}]),
+        ("storage_identifier", "sqlite3"),
+        ("compression_mode", "FILE"),
+        ("compression_format", "zstd"),
+        ("duration", {"nanoseconds": -(10**18)}),
+        ("starting_time", "yesterday"),
+        ("message_count", 10**30),
+        ("custom_data", [{"experiment.profile": 1}]),
+        ("relative_file_paths", None),
+        ("version", "nine"),
+    ],
+)
+def test_the_files_are_believed_and_not_what_metadata_claims_of_them(tmp_path: Path, entry: str, value: object) -> None:
+    bag = write_bag(tmp_path / "bag", SAMPLES[:50])
+    write_metadata(bag, {**read_metadata(bag), entry: value})
+    recording = read_recording(bag)
+    assert_is(recording, SAMPLES[:50])
+    assert recording.notes == () and contents(bag).message_count == contents(bag / "bag_0.mcap").message_count
+
+
+def test_of_many_missing_files_a_few_are_named(tmp_path: Path) -> None:
+    """20,000 names in metadata.yaml were a line of 200 kB."""
+    bag = write_bag(tmp_path / "bag", SAMPLES[:50])
+    names = ["bag_0.mcap", *(f"/etc/x{k}.mcap" for k in range(12))]
+    write_metadata(bag, {**read_metadata(bag), "relative_file_paths": names})
+    (note,) = read_recording(bag).notes
+    few = ", ".join(f"x{k}.mcap" for k in range(10))
+    assert note == f"{bag} lacks {few} and 2 more, which its metadata.yaml lists: those samples are missing."
 
 
 def test_frame_ids_of_any_length_are_read_whatever_padding_they_cause(tmp_path: Path) -> None:
