@@ -82,10 +82,14 @@ turn its sign, count over 4 as before.
 Tried, and let be: two channels whose direction flips now and then (at 0.5 to 50 % of the samples, at half of the top
 speed: 50 % without a model, 61 % with one, and stopped after 0.5 s where it flips seldom); 40 % of the edges lost,
 which is a stop after 1.2 to 7 s at up to 84 %; a plant that reports half of its speed, and edges to match: nothing but
-another sensor could tell. Somebody who answers every stop at once with `motor/reset`, `motor/enable` and a fresh
-reference gets the motor each time, for as long as it takes to tell the fault: 25 % of the voltage on average with
-exchanged channels; without edges the mean square of the voltage counts on through all of that, so that a blocked motor
-gets 39 %, and `motor/reset` alone is not enough.
+another sensor could tell.
+
+Somebody who answers every stop at once with `motor/reset`, `motor/enable` and a fresh reference got the motor each
+time, for as long as it takes to tell the fault: with exchanged channels half of the voltage on average for ever, with a
+blocked shaft 95 %. Now the second stop within a minute of the one before is followed by a rest of 1 s, in which both
+services refuse and say so, and each further one by twice that, up to 32 s; a minute without a stop forgets (the last
+table's two rows of a minute). A plant or a controller that is started anew has forgotten, too. A link that was lost and
+a board that was reset do not count: they heat no motor.
 
 Not in the table: the cable lost at a reference of 0 rad/s. A motor of one channel that has come to rest gets 0 V there,
 whatever edges come, and stands: 5, 20 and 50 stray edges a second, four sequences each, on motors of 6 to 600 rad/s.

@@ -5,8 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 from faults_board_loop import BoardLoop
-from faults_loop import Loop
+from faults_line import swapped
+from faults_loop import Line, Loop
 from faults_motor import MOTORS
+from faults_rows import block
 
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
@@ -107,6 +109,26 @@ def few_edges(rate: float) -> str:
     return _rest(loop)
 
 
+def impatience(line: Line, blocked: bool = False):  # type: ignore[no-untyped-def]
+    """A measurement of what a supervisor gets that answers every stop at once: the voltage in the mean of a minute."""
+
+    def measure(rate: float) -> str:
+        loop = Loop(MOTOR, rate, single_channel=False)
+        loop.run(0.2)
+        loop.goes_on = 0.5 * MOTOR.top
+        loop.run(1.0)
+        loop.line = line
+        if blocked:
+            block(loop)
+        begin = loop.time
+        loop.run(60.0)
+        volts = np.array([abs(moment.voltage) for moment in loop.moments if moment.time >= begin]) / MOTOR.voltage
+        second = volts[round(0.5 * volts.size) :]
+        return f"{volts.mean():.1%}, in its second half {second.mean():.1%}"
+
+    return measure
+
+
 def _rest(loop: Loop) -> str:
     """Let a loop come to rest for 3 s; its true speed then."""
     loop.reference = 0.0
@@ -135,6 +157,8 @@ CASES = {
     "two channels, four times the gain `kp`, measured, then a reference of 0: 3 s later": large_gain,
     "two channels, 24 edges a turn, 6 rad/s, 4 % of it, then a reference of 0: 3 s later": few_edges,
     "second sender of −6 V beside one of 6 V: change of the voltage": second_sender,
+    "two channels exchanged, every stop answered at once: voltage in the mean of a minute": impatience(swapped),
+    "the same, shaft blocked": impatience(lambda sample: sample, blocked=True),
     "reversal from +86 % to −86 % of the top speed, measured speed": reversal(False),
     "the same with a model": reversal(True),
     "shaft shaken over one flank for 20 s, two channels": dither,

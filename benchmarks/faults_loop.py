@@ -56,6 +56,7 @@ class Loop:
     moments: list[Moment] = field(default_factory=list)
     rival: Sample | None = None  # of a second plant, once it speaks
     measured: bool = False  # the supply, which nobody has said
+    goes_on: float | None = None  # [rad/s] somebody answers every stop at once, and asks for this
     alternate: bool = False  # somebody asks for an angle before every other sample, and for the speed before the others
 
     def __post_init__(self) -> None:
@@ -107,7 +108,9 @@ class Loop:
         sample = self.line(replace(true, supply_voltage=self.supply) if self.measured else true)
         self.check = self.check.see(sample)
         if self.check.stop and self.gate.enabled:
-            self.gate = self.gate.stop(self.check.stop)
+            self.gate = self.gate.stop_motor(self.check.stop, self._now)
+        if self.goes_on is not None:
+            self._go_on(self.goes_on)
         self._queue.append((self.time + self.delay, sample))
         if self.raw is not None:
             self._command(-self.raw if self.to_and_fro and self._samples % 2 else self.raw)
@@ -136,6 +139,14 @@ class Loop:
             self._reason = output.reason
             if output.drives:
                 self._command(0.0)
+
+    def _go_on(self, reference: float) -> None:
+        """Answer a stop by motor/enable, motor/reset and a fresh reference, as soon as each is taken."""
+        if not (self.gate.enabled or self.gate.refusal(self._now)):
+            self.gate = self.gate.enable(True)
+        self.state = controller.reset(self.state, self.time)[1]
+        if self.state.demand is None:
+            self.reference = reference
 
     def _ask_in_turn(self) -> float | None:
         """A speed for every other sample; before the others an angle far away."""

@@ -44,8 +44,8 @@ class MotorControl(Node):
         self.create_subscription(Float64, "motor/reference", self._on_reference, qos.REFERENCE)
         self.create_subscription(Float64, "motor/position_reference", self._on_position_reference, qos.REFERENCE)
         self.create_subscription(JointState, "motor/joint_command", self._on_joint_command, qos.REFERENCE)
-        self.create_service(Trigger, "motor/reset", lambda _, response: self._serve(controller.reset, response))
-        self.create_service(Trigger, "motor/release", lambda _, response: self._serve(controller.release, response))
+        self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
+        self.create_service(Trigger, "motor/release", lambda _, response: self._on_release(response))
         steady = Clock(clock_type=ClockType.STEADY_TIME)  # goes on under use_sim_time and when the clock is set
         self.create_timer(WATCH_EVERY, self._on_watch, clock=steady)
         self.create_timer(1.0, lambda: self._answers.diagnose(self._settings.config), clock=steady)
@@ -85,8 +85,13 @@ class MotorControl(Node):
         if demand is not None:
             self._state = controller.command_joint(self._settings.config, self._state, demand, time.monotonic())
 
-    def _serve(self, change: controller.Change, response: Trigger.Response) -> Trigger.Response:
-        response.success, (response.message, self._state) = True, change(self._state)
+    def _on_reset(self, response: Trigger.Response) -> Trigger.Response:
+        response.message, self._state = controller.reset(self._state, time.monotonic())
+        response.success = not self._state.latched
+        return response
+
+    def _on_release(self, response: Trigger.Response) -> Trigger.Response:
+        response.success, (response.message, self._state) = True, controller.release(self._state)
         return response
 
     def _on_info(self, message: MotorInfo) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from motor_driver.config import Config
 from motor_driver.exchange import Exchange
-from motor_driver.frames import Features, Hello, OtherVersion, Pong, Protection, Telemetry
+from motor_driver.frames import Features, Flag, Hello, OtherVersion, Pong, Protection, Telemetry
 from motor_driver.handshake import Handshake, reset_cause
 from motor_driver.protocol import Event, LinkCounters
 from motor_driver.readout import Readout
@@ -36,6 +36,7 @@ class Order:
 
     data: bytes  # to the port
     stop: str  # not empty: the user's wish is void, for this reason, a clause
+    motor: bool = False  # which is what the motor did, and not the link
 
 
 class Driver:
@@ -53,7 +54,7 @@ class Driver:
         self._anew = False  # the board that runs now was reset since the one before
         self._drift = 0.0
         self._counted = LinkCounters()  # of ports that were closed
-        self._stop = ""
+        self._stop, self._by_motor = "", False
 
     @property
     def info(self) -> Info:
@@ -131,13 +132,13 @@ class Driver:
         if session and self.runs and now - session.heard > self.config.silence * 1e9:
             session.silent = True
             self._halt(f"no telemetry from {session.port} for {self.config.silence * 1e3:.0f} ms")
-        stop, self._stop = self._stop, ""
+        (stop, motor), self._stop, self._by_motor = (self._stop, self._by_motor), "", False
         wish = wish and not stop
         duty = self._readout.duty(voltage) if self._readout else 0
-        return Order(session.due(now, wish, duty) if session else b"", stop)
+        return Order(session.due(now, wish, duty) if session else b"", stop, motor)
 
-    def _halt(self, why: str) -> None:
-        self._stop = why
+    def _halt(self, why: str, motor: bool = False) -> None:
+        self._stop, self._by_motor = why, motor
 
     def _hear(self, session: Session, event: Event, now: int) -> list[Reading]:
         if isinstance(event, OtherVersion):
@@ -187,7 +188,7 @@ class Driver:
             self.motion = self._nothing_seen()
         session.latest, session.heard, session.silent = frame, now, False
         if session.switch.hear(frame):
-            self._halt(reason_off(frame))
+            self._halt(reason_off(frame), motor=bool(frame.flags & Flag.OVERCURRENT))
         return [self._reading(session.exchange, self._readout, frame, now, restarted)]
 
     def _reading(self, exchange: Exchange, readout: Readout, frame: Telemetry, now: int, restarted: bool) -> Reading:
@@ -197,5 +198,5 @@ class Driver:
         sample = readout.sample(frame)
         self.motion = self.motion.see(sample)
         if self.motion.stop and frame.enabled:
-            self._halt(self.motion.stop)
+            self._halt(self.motion.stop, motor=True)
         return Reading(sample, host, restarted)

@@ -93,7 +93,7 @@ class MotorDriver(Node):
         order = self._driver.step(now, self._plant.gate.enabled, self._plant.voltage())
         self._link.write(order.data)
         if order.stop:
-            self._plant.stop(order.stop)
+            self._plant.stop(order.stop, order.motor)
         if self._driver.unsuitable(now):
             self._link.pass_over(self._driver.matches)
 

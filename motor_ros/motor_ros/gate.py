@@ -4,12 +4,15 @@
     waiting  on, but the sender began before the plant came up: 0 V until it sends 0 V, or motor/enable
     driven   the newest voltage of one sender; another's are left aside until that one has been silent for HOLD
 
+Where the motor itself was the reason of a stop, it is let on again later and later: see `RepeatedStops`.
+
 Times are ns on a clock that is never set.
 """
 
 from dataclasses import dataclass, replace
 from math import isfinite
 
+from motor_model.sensing.repeated_stops import RepeatedStops
 from motor_ros.sender import Sender
 
 QUIET = 2_000_000_000  # [ns] without any voltage; where nobody counts, who sent before would have been heard by then
@@ -43,6 +46,7 @@ class Gate:
     sample_period: float = 0.0  # [s] of the plant; 0: not known
     since: int = 0  # [ns] the plant came up, or its board did
     stopped: str = ""  # why the output was switched off; empty: by the user, or never
+    faults: RepeatedStops = RepeatedStops()  # stops for what the motor did
     begun: bool = False  # the voltages have started from 0 V, or were allowed by motor/enable
     first: Sender | None = None  # the sender's first command that was heard since then
     command: float = 0.0  # [V]
@@ -76,6 +80,14 @@ class Gate:
         """Switch the output off for a reason, until the user switches it on."""
         return replace(self.enable(False), stopped=why)
 
+    def stop_motor(self, why: str, now: int) -> "Gate":
+        """The same for what the motor did, at `now` [ns]; while the output is off already, it is no further stop."""
+        return replace(self.stop(why), faults=self.faults.stop(now * 1e-9) if self.enabled else self.faults)
+
+    def refusal(self, now: int) -> str:
+        """Why the output may not be switched on yet at `now` [ns], as a sentence; empty if it may."""
+        return self.faults.refuse(now * 1e-9)
+
     def come_up(self, now: int) -> "Gate":
         """The plant can drive the motor from now [ns] on: voltages have to begin at 0 V again."""
         return replace(self, since=now, begun=False, first=None, command=0.0, received=None)
@@ -95,7 +107,7 @@ class Gate:
     def problem(self, now: int, senders: str = "") -> str:
         """What is wrong, as a sentence; empty if nothing is. `senders` names the nodes that can send."""
         if self.stopped:
-            return STOPPED.format(self.stopped)
+            return " ".join(filter(None, (STOPPED.format(self.stopped), self.refusal(now))))
         if self.conflict(now):
             among = f" ({senders})" if senders else ""
             obeyed = f"frame_id '{self.sender.name}'" if self.sender and self.sender.name != self.rival else "the first"

@@ -62,11 +62,11 @@ class Plant:
         limit = self.info.max_voltage
         return min(max(self.gate.voltage(time.monotonic_ns()), -limit), limit)
 
-    def stop(self, why: str) -> None:
-        """Switch the output off until motor/enable; `why` is said."""
+    def stop(self, why: str, motor: bool = False) -> None:
+        """Switch the output off until motor/enable; `why` is said. motor: for what the motor did."""
         if self.gate.stopped != why:
             self._node.get_logger().error(STOPPED.format(why))
-        self.gate = self.gate.stop(why)
+        self.gate = self.gate.stop_motor(why, time.monotonic_ns()) if motor else self.gate.stop(why)
 
     def recount(self) -> None:
         """The board has started anew and counts edges from 0 again."""
@@ -119,7 +119,7 @@ class Plant:
     def _on_enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         was_on = self.gate.enabled
         self._changed()  # a stop that is due comes before what is asked for now
-        refusal = self._refusal() if request.data else ""
+        refusal = (self.gate.refusal(time.monotonic_ns()) or self._refusal()) if request.data else ""
         if request.data and was_on and not self.gate.enabled:
             refusal = f"Just now, {self.gate.stopped}: look, then call again."
         if refusal:

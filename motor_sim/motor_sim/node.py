@@ -60,7 +60,7 @@ class MotorSim(Node):
             self._plant.publish(sample, time_message(self._next + to_ros))
             self._check = self._check.see(sample)
             if self._check.stop and self._plant.gate.enabled:
-                self._plant.stop(self._check.stop)
+                self._plant.stop(self._check.stop, motor=True)
             self._next += self._period
 
     def _on_second(self) -> None:

@@ -1,6 +1,7 @@
 """The shell that both plants share: what motor/enable answers, and joint states that are the angle."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -48,6 +49,31 @@ def test_what_keeps_the_output_off_is_said(quiet: Bench) -> None:
     plant = Plant(quiet.node, Info(), Gate(True, 0.1), refusal=lambda: "There is no link to the board yet.")
     assert asked(plant, True) == (False, "The output stays off. There is no link to the board yet.")
     assert asked(plant, False)[0]
+
+
+def test_a_motor_that_stops_again_and_again_is_switched_on_later_and_later(quiet: Bench) -> None:
+    """A supervisor that answered every stop got the motor each time."""
+    plant = Plant(quiet.node, Info(), Gate(True, 0.1))
+    plant.stop("no edges at 12.0 V", motor=True)
+    plant.stop("no edges at 12.0 V", motor=True)  # said until the board is off: one stop
+    assert asked(plant, True)[0]
+    plant.stop("no edges at 12.0 V", motor=True)
+    for on in (True, False, True):  # to switch it off first is no way round
+        success, said = asked(plant, on)
+        assert success is not on and not plant.gate.enabled
+    assert said == (
+        "The output stays off. It has stopped 2 times, each within a minute of the one before: see to the cause, and "
+        "wait 1 s."
+    )
+    plant.gate = replace(plant.gate, faults=replace(plant.gate.faults, latest=plant.gate.faults.latest - 1.01))
+    assert asked(plant, True) == (True, "The output is on.")
+
+
+def test_a_link_that_comes_and_goes_heats_no_motor(quiet: Bench) -> None:
+    plant = Plant(quiet.node, Info(), Gate(True, 0.1))
+    for _ in range(5):
+        plant.stop("the link to the board was lost")
+        assert asked(plant, True) == (True, "The output is on.")
 
 
 @pytest.mark.parametrize(("single", "angle"), [(False, 1.0), (True, 5.0)])

@@ -80,7 +80,7 @@ class Rig:
 
     def enable(self, on: bool = True) -> str:
         """Call motor/enable; the refusal."""
-        refusal = self.driver.refusal() if on else ""
+        refusal = self.gate.refusal(self.now) or self.driver.refusal() if on else ""
         if not refusal:
             self.gate = self.gate.enable(on)
         return refusal
@@ -127,7 +127,8 @@ class Rig:
             order = self.driver.step(self.now, self.gate.enabled, self.gate.voltage(self.now))
             if order.stop:
                 self.stops.append(order.stop)
-                self.gate = self.gate.stop(order.stop)
+                stopped = self.gate.stop_motor(order.stop, self.now) if order.motor else self.gate.stop(order.stop)
+                self.gate = stopped
             self._in.send(order.data if self.plugged else b"", self.faults, self.now)
 
 

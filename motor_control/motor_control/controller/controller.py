@@ -7,7 +7,6 @@ A reference is obeyed from when it comes until something ends it: a stop, a rese
 `reference/ending.py` lists. Then the motor waits for a fresh one.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 from math import nan
 
@@ -15,7 +14,7 @@ from motor_control.controller import pi
 from motor_control.controller import speed_law as law
 from motor_control.controller.interruptions import count_interruption
 from motor_control.controller.latency import track_latency
-from motor_control.controller.obstacles import CALL_RESET, find_mistake, find_obstacle, is_finite
+from motor_control.controller.obstacles import explain_stop, find_mistake, find_obstacle, is_finite
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
 from motor_control.controller.plant_watch import watch_plant
 from motor_control.controller.reference import position_law
@@ -61,7 +60,7 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     age, latency = track_latency(state.latency, sample.sample_time, now)
     plant = watch_plant(state.plant, sample, now, config.sample_period)
     if plant.two and not state.latched:
-        state = stop(state, TWO_PLANTS)
+        state = stop(state, TWO_PLANTS, now)
     state = drop_old_reference(config, state, plant, now)
     if reference is not None:
         state = refer(state, reference, now)
@@ -108,8 +107,7 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
         often, interruptions = count_interruption(state.interruptions, no_number, now)
         state = replace(state, interruptions=interruptions)
         if often:
-            output = halt(STOPPED, CALL_RESET.format(often), nan, sample.speed)
-            return replace(output, fault=often), stop(state, often)
+            return _stop_for_good(state, often, nan, sample.speed, now)
     shown = demand.value if demand is not None and demand.kind is Kind.SPEED else nan
     if demand is None or name != RUNNING or (mistake and state.run is None):
         name, reason = (STOPPED, mistake) if mistake else (name, reason)
@@ -118,8 +116,8 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
     wanted = Demand(0.0) if mistake else demand
     output, run = law.step(config, _continue_run(config, state, sample), sample, wanted, late or bool(mistake))
     if output.fault:
-        stopped = halt(STOPPED, CALL_RESET.format(output.fault), output.reference, output.speed)
-        return replace(stopped, fault=output.fault), stop(replace(state, motion=run.motion), output.fault)
+        state = replace(state, motion=run.motion)
+        return _stop_for_good(state, output.fault, output.reference, output.speed, now)
     if output.state != RUNNING:
         return output, replace(state, run=None)
     if mistake:  # the checks go on: it may come and go
@@ -130,6 +128,12 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
         run = replace(run, asked=0.0, paused=True)
     state = replace(state, motion=run.motion, faults=run.faults, judged=run.sample_time)
     return output, replace(state, run=run, place=run.place)
+
+
+def _stop_for_good(state: State, fault: str, reference: float, speed: float, now: float) -> tuple[Output, State]:
+    """Latch a stop for a fault, and say what ends it."""
+    state = stop(state, fault, now)
+    return replace(halt(STOPPED, explain_stop(state), reference, speed), fault=fault), state
 
 
 def _continue_run(config: Config, state: State, sample: Sample) -> Run:
@@ -149,5 +153,4 @@ def _continue_run(config: Config, state: State, sample: Sample) -> Run:
     return replace(run, place=position_law.leave(state.place, 0.0)) if just_now else run
 
 
-Change = Callable[[State], tuple[str, State]]
 WAITING = halt(NO_SAMPLES, NEVER_A_SAMPLE, nan, nan)  # what holds before anything has happened

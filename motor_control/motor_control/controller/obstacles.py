@@ -20,7 +20,7 @@ CALL_RESET = "{} Call motor/reset, then publish a fresh reference, to go on."
 def find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, str]:
     """Find why not to run, as state and reason; (running, "") where nothing speaks against it."""
     if state.latched:
-        return STOPPED, CALL_RESET.format(state.latched.replace(NAMES, state.speakers))
+        return STOPPED, explain_stop(state)
     if config.unusable:
         return STOPPED, config.unusable
     for name, value in (("speed", sample.speed), ("voltage", sample.voltage), ("edge_period", sample.edge_period)):
@@ -29,6 +29,12 @@ def find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, st
     if state.demand is None:
         return DISABLED, FRESH.format(state.dropped) if state.dropped else NO_REFERENCE
     return RUNNING, ""
+
+
+def explain_stop(state: State) -> str:
+    """Say why a stop is latched, and what ends it."""
+    latched = CALL_RESET.format(state.latched.replace(NAMES, state.speakers))
+    return " ".join(filter(None, (latched, state.stops.announce("motor/reset"))))
 
 
 def is_finite(sample: Sample) -> bool:

@@ -13,6 +13,7 @@ from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.run import Config, Run
+from motor_model.sensing.repeated_stops import RepeatedStops
 
 RELEASED = "The motor was released."
 CLEARED = "The stop was cleared."
@@ -49,6 +50,7 @@ class State:
     judged: int = 0  # [ns] its latest sample
     place: position_law.State | None = None  # what the latest run knows of an angle that was approached
     interruptions: Interruptions = Interruptions()
+    stops: RepeatedStops = RepeatedStops()
     speakers: str = ""  # who publishes motor/speed, for the sentence about two plants
 
 
@@ -95,16 +97,21 @@ def release(state: State) -> tuple[str, State]:
     return RELEASED, drop(state, RELEASED)
 
 
-def stop(state: State, reason: str) -> State:
+def stop(state: State, reason: str, now: float) -> State:
     """Latch 0 V from the next sample on, until `reset`; `reason` is a sentence."""
     state = replace(state, run=None, faults=None, place=None, interruptions=Interruptions())
-    return replace(state, latched=reason, demand=None, dropped=CLEARED)
+    return replace(state, latched=reason, demand=None, dropped=CLEARED, stops=state.stops.stop(now))
 
 
-def reset(state: State) -> tuple[str, State]:
-    """Clear the latched stop; the motor waits for a fresh reference. What to say stands beside the state."""
+def reset(state: State, now: float) -> tuple[str, State]:
+    """Clear the latched stop, but later and later where one follows the other; what to say stands beside the state.
+
+    The motor waits for a fresh reference then.
+    """
     if not state.latched:
         return "No stop was latched.", state
+    if refusal := state.stops.refuse(now):
+        return f"Not cleared: {state.latched.replace(NAMES, state.speakers)} {refusal}", state
     return f"Cleared: {state.latched.replace(NAMES, state.speakers)}", replace(state, latched="")
 
 

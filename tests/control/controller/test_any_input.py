@@ -74,7 +74,7 @@ def test_the_voltage_is_finite_and_within_the_limit(steps: list[Step], one_confi
         numbers = (step.speed, step.voltage, step.period, 0.0 if step.reference is None else step.reference)
         if not all(isfinite(number) for number in numbers):
             assert terms.voltage == 0.0 and output.state != controller.RUNNING and output.reason.endswith(".")
-        state = controller.reset(state)[1] if step.reset else state
+        state = controller.reset(state, 100.0)[1] if step.reset else state
 
 
 @pytest.mark.parametrize("config", CONFIGS)

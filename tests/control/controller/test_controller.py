@@ -129,15 +129,27 @@ def test_unmeasured_current_and_supply_do_not_matter() -> None:
     assert controller.update(CONFIG, State(), sample, 100.0, 0.0)[0].state == controller.RUNNING
 
 
+def test_stops_one_after_the_other_are_cleared_later_and_later() -> None:
+    state, cleared = State(), []
+    for now in (0.0, 0.1, 1.0, 1.2, 3.15, 5.0, 5.2):
+        state = state if state.latched else controller.stop(state, "The motor is blocked.", now)
+        output, state = feed([1e3 * now], speed=0.0, reference=9.0, state=state)
+        assert_stopped(output, "The motor is blocked. Call motor/reset")
+        said, state = controller.reset(state, now)
+        cleared.append(not state.latched)
+        assert said.startswith("Cleared: " if cleared[-1] else "Not cleared: The motor is blocked. It has stopped ")
+    assert cleared == [True, False, False, True, False, False, True]
+
+
 def test_latched_stop_holds_until_reset() -> None:
     _, state = feed([0, 5], speed=50.0, reference=100.0)
-    state = controller.stop(state, "The motor is blocked.")
+    state = controller.stop(state, "The motor is blocked.", 0.0)
     for time in (10.0, 15.0):
         output, state = feed([time], speed=50.0, reference=100.0, state=state)
         assert_stopped(output, "The motor is blocked.", "motor/reset")
         assert output.state == controller.STOPPED
     assert controller.watch(CONFIG, state, 1.0)[1].latched  # survives silence
-    output, _ = feed([20], speed=50.0, reference=100.0, state=controller.reset(state)[1])
+    output, _ = feed([20], speed=50.0, reference=100.0, state=controller.reset(state, 0.0)[1])
     assert output.state == controller.RUNNING
 
 

@@ -71,7 +71,7 @@ def test_invariants(steps: list[Step], which: int) -> None:
             was_latched, call = state.latched, ""
         timed = (timed and step.kind != "back") or step.kind in ("sample", "doubled")
         if step.call == "reset":
-            state, call = controller.reset(state)[1], "reset"
+            state, call = controller.reset(state, now)[1], "reset"
         elif step.call == "release":
             state = controller.release(state)[1]
         was_latched = state.latched

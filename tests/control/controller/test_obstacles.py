@@ -8,7 +8,7 @@ from bench_board import DEFAULTS, motor, settings
 
 from motor_control.configuration import config_of
 from motor_control.controller.controller import State, refer, stop
-from motor_control.controller.obstacles import find_mistake, find_obstacle, is_finite
+from motor_control.controller.obstacles import explain_stop, find_mistake, find_obstacle, is_finite
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED
 from motor_control.controller.reference.demand import Demand, Kind
 from motor_control.controller.reference.position_law import FARTHEST
@@ -25,9 +25,11 @@ def test_nothing_speaks_against_a_reference_and_a_sample() -> None:
 
 def test_the_first_that_is_true_is_said() -> None:
     bad, unusable = replace(FINE, speed=nan), replace(CONFIG, unusable="The plant says nonsense.")
-    stopped = stop(ASKED, "It is wired wrong.")
+    stopped = stop(ASKED, "It is wired wrong.", 0.0)
     reset = "It is wired wrong. Call motor/reset, then publish a fresh reference, to go on."
     assert find_obstacle(unusable, stopped, bad) == (STOPPED, reset)
+    again = "It is stop number 2, each within a minute of the one before: motor/reset is refused for 1 s after it."
+    assert explain_stop(stop(stopped, "It is wired wrong.", 5.0)) == f"{reset} {again}"
     assert find_obstacle(unusable, ASKED, bad) == (STOPPED, "The plant says nonsense.")
     assert find_obstacle(CONFIG, State(), bad)[0] == STOPPED
     name, reason = find_obstacle(CONFIG, State(), FINE)

@@ -99,10 +99,10 @@ def test_another_plant_waits() -> None:
 
 
 def test_a_reset_waits() -> None:
-    state = controller.stop(running(), "It is blocked.")
+    state = controller.stop(running(), "It is blocked.", 0.0)
     output, state = feed(state, [200, 205], 60.0)  # a reference during the stop is none for after it
     assert output.state == STOPPED and output.drives
-    said, state = controller.reset(state)
+    said, state = controller.reset(state, 0.0)
     assert said == "Cleared: It is blocked."
     output, state = feed(state, [210, 215])
     waits(output, "cleared")

@@ -71,9 +71,9 @@ def test_after_a_stop_a_stream_that_goes_on_is_not_obeyed_until_it_begins_again(
     loop = Loop()
     loop.run(DT, STOP)
     loop.run(0.1, JOINT)
-    loop.state = controller.stop(loop.state, "It is blocked.")
+    loop.state = controller.stop(loop.state, "It is blocked.", 0.0)
     assert loop.run(1.0, STOP).state == STOPPED  # latched, whatever comes
-    _, loop.state = controller.reset(loop.state)
+    _, loop.state = controller.reset(loop.state, 0.0)
     assert loop.run(1.0, JOINT).state == DISABLED
     loop.run(DT, STOP)
     assert loop.run(DT, JOINT).state == RUNNING

@@ -56,6 +56,21 @@ def test_a_stop_stays_until_the_user_enables_and_comes_again(running: Rig) -> No
     assert running.enable() == ""
     running.until(lambda: running.pins == 6.0, 30)
     assert 380.0 < running.until(lambda: running.pins == 0.0, 600) < 420.0
+    assert "It has stopped 2 times" in running.enable() and "wait 1 s" in said(running)
+    running.run(900)
+    assert running.enable() and running.pins == 0.0
+    running.run(110)
+    assert running.enable() == ""
+    running.until(lambda: running.pins == 6.0, 30)
+
+
+def test_a_plug_that_is_pulled_again_and_again_does_not_count(running: Rig) -> None:
+    for _ in range(3):
+        running.unplug()
+        running.run(200)
+        running.plug()
+        running.run(1500)
+        assert running.stops and running.enable() == ""
 
 
 def test_an_encoder_whose_cable_comes_off(make_rig: MakeRig) -> None:
