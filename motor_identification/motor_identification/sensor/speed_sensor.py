@@ -9,7 +9,7 @@ from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.held_samples import find_frames
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import estimate_white_noise
-from motor_identification.sensor.wrong_speeds import mark_wrong_speeds
+from motor_identification.sensor.wrong_speeds import mark_silent_rows, mark_wrong_speeds
 from motor_model.sample import Info
 
 # Times what counting leaves between neighbours, beyond which noise is more than the lattice, so that counting does not
@@ -60,7 +60,8 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
         row, made, frame = frames.row, frames.time, frames.period
         if is_assumed(recording.info):
             window, lag = frame, lag * frame / window
-    right = ~mark_wrong_speeds(speed[row], recording.voltage[row])
+    right = ~mark_silent_rows(speed[row])
+    right[right] = ~mark_wrong_speeds(speed[row][right], recording.voltage[row][right])
     wrong, row, made = int(np.count_nonzero(~right)), row[right], made[right]
     counted = window > LEAST_COUNTED * (frame or recording.info.sample_period)
     said = recording.info.edges_per_revolution

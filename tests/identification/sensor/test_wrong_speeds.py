@@ -5,7 +5,7 @@ import pytest
 from swinging import noisy
 
 from motor_identification.sensor.speed_sensor import find_speed_sensor
-from motor_identification.sensor.wrong_speeds import FAR, mark_wrong_speeds
+from motor_identification.sensor.wrong_speeds import FAR, mark_silent_rows, mark_wrong_speeds
 
 TIME = np.arange(300)
 VOLTAGE = np.where(TIME < 60, 0.0, 9.0)
@@ -60,3 +60,47 @@ def test_a_sensor_goes_without_them() -> None:
 def test_nothing_to_judge_by() -> None:
     for few in (np.empty(0), np.ones(1), np.ones(50), np.arange(3.0)):
         assert not mark_wrong_speeds(few, np.ones(len(few))).any()
+
+
+def running(silent: slice | list[int], noise: float = 0.3) -> np.ndarray:
+    """A motor that stands, and then runs at 20 rad/s with noise, but for some rows of 0."""
+    speed = np.where(TIME < 60, 0.0, 20.0 + noise * np.random.default_rng(1).standard_normal(300))
+    speed[silent] = 0.0
+    return np.asarray(speed)
+
+
+@pytest.mark.parametrize(("rows", "found"), [([100], True), ([100, 101, 102], True), ([100, 101, 102, 103], False)])
+def test_rows_without_a_pulse_are_no_standstill(rows: list[int], found: bool) -> None:
+    marked = np.flatnonzero(mark_silent_rows(running(rows))).tolist()
+    assert marked == (rows if found else [])
+
+
+@pytest.mark.parametrize(("every", "found"), [(5, True), (4, False)])
+def test_more_than_a_quarter_of_the_rows_is_another_sensor(every: int, found: bool) -> None:
+    assert mark_silent_rows(running(slice(100, 290, every if found else 2))).any() == found
+
+
+@pytest.mark.parametrize(("counts", "found"), [(6.0, True), (3.0, False)])
+def test_few_counts_within_a_window_are_0_now_and_then(counts: float, found: bool) -> None:
+    random = np.random.default_rng(2)
+    speed = 0.7 * np.where(TIME < 60, 0.0, counts + random.integers(0, 2, 300))
+    speed[[100, 150]] = 0.0
+    assert np.flatnonzero(mark_silent_rows(speed)).tolist() == ([100, 150] if found else [])
+
+
+def test_a_motion_that_turns_or_swings_is_0_in_between() -> None:
+    turning = running([])
+    turning[200:] *= -1.0
+    turning[200] = 0.0
+    assert not mark_silent_rows(turning).any()
+    assert not mark_silent_rows(running([100], noise=6.0)).any()
+    assert not mark_silent_rows(np.zeros(50)).any()
+
+
+def test_a_sensor_goes_without_silent_rows() -> None:
+    clean = noisy(0.3)
+    level = np.flatnonzero(np.abs(clean.speed) > 20.0)[50]
+    speed = clean.speed.copy()
+    speed[level] = 0.0
+    found = find_speed_sensor(type(clean)(**{**clean.__dict__, "speed": speed}))
+    assert found.wrong == 1 and level not in found.row

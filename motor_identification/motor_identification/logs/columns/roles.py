@@ -136,6 +136,12 @@ def _by_behaviour(table: Table, headings: Sequence[Heading], time: str | None) -
     fewest = min((changes[name] for name in others), default=0)
     position = (find_position(table, others, time) if len(others) == 2 else others[0]) if len(others) in (1, 2) else ""
     if not position or fewest < max(2 * changes[drive] + 1, FEWEST_CHANGES):
+        still = [one.name for one in headings if one.quantity is None and not np.any(table.numbers(one.name))]
+        if still and len(unnamed) == 1:
+            raise RecordingError(
+                f"{table.path}: {still[0]} is 0 in every row: the motor never moves in it, or {unnamed[0]} is its "
+                "motion and the voltage is missing (--constant-voltage V)."
+            )
         if len(unnamed) == 1 or (len(unnamed) == 2 and find_position(table, unnamed, time)):
             raise _no_drive(table)
         raise _ask_drive(table, unnamed or table.names)
