@@ -11,7 +11,7 @@ from motor_identification.logs.excitation import describe_excitation
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
 from motor_identification.logs.rows.constant_voltage import CONSTANT, give_voltage
-from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows
+from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows, sum_steps
 from motor_identification.logs.still_runs import moves
 from motor_model.errors import RecordingError
 
@@ -49,7 +49,7 @@ def import_source(source: Source, said: Said) -> Imported:
     """
     said = said.with_names(source.table.names)
     if said.sample_period is None:
-        table = mend_table(source.table)
+        table = sum_steps(mend_table(source.table)) if said.time is None else mend_table(source.table)
     else:
         table = give_times(mend_table(number_rows(source.table)), said.sample_period)
         said = replace(said, time=ROW_TIMES, time_unit="ns")

@@ -1,6 +1,17 @@
 """What a guess says to the user, and what it has to ask."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
+
+from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.vocabulary import Quantity
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.rows.row_times import ROW_TIMES
+from motor_model.errors import RecordingError
+
+SHOWN = 12  # names in a question
 
 
 @dataclass
@@ -9,3 +20,46 @@ class Notes:
 
     findings: list[str]
     questions: list[tuple[str, str]]
+
+
+def ask_column(table: Table, what: str, option: str, names: Sequence[str]) -> RecordingError:
+    """Ask for a column, by the option that says it, among some."""
+    shown = [name for name in names if name != ROW_TIMES]
+    more = f" and {len(shown) - SHOWN} more" if len(shown) > SHOWN else ""
+    listed = f"{', '.join(shown[:SHOWN])}{more}"
+    return RecordingError(f"{table.path}: which column is the {what}? Say {option} and one of {listed}.")
+
+
+def ask_motion(table: Table, headings: Sequence[Heading], quantity: Quantity, found: Sequence[str]) -> RecordingError:
+    """Ask which of several motions is meant, or whether each is that of a motor of its own on the one drive."""
+    driving = [one.name for one in headings if one.quantity in (Quantity.DUTY, Quantity.VOLTAGE)]
+    each = ""
+    if len(driving) == 1:
+        motors = " ".join(f"--motor {k}:{driving[0]},{name}" for k, name in enumerate(found[:2], start=1))
+        each = f" For a motor of each: {motors}{' …' if len(found) > 2 else ''}"
+    what, option = quantity.value, f"--{quantity.value}"
+    if quantity is Quantity.COUNT and any(np.any(table.numbers(name) % 1.0) for name in found):  # none, by any name
+        what, option = "motion", "--speed or --position"
+    return RecordingError(f"{ask_column(table, what, option, found)}{each}")
+
+
+def ask_drive(table: Table, candidates: Sequence[str]) -> RecordingError:
+    """Ask for the voltage among columns whose names tell nothing, of which a log of one step has none."""
+    asked = ask_column(table, "voltage or duty", "--voltage", candidates)
+    return RecordingError(f"{asked} Where it is none of them, as in a log of one step: --constant-voltage V.")
+
+
+def miss_drive(table: Table) -> RecordingError:
+    """Ask for the voltage where no column can be it."""
+    return RecordingError(
+        f"{table.path}: no column is the voltage or duty: say which one is (--voltage COL), or --constant-voltage V "
+        "for a log of one step."
+    )
+
+
+def miss_motion(table: Table, still: str, other: str) -> RecordingError:
+    """Say that a column is 0 throughout, where only one other can be drive or motion."""
+    return RecordingError(
+        f"{table.path}: {still} is 0 in every row: the motor never moves in it, or {other} is its motion and the "
+        "voltage is missing (--constant-voltage V)."
+    )

@@ -10,15 +10,14 @@ from motor_identification.logs.columns.behaviour import find_position, present_v
 from motor_identification.logs.columns.clock import find_clock, runs_forward, since_1970
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_motion, miss_drive, miss_motion
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import MOVES, SIDES, Quantity
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.rows.row_times import ROW_TIMES
 from motor_model.errors import RecordingError
 
 Floats = NDArray[np.float64]
 
-SHOWN = 12  # names in a question
 FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
 _BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
 
@@ -138,13 +137,10 @@ def _by_behaviour(table: Table, headings: Sequence[Heading], time: str | None) -
     if not position or fewest < max(2 * changes[drive] + 1, FEWEST_CHANGES):
         still = [one.name for one in headings if one.quantity is None and not np.any(table.numbers(one.name))]
         if still and len(unnamed) == 1:
-            raise RecordingError(
-                f"{table.path}: {still[0]} is 0 in every row: the motor never moves in it, or {unnamed[0]} is its "
-                "motion and the voltage is missing (--constant-voltage V)."
-            )
+            raise miss_motion(table, still[0], unnamed[0])
         if len(unnamed) == 1 or (len(unnamed) == 2 and find_position(table, unnamed, time)):
-            raise _no_drive(table)
-        raise _ask_drive(table, unnamed or table.names)
+            raise miss_drive(table)
+        raise ask_drive(table, unnamed or table.names)
     return Pair("", drive, position)  # what drives changes in fewer rows, and to fewer values
 
 
@@ -158,7 +154,7 @@ def _moving(table: Table, headings: Sequence[Heading], side: str, time: str | No
         found = [one.name for one in headings if one.quantity is quantity and one.side == side]
         found = found or [one.name for one in headings if one.quantity is quantity]
         if len(found) > 1:
-            raise _ask_which(table, headings, quantity, found)
+            raise ask_motion(table, headings, quantity, found)
         if found:
             return found[0]
     unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
@@ -166,7 +162,7 @@ def _moving(table: Table, headings: Sequence[Heading], side: str, time: str | No
         return unnamed[0]
     if len(unnamed) == 2 and (position := find_position(table, unnamed, time)):
         return position
-    raise _ask(table, "motion", "--speed, --position or --count", unnamed or table.names)
+    raise ask_column(table, "motion", "--speed, --position or --count", unnamed or table.names)
 
 
 def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple[str, ...]) -> str:
@@ -178,7 +174,7 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
         if quantity is Quantity.VOLTAGE and duties:
             found = [name for name in found if not is_supply(table.numbers(name), table.numbers(duties[0]))]
         if len(found) > 1:
-            raise _ask(table, quantity.value, "--voltage", found)
+            raise ask_column(table, quantity.value, "--voltage", found)
         if found:
             return found[0]
     unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
@@ -186,20 +182,8 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
         return unnamed[0]
     candidates = _unnamed(table, headings)
     if not candidates:
-        raise _no_drive(table)
-    raise _ask_drive(table, candidates)
-
-
-def _ask_drive(table: Table, candidates: Sequence[str]) -> RecordingError:
-    asked = _ask(table, "voltage or duty", "--voltage", candidates)
-    return RecordingError(f"{asked} Where it is none of them, as in a log of one step: --constant-voltage V.")
-
-
-def _no_drive(table: Table) -> RecordingError:
-    return RecordingError(
-        f"{table.path}: no column is the voltage or duty: say which one is (--voltage COL), or --constant-voltage V "
-        "for a log of one step."
-    )
+        raise miss_drive(table)
+    raise ask_drive(table, candidates)
 
 
 def _supply_of(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair]) -> str | None:
@@ -209,23 +193,3 @@ def _supply_of(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair])
     duty = table.numbers(pairs[0].voltage)
     volts = [one.name for one in free if one.quantity is Quantity.VOLTAGE and is_supply(table.numbers(one.name), duty)]
     return next(iter(named + volts), None)
-
-
-def _ask_which(table: Table, headings: Sequence[Heading], quantity: Quantity, found: Sequence[str]) -> RecordingError:
-    """Ask which of several motions is meant, or whether each is that of a motor of its own on the one drive."""
-    driving = [one.name for one in headings if one.quantity in (Quantity.DUTY, Quantity.VOLTAGE)]
-    each = ""
-    if len(driving) == 1:
-        motors = " ".join(f"--motor {k}:{driving[0]},{name}" for k, name in enumerate(found[:2], start=1))
-        each = f" For a motor of each: {motors}{' …' if len(found) > 2 else ''}"
-    what, option = quantity.value, f"--{quantity.value}"
-    if quantity is Quantity.COUNT and any(np.any(table.numbers(name) % 1.0) for name in found):  # none, by any name
-        what, option = "motion", "--speed or --position"
-    return RecordingError(f"{_ask(table, what, option, found)}{each}")
-
-
-def _ask(table: Table, what: str, option: str, names: Sequence[str]) -> RecordingError:
-    shown = [name for name in names if name != ROW_TIMES]
-    more = f" and {len(shown) - SHOWN} more" if len(shown) > SHOWN else ""
-    listed = f"{', '.join(shown[:SHOWN])}{more}"
-    return RecordingError(f"{table.path}: which column is the {what}? Say {option} and one of {listed}.")

@@ -1,11 +1,16 @@
-"""Times of rows that have none: so many seconds from row to row, where the user says so."""
+"""Times of rows that have none: so many seconds from row to row, where the user or a column says so."""
 
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
+
+_STEP = frozenset({"dt", "δt", "deltat", "deltatime", "timestep", "timedelta"})
+LONGEST = 5.0  # times the shortest of nine in ten steps, which the longest of them are at most
 
 ROW_TIMES = "(row times)"  # column: where a row stands, and then when it was
 
@@ -20,3 +25,32 @@ def give_times(table: Table, period: float) -> Table:
     place: NDArray[np.int64] = np.asarray(table.column(ROW_TIMES), dtype=np.int64)
     time = np.rint(np.abs(place - place[:1]) * (period * 1e9)).astype(np.int64)
     return replace(table, cells={**table.cells, ROW_TIMES: time})
+
+
+def sum_steps(table: Table) -> Table:
+    """Add a column of times where there is none, and one says by its name how long every row took: `dt`, `delta_t_ms`.
+
+    Such a column has about the same value in all rows, above 0; the first row is at 0.
+    """
+    headings = [read_heading(name) for name in table.names]
+    if any(one.quantity is Quantity.TIME and not _STEP & _joined(one) for one in headings):
+        return table
+    named = [one for one in headings if _STEP & _joined(one) and bool(np.all(table.readable(one.name)))]
+    if len(named) != 1:
+        return table
+    (step,) = named
+    steps = table.numbers(step.name)
+    if not np.all(steps > 0.0) or np.quantile(steps, 0.9) > LONGEST * np.quantile(steps, 0.1):
+        return table
+    unit = f" [{step.unit}]" if step.unit else ""
+    time = np.concatenate([[0.0], np.cumsum(steps[1:])])
+    cells = {name: cells for name, cells in table.cells.items() if name != step.name}
+    note = (
+        f"No column of times: they are summed from {step.name}, how long after the one before each row was (assumed)."
+    )
+    return replace(table, cells={f"time{unit}": time, **cells}, notes=(*table.notes, note))
+
+
+def _joined(heading: Heading) -> frozenset[str]:
+    """The words of a name, alone and all together: `delta t` is `deltat`."""
+    return frozenset((*heading.words, "".join(heading.words)))

@@ -9,7 +9,7 @@ from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
 from motor_identification.logs.imported import import_log
-from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows
+from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows, sum_steps
 from motor_model.errors import RecordingError
 
 HEADER = "Channel 1,Channel 2,Channel 4"
@@ -69,3 +69,40 @@ def test_rows_that_are_left_out_leave_their_time_and_turned_ones_go_forward() ->
     some = table.rows(np.array([True, False, True, True]), "")
     assert give_times(some, 0.002).nanoseconds(ROW_TIMES, 1).tolist() == [0, 4_000_000, 6_000_000]
     assert give_times(table.rows(np.arange(4)[::-1], ""), 1.0).nanoseconds(ROW_TIMES, 1).tolist()[::3] == [0, 3 * 10**9]
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "named"),
+    [("dt", 1e-3, "time"), ("dt_ms", 1.0, "time [ms]"), ("Delta t (us)", 1e3, "time [us]"), ("time_step", 1.0, "time")],
+)
+def test_times_are_summed_from_how_long_each_row_took(name: str, unit: float, named: str) -> None:
+    """10 and 20 ms in turn, as a loop logs that reads a clock of coarse ticks."""
+    took = np.where(np.arange(60) % 3, 10.0, 20.0)
+    table = Table(Path("log.csv"), np.arange(2, 62), {"u": np.ones(60), name: took * unit})
+    summed = sum_steps(table)
+    assert summed.names == [named, "u"]
+    assert summed.numbers(named) == pytest.approx((np.cumsum(took) - took[0]) * unit)
+    assert summed.notes[-1].startswith(f"No column of times: they are summed from {name}, how long")
+
+
+@pytest.mark.parametrize(
+    "columns",
+    [
+        {"t": np.arange(60.0), "dt": np.ones(60)},  # there are times
+        {"u": np.ones(60), "dt": np.where(np.arange(60) < 30, 1.0, 0.0)},  # no time passes
+        {"u": np.ones(60), "delta_t": np.arange(1.0, 61.0)},  # since the first row
+        {"u": np.ones(60), "dt": np.ones(60), "delta_t": np.ones(60)},  # two of them
+        {"u": np.ones(60), "data": np.ones(60)},
+    ],
+)
+def test_other_columns_are_not_summed(columns: dict[str, np.ndarray]) -> None:
+    table = Table(Path("log.csv"), np.arange(2, 62), columns)
+    assert sum_steps(table) is table
+
+
+def test_a_log_of_steps_is_read_as_one_of_times(tmp_path: Path) -> None:
+    bare, full = write_logs(tmp_path)
+    rows = bare.read_text().splitlines()[1:]
+    (tmp_path / "steps.csv").write_text("\n".join([f"dt,{HEADER}", *(f"0.002,{row}" for row in rows)]) + "\n")
+    (one,), (other,) = (import_log(path, Said(**SAID)).motors for path in (tmp_path / "steps.csv", full))
+    assert one.log.runs == other.log.runs

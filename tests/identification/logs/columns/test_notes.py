@@ -1,0 +1,42 @@
+"""What has to be asked of a table's columns."""
+
+from pathlib import Path
+
+import numpy as np
+
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.notes import (
+    SHOWN,
+    ask_column,
+    ask_drive,
+    ask_motion,
+    miss_drive,
+    miss_motion,
+)
+from motor_identification.logs.columns.vocabulary import Quantity
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.rows.row_times import ROW_TIMES
+
+TABLE = Table(Path("log.csv"), np.arange(2, 5), {"w1": np.arange(3.0), "w2": np.ones(3), "enc": np.array([0.5, 1, 2])})
+
+
+def test_twelve_names_are_shown_and_those_that_the_import_made_are_not() -> None:
+    names = [f"c{k}" for k in range(SHOWN + 2)]
+    assert str(ask_column(TABLE, "supply", "--supply", names)).endswith(
+        "Say --supply and one of " + ", ".join(names[:SHOWN]) + " and 2 more."
+    )
+    assert str(ask_column(TABLE, "supply", "--supply", [ROW_TIMES, *names[:SHOWN]])).endswith(", c11.")
+
+
+def test_several_motions_on_one_drive_may_be_motors_of_their_own() -> None:
+    headings = [read_heading(name) for name in ("pwm", "w1", "w2")]
+    asked = str(ask_motion(TABLE, headings, Quantity.SPEED, ["w1", "w2"]))
+    assert asked.endswith("Say --speed and one of w1, w2. For a motor of each: --motor 1:pwm,w1 --motor 2:pwm,w2")
+    fractions = str(ask_motion(TABLE, headings[1:], Quantity.COUNT, ["enc", "w1"]))
+    assert fractions.endswith("which column is the motion? Say --speed or --position and one of enc, w1.")
+
+
+def test_a_log_of_one_step_has_an_option() -> None:
+    asked = (ask_drive(TABLE, ["w1"]), miss_drive(TABLE), miss_motion(TABLE, "w2", "w1"))
+    assert all("--constant-voltage V" in str(one) for one in asked)
+    assert "w2 is 0 in every row: the motor never moves in it, or w1 is its motion" in str(asked[2])
