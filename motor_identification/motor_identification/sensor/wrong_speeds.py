@@ -4,8 +4,6 @@ Such as the counts of the time before the first row, or a pulse that the start o
 motor follows a step of the voltage one way; there and back takes two.
 """
 
-from itertools import pairwise
-
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
@@ -58,8 +56,8 @@ def mark_silent_rows(speed: Floats) -> Bools:
     levels = np.unique(np.abs(speed[moving]))
     finest = float(np.min(np.diff(levels))) if len(levels) > 1 else float(levels[0])
     least = max(DEEP * usual, COUNTS * find_lattice(speed), COUNTS * finest)
-    for before, after in pairwise(moving):
-        alike = speed[before] * speed[after] > 0.0 and min(abs(speed[before]), abs(speed[after])) >= least
-        if 1 < after - before <= SILENT + 1 and alike:
-            silent[before + 1 : after] = True
+    before, after = moving[:-1], moving[1:]
+    alike = np.minimum(speed[before] * np.sign(speed[after]), np.abs(speed[after])) >= least  # above 0, or they differ
+    for k in np.flatnonzero((after - before > 1) & (after - before <= SILENT + 1) & alike):
+        silent[before[k] + 1 : after[k]] = True
     return silent if np.count_nonzero(silent) <= OFTEN * len(moving) else np.zeros_like(silent)

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
-from motor_identification.logs.csv.table import GARBLED, Table
+from motor_identification.logs.csv.table import GARBLED, Cells, Table
 
 Bools = NDArray[np.bool_]
 
-NO_VALUE = frozenset({"", "nan", "null", "none", "-", "na", "n/a"})  # cells in which nothing stands, in lower case
+NO_VALUE = ("", "nan", "NaN", "NAN", "null", "NULL", "none", "None", "-", "NA", "N/A", "n/a")  # nothing stands there
+LOOKED_AT = 200  # cells that tell quickly that a column holds words
 
 
 @dataclass(frozen=True)
@@ -49,21 +50,31 @@ def fill_gaps(table: Table) -> Filled:
     cells, told = dict(table.cells), {}
     for name in table.names:
         quantity = read_heading(name).quantity
-        if quantity is Quantity.OTHER:
+        empty = _empty_cells(table.column(name))
+        if quantity is Quantity.OTHER or np.count_nonzero(empty) <= GARBLED * len(table):
             continue
-        readable = table.readable(name)
-        empty = int((~readable).sum())
-        if empty <= GARBLED * len(table) or not _are_empty(table, name, ~readable):
-            continue
-        if empty == len(table):
+        if empty.all():
             del cells[name]
             continue
-        values, row = table.rows(readable, "").numbers(name), np.arange(len(table))
-        held = values[np.maximum(np.cumsum(readable) - 1, 0)]
-        cells[name] = np.interp(row, row[readable], values) if quantity is Quantity.TIME else held
-        told[name] = readable
+        row = np.arange(len(table))
+        own = row[~empty]
+        if not (_are_numbers(table, name, own[:LOOKED_AT]) and _are_numbers(table, name, own)):
+            continue
+        values = table.rows(own, "").numbers(name)
+        held = values[np.maximum(np.cumsum(~empty) - 1, 0)]
+        cells[name] = np.interp(row, own, values) if quantity is Quantity.TIME else held
+        told[name] = ~empty
     return Filled(replace(table, cells=cells), told)
 
 
-def _are_empty(table: Table, name: str, rows: Bools) -> bool:
-    return all(table.text(name, int(row)).strip().lower() in NO_VALUE for row in np.flatnonzero(rows))
+def _empty_cells(cells: Cells) -> Bools:
+    """Mark the cells, shape (K,), in which nothing stands."""
+    array = np.asarray(cells)
+    if array.dtype.kind not in "SU":
+        return np.isnan(array) if array.dtype.kind == "f" else np.zeros(len(array), np.bool_)
+    spelt = [word.encode() for word in NO_VALUE] if array.dtype.kind == "S" else sorted(NO_VALUE)
+    return np.asarray(np.logical_or.reduce([array == word for word in spelt]))
+
+
+def _are_numbers(table: Table, name: str, rows: NDArray[np.int64]) -> bool:
+    return bool(table.rows(rows, "").readable(name).all())

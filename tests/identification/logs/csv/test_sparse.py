@@ -60,3 +60,10 @@ def test_what_is_no_gap_stays_as_it_is(gap: str, empty: int, told: bool) -> None
 def test_columns_without_any_value_are_none() -> None:
     filled = fill_gaps(made(t=["0", "1", "2"], current=["", "", ""], speed=["1", "2", "3"]))
     assert filled.table.names == ["t", "speed"]
+
+
+def test_numbers_of_other_formats_have_gaps_too() -> None:
+    speed = np.where(np.arange(50) % 2, np.nan, np.arange(50.0))
+    table = Table(Path("log.mat"), np.arange(1, 51), {"t": np.arange(50.0), "speed": speed, "u": np.ones(50, np.int64)})
+    filled = fill_gaps(table)
+    assert list(filled.told) == ["speed"] and filled.table.numbers("speed")[:4].tolist() == [0.0, 0.0, 2.0, 2.0]
