@@ -1,7 +1,3 @@
 """Fits motor models to recorded bags by particle swarm and least squares; experiments, recording, replay, import."""
 
-import os
-
-# Our matrices are small and our own threads use the cores: BLAS threads on top would only fight for them. Takes effect
-# where NumPy is not loaded yet, which is so in every program of ours.
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+import motor_model  # noqa: F401  (before NumPy: it keeps BLAS to one thread)

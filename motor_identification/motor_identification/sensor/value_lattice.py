@@ -69,7 +69,7 @@ def _find_step(levels: Floats) -> float:
 def _best_step(levels: Floats, tried: Floats, count: int) -> float:
     """The step with the least scatter among those near 1/tried whose lattice is no chance; 0 without."""
     score = np.cos(tau * tried[:, None] * levels).mean(axis=1)
-    steps = [_refine(levels, 1.0 / float(one)) for one in tried[score > PEAK]]
+    steps = dict.fromkeys(_refine(levels, 1.0 / float(one)) for one in tried[score > PEAK])  # neighbours end in one
     lattices = [step for step in steps if _is_lattice(levels, step, count)]
     return min(lattices, key=lambda step: max(_scatter(levels, step), LEAST_SCATTER), default=0.0)  # or the first
 
@@ -80,7 +80,9 @@ def _refine(levels: Floats, step: float) -> float:
         numbers = np.rint(levels / step)
         if not np.any(numbers):
             return step
-        step = float(numbers @ levels / (numbers @ numbers))
+        before, step = step, float(numbers @ levels / (numbers @ numbers))
+        if step == before:
+            break
     return step
 
 
