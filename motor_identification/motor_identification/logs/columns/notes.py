@@ -57,9 +57,8 @@ def miss_drive(table: Table) -> RecordingError:
     )
 
 
-def miss_motion(table: Table, still: str, other: str) -> RecordingError:
-    """Say that a column is 0 throughout, where only one other can be drive or motion."""
-    return RecordingError(
-        f"{table.path}: {still} is 0 in every row: the motor never moves in it, or {other} is its motion and the "
-        "voltage is missing (--constant-voltage V)."
-    )
+def miss_motion(table: Table, still: str, other: str = "") -> RecordingError:
+    """Say that a column stays the same throughout, where only one other can be drive or motion, or none."""
+    more = f", or {other} is its motion and the voltage is missing (--constant-voltage V)" if other else ""
+    same = f"{table.numbers(still)[0]:g} in every row"
+    return RecordingError(f"{table.path}: {still} is {same}: the motor never moves in it{more}.")

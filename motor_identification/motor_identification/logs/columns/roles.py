@@ -14,6 +14,7 @@ from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_m
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import MOVES, SIDES, Quantity
 from motor_identification.logs.csv.table import Table
+from motor_identification.logs.rows.constant_voltage import CONSTANT
 from motor_model.errors import RecordingError
 
 Floats = NDArray[np.float64]
@@ -162,6 +163,9 @@ def _moving(table: Table, headings: Sequence[Heading], side: str, time: str | No
         return unnamed[0]
     if len(unnamed) == 2 and (position := find_position(table, unnamed, time)):
         return position
+    still = [one.name for one in headings if one.quantity is None and one.name != CONSTANT]
+    if still and not unnamed:
+        raise miss_motion(table, still[0])
     raise ask_column(table, "motion", "--speed, --position or --count", unnamed or table.names)
 
 

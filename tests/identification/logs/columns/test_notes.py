@@ -39,4 +39,4 @@ def test_several_motions_on_one_drive_may_be_motors_of_their_own() -> None:
 def test_a_log_of_one_step_has_an_option() -> None:
     asked = (ask_drive(TABLE, ["w1"]), miss_drive(TABLE), miss_motion(TABLE, "w2", "w1"))
     assert all("--constant-voltage V" in str(one) for one in asked)
-    assert "w2 is 0 in every row: the motor never moves in it, or w1 is its motion" in str(asked[2])
+    assert "w2 is 1 in every row: the motor never moves in it, or w1 is its motion" in str(asked[2])

@@ -115,6 +115,7 @@ def test_a_motion_changes_more_than_a_few_times(changes: int, told: bool) -> Non
         ({"t": "t", "Enc1": "y", "Enc2": "y", "pwm": "u"}, "the motion? Say --speed or --position and one of Enc1,"),
         ({"t": "t", "x": "y", "z": "y", "u": "u"}, "the motion? Say --speed, --position or --count and one of x, z."),
         ({"t": "t", "speed": "y"}, "no column is the voltage or duty: say which one is (--voltage COL), or --c"),
+        ({"t": "t", "u": "u", "b": "0"}, "log.csv: b is 0 in every row: the motor never moves in it."),
         ({"t": "t", "a": "u", "b": "0"}, "b is 0 in every row: the motor never moves in it, or a is its motion and"),
         ({"a": "y", "b": "y", "c": "t"}, "which column is the voltage or duty? Say --voltage and one of a, b."),
         ({"a": "y", "b": "y", "d": "t"}, "Where it is none of them, as in a log of one step: --constant-voltage V."),
