@@ -140,13 +140,11 @@ def _alike(rows: Sequence[Sequence[str]], comma: bool) -> bool:
 
 
 def _names_a_column(rows: Sequence[Sequence[str]], comma: bool) -> bool:
-    """Whether a word in the first row stands above numbers: names of columns, of which some are numbers themselves."""
-    words = [k for k, cell in enumerate(rows[0]) if cell not in _NO_VALUE and not is_number(cell, comma)]
-    below = [(rows[0][k], [row[k] for row in rows[1:] if k < len(row)]) for k in words]
-    return any(
-        word not in column and 2 * sum(is_number(cell, comma) for cell in column) > len(column)
-        for word, column in below
-    )
+    """Whether the first row begins with a word above numbers: names of columns, some of them numbers themselves."""
+    word, below = rows[0][0], [row[0] for row in rows[1:]]
+    if word in _NO_VALUE or word in below or is_number(word, comma):
+        return False
+    return 2 * sum(is_number(cell, comma) for cell in below) > len(below)
 
 
 def _ragged(rows: Sequence[Sequence[str]]) -> bool:

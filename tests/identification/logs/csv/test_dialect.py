@@ -94,3 +94,5 @@ def test_names_of_columns_may_be_numbers() -> None:
     assert words is not None and words.first_row == 0
     mixed = find_dialect([f"{k},{'run' if k < 2 else 7},{k}" for k in range(8)])
     assert mixed is not None and mixed.first_row == 0
+    garbled = find_dialect(["t,u,y", "0,x,1", *rows])  # told when it is left out
+    assert garbled is not None and garbled.first_row == 1
