@@ -46,25 +46,33 @@ class CableOff:
 
 @dataclass
 class Hum:
-    """From the first sample on the line picks up the mains: edges that are perfectly regular, at a rate."""
+    """From the first sample on the line picks up the mains: edges at a rate, whose crossings tremble."""
 
     rate: float  # [1/s]
     slot: float = tau / 96  # [rad]
+    tremble: float = 0.0  # share of a period, 1 σ
     before: Sample | None = None
 
     def __call__(self, sample: Sample) -> Sample:
         """What the board says instead."""
         if self.before is None:
             self.before = sample
-        passed = int((sample.sample_time - self.before.sample_time) * 1e-9 * self.rate)
-        at = self.before.sample_time + round(passed / self.rate * 1e9) if passed else self.before.edge_time
+        passed = int((sample.sample_time - self.before.sample_time) * 1e-9 * self.rate - 3.0 * self.tremble)
+        at, latest = (self._time(k) for k in (passed, passed - 1))
+        period = (at - latest) * 1e-9 if passed > 1 else 1.0 / self.rate
         return replace(
             sample,
-            speed=copysign(self.slot * self.rate, sample.voltage),
+            speed=copysign(self.slot / period, sample.voltage),
             edge_count=self.before.edge_count + passed,
-            edge_time=at,
-            edge_period=1.0 / self.rate,
+            edge_time=at if passed else self.before.edge_time,
+            edge_period=period,
         )
+
+    def _time(self, passed: int) -> int:
+        """[ns] of an edge, by its number."""
+        assert self.before is not None
+        off = self.tremble * np.random.default_rng(max(passed, 0)).standard_normal() if self.tremble else 0.0
+        return self.before.sample_time + round((passed + min(max(off, -0.4), 0.4)) / self.rate * 1e9)
 
 
 @dataclass

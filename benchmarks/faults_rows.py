@@ -6,9 +6,11 @@ from math import nan, tau
 
 from faults_line import CableOff, Hum, LooseContact, NowAndThen, Stuck, not_a_number, swapped
 from faults_loop import Loop
+from faults_motor import Motor
 
 from motor_model.effects import INDEX
 
+TREMBLE = 0.001  # of a period, 1 σ, of hum
 KNOWN, MOTION = 0.15, 0.5  # [s] from when it could be known, and where only motion can tell
 
 
@@ -25,11 +27,34 @@ class Fault:
     supply: float = 0.0  # of the motor's voltage, measured; 0: not measured, and all of it
     at_start: bool = False  # it is there before the reference comes
     edges: int = 96  # a turn
+    mains: float = 0.0  # of the edges that are wanted, that hum of the mains makes; the disc is one of which it does
 
     @property
     def controlled(self) -> bool:
         """Whether the controller drives the motor."""
         return self.raw == 0.0
+
+    def edges_for(self, motor: Motor) -> int:
+        """Edges a turn, so that hum is that share of what is wanted at the reference."""
+        if not self.mains:
+            return self.edges
+        return max(round(tau * mains_rate(motor) / (self.mains * self.reference * motor.top)), 2)
+
+    def reference_for(self, motor: Motor) -> float:
+        """[rad/s], by whole edges a turn."""
+        if not self.mains:
+            return self.reference * motor.top
+        return mains_rate(motor) * tau / self.edges_for(motor) / self.mains
+
+
+def mains_rate(motor: Motor) -> float:
+    """[Hz] hum on the line of a motor."""
+    return 100.0 if motor.top > 100.0 else 50.0
+
+
+def pick_up_mains(loop: Loop) -> None:
+    """The encoder's cable is off at its far end, and picks up the mains, whose crossings tremble a little."""
+    loop.line = Hum(mains_rate(loop.motor), tau / loop.edges, TREMBLE)
 
 
 def cable_off(stray: float = 0.0) -> Callable[[Loop], None]:
@@ -147,6 +172,18 @@ FAULTS = (
         for edges, more in ((8, {"reference": 0.35}), (20, {"reference": 0.35}), (8, {}))
         for share in (0.55, 0.75, 0.9)
     ),
+    *(
+        Fault(
+            f"hum of the mains, of {share:g} of the edges that are wanted{where}",
+            MOTION,
+            pick_up_mains,
+            mains=share,
+            **more,
+        )
+        for share in (0.55, 0.75, 0.9)
+        for where, more in (("", {}), (", at 70 % of the top speed", {"reference": 0.7}))
+    ),
+    Fault("hum of the mains from the start", MOTION, pick_up_mains, mains=0.75, at_start=True),
     Fault("the driver repeats one sample, at 3 % of the top speed", MOTION, repeat, reference=0.03),
     Fault("shaft blocked", MOTION, block),
     Fault("two channels exchanged", MOTION, swap, two_channels=True),

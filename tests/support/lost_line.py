@@ -65,9 +65,13 @@ def lose_line(
     duration: float = 3.0,
     single_channel: bool = True,
     hum: bool = False,
+    asked: float = 0.0,
     **changes: object,
 ) -> Loss:
-    """From rest to a reference [rad/s]; after `lost` [s] the line is: strays a second are left, at random or as hum."""
+    """From rest to a reference [rad/s], which comes after `asked` [s]; after `lost` [s] the line is, too.
+
+    Strays a second are left, at random or as hum.
+    """
     board = BoardConfig(
         sample_rate=rate, slot_irregularity=0.01, edges_per_revolution=edges, single_channel=single_channel
     )
@@ -82,7 +86,7 @@ def lose_line(
         time = k / rate
         sample = line.report(simulated.sample(voltage), time >= lost)
         fastest = max(fastest, abs(simulated.speed)) if time >= lost else 0.0
-        output, state = controller.update(config, state, sample, reference if k == 0 else None, time)
+        output, state = controller.update(config, state, sample, reference if k == round(asked * rate) else None, time)
         voltage = output.terms.voltage
         if state.latched:
             return Loss(time - lost, fastest, output.reason)

@@ -32,6 +32,7 @@ from motor_control.controller.state import (
     stop,
 )
 from motor_model.sample import Sample
+from motor_model.sensing.mains_rhythm import follow_rhythm
 
 __all__ = [
     "Config",
@@ -59,6 +60,7 @@ def update(config: Config, state: State, sample: Sample, reference: float | None
     """Answer one sample; reference [rad/s]: one that has come since the last sample; now [s] is a monotonic clock."""
     age, latency = track_latency(state.latency, sample.sample_time, now)
     plant = watch_plant(state.plant, sample, now, config.sample_period)
+    state = replace(state, rhythm=follow_rhythm(state.rhythm, sample))
     if plant.two and not state.latched:
         state = stop(state, TWO_PLANTS, now)
     state = drop_old_reference(config, state, plant, now)
@@ -147,10 +149,11 @@ def _continue_run(config: Config, state: State, sample: Sample) -> Run:
     """
     run = state.run
     if run is not None and 0 <= sample.sample_time - run.sample_time <= config.sample_timeout * 1e9:
-        return run
+        return replace(run, rhythm=state.rhythm)
     just_now = 0 <= sample.sample_time - state.judged <= AWAY * 1e9
     run = begin(config, sample, state.motion, state.faults if just_now else None)
-    return replace(run, place=position_law.leave(state.place, 0.0)) if just_now else run
+    place = position_law.leave(state.place, 0.0) if just_now else None
+    return replace(run, place=place, rhythm=state.rhythm)
 
 
 WAITING = halt(NO_SAMPLES, NEVER_A_SAMPLE, nan, nan)  # what holds before anything has happened

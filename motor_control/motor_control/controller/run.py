@@ -13,6 +13,7 @@ from motor_control.controller.faults.evidence import Config as FaultConfig
 from motor_control.controller.motion import Motion
 from motor_control.controller.reference import position_law
 from motor_model.sample import Sample
+from motor_model.sensing.mains_rhythm import Rhythm
 
 if TYPE_CHECKING:  # they compile; who has no model does not wait for that
     from motor_control.controller.feedforward import FeedForward
@@ -76,6 +77,7 @@ class Run:
     begins: bool = False  # with this sample: the reference has a sample period to start in
     place: position_law.State | None = None  # of an angle that is approached
     rests: bool = False  # it has come to rest at a reference of 0
+    rhythm: Rhythm = Rhythm()  # of the edges, this sample's included
     paused: bool = False  # 0 V was sent since this sample, whatever the law said: the integral has no part in the error
 
 

@@ -13,6 +13,7 @@ from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.run import Config, Run
+from motor_model.sensing.mains_rhythm import Rhythm
 from motor_model.sensing.repeated_stops import RepeatedStops
 
 RELEASED = "The motor was released."
@@ -45,6 +46,7 @@ class State:
     drives: bool = False  # the latest voltage was ours, so the next has to be too
     plant: PlantWatch | None = None
     latency: LatencyState | None = None
+    rhythm: Rhythm = Rhythm()  # of the edges, whether or not the motor runs
     motion: Motion | None = None  # what is known of the motor, from run to run
     faults: detection.State | None = None  # what the latest run has seen of faults
     judged: int = 0  # [ns] its latest sample
@@ -122,5 +124,5 @@ def drop(state: State, why: str) -> State:
 
 def meet_other_plant(state: State) -> State:
     """Forget what was asked of a plant that is another one now: edges, limits, all that a reference was for."""
-    state = replace(state, motion=None, faults=None, place=None)
+    state = replace(state, motion=None, faults=None, place=None, rhythm=Rhythm())
     return drop(state, OTHER_PLANT) if state.demand is not None else state

@@ -6,11 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from motor_driver.check.look import Act, Answer, Prompt, Steps
+from motor_model.sensing.mains_rhythm import is_mains
 
 QUIET = 1.0  # [s] without an edge is rest
 PATIENCE = 3.0  # [s] in which a shaft that was turning comes to rest
-MAINS = (50.0, 60.0, 100.0, 120.0)  # [Hz] and what a rectifier makes of it
-MAINS_WITHIN = 0.015  # the mains are off by 1 %, a board's resonator by 0.5 %
 EVEN = 0.2  # scatter of intervals, share of their mean: irregular slots of a motor that turns show 0.05, chance 1
 
 
@@ -33,7 +32,7 @@ class Rhythm:
     @property
     def mains(self) -> bool:
         """Whether it is that of the mains."""
-        return self.even and any(abs(self.rate / mains - 1.0) < MAINS_WITHIN for mains in MAINS)
+        return self.even and is_mains(self.rate)
 
 
 def rhythm_of(edges: Sequence[Edge]) -> Rhythm:

@@ -1,5 +1,7 @@
 """An encoder line that is lost, quiet or noisy: the motor stops in time, and does not go to full speed on the way."""
 
+from math import tau
+
 import pytest
 from bench_board import motor
 from lost_line import lose_line
@@ -25,6 +27,27 @@ def test_hum_on_a_coarse_disc_stops_the_motor(edges: int, hum: float, reference:
     loss = lose_line(motor(), reference, hum, edges=edges, model=model, lost=1.0, hum=True, duration=6.0)
     assert loss.stopped is not None and 0.2 < loss.stopped < 4.0 and loss.fastest > 100.0
     assert lose_line(motor(), reference, hum, edges=edges, model=model, lost=9.0, duration=5.0).stopped is None
+
+
+@pytest.mark.parametrize("known", [False, True])
+@pytest.mark.parametrize(
+    ("edges", "hum", "share"), [(8, 100.0, 0.75), (8, 100.0, 0.9), (5, 60.0, 0.75), (10, 120.0, 0.9)]
+)
+def test_hum_of_the_mains_near_what_is_wanted_stops_the_motor(
+    edges: int, hum: float, share: float, known: bool
+) -> None:
+    """At half of the top speed it was the top speed for ever: a heavy load shows as much but for the rhythm."""
+    reference, model = hum * tau / edges / share, motor() if known else None
+    assert 80.0 < reference < 105.0
+    loss = lose_line(motor(), reference, hum, edges=edges, model=model, lost=1.0, hum=True, duration=4.0)
+    assert loss.stopped is not None and 0.2 < loss.stopped < 0.9 and "hums with" in loss.reason
+    assert lose_line(motor(), share * reference, hum, edges=edges, model=model, lost=9.0, duration=4.0).stopped is None
+
+
+@pytest.mark.parametrize("known", [False, True])
+def test_hum_that_was_there_before_moves_no_motor(known: bool) -> None:
+    loss = lose_line(motor(), 60.0, 50.0, edges=8, model=motor() if known else None, lost=0.0, hum=True, asked=0.9)
+    assert loss.stopped == 0.9 and loss.fastest == 0.0 and "at 0 V" in loss.reason
 
 
 @pytest.mark.parametrize(("source", "known"), [("measured", False), ("measured", True), ("observer", True)])

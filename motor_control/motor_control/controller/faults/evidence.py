@@ -6,6 +6,7 @@ from math import inf, nan, sqrt
 from motor_control.checks import at_least
 from motor_control.controller.motion import Motion
 from motor_model.sample import Sample
+from motor_model.sensing.mains_rhythm import Rhythm
 
 FULL = 0.98  # of the voltage limit
 ALL = 0.93  # of a measured supply below it, which a driver smooths by as much as 5 %: there is no more
@@ -58,6 +59,7 @@ class Seen:
     dt: float  # [s] since the sample before
     voltage_limit: float  # [V]
     innovation: float = nan  # [rad] angle at the latest edge less the observer's prediction; NaN: no observer
+    rhythm: Rhythm = Rhythm()
     plugs: bool = False  # the law asks for all the voltage against the motion that `plug_limit` leaves
 
     @property

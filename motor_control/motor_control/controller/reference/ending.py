@@ -6,6 +6,7 @@ from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference.demand import Source
 from motor_control.controller.run import Config
 from motor_control.controller.state import State, drop
+from motor_model.sensing.mains_rhythm import Rhythm
 
 AWAY = 1.0  # [s] of silence, or of 0 V in doubt, after which the motor is not driven on by an old reference
 OFF = 0.5  # [s] for which a plant may ignore voltages before the reference is dropped: longer than any hiccup
@@ -21,7 +22,7 @@ TIMED_OUT = "The last reference is older than reference_timeout ({:g} s)."
 def drop_old_reference(config: Config, state: State, plant: PlantWatch, now: float) -> State:
     """Drop a reference that the plant or time has ended; of a plant that was restarted nothing is known any more."""
     if plant.restarted:
-        state = replace(state, motion=None, faults=None, place=None)
+        state = replace(state, motion=None, faults=None, place=None, rhythm=Rhythm())
         return state if state.demand is None else drop(state, RESTARTED)
     if state.demand is None:
         return state
