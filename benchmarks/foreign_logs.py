@@ -26,7 +26,7 @@ from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.imported import import_log
 from motor_identification.recording import check, recording_of
-from motor_model.effects import normalised
+from motor_model.effects import EFFECT_BY_NAME, normalised
 from motor_model.errors import MotorError
 
 RESULTS = Path(__file__).with_name("results") / "foreign_logs.md"
@@ -46,14 +46,18 @@ class Outcome:
 
 def judge(case: Case, found: Diagnosis) -> str:
     """Sort a diagnosis into its kind; one of a finding's rivals counts as its name."""
-    hidden = set(normalised(case.hidden))
+    known = tuple(name for name in case.hidden if name in EFFECT_BY_NAME)
+    hidden, outside = set(normalised(known)), known != case.hidden
     names = [{one.effect, *one.ambiguous_with} for one in found.findings]
+    unexplained = found.verdict.value == "unexplained"
     if any(not name & hidden for name in names):
         return "wrong"
-    if not hidden and found.verdict.value == "unexplained":
+    if outside:
+        return "right" if unexplained and len(names) == len(hidden) else "right, not all" if names else "silent"
+    if not hidden and unexplained:
         return "wrong"
     if all(any(effect in name for name in names) for effect in hidden):
-        return "right" if found.verdict.value != "unexplained" else "right, not all"
+        return "right" if not unexplained else "right, not all"
     return "right, not all" if names else "silent"
 
 
@@ -88,8 +92,8 @@ def row(title: str, outcomes: list[Outcome]) -> str:
     return f"| {title} | {len(outcomes)} | " + " | ".join(cells) + " |"
 
 
-def page(outcomes: list[Outcome], first: int) -> str:
-    """The whole page."""
+def page(outcomes: list[Outcome], first: int, name: str = RESULTS.stem, about: str = __doc__ or "") -> str:
+    """The whole page of the benchmark of this name."""
     groups = {"all": outcomes}
     groups |= {f"… {name}": [one for one in outcomes if one.case.excitation == name] for name in EXCITATIONS}
     groups |= {f"… {name}": [one for one in outcomes if one.case.sensor == name] for name in SENSORS}
@@ -97,11 +101,11 @@ def page(outcomes: list[Outcome], first: int) -> str:
     for share in shares:
         groups[f"… torque {share:.1%}"] = [one for one in outcomes if one.case.torque / one.case.supply == share]
     lines = [
-        f"# {(__doc__ or '').splitlines()[0]}",
+        f"# {about.splitlines()[0]}",
         "",
-        f"`python benchmarks/foreign_logs.py --cases {len(outcomes)} --first {first}`",
+        f"`python benchmarks/{name}.py --cases {len(outcomes)} --first {first}`",
         f"(commit {commit()}; {machine()}).",
-        *(__doc__ or "").splitlines()[1:],
+        *about.splitlines()[1:],
         '"Right": all that is in the motor is named, or one of a few that the log cannot tell apart; "silent": nothing',
         "is named, which a single step or the size of an effect may deserve; wrong: a name whose effect is not there,",
         'or "unexplained" where nothing is missing.',

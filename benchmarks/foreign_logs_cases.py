@@ -111,9 +111,14 @@ def command(case: Case, time: Floats) -> Floats:
             return np.asarray(random.uniform(0.5, 0.9) * np.sin(sweep))
 
 
+def span_of(case: Case) -> float:
+    """Say how long the log is [s]."""
+    return float(np.clip(60.0 * case.lag, 4.0, 30.0))
+
+
 def run(case: Case) -> tuple[Floats, Floats, Floats, Floats]:
     """Time [s], voltage [V], angle [rad] and speed [rad/s] of every row."""
-    span = float(np.clip(60.0 * case.lag, 4.0, 30.0))
+    span = span_of(case)
     time = np.arange(int(span * case.rate)) / case.rate
     if case.excitation != "speed loop":
         volts = case.supply * np.clip(command(case, time), -1.0, 1.0)
@@ -136,6 +141,8 @@ def write(case: Case, path: Path) -> None:
     """Write the log."""
     time, volts, angle, speed = run(case)
     random = np.random.default_rng(case.seed)
+    values = case.values
+    angle = angle + values.get("eccentricity", 0.0) * np.sin(angle + values.get("eccentricity_phase", 0.0))
     count = np.floor(angle * case.counts / (2.0 * np.pi) + random.random())
     shown = count * 360.0 / case.counts
     if case.sensor == SENSORS[1]:

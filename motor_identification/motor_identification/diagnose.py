@@ -162,18 +162,20 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
 def _select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
     """Select on beside a random torque, where more is left than the sensor leaves; None if that leaves structure.
 
-    From what was found without it, and where that leads nowhere from the beginning.
+    From what was found without it, and where that leads nowhere from the beginning. Where only something likely was
+    refused, that is looked for, and nothing that was found is judged again.
     """
     # A line of many turns is its own evidence; what repeats once in a turn, or happens once, slow torques do by chance.
     effects = [EFFECT_BY_NAME[step.found.effect] for step in plain.steps]
     line = any(effect.periodic and not effect.on_disc for effect in effects)
     lasted = any(step.before.lasts for step, effect in zip(plain.steps, effects, strict=True) if effect.anywhere)
-    if not (plain.model.above_floor or lasted or (plain.model.lasts and not line)):
+    disturbed = plain.model.above_floor or lasted or (plain.model.lasts and not line)
+    if not (disturbed or plain.refused):
         return None
-    for begin in (plain, start) if plain.steps else (start,):
+    for begin in (plain, start) if plain.steps and disturbed else (plain,):
         reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
         begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
         selection = eliminate_backward(select_forward(begun, reporter), reporter)
         if selection.model.complete and not predicts_far_worse(selection.model.held.gap, plain.model.held.gap):
-            return selection
+            return selection if disturbed or set(selection.model.effects) > set(plain.model.effects) else None
     return None

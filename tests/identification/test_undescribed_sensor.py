@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from plant import profiles, record
+from recorded import as_counts
 from servo import AXIS, record_servo
 from swinging import RUBBING, held_late, noisy
 
@@ -46,3 +48,27 @@ def test_a_scale_of_50_nm_fits_the_axis() -> None:
     for name, value in AXIS.items():
         assert fit.parameters.values[name] == pytest.approx(value, rel=0.05)
         assert fit.parameters.values[name] != pytest.approx(value, rel=1e-6)
+
+
+@pytest.mark.parametrize("instant", [True, False], ids=["of an instant", "of the whole row"])
+def test_a_ripple_is_named_in_speeds_with_white_noise(instant: bool) -> None:
+    """Nothing counts the angle: it is summed up from the speeds, and is lost in what is held out."""
+    ripple = {"ripple_voltage": 0.4, "ripple_cycles": 1.3, "ripple_phase": 0.5}
+    found = diagnose([check(noisy(1.0, instant=instant, **ripple))])
+    named = {one.effect: one.parameters for one in found.findings}
+    assert set(named) == {"coulomb_friction", "torque_ripple"}
+    assert 1.27 < named["torque_ripple"]["ripple_cycles"][0] < 1.33
+    assert 0.3 < named["torque_ripple"]["ripple_voltage"][0] < 0.44  # the phase is not known better
+
+
+@pytest.mark.parametrize("held_out", [True, False])
+def test_an_eccentric_disc_is_named_where_only_its_count_is_read(held_out: bool) -> None:
+    """The angle in held-out motion is measured there; and where nothing is held out, a disc has its price."""
+    wave = {"eccentricity": 0.03, "eccentricity_phase": 0.5}
+    drive = profiles.random(6.0, 10.0, seed=1) if held_out else profiles.staircase(6.0, 3, 0.8)
+    recording = record(RUBBING | wave, *drive, seed=1, edges=480, sample_rate=100.0, single_channel=False)[0]
+    found = diagnose([check(as_counts(recording))])
+    assert found.after.seen is not held_out
+    named = {one.effect: one.parameters for one in found.findings}
+    assert set(named) == {"coulomb_friction", "encoder_eccentricity"} and found.verdict is Verdict.EXPLAINED
+    assert 0.0285 < named["encoder_eccentricity"]["eccentricity"][0] < 0.0315

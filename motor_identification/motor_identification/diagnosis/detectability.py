@@ -19,10 +19,10 @@ def find_undetectable(model: Model) -> tuple[str, ...]:
     """
     problem, theta = model.estimate.problem, model.estimate.theta
     columns, without = problem.jacobian(theta), problem.residuals(theta)
-    hidden, judged = [], list_candidates(model.effects, model.held.seen)
+    hidden, judged = [], list_candidates(model.effects, model.held.seen, model.held.confirms)
     for effect in list_candidates(model.effects):
         if EFFECT_BY_NAME[effect].periodic:
-            if effect not in judged:  # where its motion was seen, any line is found in it
+            if effect not in judged:  # of one response that was seen, any line explains some
                 hidden.append(effect)
             continue
         larger = add_noticeable_effect(model.estimate, effect)

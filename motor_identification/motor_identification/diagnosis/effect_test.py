@@ -21,18 +21,18 @@ EFFECT_ORDER = {name: number for number, name in enumerate(EFFECT_BY_NAME)}  # t
 Heard = Callable[[CandidateTest], None]  # told of each test as it is done
 
 
-def list_candidates(effects: Sequence[str], seen: bool = False) -> list[str]:
+def list_candidates(effects: Sequence[str], seen: bool = False, confirms: bool = True) -> list[str]:
     """List the effects a model can be given next: what it does not have, whose own condition it has.
 
-    seen: whether it is judged by what it was fitted to; then nothing that happens once or repeats with the angle, for
-    which some instant or line is found in any motion.
+    seen: whether it is judged by what it was fitted to; then nothing that happens once, for which some instant is found
+    in any motion. confirms: whether there is more than a step; else nothing that repeats with the angle either.
     """
     return [
         effect.name
         for effect in EFFECT_BY_NAME.values()
         if effect.name not in effects
         and effect.fitted
-        and not (seen and (effect.anywhere or effect.periodic))
+        and not (seen and (effect.anywhere or (effect.periodic and not confirms)))
         and (effect.implies is None or effect.implies in effects)
     ]
 
@@ -93,7 +93,12 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
 
 
 def _is_finding(test: CandidateTest) -> bool:
-    return test.is_likely(likelihood_threshold()) and test.fits_training and test.relevant
+    return is_supported(test) and test.relevant
+
+
+def is_supported(test: CandidateTest) -> bool:
+    """Decide whether unseen data speak for an effect, and those that it was fitted to do not speak against it."""
+    return test.is_likely(likelihood_threshold()) and test.fits_training
 
 
 def count_parameters(effect: str) -> int:

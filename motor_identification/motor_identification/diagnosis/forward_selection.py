@@ -16,6 +16,7 @@ from motor_identification.diagnosis.effect_test import (
     choose_finding,
     count_parameters,
     find_rivals,
+    is_supported,
     list_candidates,
     sort_by_table,
     try_effects,
@@ -38,6 +39,8 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
             step = SelectionStep(selection.model, best, tuple(tests), find_rivals(best, tests), best.explains)
             selection = selection.add([step])
             continue
+        refused = any(is_supported(test) and not test.relevant for test in tests)
+        selection = replace(selection, refused=refused)
         pair = _find_pair(selection, tests, reporter) if pairs and may_hide_pair(selection) else []
         if not pair:
             return selection
@@ -81,7 +84,7 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
     Those that repeat with the angle only where others leave a gap; slots learnt without them hide it.
     """
     number, current = len(selection.steps) + 1, selection.model
-    left = list_candidates(current.effects, current.held.seen)
+    left = list_candidates(current.effects, current.held.seen, current.held.confirms)
     count = 0
 
     def heard(test: CandidateTest) -> None:

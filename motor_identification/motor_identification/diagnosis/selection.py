@@ -35,6 +35,7 @@ class Selection:
     model: Model
     hold_out: HoldOut
     workers: int  # effects that are tried at a time
+    refused: bool = False  # whether something likely takes away too little of what lasts, as far as the sensor tells
 
     def add(self, steps: Sequence[SelectionStep]) -> "Selection":
         """Add steps, and fit the model that they lead to once more on corrected recordings."""

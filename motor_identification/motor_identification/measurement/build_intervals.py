@@ -93,7 +93,13 @@ def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
     fresh = np.diff(begin, prepend=-2) != 1
     blur = slot * np.where(fresh, np.maximum(fixes.blur[begin], fixes.blur[end]), fixes.blur[end])
     moving = index_intervals(
-        start, stop, speed, blur, left_out=int(np.count_nonzero(~good)), gear=float(recording.info.gear)
+        start,
+        stop,
+        speed,
+        blur,
+        place=None if recording.info.single_channel else slot * fixes.height[np.column_stack([begin, end])],
+        left_out=int(np.count_nonzero(~good)),
+        gear=float(recording.info.gear),
     )
     return append_standstills(moving, find_standstills_at_reversals(recording, changes), slot)
 
@@ -101,9 +107,15 @@ def make_count_intervals(recording: Recording, changes: Changes) -> Intervals:
 def _from_noisy_angles(recording: Recording, noise: float) -> Intervals:
     """Make intervals from sample to sample, where the angle is known to within `noise` [counts] at each."""
     slot, time = recording.info.edge_angle, recording.time
-    speed = np.diff(recording.edge_count) * slot / np.diff(time)
+    place = (recording.edge_count - recording.edge_count[0]) * slot
+    speed = np.diff(place) / np.diff(time)
     return index_intervals(
-        time[:-1], time[1:], speed, np.full(len(speed), noise * slot), gear=float(recording.info.gear)
+        time[:-1],
+        time[1:],
+        speed,
+        np.full(len(speed), noise * slot),
+        place=np.column_stack([place[:-1], place[1:]]),
+        gear=float(recording.info.gear),
     )
 
 

@@ -21,8 +21,9 @@ class Intervals:
     `slack` [rad] is how far the motor may move without contradicting the measurement: one slot where no edge came.
     `blur` [rad] is how well the angle is known at both ends, given perfect slots: the tick of the timer that stamps
     edges, or the sampling of counts. Intervals that follow each other share the error of their common end, unless they
-    are `independent`: speeds with white noise. `edge` numbers the edges at both ends, where the ends are edges. How
-    much worse than that a sensor may be is a share of `unit`: of the angle at either end, or of each logged speed.
+    are `independent`: speeds with white noise. `edge` numbers the edges at both ends, where the ends are edges; `place`
+    [rad] is the angle that was counted there since the recording's start, where a sensor counts both ways. How much
+    worse than that a sensor may be is a share of `unit`: of the angle at either end, or of each logged speed.
     """
 
     time: Floats  # [s] ascending; time[0] is the recording's start
@@ -32,6 +33,7 @@ class Intervals:
     slack: Floats  # [rad]
     blur: Floats  # [rad] standard deviation of the angle at either end
     edge: Integers  # (I, 2) numbers of the first and the last edge; −1 where there is none
+    place: Floats  # (I, 2) [rad] within a slot; NaN where nothing counts it
     slot: float  # [rad] 0 where nothing is known of the slots
     left_out: int  # intervals that contain a reversal, or whose direction is open
     independent: bool = False  # whether each interval has an error of its own at either end
@@ -63,6 +65,11 @@ class Intervals:
         return np.asarray(self.sigma**2 + flanks)
 
     @property
+    def counts_both_ways(self) -> bool:
+        """Whether the angle is known from any interval to any other."""
+        return bool(np.isfinite(self.place).any())
+
+    @property
     def fresh(self) -> Bools:
         """Which intervals begin with an error of their own, shape (I,): not with that of the one before."""
         return np.ones(len(self.first), dtype=bool) if self.independent else self.apart
@@ -82,6 +89,7 @@ def index_intervals(
     blur: Floats,
     slack: Floats | None = None,
     edge: Integers | None = None,
+    place: Floats | None = None,
     slot: float = 0.0,
     left_out: int = 0,
     independent: bool = False,
@@ -101,6 +109,7 @@ def index_intervals(
         slack=np.zeros(count) if slack is None else slack,
         blur=blur,
         edge=np.full((count, 2), -1) if edge is None else edge,
+        place=np.full((count, 2), np.nan) if place is None else place,
         slot=slot,
         left_out=left_out,
         independent=independent,
@@ -122,6 +131,7 @@ def append_standstills(moving: Intervals, still: tuple[Floats, Floats], slack: f
         slack=np.concatenate([moving.slack, blank + slack]),
         blur=np.concatenate([moving.blur, blank]),
         edge=np.concatenate([moving.edge, np.full((len(blank), 2), -1)]),
+        place=np.concatenate([moving.place, np.full((len(blank), 2), np.nan)]),
         slot=moving.slot,
         left_out=moving.left_out,
         gear=moving.gear,
@@ -140,6 +150,7 @@ def exclude_intervals(intervals: Intervals, bad: Bools) -> Intervals:
         slack=intervals.slack[good],
         blur=intervals.blur[good],
         edge=intervals.edge[good],
+        place=intervals.place[good],
         left_out=intervals.left_out + int(bad.sum()),
     )
 
@@ -181,6 +192,7 @@ def join_intervals(intervals: Intervals, duration: float) -> Intervals:
         blur=blur,
         slack=intervals.slack[begin],
         edge=np.column_stack([intervals.edge[begin, 0], intervals.edge[end, 1]]),
+        place=np.column_stack([intervals.place[begin, 0], intervals.place[end, 1]]),
         slot=intervals.slot,
         left_out=intervals.left_out,
         independent=intervals.independent,

@@ -41,6 +41,7 @@ class Fixes:
 
     time: Floats  # [s] since the first sample
     place: Floats  # [slots] turned the run's way
+    height: Floats  # [slots] counted up and down since the recording's start
     blur: Floats  # [slots] standard deviation of the place
     run: Integers
     way: Integers  # −1, +1; 0 where a single channel leaves it open
@@ -96,7 +97,7 @@ def locate_fixes(recording: Recording, changes: Changes) -> Fixes:
     """Locate the disc at every instant at which the counts say where it was; `changes` are those of the recording."""
     time = recording.time
     if not len(changes):
-        return Fixes(time[:0], time[:0], time[:0], changes.run, changes.way, time[:0])
+        return Fixes(time[:0], time[:0], time[:0], time[:0], changes.run, changes.way, time[:0])
     turned = np.abs(np.diff(recording.edge_count, prepend=recording.edge_count[0])).cumsum()
     follows = np.minimum(np.searchsorted(changes.sample, np.arange(len(time))), len(changes) - 1)
     step, rates = np.diff(time, prepend=time[0]), _rates(time, turned, changes)
@@ -110,13 +111,15 @@ def locate_fixes(recording: Recording, changes: Changes) -> Fixes:
     at = np.concatenate([time[k], 0.5 * (time[c] + time[c - 1])])
     # The flank lies half way between the angles at both samples, which is not where the disc is in the middle of a time
     # in which it gains speed.
-    bend = np.interp(time[c], time[changes.sample], rates.growth) * step[c] ** 2 / 8.0
-    place = np.concatenate([turned[k] + 0.5, 0.5 * (turned[c] + turned[c - 1] + 1.0) - np.clip(bend, -0.25, 0.25)])
+    bend = np.clip(np.interp(time[c], time[changes.sample], rates.growth) * step[c] ** 2 / 8.0, -0.25, 0.25)
+    place = np.concatenate([turned[k] + 0.5, 0.5 * (turned[c] + turned[c - 1] + 1.0) - bend])
     sharp = np.maximum(travel[c], np.minimum(gap - 1.0, 1.0))
     blur = UNIFORM_SIGMA * np.concatenate([np.ones(len(k)), sharp])
     order, which = np.argsort(at, kind="stable"), np.concatenate([k, c])
     run, way = changes.run[follows[which]], changes.way[follows[which]]
-    fixes = Fixes(at[order], place[order], blur[order], run[order], way[order], rate[which][order])
+    count = recording.edge_count - recording.edge_count[0]
+    height = np.concatenate([count[k] + 0.0, 0.5 * (count[c] + count[c - 1])])
+    fixes = Fixes(at[order], place[order], height[order], blur[order], run[order], way[order], rate[which][order])
     jitter = min(estimate_stamp_jitter(fixes), _bound_jitter(recording, fixes))
     return replace(fixes, blur=np.hypot(fixes.blur, jitter * fixes.rate))
 

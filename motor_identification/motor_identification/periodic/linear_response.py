@@ -1,7 +1,8 @@
 """Compute the linear response of a motor to a load that repeats with the angle, over measured angles.
 
 A load of 1 V, e^(i·c·θ) for c cycles a turn, moves the speed by x with dx/dt = −rate·x − e^(i·c·θ)/ka. Within an
-interval between two measured angles the shaft turns evenly, and the response is had in closed form.
+interval between two measured angles the shaft turns evenly, and so it does from one to the next where a run has gaps;
+the response is had in closed form.
 """
 
 from dataclasses import dataclass
@@ -27,20 +28,23 @@ class Course:
     start: Floats  # [rad]
     end: Floats  # [rad]
     duration: Floats  # [s]
+    gap: Floats  # [s] from the interval before in the same run; 0 where it follows that at once, or a run begins
     moving: Bools
     lag: Lag
 
     def response(self, cycles: float) -> tuple[Floats, Floats]:
         """Compute the increments [rad] that loads of sin(cycles·θ) and of cos(cycles·θ), 1 V each, make, (I,) each."""
         travel = np.zeros(len(self.start), dtype=np.complex128)
-        _fill_response(self.order, self.start, self.end, self.duration, self.moving, cycles, self.lag.rate, travel)
+        _fill_response(
+            self.order, self.start, self.end, self.duration, self.gap, self.moving, cycles, self.lag.rate, travel
+        )
         travel /= self.lag.rate * self.lag.ka
         return travel.imag, travel.real
 
     def transient(self) -> Floats:
         """Compute the increments [rad] that a speed of 1 rad/s at the beginning of every counted run makes, (I,)."""
         travel = np.zeros(len(self.start))
-        _fill_transient(self.order, self.run, self.duration, self.moving, self.lag.rate, travel)
+        _fill_transient(self.order, self.run, self.duration, self.gap, self.moving, self.lag.rate, travel)
         return travel
 
 
@@ -73,7 +77,7 @@ def phasor(angle: float) -> complex:
 
 @compiled
 def _fill_response(
-    order: Integers, start: Floats, end: Floats, duration: Floats, moving: Bools,
+    order: Integers, start: Floats, end: Floats, duration: Floats, gap: Floats, moving: Bools,
     cycles: float, rate: float, travel: Complexes,
 ) -> None:  # fmt: skip
     speed, there, at = complex(0.0, 0.0), complex(1.0, 0.0), 0.0
@@ -83,6 +87,9 @@ def _fill_response(
             speed = complex(0.0, 0.0)
             continue
         here = there if start[i] == at else phasor(cycles * start[i])
+        if gap[i] > 0.0:
+            turn, fade = cycles * (start[i] - at), np.exp(-rate * gap[i])
+            speed = pass_interval(speed, there, here, turn, gap[i], fade, rate)[1]
         there, at = phasor(cycles * end[i]), end[i]
         turn, fade = cycles * (end[i] - start[i]), np.exp(-rate * h)
         travel[i], speed = pass_interval(speed, here, there, turn, h, fade, rate)
@@ -90,13 +97,15 @@ def _fill_response(
 
 @compiled
 def _fill_transient(
-    order: Integers, run: Integers, duration: Floats, moving: Bools, rate: float, travel: Floats
+    order: Integers, run: Integers, duration: Floats, gap: Floats, moving: Bools, rate: float, travel: Floats
 ) -> None:
     """Increments of dx/dt = −rate·x in every run that begins with x = 1 rad/s."""
     speed, number = 0.0, -1
     for i in order:
         if run[i] != number or not moving[i]:
             speed, number = 1.0, run[i]
+        else:
+            speed *= np.exp(-rate * gap[i])
         if moving[i]:
             fade = np.exp(-rate * duration[i])
             travel[i] = speed * (1.0 - fade) / rate

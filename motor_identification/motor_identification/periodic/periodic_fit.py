@@ -141,7 +141,7 @@ def _start_eccentricity(bare: Estimate, tracks: Tracks, _least: float) -> Start:
         )
         aligned = align_wave(sine, cosine, -increments * root, track.run_at(data.time[data.first]), data)
         waves.append(data.gear * aligned.weight)
-        straightened.append(track.slipped(np.asarray(aligned.slips * data.slot)))
+        straightened.append(track.slipped(aligned.slips / data.gear))
     size = np.full(len(waves), np.mean(np.abs(waves)))
     phase = np.asarray(np.angle(waves), dtype=np.float64)
     return Start(tuple(straightened), {"eccentricity": size, "eccentricity_phase": phase})
@@ -161,7 +161,7 @@ def align_wave(sine: Floats, cosine: Floats, left: Floats, run: Integers, data: 
     for _ in range(WAVE_ROUNDS):
         if noise <= 0.0:
             break
-        aligned = align_runs(np.asarray(sums * (number / noise)), data.slot * data.gear)
+        aligned = align_runs(np.asarray(sums * (number / noise)), data.slot * data.gear, data.counts_both_ways)
         noise = power - aligned.explained * noise / number
     return aligned
 

@@ -25,7 +25,7 @@ def sum_products(course: Course, pull: Floats, cycles: Floats, block: Integers) 
     for i in range(0, len(cycles), CYCLES_TOGETHER):
         sums = np.zeros((blocks, min(CYCLES_TOGETHER, len(cycles) - i)), dtype=np.complex128)
         _add_products(
-            course.order, course.start, course.end, course.duration, course.moving,
+            course.order, course.start, course.end, course.duration, course.gap, course.moving,
             float(cycles[i]), width, course.lag.rate, pull, block, sums,
         )  # fmt: skip
         sums /= course.lag.rate * course.lag.ka
@@ -90,8 +90,19 @@ def _pass_each(
 
 
 @compiled
+def _pass(
+    work: Floats, cycles: float, width: float, turn: float, h: float, least: float, rate: float, along: float
+) -> None:
+    """Do it all at once where the shaft turns by more than `least` [rad]."""
+    if abs(turn) > least:
+        _pass_all(work, cycles, width, turn, h, np.exp(-rate * h), rate, along)
+    else:
+        _pass_each(work, cycles, width, turn, h, np.exp(-rate * h), rate, along)
+
+
+@compiled
 def _add_products(
-    order: Integers, start: Floats, end: Floats, duration: Floats, moving: Bools,
+    order: Integers, start: Floats, end: Floats, duration: Floats, gap: Floats, moving: Bools,
     cycles: float, width: float, rate: float, pull: Floats, block: Integers, sums: Complexes,
 ) -> None:  # fmt: skip
     """All numbers of cycles in one pass: from one to the next, every angle's phasor turns by the same angle."""
@@ -105,16 +116,18 @@ def _add_products(
         if block[i] != latest:
             _flush(work, sums, latest)
             latest = block[i]
+        if gap[i] > 0.0:  # it turns on, and no travel of it counts
+            work[START:END] = work[END:SUMS]
+            _turn_on(work, END, cycles, width, start[i])
+            _pass(work, cycles, width, start[i] - at, gap[i], least, rate, 0.0)
+            at = start[i]
         if start[i] == at:
             work[START:END] = work[END:SUMS]
         else:
             _turn_on(work, START, cycles, width, start[i])
         _turn_on(work, END, cycles, width, end[i])
-        at, fade = end[i], np.exp(-rate * h)
-        if abs(turn) > least:
-            _pass_all(work, cycles, width, turn, h, fade, rate, pull[i])
-        else:
-            _pass_each(work, cycles, width, turn, h, fade, rate, pull[i])
+        at = end[i]
+        _pass(work, cycles, width, turn, h, least, rate, pull[i])
     _flush(work, sums, latest)
 
 

@@ -14,6 +14,7 @@ from math import tau
 import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
+from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.measured_angle import Track
 from motor_identification.periodic.response_products import sum_products
 from motor_identification.periodic.run_alignment import align_runs
@@ -25,8 +26,12 @@ POINTS_PER_LINE = 4.0  # grid points to the width of a line
 ROUGH_PEAKS, PEAK_REACH = 32, 2.0  # of the rough spectrum, and how many of its grid points around each are searched
 FINE_CANDIDATES = 3  # of those, which are searched in the whole recording
 KNOT_DISTANCE = 16  # grid points
+SPILLED = 2.0  # times the sum of a block's white squares: no more of it is explained, as whitening mixes neighbours
 # Of the sum of white squares, for each counted run and so many more: slips explain by chance.
 SLIP_CHANCE, SLIP_CHANCE_BASE = 4.0, 12
+# The same of what cannot slip, for each run that has a phase of its own, and for the best of all lines: of 10,000 it
+# explains 18. Measured: 19 of 2,641 lines.
+PHASE_CHANCE, LINE_CHANCE = 2.0, 30.0
 
 
 @dataclass(frozen=True)
@@ -47,11 +52,12 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     """
     problem, runs = estimate.problem, whiten_runs(estimate, tracks)
     low, high = SPEC_BY_NAME["ripple_cycles"].box(problem.unknowns.extent)
+    most = SPEC_BY_NAME["ripple_voltage"].box(problem.unknowns.extent)[1]
     turns = max(np.ptp(np.concatenate([run.course.start, run.course.end])) for run in runs) / tau
     width = 1.0 / (POINTS_PER_LINE * min(BLOCK_TURNS, max(turns, 1.0)))
     rough = np.arange(low, high, width)
     blocks = [run.number_blocks() for run in runs]
-    spectrum = _spectrum(runs, rough, blocks, problem.raise_if_stopped)
+    spectrum = _spectrum(runs, rough, blocks, most, problem.raise_if_stopped)
     if spectrum.max() - 2.0 * sum(int(block.max()) + 1 for block in blocks) < least:
         return []
     counted = [run.course.run for run in runs]
@@ -59,16 +65,24 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     around = np.arange(-PEAK_REACH * width, PEAK_REACH * width, of_run)
     likely: list[tuple[float, float]] = []  # how much each peak explains at best, and where
     for peak in _peaks(spectrum, ROUGH_PEAKS):
-        closer = _spectrum(runs, rough[peak] + around, counted, problem.raise_if_stopped)
+        closer = _spectrum(runs, rough[peak] + around, counted, most, problem.raise_if_stopped)
         likely.append((float(closer.max()), float((rough[peak] + around)[np.argmax(closer)])))
-    found, slots = [], [(data.slot, data.gear) for data in problem.intervals]
+    found: list[Ripple] = []
     around = np.arange(-PEAK_REACH * of_run, PEAK_REACH * of_run, 1.0 / (POINTS_PER_LINE * max(turns, 1.0)))
     for middle in _apart([cycles for _, cycles in sorted(likely, reverse=True)], of_run)[:FINE_CANDIDATES]:
         problem.raise_if_stopped()
-        lines = [_fit_line(runs, tracks, cycles, slots) for cycles in middle + around]
+        lines = [_fit_line(runs, tracks, cycles, problem.intervals) for cycles in middle + around]
         found.append(max(lines, key=lambda line: line.explained))
-    chance = SLIP_CHANCE * sum(int(run.course.run.max()) + SLIP_CHANCE_BASE for run in runs) if least > 0.0 else 0.0
+    chance = sum(map(_explained_by_chance, runs, problem.intervals)) if least > 0.0 else 0.0
     return sorted((line for line in found if line.explained > max(least, chance)), key=lambda line: -line.explained)
+
+
+def _explained_by_chance(run: WhitenedRun, data: Intervals) -> float:
+    """How much the best line explains of one recording's white noise, and a little more."""
+    last = int(run.course.run.max())
+    if data.slot > 0.0:
+        return SLIP_CHANCE * (last + SLIP_CHANCE_BASE)
+    return LINE_CHANCE + (0.0 if data.counts_both_ways else PHASE_CHANCE * last)
 
 
 def _apart(cycles: Sequence[float], width: float) -> list[float]:
@@ -81,18 +95,22 @@ def _apart(cycles: Sequence[float], width: float) -> list[float]:
 
 
 def _spectrum(
-    runs: Sequence[WhitenedRun], cycles: Floats, blocks: Sequence[Integers], go_on: Callable[[], None]
+    runs: Sequence[WhitenedRun], cycles: Floats, blocks: Sequence[Integers], most: float, go_on: Callable[[], None]
 ) -> Floats:
-    """How much a ripple of each number of cycles explains, each block of every recording on its own."""
-    return np.asarray(np.sum([_powers(run, cycles, block, go_on) for run, block in zip(runs, blocks, strict=True)], 0))
+    """How much a ripple of each number of cycles, and of `most` [V] or so, explains, each block on its own."""
+    rows = zip(runs, blocks, strict=True)
+    return np.asarray(np.sum([_powers(run, cycles, block, most, go_on) for run, block in rows], 0))
 
 
-def _powers(run: WhitenedRun, cycles: Floats, block: Integers, go_on: Callable[[], None]) -> Floats:
+def _powers(run: WhitenedRun, cycles: Floats, block: Integers, most: float, go_on: Callable[[], None]) -> Floats:
     """The same in one recording.
 
     The products with the residual are exact; those of the responses among themselves change slowly with the cycles, and
-    are had at every KNOT_DISTANCE-th only.
+    are had at every KNOT_DISTANCE-th only. Where whole waves pass between two rows next to nothing answers, and only a
+    ripple of many volts would explain anything: its size has a prior, of a standard deviation of `most`. And no block
+    has more explained than is there, which products that spill over from the next one would.
     """
+    there = SPILLED * np.bincount(block, run.white**2)
     shapes = np.array([run.sum_products(knot, block) for knot in cycles[::KNOT_DISTANCE]])
     knots = 0.5 * (shapes[:, :, 0] + shapes[:, :, 2])  # sine and cosine are as good as independent in every block
     powers: list[Floats] = []
@@ -106,26 +124,26 @@ def _powers(run: WhitenedRun, cycles: Floats, block: Integers, go_on: Callable[[
         second = np.minimum(first + 1, len(knots) - 1)
         sizes = knots[first] * (1.0 - part)[:, None] + knots[second] * part[:, None]
         squares = along**2 + across**2
-        powers.append(np.divide(squares, sizes, where=sizes > 0.0, out=np.zeros_like(squares)).sum(axis=1))
+        powers.append(np.minimum(squares / (np.maximum(sizes, 0.0) + 1.0 / most**2), there).sum(axis=1))
     return np.concatenate(powers)
 
 
 def fit_ripple(estimate: Estimate, tracks: Sequence[Track], cycles: float) -> Ripple:
     """Fit the most likely ripple of so many cycles a turn."""
-    slots = [(data.slot, data.gear) for data in estimate.problem.intervals]
-    return _fit_line(whiten_runs(estimate, tracks), tracks, cycles, slots)
+    return _fit_line(whiten_runs(estimate, tracks), tracks, cycles, estimate.problem.intervals)
 
 
 def _fit_line(
-    runs: Sequence[WhitenedRun], tracks: Sequence[Track], cycles: float, slots: Sequence[tuple[float, float]]
+    runs: Sequence[WhitenedRun], tracks: Sequence[Track], cycles: float, intervals: Sequence[Intervals]
 ) -> Ripple:
-    """Fit a ripple of so many cycles, with every recording's slips; `slots` [rad] and gear of every recording."""
+    """Fit a ripple of so many cycles, with every recording's slips."""
     weights, straightened, explained = [], [], 0.0
-    for run, track, (slot, gear) in zip(runs, tracks, slots, strict=True):
-        aligned = align_runs(run.sum_products(cycles, run.course.run), cycles * slot * gear)
+    for run, track, data in zip(runs, tracks, intervals, strict=True):
+        wave = cycles * data.gear
+        aligned = align_runs(run.sum_products(cycles, run.course.run), wave * data.slot, data.counts_both_ways)
         weights.append(aligned.weight)
         explained += aligned.explained
-        straightened.append(track.slipped(np.asarray(aligned.slips * slot)))
+        straightened.append(track.slipped(aligned.slips / wave))
     amplitude, phases = float(np.mean(np.abs(weights))), tuple(float(np.angle(weight)) for weight in weights)
     return Ripple(cycles, amplitude, phases, tuple(straightened), explained)
 

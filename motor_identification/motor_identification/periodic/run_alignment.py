@@ -2,7 +2,7 @@
 
 The angle between two counted runs is then off by some slots, and the phase of a fast ripple is lost from one to the
 next. Given the ripple, each run says how far; the most likely path of slips through all runs and the ripple are found
-in turns.
+in turns. Where speeds were logged, nothing counts from one run to the next, and each has the phase that is likeliest.
 """
 
 from dataclasses import dataclass
@@ -22,20 +22,21 @@ ALIGNMENT_ROUNDS = 4
 
 @dataclass(frozen=True)
 class Aligned:
-    """A ripple's complex amplitude [V], each run's slip in slots (B,), and how much of the cost they explain."""
+    """A ripple's complex amplitude [V], each run's slip (B,) [rad of its wave], and how much they explain."""
 
     weight: complex
     slips: Floats
     explained: float
 
 
-def align_runs(sums: Floats, turn: float) -> Aligned:
+def align_runs(sums: Floats, turn: float, told: bool) -> Aligned:
     """Align runs: the ripple and the slips that explain most; a slip of one slot turns its phase by `turn` [rad].
 
     sums: for every run ss, sc, cc, sw, cw with s and c the responses to sine and cosine, w the residual; shape (B, 5).
+    told: where no slots slip (`turn` is 0), whether the angle is known from run to run.
     """
-    if turn == 0.0:  # nothing was counted, and nothing slips
-        return _align_without_slips(sums)
+    if turn == 0.0:
+        return _align_without_slips(sums) if told else _align_freely(sums)
     step = turn / STEPS_PER_SLOT
     alone = _best(sums)
     weight = alone[int(np.argmax(alone.real * sums[:, 3] + alone.imag * sums[:, 4]))]
@@ -48,13 +49,28 @@ def align_runs(sums: Floats, turn: float) -> Aligned:
         if np.array_equal(slips, before):
             break
         before = slips.copy()
-    return Aligned(complex(weight), slips / STEPS_PER_SLOT, explained)
+    return Aligned(complex(weight), slips * step, explained)
 
 
 def _align_without_slips(sums: Floats) -> Aligned:
     whole = sums.sum(axis=0)
     weight = complex(_best(whole))
     return Aligned(weight, np.zeros(len(sums)), weight.real * whole[3] + weight.imag * whole[4])
+
+
+def _align_freely(sums: Floats) -> Aligned:
+    """One amplitude, and every run's phase as it is likeliest.
+
+    The amplitude's square is had from those of all runs, less what white noise of a variance of 1 does by chance.
+    """
+    along, size = sums[:, 3] + 1j * sums[:, 4], 0.5 * (sums[:, 0] + sums[:, 2])
+    squares = float(np.sum(size**2))
+    power = float(np.sum(np.abs(along) ** 2 - 2.0 * size)) / squares if squares > 0.0 else 0.0
+    if power <= 0.0:
+        return Aligned(0j, np.zeros(len(sums)), 0.0)
+    weight = np.sqrt(power) * np.exp(1j * np.angle(along[int(np.argmax(np.abs(along)))]))
+    explained = float(np.sum(2.0 * np.sqrt(power) * np.abs(along) - power * size))
+    return Aligned(complex(weight), np.asarray(np.angle(along * np.conj(weight))), explained)
 
 
 def _best(sums: Floats) -> NDArray[np.complex128]:

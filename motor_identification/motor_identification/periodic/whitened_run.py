@@ -13,7 +13,7 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.parameter_space import SLOW_SPEED
 from motor_identification.estimation.whitened_fit import learn_encoders
-from motor_identification.measurement.measured_angle import Track
+from motor_identification.measurement.measured_angle import Track, find_row_step
 from motor_identification.noise.encoder import Encoder
 from motor_identification.periodic.autoregression import Autoregression, fit_autoregression
 from motor_identification.periodic.linear_response import Course
@@ -21,6 +21,7 @@ from motor_identification.recording import Floats, Integers
 from motor_model.compiled import compiled
 
 BLOCK_TURNS = 8.0  # turns
+SAME_INSTANT = 1e-9  # [s] intervals that are no further apart follow each other
 
 
 @dataclass(frozen=True)
@@ -78,10 +79,11 @@ def whiten_runs(estimate: Estimate, tracks: Sequence[Track]) -> list[WhitenedRun
     rows = zip(estimate.problem.intervals, tracks, estimate.increments, learn_encoders(estimate), strict=True)
     for data, track, increments, encoder in rows:
         angle, begun = data.gear * track.at(data.time), data.time[data.first]  # of the encoder's (the motor's) shaft
+        order, run = np.argsort(begun, kind="stable"), track.run_at(begun)
+        gap = _find_gaps(begun, begun + data.duration, run, order, find_row_step(data))
         course = Course(
-            np.argsort(begun, kind="stable"), track.run_at(begun), angle[data.first], angle[data.last], data.duration,
-            data.slack == 0.0, estimate.lag,
-        )  # fmt: skip
+            order, run, angle[data.first], angle[data.last], data.duration, gap, data.slack == 0.0, estimate.lag
+        )
         moved = np.where(course.moving, -increments, 0.0)
         colour = fit_autoregression(encoder.white(moved)[: len(moved)], course.order)
         run = WhitenedRun(encoder, colour, course, -increments, increments)
@@ -90,6 +92,18 @@ def whiten_runs(estimate: Estimate, tracks: Sequence[Track]) -> list[WhitenedRun
         run = replace(run, white=white, transient=np.divide(transient, length, where=length > 0.0, out=0.0 * length))
         runs.append(replace(run, white=run.project_out_transient(white)))
     return runs
+
+
+def _find_gaps(begin: Floats, end: Floats, run: Integers, order: Integers, most: float) -> Floats:
+    """[s] from the end of the interval before in the same run to the beginning of each, shape (I,).
+
+    0 where that is more than `most`: what happened there is not known.
+    """
+    gap = np.zeros(len(begin))
+    before, after = order[:-1], order[1:]
+    apart = begin[after] - end[before]
+    gap[after] = np.where((run[after] == run[before]) & (apart > SAME_INSTANT) & (apart <= most), apart, 0.0)
+    return gap
 
 
 @compiled

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import log
+from math import log, sqrt
 
 import numpy as np
 
@@ -13,8 +13,9 @@ from motor_identification.noise.likelihood import Noise, log_likelihood
 from motor_identification.recording import Bools, Floats, Recording
 from motor_model.parameters import Parameters
 
-# Of a slot squared, a second: drifts of the simulated angle that held-out motion may have beyond the training data's.
-# From one that is hardly seen within a second to one that loses a third of a slot in it.
+# Of a slot squared (or of one that would blur angles as much), a second: drifts of the simulated angle that held-out
+# motion may have beyond the training data's. From one that is hardly seen within a second to one that loses a third of
+# a slot in it.
 UNFORESEEN_DRIFTS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5)
 
 
@@ -104,9 +105,14 @@ class HeldOut:
         def under(drift: float) -> float:
             return sum(log_likelihood(data, part, replace(noise, drift=drift)) for data, part in parts)
 
-        own, slot = under(noise.drift), max(data.slot for data, _part in parts)
+        own, slot = under(noise.drift), max(_find_slot(data) for data, _part in parts)
         larger = [under(share * slot**2) for share in UNFORESEEN_DRIFTS if share * slot**2 > noise.drift]
         return mix_likelihoods(own, larger)
+
+
+def _find_slot(data: Intervals) -> float:
+    """[rad] of the encoder, or one that would blur angles as much as they are."""
+    return data.slot if data.slot > 0.0 else sqrt(12.0) * float(np.median(data.blur)) if len(data.blur) else 0.0
 
 
 def mix_likelihoods(own: float, others: Sequence[float]) -> float:

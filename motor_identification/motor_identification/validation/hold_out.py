@@ -103,8 +103,12 @@ class BlocksOfSame(HoldOut):
     """Every fourth block of the training recordings themselves: what belongs to them is known from the fit."""
 
     def apply(self, fitted: Estimate) -> Estimate:
-        """Apply the same unknowns to all blocks."""
-        here = replace(self.problem, unknowns=fitted.problem.unknowns, tracks=fitted.problem.tracks)
+        """Apply the same unknowns to all blocks; the angle in those that are held out is measured there."""
+        here = replace(self.problem, unknowns=fitted.problem.unknowns)
+        if fitted.problem.tracks:
+            whole = here.on_measured_angle(fitted.theta, here.unknowns.effects).tracks
+            rows = zip(fitted.problem.tracks, whole, strict=True)
+            here = replace(here, tracks=tuple(track.fill_in(measured) for track, measured in rows))
         return fitted.on(here)
 
     def restrict(self, training: Problem) -> Problem:

@@ -88,7 +88,7 @@ class Fake:
         monkeypatch.setattr(forward_selection, "try_effects", self.try_effects)
         monkeypatch.setattr(Selection, "add", added)
         monkeypatch.setattr(
-            forward_selection, "list_candidates", lambda effects, seen: ["coulomb_friction", "load_bias"]
+            forward_selection, "list_candidates", lambda effects, seen, confirms: ["coulomb_friction", "load_bias"]
         )
         monkeypatch.setattr(Model, "effects", ())
 
@@ -190,7 +190,7 @@ def test_of_two_complete_models_the_one_with_fewer_findings_is_taken(
 
 def test_friction_is_selected_from_a_recording_that_hides_it(monkeypatch: pytest.MonkeyPatch) -> None:
     names = ("coulomb_friction", "quadratic_drag", "load_bias")
-    lacking = lambda effects, seen: [name for name in names if name not in effects]  # noqa: E731
+    lacking = lambda effects, seen, confirms=True: [name for name in names if name not in effects]  # noqa: E731
     monkeypatch.setattr(forward_selection, "list_candidates", lacking)
     estimate, hold_out = fitted(ks=0.4)
     start = begin_selection(estimate, hold_out, 1)
@@ -200,3 +200,19 @@ def test_friction_is_selected_from_a_recording_that_hides_it(monkeypatch: pytest
     assert found.steps[0].explains > 0.99 and found.model.at_floor
     ks = found.model.estimate.parameters.value("ks")
     assert ks == pytest.approx(0.4, rel=1e-3) and found.model.estimate.simulations > start.model.estimate.simulations
+
+
+@pytest.mark.parametrize(("likely", "gap", "refused"), [(2.0, 8.9, True), (0.5, 8.9, False), (2.0, 4.0, False)])
+def test_it_is_told_where_something_likely_takes_away_too_little(
+    likely: float, gap: float, refused: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Fake(monkeypatch, [])
+    evidence = likely * likelihood_threshold()
+
+    def try_effects(current: Model, hold_out: Any, effects: list[str], *rest: Any) -> list[CandidateTest]:
+        after = min(gap, current.held.gap)
+        return [stub_test(name, current, after, evidence * (after < current.held.gap)) for name in effects]
+
+    monkeypatch.setattr(forward_selection, "try_effects", try_effects)
+    found = select_forward(selection_of(stub_model(9.0)), SILENT, pairs=False)
+    assert found.refused is refused and bool(found.steps) is (gap == 4.0)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from motor_identification.measurement.intervals import Intervals, append_standstills, index_intervals
-from motor_identification.measurement.measured_angle import make_track
+from motor_identification.measurement.measured_angle import Track, find_row_step, make_track
 
 SLOT = 0.1  # [rad]
 
@@ -55,3 +55,40 @@ def test_slips_move_whole_runs() -> None:
     slipped = track.slipped(np.array([0.0, 2 * SLOT]))
     assert slipped.angle - track.angle == pytest.approx(np.where(track.run == 0, 0.0, 2 * SLOT))
     assert set(track.run) == {0, 1}
+
+
+@pytest.mark.parametrize("both_ways", [True, False])
+def test_what_is_counted_both_ways_is_known_beyond_a_gap(both_ways: bool) -> None:
+    """Whatever the model turned there; one way only, the model has its say."""
+    place = np.array([[0.0, 0.1], [0.75, 0.85]])
+    data = index_intervals(
+        np.array([0.0, 0.5]), np.array([0.1, 0.6]), np.ones(2), np.zeros(2), place=place if both_ways else None
+    )
+    track = make_track(data, np.interp(data.time, [0.1, 0.5], [0.1, 5.1]))
+    assert data.counts_both_ways is both_ways
+    assert track.at(np.array([0.5, 0.6])) == pytest.approx([0.75, 0.85] if both_ways else [5.1, 5.2])
+
+
+@pytest.mark.parametrize(("rows", "carried"), [(1.4, True), (1.6, False)])
+def test_from_one_rows_speed_to_the_next_rows_the_shaft_turns_by_their_mean(rows: float, carried: bool) -> None:
+    """Speeds of an instant: windows of a tenth of a row, and one row that is late."""
+    begin = np.array([0.0, 1.0, 2.0, 3.0, 3.0 + rows, 4.0 + rows])
+    speed = np.array([1.0, 2.0, 2.0, 2.0, 4.0, 4.0])
+    data = index_intervals(begin, begin + 0.1, speed, np.full(6, 0.01), independent=True, window=0.1)
+    assert find_row_step(data) == pytest.approx(1.4)
+    track = make_track(data, 100.0 * data.time)
+    assert track.at(np.array([1.0])) == pytest.approx([0.1 + 0.9 * 1.5])
+    late = track.at(begin[4:5]) - track.at(np.array([3.1]))
+    assert late == pytest.approx([3.0 * (rows - 0.1) if carried else 100.0 * (rows - 0.1)])
+    assert len(set(track.run)) == (1 if carried else 2)
+    assert find_row_step(counted([0.0, 0.1, 0.2], 1.0)) == 0.0
+
+
+def test_a_track_is_filled_in_from_where_it_ends() -> None:
+    """What another one measured in between is added to what it knows; its own angles stay."""
+    own = Track(np.array([0.0, 1.0, 5.0, 6.0]), np.array([0.0, 1.0, 7.0, 8.0]), np.array([0, 0, 1, 1]))
+    whole = Track(np.arange(8.0), np.array([0.0, 1.0, 2.0, 2.5, 3.0, 5.0, 6.0, 6.5]), np.zeros(8, dtype=np.int64))
+    filled = own.fill_in(whole)
+    assert filled.time.tolist() == whole.time.tolist()
+    assert filled.angle == pytest.approx([0.0, 1.0, 2.0, 2.5, 3.0, 7.0, 8.0, 8.5])
+    assert filled.run.tolist() == [0, 0, 0, 0, 0, 1, 1, 1]

@@ -21,6 +21,11 @@ def test_a_load_makes_the_travel_that_the_differential_equation_says(cycles: flo
                 speed = 0.0
                 assert travels[i] == 0.0
                 continue
+            if seen.gap[i] > 0.0:  # it turns on, and no travel of it counts
+                before = seen.end[i - 1]
+                load = (before, (seen.start[i] - before) / seen.gap[i], cycles, phase)
+                gap = solve_ivp(slope, (0.0, seen.gap[i]), [speed, 0.0], "DOP853", args=load, rtol=1e-10, atol=1e-14)
+                speed = gap.y[0, -1]
             duration, begin = seen.duration[i], seen.start[i]
             load = (begin, (seen.end[i] - begin) / duration, cycles, phase)
             end = solve_ivp(slope, (0.0, duration), [speed, 0.0], "DOP853", args=load, rtol=1e-10, atol=1e-14)
@@ -33,7 +38,7 @@ def test_a_speed_at_the_beginning_fades_in_every_run() -> None:
     travel = seen.transient()
     for number in (0, 1):
         here = (seen.run == number) & seen.moving
-        begins = np.concatenate([[0.0], np.cumsum(seen.duration[here])[:-1]])
+        begins = np.concatenate([[0.0], np.cumsum(seen.duration[here])[:-1]]) + np.cumsum(seen.gap[here])
         expected = np.exp(-LAG.rate * begins) * (1.0 - np.exp(-LAG.rate * seen.duration[here])) / LAG.rate
         assert np.allclose(travel[here], expected, rtol=1e-12)
     assert travel[~seen.moving].sum() == 0.0

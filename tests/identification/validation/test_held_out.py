@@ -51,3 +51,17 @@ def test_a_moment_that_nobody_could_predict_refutes_no_complete_model() -> None:
     assert complete.noise.drift < 1e-3 * wrong.noise.drift  # in the training data
     assert alone(complete.held, complete.noise) < alone(wrong.held, wrong.noise) - 100.0
     assert complete.likelihood > wrong.likelihood + 100.0
+
+
+def test_where_there_are_no_slots_what_blurs_the_angle_is_the_measure() -> None:
+    """Counts that are read at samples have no slots, and drift as much as edges do."""
+    one = held(ks=0.4)
+    blurred = replace(
+        one, intervals=tuple(replace(data, slot=0.0, blur=np.full_like(data.blur, 0.02)) for data in one.intervals)
+    )
+    noise = Noise(0.0, 0.0)
+    larger = [alone(blurred, replace(noise, drift=share * 12.0 * 0.02**2)) for share in UNFORESEEN_DRIFTS]
+    own = alone(blurred, noise)
+    best = max(own, *larger)
+    mixed = 0.5 * exp(own - best) + 0.5 * np.mean([exp(value - best) for value in larger])
+    assert best > own and blurred.log_likelihood(noise) == pytest.approx(best + log(mixed), abs=1e-6)

@@ -1,0 +1,77 @@
+"""Logs as other people make them with any effect in the motor, simulated: does the diagnosis name it?
+
+The motors, sensors and excitations of `foreign_logs.py` (a single step is left out, which tells next to nothing), each
+with one of the effects that are rarer or harder to see than those of that page, or with one that is outside the table;
+friction is beside it in four of five. The tests' independent plant moves; `import_log` is told nothing.
+"""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from any_motor_cases import GROWTH, USUAL
+from foreign_logs import Outcome, find, page, say
+from foreign_logs_cases import EXCITATIONS, SENSORS, Case, draw, span_of
+from hidden import OUTSIDE, SIZES
+from seeded_cases import run_seeds
+
+RESULTS = Path(__file__).with_name("results") / "foreign_effects.md"
+RARE = (
+    "static_friction", "load_step", "voltage_limit", "coast_drive", "supply_sag", "armature_inductance",
+    "torque_ripple", "encoder_eccentricity", "backlash", "warm_up",
+)  # fmt: skip
+USUAL_SPAN = 28.0  # [s] of the recordings that the sizes are made for
+
+
+def draw_rare(seed: int) -> Case:
+    """Draw a motor and its log as `foreign_logs` does, and put an effect in it."""
+    case, random = draw(seed), np.random.default_rng([18, seed])
+    kv, lag, span = case.values["kv"], case.lag, span_of(case)
+    ratio = np.array([case.supply, case.supply / kv, lag]) / USUAL
+    outside = random.random() < 0.2
+    sensor = str(random.choice(SENSORS))
+    name = str(random.choice(list(OUTSIDE) if outside else RARE))
+    if name == "encoder_eccentricity":  # of the disc that is counted
+        sensor = str(random.choice(SENSORS[:2]))
+    values = {key: value for key, value in case.values.items() if key in ("kv", "ka", "max_voltage") or "torque" in key}
+    hidden: tuple[str, ...] = (name,)
+    if random.random() < 0.8 or name == "static_friction":
+        values["ks"] = random.uniform(0.02, 0.12) * case.supply
+        hidden = ("coulomb_friction", name)
+    for key, bounds in (SIZES | OUTSIDE)[name].items():
+        if key != "ks" or "ks" not in values:
+            values[key] = random.uniform(*bounds) * float(np.prod(ratio ** np.array(GROWTH.get(key, (0.0, 0.0, 0.0)))))
+    if name == "static_friction":
+        values["breakaway_voltage"] = values["ks"] + random.uniform(0.02, 0.06) * case.supply
+    if "step_time" in values:
+        values["step_time"] = random.uniform(0.2, 0.8) * span
+    if "warm_up_time" in values:
+        values["warm_up_time"] *= span / USUAL_SPAN / ratio[2]
+    if "ripple_cycles" in values:  # four rows of a wave at half the top speed, and as many as motors have
+        most = min(np.pi * case.rate * kv / case.supply, case.counts / 3.0, 60.0)
+        values["ripple_cycles"] = float(max(1.0, most ** random.random()))
+    excitation = str(random.choice(EXCITATIONS[1:]))
+    if name == "angle_friction" and excitation.endswith("one way"):  # which is what a load that ripples does
+        hidden = (*hidden[:-1], "torque_ripple")
+    return replace(case, values=values, hidden=hidden, excitation=excitation, sensor=sensor)
+
+
+def one(seed: int) -> Outcome:
+    """Draw, write, import and diagnose a case."""
+    return find(draw_rare(seed))
+
+
+def main() -> None:
+    """Print the cases as they come, and write the page."""
+    run_seeds(
+        one,
+        say,
+        lambda outcomes, first: page(outcomes, first, RESULTS.stem, __doc__ or ""),
+        RESULTS,
+        __doc__ or "",
+        100,
+    )
+
+
+if __name__ == "__main__":
+    main()
