@@ -56,7 +56,7 @@ def diagnose(
     begun = perf_counter()
     if not recordings:
         raise RecordingError("there is no recording to diagnose: name at least one bag.")
-    check_effects(recordings, request.effects)
+    check_effects(request.effects)
     recordings, validation = note_sensors(recordings), note_sensors(validation)
     limit = TimeLimit(request.time_limit, stopped or (lambda: False), _has_smaller_gap)
     reporter = ProgressReporter(progress or (lambda stage: None), limit.over, limit.keep)

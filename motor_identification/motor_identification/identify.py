@@ -49,7 +49,7 @@ def identify(recordings: Sequence[Recording], request: Request, progress: Progre
     tell = progress or (lambda stage, share: None)
     working = Heartbeat(tell)
     recordings = note_sensors(recordings)
-    check_effects(recordings, request.effects)
+    check_effects(request.effects)
     effects = normalised(request.effects)
     whole = make_problem(recordings, drop_periodic_effects(effects), request.workers, working)
     estimate, search = search_globally(whole, request.search, lambda share: tell("search", SEARCHED * share))

@@ -88,8 +88,8 @@ class Effect:
         parameters: the first is the size of the effect.
         implies: the effect it cannot be without.
         periodic: it repeats with the shaft angle (`periodic/` of the identification finds it in a spectrum).
-        on_disc: it moves the disc's flanks, not the shaft: only counted edges show it, and it is the first harmonic of
-            the slots, which are then learnt without it.
+        on_disc: it moves the disc's flanks, not the shaft: it is the first harmonic of the slots, which are then learnt
+            without it.
         linear_onset: it begins in proportion to its first parameter, so that the derivative at 0 says which other
             effects would have left the same trace.
         holds: it holds the motor at rest under a voltage, which nothing that only shapes a motion does.

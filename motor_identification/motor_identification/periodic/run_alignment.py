@@ -49,7 +49,7 @@ def align_runs(sums: Floats, turn: float, told: bool) -> Aligned:
         if np.array_equal(slips, before):
             break
         before = slips.copy()
-    return Aligned(complex(weight), slips * step, explained)
+    return Aligned(complex(weight), np.asarray(slips * step, dtype=np.float64), explained)
 
 
 def _align_without_slips(sums: Floats) -> Aligned:

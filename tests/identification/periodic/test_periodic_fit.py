@@ -21,7 +21,6 @@ from motor_identification.periodic.ripple_spectrum import find_ripples
 from motor_identification.periodic.run_alignment import align_runs
 from motor_identification.recording import Floats, Recording, check
 from motor_model.effects import INDEX
-from motor_model.errors import ModelError
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 BASE = {"kv": PAPER_KV, "ka": PAPER_KA}
@@ -204,10 +203,14 @@ def test_no_other_slips_explain_more(seed: int) -> None:
     assert abs(paths.max() - found.explained) < 1e-6 * paths.max()
 
 
-def test_an_eccentric_disc_cannot_be_seen_in_speeds() -> None:
-    recording = as_speed(made({"ks": 0.3}, profiles.staircase(8.0, 2, 0.3), seed=1))
-    with pytest.raises(ModelError, match="encoder_eccentricity needs a recording with encoder counts"):
-        identify([recording], Request(("encoder_eccentricity",)))
+def test_an_eccentric_disc_is_seen_in_the_speeds_that_were_counted_on_it() -> None:
+    wave = {"eccentricity": 0.04, "eccentricity_phase": 0.5}
+    drive = profiles.staircase(8.0, 3, 0.5)
+    recording = as_speed(
+        check(record({"kv": 0.07, "ka": 0.0056} | wave, *drive, seed=1, edges=960, single_channel=False)[0])
+    )
+    fit = identify([recording], Request(("encoder_eccentricity",)))
+    assert fit.parameters.values["eccentricity"] == pytest.approx(0.04, rel=0.05)
 
 
 TORQUE = {"random_torque": 0.1, "random_torque_time": 0.05, "random_torque_seed": 3.0}
