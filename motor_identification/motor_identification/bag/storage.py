@@ -41,6 +41,8 @@ class _File(Protocol):
     def contents(self) -> Contents | None: ...
 
 
+ROS_1 = b"#ROSBAG V"  # what its bags begin with
+OF_ROS_1 = "a bag of ROS 1: convert it (rosbags-convert, of the Python package rosbags), and give that"
 _FORMATS: dict[str, Callable[[Path], _File]] = {".mcap": McapFile, ".db3": SqliteFile}
 
 
@@ -132,11 +134,18 @@ def _files(path: Path) -> list[Path]:
     compressed_first = sorted(filter(_is_storage, candidates), key=lambda file: file.suffix != COMPRESSED)
     found = {plain_name(file): file for file in compressed_first}
     if not found:
+        if path.is_file() and _begins_with(path, ROS_1):
+            raise RecordingError(f"{path} is {OF_ROS_1}.")
         inside = (
             "has no .mcap or .db3 file in it" if path.is_dir() else "is neither a directory nor a .mcap or .db3 file"
         )
         raise RecordingError(f"{path} is not a bag (it {inside}): give a bag made by record or ros2 bag.")
     return [found[name] for name in sorted(found, key=_by_number)]
+
+
+def _begins_with(path: Path, magic: bytes) -> bool:
+    with _readable(path), path.open("rb") as file:
+        return file.read(len(magic)) == magic
 
 
 def _is_storage(path: Path) -> bool:

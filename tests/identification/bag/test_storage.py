@@ -48,6 +48,12 @@ def test_contents_are_counted_where_the_file_has_no_index(tmp_path: Path) -> Non
     assert {topic.name for topic in counted.topics} == {topic.name for topic in whole.topics}
 
 
+def test_a_bag_of_ros_1_is_told_how_to_become_one(tmp_path: Path) -> None:
+    (tmp_path / "old.bag").write_bytes(b"#ROSBAG V2.0\n" + bytes(20))
+    with pytest.raises(RecordingError, match=r"old\.bag is a bag of ROS 1: convert it \(rosbags-convert"):
+        Bag(tmp_path / "old.bag")
+
+
 def test_a_path_that_is_no_bag(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="There is no bag .*nowhere: check the path"):
         Bag(tmp_path / "nowhere")

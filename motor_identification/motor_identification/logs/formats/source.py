@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from motor_identification.bag.storage import OF_ROS_1, ROS_1
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.dialect import check_file
 from motor_identification.logs.csv.reader import read_table
@@ -17,6 +18,8 @@ from motor_model.errors import RecordingError
 
 HEAD = 512  # bytes at the beginning that tell the format
 _LONGEST_LINE = 10_000  # characters of a first line of JSON
+_OLE, _NUMPY = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", b"\x93NUMPY"
+_WORKBOOK = (b"[Content_Types].xml", b"xl/", b"opendocument.spreadsheet")  # Excel's, and that of LibreOffice
 _HDF5, _ZIP, _PARQUET, _MCAP = b"\x89HDF\r\n\x1a\n", b"PK\x03\x04", b"PAR1", b"\x89MCAP"
 
 
@@ -67,7 +70,18 @@ def read_source(path: Path) -> Source:
 
 _REFUSED: tuple[tuple[Callable[[bytes], bool], str], ...] = (
     (lambda head: head.startswith((_HDF5, b"MATLAB 7.3")), "a MATLAB 7.3 or HDF5 file: save it with -v7, or as CSV"),
+    (
+        lambda head: head.startswith(_ZIP) and any(one in head for one in _WORKBOOK),
+        "a spreadsheet: save its sheet as CSV (comma separated values), and give that",
+    ),
+    (lambda head: head.startswith(_OLE), "an old Excel file: save its sheet as CSV, and give that"),
+    (
+        lambda head: head.startswith(_NUMPY) or (head.startswith(_ZIP) and b".npy" in head),
+        "a NumPy file: save a column for each array as CSV (numpy.savetxt with delimiter=',')",
+    ),
     (lambda head: head.startswith(_ZIP), "a ZIP or spreadsheet file: unpack it, or export it as CSV"),
+    (lambda head: head.startswith(ROS_1), OF_ROS_1),
+    (lambda head: head.startswith(b"TDSm"), "a TDMS file of LabVIEW: export it as CSV"),
     (
         lambda head: head.startswith((_PARQUET, b"ARROW1")),
         "a Parquet or Feather file: export it as CSV",

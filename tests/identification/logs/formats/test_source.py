@@ -33,6 +33,16 @@ def test_what_a_user_says_comes_before_what_the_file_says() -> None:
     [
         (b"\x89HDF\r\n\x1a\n", "is a MATLAB 7.3 or HDF5 file: save it with -v7"),
         (b"PK\x03\x04", "is a ZIP or spreadsheet file: unpack it, or export it as CSV"),
+        (b"PK\x03\x04\x14\0[Content_Types].xml", "is a spreadsheet: save its sheet as CSV"),
+        (
+            b"PK\x03\x04mimetypeapplication/vnd.oasis.opendocument.spreadsheet",
+            "is a spreadsheet: save its sheet as CSV",
+        ),
+        (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", "is an old Excel file: save its sheet as CSV"),
+        (b"\x93NUMPY\1\0", "is a NumPy file: save a column for each array as CSV"),
+        (b"PK\x03\x04\x14\0u.npy", "is a NumPy file: save a column for each array as CSV"),
+        (b"#ROSBAG V2.0\n", "is a bag of ROS 1: convert it \\(rosbags-convert"),
+        (b"TDSm\x0e\0", "is a TDMS file of LabVIEW: export it as CSV"),
         (b"PAR1", "is a Parquet or Feather file: export it as CSV"),
         (b"\x89MCAP0\r\n", "is a bag: give it to identify, diagnose or inspect"),
         (b"SQLite format 3\0", "is a bag: give it to identify"),
