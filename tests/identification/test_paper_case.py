@@ -1,5 +1,7 @@
 """The paper's own case: static friction is named from a low-gain PI run and a ramp, and then the loop is predicted."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pi_runs import (
@@ -46,7 +48,8 @@ def test_static_friction_is_named_from_a_pi_run_and_a_ramp() -> None:
 
 def test_the_loop_with_the_effect_added_meets_the_gap_on_another_reference() -> None:
     """At 1 kHz, started and stopped; on the disc that an earlier run has shown, and on a regular one."""
-    before, run = hidden_run(HUNTING, SEED, 1000.0), hidden_run(STARTS, SEED, 1000.0, begin=2)
+    earlier = replace(HUNTING, levels=HUNTING.levels[3:6])  # some turns, which pass every hole
+    before, run = hidden_run(earlier, SEED, 1000.0), hidden_run(STARTS, SEED, 1000.0, begin=2)
     assert 0.8 < of_floor(run, HIDDEN, run.recording.voltage) < 1.25
     seen = standing(run.recording, FOUND, disc_seen(before.recording, FOUND))
     regular = standing(run.recording, FOUND, None)

@@ -191,22 +191,15 @@ def found_in(recordings: list[Recording]) -> tuple[Diagnosis, dict[str, tuple[st
 
 def test_diagnosis_of_a_telegraph_one_way() -> None:
     """A delay, and an offset that friction, a constant load and a dead zone make alike."""
-    found, named = found_in(undc("prbs"))
-    assert found.verdict is Verdict.UNDECIDED and found.suggested_experiment == "rich"
-    assert named == {"coulomb_friction": ("load_bias", "dead_zone"), "transport_delay": ()}
-    assert 0.0093 < found.model.parameters.value("delay") < 0.0095
-    assert 0.23 < found.gap_before < 0.25 and 1.05 < found.gap_after / found.noise_floor < 1.15
     _found, with_static = found_in(undc("prbs", "static"))  # a load that pushes at standstill is out
     assert with_static == {"coulomb_friction": (), "transport_delay": ()}  # a dead zone is less likely by e^22
-
-
-def test_the_same_names_where_nobody_says_what_a_count_is() -> None:
-    """Every speed is a multiple of 6.43 deg/s, and that is what the floor is made of."""
+    # Nobody says what a count is: every speed is a multiple of 6.43 deg/s, and that is what the floor is made of.
     form = CsvForm("t", "u", "y", Kind.SPEED, "deg/s")
     log = read_log(DATA / "undc/prbs_2026-08-14.csv", form)
     assert log.info.edges_per_revolution == 0
     found, named = found_in([check(recording_of(log.runs[0].samples, log.info, "prbs"))])
-    assert found.verdict is Verdict.UNDECIDED
+    assert found.verdict is Verdict.UNDECIDED and found.suggested_experiment == "rich"
+    assert 0.23 < found.gap_before < 0.25
     assert named == {"coulomb_friction": ("load_bias", "dead_zone"), "transport_delay": ()}
     assert 0.0093 < found.model.parameters.value("delay") < 0.0095
     assert 0.0455 < found.sensor_floor < 0.0461 and 1.05 < found.gap_after / found.noise_floor < 1.15
@@ -219,13 +212,13 @@ def test_the_same_names_where_nobody_says_what_a_count_is() -> None:
 def test_diagnosis_of_a_coasting_bridge_predicts_its_static_curve() -> None:
     """Two effects that only together explain anything; the same kv as years later with a braking bridge.
 
-    Of either day the first 15 s; benchmarks/real_motors.py diagnoses all of it, at five times the time.
+    Of either day the first 10 s; benchmarks/real_motors.py diagnoses all of it, at ten times the time.
     """
-    found, named = found_in([recording.between(0.0, 15.0) for recording in coasting()])
+    found, named = found_in([recording.between(0.0, 10.0) for recording in coasting()])
     assert found.verdict is Verdict.UNDECIDED
     lag = {"transport_delay": ("armature_inductance",)}
     assert named == {"coulomb_friction": ("load_bias", "dead_zone"), "coast_drive": (), **lag}
-    assert 0.38 < found.gap_before < 0.41 and 0.95 < found.gap_after / found.noise_floor < 1.15
+    assert 0.42 < found.gap_before < 0.46 and 0.95 < found.gap_after / found.noise_floor < 1.15
     values = found.model.parameters.values
     assert 0.97 < values["coast_share"] <= 1.0 and 0.348 < values["kv"] < 0.358 and 0.295 < values["ks"] < 0.315
     table = np.genfromtxt(DATA / "undc/static_coast_2024-08-05.csv", delimiter=",", names=True)
@@ -238,13 +231,13 @@ def test_diagnosis_of_a_coasting_bridge_predicts_its_static_curve() -> None:
         assert low < float(np.sqrt(np.mean(np.square(errors)))) < high
 
 
-@pytest.mark.parametrize("order", [1, -1])
-def test_diagnosis_of_steps_both_ways_by_a_coarse_encoder(order: int) -> None:
+def test_diagnosis_of_steps_both_ways_by_a_coarse_encoder() -> None:
     """Dead band, asymmetry and lag of the EV3 motor, under a floor that hides them from sample to sample.
 
-    Its runs are 10 to 34 ms late, its time constant is 56 to 75 ms in fits of one run each; in whatever order they are.
+    Its runs are 10 to 34 ms late, its time constant is 56 to 75 ms in fits of one run each; in whatever order they are:
+    benchmarks/real_motors.py has them as they were recorded, here the last one is the first.
     """
-    found, named = found_in(ev3()[::order])
+    found, named = found_in(ev3()[::-1])
     assert found.verdict is Verdict.UNDECIDED and found.after.seen and found.after.confirms
     lag = {"transport_delay": ("armature_inductance",)}
     assert named == {"coulomb_friction": ("dead_zone",), "direction_asymmetry": (), **lag}

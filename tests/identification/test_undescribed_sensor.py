@@ -13,7 +13,7 @@ from motor_identification.identify import Request, identify
 from motor_identification.recording import check
 
 
-@pytest.mark.parametrize("sigma", [0.1, 1.0, 5.0])
+@pytest.mark.parametrize("sigma", [0.1, 5.0])
 def test_a_fit_of_speeds_with_white_noise_is_right_to_within_its_standard_errors(sigma: float) -> None:
     score = []
     for seed in range(4):

@@ -5,6 +5,7 @@ window that jitters; on any other step they are anywhere. Beside a uniform densi
 by −ln(σ·√(2πe)) each, which is compared with the number of steps that could fit by chance.
 """
 
+from functools import lru_cache
 from math import e, log, sqrt, tau
 
 import numpy as np
@@ -33,7 +34,7 @@ def find_lattice(values: Floats) -> float:
         levels = np.sort(np.random.default_rng(0).choice(levels, MOST_LEVELS, replace=False))
     for part in PARTS:
         some = levels[levels <= part * levels[-1]] if len(levels) else levels
-        step = _find_step(some) if len(some) >= LEAST_PLACES else 0.0
+        step = _find_step(some.tobytes()) if len(some) >= LEAST_PLACES else 0.0
         if step > 0.0:
             return step
     return _find_small_counts(values, levels)
@@ -53,8 +54,10 @@ def _find_small_counts(values: Floats, levels: Floats) -> float:
     return step if all_there and often and _scatter(levels, step) < LEAST_SCATTER else 0.0
 
 
-def _find_step(levels: Floats) -> float:
-    """Find the largest step whose lattice is no chance, for ascending levels above 0."""
+@lru_cache(maxsize=64)  # a recording's intervals are made, and its sensor is looked at, again and again
+def _find_step(values: bytes) -> float:
+    """Find the largest step whose lattice is no chance, for ascending levels above 0 (float64)."""
+    levels = np.frombuffer(values)
     top = float(levels[-1])
     tried = np.asarray(np.arange(LEAST_PLACES - 1.0, FINEST, SCAN) / top, dtype=np.float64)  # 1/step
     for begin in range(0, len(tried), 2048):  # coarse steps first: most lattices are found at once

@@ -47,11 +47,11 @@ def test_a_file_that_cannot_be_written_costs_neither_the_fit_nor_the_others(
     assert said.err == "cannot write the model file /dev/full: No space left on device.\n"
 
 
-@pytest.mark.parametrize("name", [r"$\frac{a$b$c", "\x1b[2J<script>"])
 def test_a_name_with_odd_characters_is_drawn_as_it_is(
-    bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str
+    bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """A $ in a bag's name was a formula that could not be read, and there was no report."""
+    name = "$\\frac{a$b$c\x1b[2J<script>"
     (tmp_path / name).symlink_to(bags / "staircase")
     assert main([str(tmp_path / name), "--report", str(tmp_path / "report")]) == 0
     assert {path.name for path in (tmp_path / "report").iterdir()} == {

@@ -135,7 +135,6 @@ def starts_and_stops(seed: int) -> profiles.Profile:
 
 LATE = ("coulomb_friction", "transport_delay")
 HONEST = {
-    "fast, both ways": (lambda seed: random_steps(seed, -12.0, 12.0, 8, 0.3), {}),
     "fast, both ways, one channel": (lambda seed: random_steps(seed, -12.0, 12.0, 8, 0.3), {"single_channel": True}),
     "slow starts and stops": (starts_and_stops, {}),
     "a coarse disc": (lambda seed: random_steps(seed, -12.0, 12.0, 8, 0.3), {"edges": 16}),
