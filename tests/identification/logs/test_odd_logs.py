@@ -199,6 +199,15 @@ def test_two_senders_in_one_table(tmp_path: Path) -> None:
     assert "pwm has a value in 401 of 801 rows: it holds until the next." in said
 
 
+def test_rows_of_a_wide_table_may_be_mostly_empty(tmp_path: Path) -> None:
+    """A column for each of many topics, and in each row the values of one."""
+    names = "time,/imu:x,/imu:y,/imu:z,/bat:v,/cmd:pwm,/wheel:rpm,/gps:a,/gps:b,/gps:c"
+    text = table(lambda k: f"{MS[k]},,,,,{DUTY[k]},,,,\n{MS[k] + 3},,,,,,{RPM[k]},,,", names)
+    found = imported(tmp_path, text, Said(**{**SAID.__dict__, "voltage": "/cmd:pwm", "full_duty": 255.0}))
+    assert np.allclose(column(found, "speed") * 30.0 / np.pi, RPM, atol=0.05)
+    assert np.allclose(column(found, "voltage"), DUTY / 255.0 * 12.0)
+
+
 def test_the_rounding_of_printed_digits_is_no_odd_count(tmp_path: Path) -> None:
     """Angles of 4096 counts a turn with two digits are up to 0.057 counts beside whole ones."""
     angle = np.round(COUNT * 360.0 / 4096, 2)

@@ -56,7 +56,7 @@ def _end_of_table(lines: Sequence[str], dialect: Dialect) -> int:
     """Where another table begins behind the rows, with at most half of their cells; the number of lines where none."""
     first, short = len(lines), 0
     for place in range(len(lines) - 1, dialect.first_row, -1):
-        cells = [cell for cell in split_line(lines[place], dialect.delimiter) if cell]
+        cells = split_line(lines[place], dialect.delimiter)  # empty ones too: those of other senders
         if 2 * len(cells) > len(dialect.header):
             break
         if any(is_number(cell, dialect.decimal_comma) for cell in cells):
