@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import GARBLED, Cells, Table
+from motor_model.errors import RecordingError
 
 Bools = NDArray[np.bool_]
+Integers = NDArray[np.int64]
 
 NO_VALUE = ("", "nan", "NaN", "NAN", "null", "NULL", "none", "None", "-", "NA", "N/A", "n/a")  # nothing stands there
 LOOKED_AT = 200  # cells that tell quickly that a column holds words
@@ -39,7 +41,24 @@ class Filled:
         notes = [f"{name} has a value in {self._share(name)} rows: it holds until the next." for name in held]
         if motion in self.told:
             notes.insert(0, f"{motion} has a value in {self._share(motion)} rows: those rows are taken.")
-        return replace(self.table.rows(rows, ""), notes=(*self.table.notes, *notes))
+        kept = self.table.rows(rows, "")
+        cells = dict(kept.cells)
+        for name in held:
+            cells[name] = self.table.numbers(name)[self._middles(time, np.flatnonzero(rows))]
+        return replace(kept, cells=cells, notes=(*self.table.notes, *notes))
+
+    def _middles(self, time: str | None, rows: Integers) -> Integers:
+        """The rows, (F,), that came last before the middle between each of some rows and the next: what held mostly."""
+        if time is None:
+            return rows
+        try:
+            times = self.table.numbers(time)
+        except RecordingError:  # dates and times of day
+            times = self.table.nanoseconds(time).astype(np.float64)
+        if np.any(np.diff(times) < 0.0):
+            return rows  # time begins again
+        middles = times[rows] + 0.5 * np.diff(times[rows], append=times[rows[-1]])
+        return np.asarray(np.maximum(np.searchsorted(times, middles, side="right") - 1, rows), dtype=np.int64)
 
     def _share(self, name: str) -> str:
         return f"{int(self.told[name].sum())} of {len(self.table)}"

@@ -67,3 +67,17 @@ def test_numbers_of_other_formats_have_gaps_too() -> None:
     table = Table(Path("log.mat"), np.arange(1, 51), {"t": np.arange(50.0), "speed": speed, "u": np.ones(50, np.int64)})
     filled = fill_gaps(table)
     assert list(filled.told) == ["speed"] and filled.table.numbers("speed")[:4].tolist() == [0.0, 0.0, 2.0, 2.0]
+
+
+@pytest.mark.parametrize(("after", "from_row"), [(4, 10), (6, 11)])
+def test_a_command_holds_from_the_row_that_it_is_nearer_to(after: int, from_row: int) -> None:
+    """Speeds every 10 ms, and a command some ms after the eleventh of them."""
+    times = sorted([10 * k for k in range(20)] + [0, 100 + after], key=float)
+    duty = ["5" if time == 100 + after else "0" if k == 1 else "" for k, time in enumerate(times)]
+    speed = ["" if one else "7" for one in duty]
+    filled = fill_gaps(made(ms=[str(time) for time in times], duty=duty, speed=speed))
+    rows = filled.rows_of("ms", "speed", "duty", None)
+    changed = np.flatnonzero(rows.numbers("duty") == 5.0)[0]
+    assert rows.numbers("ms")[changed] == 10.0 * from_row
+    by_order = filled.rows_of(None, "speed", "duty", None)  # without times: the row after it
+    assert by_order.numbers("ms")[np.flatnonzero(by_order.numbers("duty") == 5.0)[0]] == 110.0
