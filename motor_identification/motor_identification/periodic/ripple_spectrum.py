@@ -65,13 +65,16 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     around = np.arange(-PEAK_REACH * width, PEAK_REACH * width, of_run)
     likely: list[tuple[float, float]] = []  # how much each peak explains at best, and where
     for peak in _peaks(spectrum, ROUGH_PEAKS):
-        closer = _spectrum(runs, rough[peak] + around, counted, most, problem.raise_if_stopped)
-        likely.append((float(closer.max()), float((rough[peak] + around)[np.argmax(closer)])))
+        close = rough[peak] + around
+        close = close[(close >= low) & (close <= high)]
+        closer = _spectrum(runs, close, counted, most, problem.raise_if_stopped)
+        likely.append((float(closer.max()), float(close[np.argmax(closer)])))
     found: list[Ripple] = []
     around = np.arange(-PEAK_REACH * of_run, PEAK_REACH * of_run, 1.0 / (POINTS_PER_LINE * max(turns, 1.0)))
     for middle in _apart([cycles for _, cycles in sorted(likely, reverse=True)], of_run)[:FINE_CANDIDATES]:
         problem.raise_if_stopped()
-        lines = [_fit_line(runs, tracks, cycles, problem.intervals) for cycles in middle + around]
+        close = np.unique(np.clip(middle + around, low, high))
+        lines = [_fit_line(runs, tracks, cycles, problem.intervals) for cycles in close]
         found.append(max(lines, key=lambda line: line.explained))
     chance = sum(map(_explained_by_chance, runs, problem.intervals)) if least > 0.0 else 0.0
     return sorted((line for line in found if line.explained > max(least, chance)), key=lambda line: -line.explained)

@@ -13,6 +13,7 @@ from motor_identification.estimation.problem import make_problem
 from motor_identification.periodic.periodic_fit import Tracks, measure_angles
 from motor_identification.periodic.ripple_spectrum import find_ripples, fit_ripple
 from motor_identification.recording import check
+from motor_model.effects import SPEC_BY_NAME
 
 RIPPLE = {"ripple_voltage": 0.3, "ripple_cycles": 5.3, "ripple_phase": 0.8}
 
@@ -45,6 +46,18 @@ def test_less_than_the_least_is_no_line(times: float, found: bool) -> None:
 def test_where_there_is_none_chance_makes_none() -> None:
     estimate, tracks = lacking()
     assert find_ripples(estimate, tracks, 4.0) == []
+
+
+def test_a_motor_that_swings_within_a_turn_has_no_line_of_fewer_cycles_than_one() -> None:
+    recording = check(record(TRUE, *profiles.pieces([6.0, -6.0] * 4, 0.05), seed=1)[0])
+    problem = make_problem([recording], ("coulomb_friction",))
+    estimate = fit_speeds(Estimate(problem, np.array([np.log(TRUE["kv"]), np.log(TRUE["ka"]), TRUE["ks"]])))
+    tracks = measure_angles(estimate, problem.unknowns.effects)
+    assert np.ptp(tracks[0].angle) < np.pi
+    with np.errstate(all="raise"):
+        lines = find_ripples(estimate, tracks)
+    low, high = SPEC_BY_NAME["ripple_cycles"].box(problem.unknowns.extent)
+    assert lines and all(low <= line.cycles <= high for line in lines)
 
 
 @pytest.mark.parametrize(("off", "share"), [(0.0, 0.9), (0.5, 0.0)])
