@@ -18,9 +18,9 @@ from math import inf
 
 from motor_control.controller.faults.evidence import Config, Seen
 from motor_control.controller.faults.insensitive_speed import SLOWEST
-from motor_model.sensing.mains_rhythm import EVEN
+from motor_model.sensing.mains_rhythm import EVEN, WITHIN
 
-AT_REST = 0.5  # [s] of hum under 0 V
+AT_REST = 0.5  # [s] of hum under 0 V; and as long as a flywheel that coasts would take to cross the rate of the mains
 SOME_REST = 0.1  # [s] of it after which nothing holds this speed
 ELSEWHERE = 0.02  # of the reference, from which they are away: a loop with an integral is nearer
 LOAD = 0.25  # of the voltage limit, that a load may take beside what is known of it
@@ -53,8 +53,8 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     state = State(rhythm.edges, state.holding, state.excess)
     if not rhythm.hums:
         return "", state
-    rate = 1.0 / rhythm.period
-    if rhythm.at_rest >= AT_REST:
+    rate, time_constant = 1.0 / rhythm.period, config.time_constant or SLOWEST
+    if rhythm.at_rest >= max(AT_REST, 2.0 * WITHIN * time_constant):
         return SENTENCE.format(rate, UNDER_NOTHING), state
     voltage = seen.motion.slow_voltage
     if rhythm.at_rest >= SOME_REST:
@@ -62,7 +62,7 @@ def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     excess = (voltage - state.holding) / limit - LOAD
     elsewhere = abs(abs(seen.reference) - speed) > ELSEWHERE * abs(seen.reference)  # false under a plain voltage
     state = State(rhythm.edges, state.holding, state.excess + excess * seen.dt if elsewhere and excess > 0.0 else 0.0)
-    patience = max(EXCESS * config.stall_time, 2.0 * EVEN * (config.time_constant or SLOWEST))
+    patience = max(EXCESS * config.stall_time, 2.0 * EVEN * time_constant)
     told = state.excess >= patience
     return (SENTENCE.format(rate, UNDER_MORE.format(voltage, state.holding)) if told else ""), state
 

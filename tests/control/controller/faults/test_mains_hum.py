@@ -86,6 +86,15 @@ def test_under_no_voltage_it_is_told_before_the_motor_moves() -> None:
     assert told(0.0, before=0.0, known=Motion(), rate=104.0) == (inf, "")
 
 
+@pytest.mark.parametrize(("time_constant", "least", "most"), [(0.1, 0.5, 0.9), (40.0, 1.2, 1.6), (100.0, 3.0, 3.4)])
+def test_a_heavy_flywheel_may_coast_through_the_rate_of_the_mains(
+    time_constant: float, least: float, most: float
+) -> None:
+    """It takes 0.03 of its time constant for that."""
+    config = replace(MODEL, time_constant=time_constant)
+    assert least < told(0.0, before=0.0, config=config)[0] < most
+
+
 def test_a_voltage_that_comes_soon_changes_nothing_of_what_came_under_none() -> None:
     """Hum was there for 0.2 s when the reference came."""
     state, rhythm = mains_hum.State(), Rhythm()
