@@ -1,11 +1,13 @@
 """What is no number, again and again."""
 
+from dataclasses import replace
 from math import inf, nan
 
 import pytest
 from fault_bench import SLOT
 
 from motor_control.controller import controller
+from motor_control.controller.faults.evidence import Config as FaultConfig
 from motor_control.controller.interruptions import Interruptions, count_interruption
 from motor_control.controller.output import RUNNING, STOPPED
 from motor_control.controller.pi import Config as Gains
@@ -44,6 +46,32 @@ def test_the_third_in_a_row_of_interruptions_stops_the_motor(how: str, value: fl
 @pytest.mark.parametrize("how", ["sample", "reference"])
 def test_seldom_ones_do_not(how: str) -> None:
     assert stopped(202, how) == (inf, "")  # every 1.01 s
+
+
+@pytest.mark.parametrize(("every", "stops"), [(220, True), (390, True), (410, False)])
+def test_a_long_stall_time_gives_them_no_more_room(every: int, stops: bool) -> None:
+    """Each began the checks anew: with 2 s of `stall_time` a blocked shaft got 12 V for ever between two of them."""
+    config, state = replace(CONFIG, faults=FaultConfig(slot=SLOT, stall_time=2.0)), controller.State()
+    for k in range(1, 1 + 6 * every):
+        speed = nan if k % every == 0 else 0.0
+        sample = Sample(k * 5_000_000, speed, state.run.asked if state.run else 0.0, 1, 5_000_000, 0.0)
+        _, state = controller.update(config, state, sample, 90.0 if k == 1 else None, 0.005 * k)
+        if state.latched:
+            break
+    assert state.latched and ("within 4 s of one another" in state.latched) == stops
+    assert stops or "no edge came" in state.latched  # the checks have had their time
+
+
+@pytest.mark.parametrize(
+    ("stall_time", "apart", "most"), [(0.5, 0.99, 3), (0.5, 1.01, 9), (2.0, 3.99, 3), (2.0, 4.01, 9)]
+)
+def test_they_count_within_two_stall_times(stall_time: float, apart: float, most: int) -> None:
+    state, count = Interruptions(), 0
+    for k in range(8):
+        reason, state = count_interruption(state, "bad", apart * k, stall_time)
+        _, state = count_interruption(state, "", apart * k + 0.1, stall_time)
+        count = count or (k + 1 if reason else 0)
+    assert (count or 9) == most
 
 
 def test_one_that_lasts_is_one() -> None:
