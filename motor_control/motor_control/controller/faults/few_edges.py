@@ -1,9 +1,9 @@
 """Detect edges that are too few for the voltage, by the model or by the last steady motion."""
 
 from dataclasses import dataclass
-from math import copysign, exp
+from math import copysign, exp, inf
 
-from motor_control.controller.faults.evidence import HEAVY, KEPT, Config, Seen, find_allowed_voltage
+from motor_control.controller.faults.evidence import HEAVY, KEPT, Config, Seen, find_allowed_voltage, find_push_time
 from motor_control.controller.motion import FAST
 
 FEW = 0.3  # of the expected speed; a load that slows a motor down to this takes 70 % of its stall torque
@@ -52,10 +52,20 @@ def check(config: Config, state: State, seen: Seen, regular: bool) -> tuple[str,
     growing = motion.speed > GROWING * motion.slow_speed and motion.speed > 2.0 * config.slot / FAST
     excess = state.excess + (0.0 if growing or braking else (voltage - allowed) / limit * seen.dt)
     travel = 0.0 if motion.edges else state.travel + expected * seen.dt
-    silent = motion.silent >= SILENT and travel >= SILENT_SLOTS * config.slot
+    silent = travel >= SILENT_SLOTS * config.slot
+    silent &= motion.silent >= max(SILENT, find_turn_time(config, seen, voltage - allowed))
     bound = config.stall_time * (SILENT_EXCESS if silent else FEW_EXCESS)
     reason = SENTENCE.format(voltage, motion.speed, expected) if excess >= bound > 0.0 else ""
     return reason, State(foreseen, excess, travel)
+
+
+def find_turn_time(config: Config, seen: Seen, voltage: float) -> float:
+    """Find the time [s] without an edge in which a voltage [V] turns a motor round: within a slot, and out of it.
+
+    It is what is left beyond a load that is allowed; a heavy motor takes long.
+    """
+    top = config.fastest if config.fastest < inf else seen.motion.fastest(seen.voltage_limit)
+    return 2.0 * find_push_time(config, top, voltage / seen.voltage_limit, 1.0)
 
 
 def extrapolate_speed(config: Config, expected: float, seen: Seen) -> float:

@@ -4,7 +4,7 @@ from dataclasses import replace
 from math import exp
 
 import pytest
-from fault_bench import ENCODER, KNOWN, LOST, feed, turning
+from fault_bench import ENCODER, KNOWN, LOST, SLOT, feed, turning
 
 from motor_control.controller.faults.evidence import Config
 
@@ -46,3 +46,24 @@ def test_a_voltage_that_comes_and_goes_is_judged_as_one_that_stays() -> None:
     rows = [(0.0, 12.0 if k % 2 else 0.0, 0.0) for k in range(400)]
     reason, when = feed(LOST + rows, KNOWN)
     assert "Edges do not fit the voltage" in reason and 1.0 < when < 1.4
+
+
+@pytest.mark.parametrize("volts", [4.2, 4.7, 6.0])
+def test_a_load_that_is_turned_round_shows_no_edge_for_a_while(volts: float) -> None:
+    """A load of 0.24 of the voltage drove the motor backward; its model knows of none, and foresees many slots."""
+    config = replace(KNOWN, fastest=20.0, kv=0.6, time_constant=1.0, friction=0.1, two_channels=True)
+    load, speed, rows, angle, edges, latest = 2.9, -2.7, [], 0.0, 0, 0.0
+    for k in range(1200):
+        voltage = 1.3 if k < 400 else volts
+        speed += 0.005 * (voltage - load - 0.6 * speed) / 0.6
+        angle += 0.005 * speed
+        passed = int(angle // SLOT) != edges
+        edges, latest = int(angle // SLOT), k * 0.005 if passed else latest
+        shown = speed if k * 0.005 - latest < 0.1 else 0.0  # a standstill, to a plant
+        rows.append((shown, voltage, abs(speed) / SLOT if passed or shown else 0.0))
+    assert feed_edges(rows, config) == ""
+
+
+def feed_edges(rows: list[tuple[float, float, float]], config: Config) -> str:
+    """What is said of a motor whose edges come where its speed is not 0."""
+    return feed(rows, config, reference=5.0)[0]
