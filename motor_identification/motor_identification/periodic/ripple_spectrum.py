@@ -62,7 +62,7 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
         return []
     counted = [run.course.run for run in runs]
     of_run = 1.0 / (POINTS_PER_LINE * max(1.0, *(run.longest_turns() for run in runs)))
-    around = np.arange(-PEAK_REACH * width, PEAK_REACH * width, of_run)
+    around = np.arange(-PEAK_REACH * width, PEAK_REACH * width, min(of_run, width))
     likely: list[tuple[float, float]] = []  # how much each peak explains at best, and where
     for peak in _peaks(spectrum, ROUGH_PEAKS):
         close = rough[peak] + around

@@ -1,6 +1,7 @@
 """A line in the residual's spectrum over the angle: its cycles, amplitude and phase; nothing where there is none."""
 
 from functools import cache
+from math import tau
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
 from motor_identification.periodic.periodic_fit import Tracks, measure_angles
 from motor_identification.periodic.ripple_spectrum import find_ripples, fit_ripple
+from motor_identification.periodic.whitened_run import whiten_runs
 from motor_identification.recording import check
 from motor_model.effects import SPEC_BY_NAME
 
@@ -23,6 +25,14 @@ def lacking(**ripple: float) -> tuple[Estimate, Tracks]:
     """A fit with friction, to a motor that may have a ripple too."""
     drive = profiles.staircase(10.0, 3, 0.25)
     recording = check(record(TRUE | ripple, *drive, seed=1, irregularity=0.003, disc_seed=1)[0])
+    problem = make_problem([recording], ("coulomb_friction",))
+    estimate = fit_speeds(Estimate(problem, np.array([np.log(TRUE["kv"]), np.log(TRUE["ka"]), TRUE["ks"]])))
+    return estimate, measure_angles(estimate, problem.unknowns.effects)
+
+
+def swinging(volts: list[float], seconds: float, **ripple: float) -> tuple[Estimate, Tracks]:
+    """The same of a motor that is driven to and fro."""
+    recording = check(record(TRUE | ripple, *profiles.pieces(volts, seconds), seed=1)[0])
     problem = make_problem([recording], ("coulomb_friction",))
     estimate = fit_speeds(Estimate(problem, np.array([np.log(TRUE["kv"]), np.log(TRUE["ka"]), TRUE["ks"]])))
     return estimate, measure_angles(estimate, problem.unknowns.effects)
@@ -49,15 +59,20 @@ def test_where_there_is_none_chance_makes_none() -> None:
 
 
 def test_a_motor_that_swings_within_a_turn_has_no_line_of_fewer_cycles_than_one() -> None:
-    recording = check(record(TRUE, *profiles.pieces([6.0, -6.0] * 4, 0.05), seed=1)[0])
-    problem = make_problem([recording], ("coulomb_friction",))
-    estimate = fit_speeds(Estimate(problem, np.array([np.log(TRUE["kv"]), np.log(TRUE["ka"]), TRUE["ks"]])))
-    tracks = measure_angles(estimate, problem.unknowns.effects)
+    estimate, tracks = swinging([6.0, -6.0] * 4, 0.05)
     assert np.ptp(tracks[0].angle) < np.pi
     with np.errstate(all="raise"):
         lines = find_ripples(estimate, tracks)
-    low, high = SPEC_BY_NAME["ripple_cycles"].box(problem.unknowns.extent)
+    low, high = SPEC_BY_NAME["ripple_cycles"].box(estimate.problem.unknowns.extent)
     assert lines and all(low <= line.cycles <= high for line in lines)
+
+
+def test_a_motor_that_swings_on_by_a_part_of_a_turn_has_its_line_of_one_cycle() -> None:
+    once = {"ripple_voltage": 0.6, "ripple_cycles": 1.0, "ripple_phase": 0.8}
+    estimate, tracks = swinging([10.0, -8.0] * 60, 0.1, **once)
+    assert np.ptp(tracks[0].angle) > 20.0 * tau
+    assert max(run.longest_turns() for run in whiten_runs(estimate, tracks)) < 1.5
+    assert find_ripples(estimate, tracks)[0].cycles == pytest.approx(1.0, abs=0.02)
 
 
 @pytest.mark.parametrize(("off", "share"), [(0.0, 0.9), (0.5, 0.0)])
