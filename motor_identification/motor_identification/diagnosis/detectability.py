@@ -19,7 +19,7 @@ def find_undetectable(model: Model) -> tuple[str, ...]:
     """
     problem, theta = model.estimate.problem, model.estimate.theta
     columns, without = problem.jacobian(theta), problem.residuals(theta)
-    hidden, judged = [], list_candidates(model.effects, model.held.seen, model.held.confirms)
+    hidden, judged = [], list_candidates(model.effects, model.held)
     for effect in list_candidates(model.effects):
         if EFFECT_BY_NAME[effect].periodic:
             if effect not in judged:  # of one response that was seen, any line explains some

@@ -13,26 +13,32 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.recording import Floats
+from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
-from motor_identification.validation.instants import needs_instant
+from motor_identification.validation.instants import list_instant_columns, needs_instant
 from motor_model.effects import EFFECT_BY_NAME
 
 EFFECT_ORDER = {name: number for number, name in enumerate(EFFECT_BY_NAME)}  # the most common first
 Heard = Callable[[CandidateTest], None]  # told of each test as it is done
 
 
-def list_candidates(effects: Sequence[str], seen: bool = False, confirms: bool = True) -> list[str]:
+def list_candidates(effects: Sequence[str], judged: HeldOut | None = None) -> list[str]:
     """List the effects a model can be given next: what it does not have, whose own condition it has.
 
-    seen: whether it is judged by what it was fitted to; then nothing that happens once, for which some instant is found
-    in any motion. confirms: whether there is more than a step; else nothing that repeats with the angle either.
+    judged: what it is judged by. Where the fits have seen that, nothing that comes slowly, which takes up whatever a
+    model lacks, and nothing that happens once in each of several recordings; and in a single response nothing that
+    happens once or repeats with the angle: some instants, or some line, are found in any.
     """
+    seen = judged is not None and judged.seen
+    repeats = judged is None or not seen or judged.confirms
+    once = judged is None or not seen or (judged.confirms and len(judged.recordings) == 1)
     return [
         effect.name
         for effect in EFFECT_BY_NAME.values()
         if effect.name not in effects
         and effect.fitted
-        and not (seen and (effect.anywhere or (effect.periodic and not confirms)))
+        and (not effect.anywhere or (once and (needs_instant(effect.name) or not seen)))
+        and (repeats or not effect.periodic)
         and (effect.implies is None or effect.implies in effects)
     ]
 
@@ -93,7 +99,15 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
 
 
 def _is_finding(test: CandidateTest) -> bool:
-    return is_supported(test) and test.relevant
+    return is_supported(test) and test.relevant and not _is_there_from_the_start(test)
+
+
+def _is_there_from_the_start(test: CandidateTest) -> bool:
+    """Whether what begins at an instant does so with the recording: then it is constant, or a wrong initial state."""
+    if not needs_instant(test.effect) or test.effect not in test.model.effects:
+        return False
+    theta, columns = test.model.estimate.theta, list_instant_columns(test.model.estimate.problem, [test.effect])
+    return all(float(theta[column]) < thresholds.FROM_THE_START * duration for column, duration in columns)
 
 
 def is_supported(test: CandidateTest) -> bool:

@@ -84,7 +84,7 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
     Those that repeat with the angle only where others leave a gap; slots learnt without them hide it.
     """
     number, current = len(selection.steps) + 1, selection.model
-    left = list_candidates(current.effects, current.held.seen, current.held.confirms)
+    left = list_candidates(current.effects, current.held)
     count = 0
 
     def heard(test: CandidateTest) -> None:
@@ -120,9 +120,7 @@ def _find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: P
     """Find the two effects that explain most together where neither does alone, as two steps, if there are such."""
     current, found = selection.model, []
     for i, first in enumerate(list_partners(tests)):
-        left = [
-            effect for effect in list_candidates(first.model.effects, current.held.seen) if not _is_periodic(effect)
-        ]
+        left = [effect for effect in list_candidates(first.model.effects, current.held) if not _is_periodic(effect)]
 
         def heard(test: CandidateTest, first: CandidateTest = first) -> None:
             reporter.report(f"{first.effect} with {test.effect}", 0.5, test.effect, test.model.held.gap)

@@ -218,8 +218,8 @@ def make_problem(
         RecordingError: a recording has no usable motion, or the motor moves without any voltage.
     """
     check_effects(effects)
-    moved = any(np.any(recording.voltage) for recording in recordings)
-    if not moved:  # one that coasts tells of friction beside others
+    driven = any(np.any(recording.voltage) for recording in recordings)
+    if not driven:  # one that coasts tells of friction beside others
         raise RecordingError(f"{recordings[0].uri}: the voltage is always 0; record with the motor driven.")
     intervals = share_noise([make_intervals(recording) for recording in recordings])
     unknowns = make_unknowns(recordings, effects)

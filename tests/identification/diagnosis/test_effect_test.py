@@ -24,6 +24,7 @@ from motor_identification.diagnosis.effect_test import (
 )
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.noise.likelihood import Noise
+from motor_identification.recording import Recording
 from motor_model.effects import EFFECTS
 
 
@@ -32,9 +33,15 @@ def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
     assert names == [name for name in (effect.name for effect in EFFECTS) if name in names]  # in the table's order
     assert "coulomb_friction" in names and "static_friction" not in names  # which comes with Coulomb friction
     assert "missed_edges" not in names  # recognised in every fit, never fitted
-    seen, one_response = set(list_candidates((), seen=True)), set(list_candidates((), seen=True, confirms=False))
-    assert set(names) - seen == {"load_step", "warm_up"}
-    assert seen - one_response == {"torque_ripple", "encoder_eccentricity"}
+    held = stub_model(5.0).held
+    one = replace(held, recordings=held.recordings[:1] or (cast(Recording, None),), seen=True)
+    several = replace(one, recordings=2 * one.recordings)
+    assert list_candidates((), replace(several, seen=False, confirms=False)) == names
+    once, repeating = {"load_step", "warm_up"}, {"torque_ripple", "encoder_eccentricity"}
+    assert set(names) - set(list_candidates((), one)) == {"warm_up"}
+    assert set(names) - set(list_candidates((), several)) == once
+    for response in (one, several):
+        assert set(names) - set(list_candidates((), replace(response, confirms=False))) == once | repeating
     sliding = list_candidates(("coulomb_friction",))
     assert "static_friction" in sliding and "coulomb_friction" not in sliding
 
@@ -130,3 +137,17 @@ def test_friction_is_the_most_likely_of_what_is_tried(workers: int) -> None:
     assert tests[0].explains > 0.99 and choose_finding(tests) is tests[0]
     useless = next(test for test in tests if test.effect == "voltage_limit")
     assert useless.model is useless.before and useless.evidence == 0.0 and not useless.relevant  # nothing was promised
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.5, False), (1.5, True)])
+def test_what_begins_with_the_recording_is_constant(share: float, found: bool) -> None:
+    """However likely: an instant at the start is a load that is always there, or a wrong initial speed."""
+    estimate, hold_out = fitted(ks=0.0, step_voltage=0.6, step_time=2.5)
+    (test,) = try_effects(validate_model(hold_out, estimate), hold_out, ["load_step"], 1, lambda test: None)
+    fit = test.model.estimate
+    column = fit.problem.unknowns.names.index("step_time")
+    assert choose_finding([test]) is test and 2.0 < fit.theta[column] < 3.0
+    theta = fit.theta.copy()
+    theta[column] = share * thresholds.FROM_THE_START * fit.problem.recordings[0].duration
+    moved = replace(test, model=replace(test.model, estimate=replace(fit, theta=theta)))
+    assert (choose_finding([moved]) is moved) is found

@@ -88,7 +88,7 @@ class Fake:
         monkeypatch.setattr(forward_selection, "try_effects", self.try_effects)
         monkeypatch.setattr(Selection, "add", added)
         monkeypatch.setattr(
-            forward_selection, "list_candidates", lambda effects, seen, confirms: ["coulomb_friction", "load_bias"]
+            forward_selection, "list_candidates", lambda effects, judged: ["coulomb_friction", "load_bias"]
         )
         monkeypatch.setattr(Model, "effects", ())
 
@@ -190,7 +190,7 @@ def test_of_two_complete_models_the_one_with_fewer_findings_is_taken(
 
 def test_friction_is_selected_from_a_recording_that_hides_it(monkeypatch: pytest.MonkeyPatch) -> None:
     names = ("coulomb_friction", "quadratic_drag", "load_bias")
-    lacking = lambda effects, seen, confirms=True: [name for name in names if name not in effects]  # noqa: E731
+    lacking = lambda effects, judged: [name for name in names if name not in effects]  # noqa: E731
     monkeypatch.setattr(forward_selection, "list_candidates", lacking)
     estimate, hold_out = fitted(ks=0.4)
     start = begin_selection(estimate, hold_out, 1)
