@@ -6,7 +6,7 @@ from diagnosed import fitted
 from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_fit import validate_model
-from motor_identification.diagnosis.detectability import find_undetectable, remove_imitation
+from motor_identification.diagnosis.detectability import count_turns, find_undetectable, remove_imitation
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
@@ -42,3 +42,16 @@ def test_a_single_step_does_not_show_friction() -> None:
     assert "transport_delay" not in hidden  # of a step it is the first that one sees
     assert {"load_step", "warm_up"} <= set(hidden)  # which would be judged by what they were fitted to
     assert {"torque_ripple", "encoder_eccentricity"} <= set(hidden)  # of which any motion that was seen has some line
+
+
+@pytest.mark.parametrize(("turns", "shown"), [(1.8, False), (2.3, True)])
+def test_what_repeats_shows_from_two_turns_on(turns: float, shown: bool) -> None:
+    """A joint that swings by less than that has no angle twice."""
+    seconds = turns * np.pi * 2.0 * PAPER_KV / 3.0
+    drive = profiles.joined(profiles.pieces([3.0], [seconds]), *4 * [profiles.pieces([-3.0, 3.0], [seconds, seconds])])
+    recording = check(record({"kv": PAPER_KV, "ka": 0.02 * PAPER_KV}, *drive, single_channel=False, seed=1)[0])
+    hold_out = make_hold_out([recording], [])
+    problem = hold_out.restrict(make_problem([recording], ()))
+    model = validate_model(hold_out, fit_speeds(Estimate(problem, np.log([PAPER_KV, 0.02 * PAPER_KV]))))
+    assert count_turns(model) == pytest.approx(turns, abs=0.15)
+    assert {"torque_ripple", "encoder_eccentricity"}.isdisjoint(find_undetectable(model)) is shown
