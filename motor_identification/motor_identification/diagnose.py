@@ -17,7 +17,7 @@ from motor_identification.diagnosis.forward_selection import retry_with_another_
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection import Selection, begin_beside_torque, begin_selection
 from motor_identification.diagnosis.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
-from motor_identification.diagnosis.verdict import conclude
+from motor_identification.diagnosis.verdict import conclude, find_nearest
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import Request, SearchReport
@@ -72,9 +72,11 @@ def diagnose(
         lambda: perf_counter() - begun,
         selected.undetermined,
     )
-    if selected.finished:
-        return found
-    return replace(found, verdict=Verdict.UNDECIDED, time_limit=limit.seconds)
+    if not selected.finished:
+        return replace(found, verdict=Verdict.UNDECIDED, time_limit=limit.seconds)
+    if found.verdict is Verdict.UNEXPLAINED and not found.findings and limit.best is not None:
+        return replace(found, nearest=find_nearest(limit.best, found.gap_before))
+    return found
 
 
 def _has_smaller_gap(one: Selection, other: Selection) -> bool:

@@ -44,6 +44,14 @@ class Finding:
 
 
 @dataclass(frozen=True)
+class Nearest:
+    """Effects of the table that come nearest to a recording in which something else is missing; they may stand in."""
+
+    effects: tuple[str, ...]
+    gap: float  # [rad/s] with them
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """Verdict, findings, and the model with them; gaps in rad/s on held-out data."""
 
@@ -69,4 +77,5 @@ class Diagnosis:
     trace: Floats  # [rad/s] the gap after each step, the first entry before any
     duration: float  # [s]
     undetermined: tuple[str, ...] = ()  # effects that would explain more, of which this recording determines nothing
+    nearest: Nearest | None = None  # where nothing explains the gap, but something takes away most of it
     time_limit: float = 0.0  # [s] that ended the search before everything was tried; 0 where none did

@@ -103,6 +103,12 @@ MINOR_SHARE = 0.3
 # 3 to 6 times as much, those that stand in for a friction that builds up after a reversal 0.7 to 1.0 times.
 CURVE_MARGIN = 1.5
 
+# Times the gap without it: where nothing explains what is missing, what leaves less is worth telling. Measured: 0.46
+# for friction under a coasting bridge, of a real motor whose current is gone before the off time ends.
+NEAREST_GAP = 0.7
+# Of what a selection takes away, in squares: the first of its effects that do as much are told, without the rest.
+MOST_OF_NEAREST = 0.8
+
 # Does it hold the motor?
 # Of squares of travel, in units of the sensor's own: what a model moves where the motor stood under a voltage. A motion
 # of ten slots, or one interval in which a speed that was measured as zero is off by ten standard deviations.

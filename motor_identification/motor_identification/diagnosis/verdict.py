@@ -9,7 +9,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.detectability import find_undetectable
 from motor_identification.diagnosis.evidence.missed_edges import count_missed_edges
-from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Verdict
+from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Nearest, Verdict
 from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.estimation.request import SearchReport
@@ -124,6 +124,20 @@ def find_missed_edges(model: Model) -> Finding | None:
         ambiguous_with=(),
         suggested_experiment="",
     )
+
+
+def find_nearest(kept: Selection, base: float) -> Nearest | None:
+    """Find the first few effects of a selection that take away most of what all of it does, if that is much.
+
+    kept: what left the smallest gap on the way, though it explained not enough to be named. base: [rad/s] the gap
+    without any of it.
+    """
+    gaps = _list_gaps(kept)
+    if not gaps or gaps[-1] > thresholds.NEAREST_GAP * base:
+        return None
+    enough = base**2 - thresholds.MOST_OF_NEAREST * (base**2 - gaps[-1] ** 2)
+    count = next(number for number, gap in enumerate(gaps, 1) if gap**2 <= enough)
+    return Nearest(tuple(step.found.effect for step in kept.steps[:count]), gaps[count - 1])
 
 
 def decide(

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from motor_identification.diagnosis.result import Diagnosis, Finding
+from motor_identification.diagnosis.result import Diagnosis, Finding, Nearest
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.json_values import to_estimate, to_model, to_number
@@ -26,6 +26,7 @@ def diagnosis_to_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "undetectable": list(diagnosis.undetectable),
         "not_testable": list(diagnosis.undetectable),
         "undetermined": list(diagnosis.undetermined),
+        "nearest": _nearest_to_json(diagnosis.nearest),
         "suggested_experiment": diagnosis.suggested_experiment or None,
         "time_limit": diagnosis.time_limit or None,
         "baseline": to_model(diagnosis.baseline),
@@ -42,6 +43,10 @@ def _disturbance_to_json(disturbance: Disturbance | None) -> dict[str, Any] | No
         "rms_voltage": to_estimate(disturbance.rms_voltage, disturbance.rms_error),
         "correlation_time": to_estimate(disturbance.correlation_time, disturbance.time_error),
     }
+
+
+def _nearest_to_json(nearest: Nearest | None) -> dict[str, Any] | None:
+    return None if nearest is None else {"effects": list(nearest.effects), "gap": to_number(nearest.gap)}
 
 
 def _structure_to_json(one: Structure) -> dict[str, Any]:

@@ -122,7 +122,21 @@ def _unexplained(diagnosis: Diagnosis) -> str:
     if diagnosis.findings:
         found = f"{_describe_findings(diagnosis)} {capitalize(describe_gap_reduction(diagnosis))}."
         return f"{found} Another effect, which is not in the table, is missing. {rest}"
-    return f"An effect that is not in the table is missing: {_describe_gap(diagnosis)}. {rest}"
+    parts = [f"An effect that is not in the table is missing: {_describe_gap(diagnosis)}.", describe_nearest(diagnosis)]
+    return " ".join(part for part in (*parts, rest) if part)
+
+
+def describe_nearest(diagnosis: Diagnosis) -> str:
+    """Say which effects come nearest where nothing of the table explains what is missing; empty where none does."""
+    nearest = diagnosis.nearest
+    if nearest is None:
+        return ""
+    one = len(nearest.effects) == 1
+    names = capitalize(join_names([effect_name(name) for name in nearest.effects]))
+    return (
+        f"{names} {'comes' if one else 'come'} nearest: with {'it' if one else 'them'} the gap would be "
+        f"{nearest.gap:.3g} rad/s, but {'it' if one else 'they'} may only stand in for what is missing."
+    )
 
 
 def _describe_findings(diagnosis: Diagnosis) -> str:

@@ -3,11 +3,12 @@
 from dataclasses import replace
 
 import pytest
-from stub_models import short_by, stub_model
+from stub_models import short_by, stub_model, stub_test
+from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.result import Finding, Verdict
-from motor_identification.diagnosis.verdict import decide, find_missed_edges
+from motor_identification.diagnosis.result import Finding, Nearest, Verdict
+from motor_identification.diagnosis.verdict import decide, find_missed_edges, find_nearest
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -86,3 +87,24 @@ def test_intervals_that_are_scored_are_not_miscounted(miscounted: int, found: bo
 def test_without_slots_nothing_is_missed() -> None:
     model = stub_model(1.0, 0.0)
     assert find_missed_edges(replace(model, held=replace(model.held, miscounted=9))) is None
+
+
+@pytest.mark.parametrize(
+    ("gaps", "told"),
+    [
+        ([20.0, 10.0, 8.0], ("load_bias", "dead_zone")),  # the third does little
+        ([20.0, 15.0, 8.0], ("load_bias", "dead_zone", "load_step")),
+        ([8.1, 8.0], ("load_bias",)),
+        ([20.0, 24.0 * thresholds.NEAREST_GAP * 1.01], None),
+        ([], None),
+    ],
+)
+def test_what_comes_nearest_are_the_first_effects_that_do_most(gaps: list[float], told: tuple[str, ...] | None) -> None:
+    """Of 24 rad/s without any: 80 % in squares of what all take away."""
+    models = [stub_model(24.0), *map(stub_model, gaps)]
+    names = ("load_bias", "dead_zone", "load_step")
+    steps = [
+        step_of(stub_test(name, before, after, 100.0)) for name, before, after in zip(names, models, gaps, strict=False)
+    ]
+    found = find_nearest(selection_of(models[-1], *steps), 24.0)
+    assert found == (None if told is None else Nearest(told, pytest.approx(gaps[len(told) - 1])))

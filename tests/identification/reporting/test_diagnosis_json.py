@@ -6,7 +6,7 @@ from math import nan
 
 import pytest
 
-from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.diagnosis_json import diagnosis_to_json
@@ -17,8 +17,8 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     content = json.loads(json.dumps(diagnosis_to_json(nameless), allow_nan=False))
     assert list(content) == [
         "bags", "validation", "noise_floor", "sensor_floor", "disturbance", "structure", "gap_before", "gap_after",
-        "held_out", "verdict", "undetectable", "not_testable", "undetermined", "suggested_experiment", "time_limit",
-        "baseline", "findings", "model", "notes",
+        "held_out", "verdict", "undetectable", "not_testable", "undetermined", "nearest", "suggested_experiment",
+        "time_limit", "baseline", "findings", "model", "notes",
     ]  # fmt: skip
     assert content["bags"] == ["train.bag"] and content["validation"] == ["held_out.bag"]
     assert content["gap_before"] == found.gap_before and content["noise_floor"] == found.noise_floor
@@ -36,6 +36,9 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     assert finding["parameters"]["ks"]["value"] == pytest.approx(0.4, abs=0.002)
     assert list(finding["alternatives"][0]) == ["effect", "gap_after"]
     assert diagnosis_to_json(variants[Verdict.UNDECIDED])["findings"][0]["suggested_experiment"] == "coast"
+    assert content["nearest"] is None
+    nearest = diagnosis_to_json(replace(found, nearest=Nearest(("dead_zone", "coast_drive"), 11.25)))["nearest"]
+    assert nearest == {"effects": ["dead_zone", "coast_drive"], "gap": 11.25}
 
 
 def test_a_random_torque_and_what_curves_predict(found: Diagnosis) -> None:

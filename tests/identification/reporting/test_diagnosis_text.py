@@ -3,7 +3,9 @@
 import re
 from dataclasses import replace
 
-from motor_identification.diagnosis.result import Diagnosis, Verdict
+import pytest
+
+from motor_identification.diagnosis.result import Diagnosis, Nearest, Verdict
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import Disturbance
 from motor_identification.reporting.diagnosis_text import SEEN, format_diagnosis, summarize_diagnosis
@@ -86,3 +88,19 @@ def test_the_variable_that_predicts_the_rest_is_named(variants: dict[Verdict, Di
     assert "Of what is left, 62 % can be predicted from the speed." in said
     faint = (Structure("speed", 0.05, 90.0),)
     assert "predicted" not in summarize_diagnosis(replace(variants[Verdict.UNEXPLAINED], structure=faint))
+
+
+@pytest.mark.parametrize(
+    ("effects", "come", "they"),
+    [
+        (("coulomb_friction",), "Coulomb friction comes nearest: with it", "it"),
+        (("dead_zone", "coast_drive"), "Dead zone and coast drive come nearest: with them", "they"),
+    ],
+)
+def test_what_comes_nearest_is_told_where_nothing_is_named(
+    effects: tuple[str, ...], come: str, they: str, variants: dict[Verdict, Diagnosis]
+) -> None:
+    nothing = replace(variants[Verdict.UNEXPLAINED], findings=(), nearest=Nearest(effects, 11.23))
+    said = f"{come} the gap would be 11.2 rad/s, but {they} may only stand in for what is missing."
+    assert said in summarize_diagnosis(nothing)
+    assert "nearest" not in summarize_diagnosis(replace(nothing, nearest=None))
