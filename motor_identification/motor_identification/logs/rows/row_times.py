@@ -30,7 +30,8 @@ def give_times(table: Table, period: float) -> Table:
 def sum_steps(table: Table) -> Table:
     """Add a column of times where there is none, and one says by its name how long every row took: `dt`, `delta_t_ms`.
 
-    Such a column has about the same value in all rows, above 0; the first row is at 0.
+    Such a column has about the same value in all rows, above 0, but for the first, which is at 0 and may say so; one
+    that grows from row to row is a clock.
     """
     headings = [read_heading(name) for name in table.names]
     if any(one.quantity is Quantity.TIME and not _STEP & _joined(one) for one in headings):
@@ -39,16 +40,23 @@ def sum_steps(table: Table) -> Table:
     if len(named) != 1:
         return table
     (step,) = named
-    steps = table.numbers(step.name)
-    if not np.all(steps > 0.0) or np.quantile(steps, 0.9) > LONGEST * np.quantile(steps, 0.1):
+    steps = table.numbers(step.name)[1:]
+    if not np.all(steps > 0.0) or _is_clock(steps):
+        return table
+    if np.quantile(steps, 0.9) > LONGEST * np.quantile(steps, 0.1):
         return table
     unit = f" [{step.unit}]" if step.unit else ""
-    time = np.concatenate([[0.0], np.cumsum(steps[1:])])
+    time = np.concatenate([[0.0], np.cumsum(steps)])
     cells = {name: cells for name, cells in table.cells.items() if name != step.name}
     note = (
         f"No column of times: they are summed from {step.name}, how long after the one before each row was (assumed)."
     )
     return replace(table, cells={f"time{unit}": time, **cells}, notes=(*table.notes, note))
+
+
+def _is_clock(values: NDArray[np.float64]) -> bool:
+    """Whether values, shape (K,), are times, which go on and never back, or too few to tell."""
+    return len(values) < 2 or bool(np.all(np.diff(values) >= 0.0) and values[-1] > values[0])
 
 
 def _joined(heading: Heading) -> frozenset[str]:

@@ -85,18 +85,26 @@ def test_times_are_summed_from_how_long_each_row_took(name: str, unit: float, na
     assert summed.notes[-1].startswith(f"No column of times: they are summed from {name}, how long")
 
 
+def test_the_first_row_may_have_taken_nothing() -> None:
+    table = Table(Path("log.csv"), np.arange(2, 62), {"u": np.ones(60), "dt": np.where(np.arange(60), 0.01, 0.0)})
+    assert sum_steps(table).numbers("time") == pytest.approx(0.01 * np.arange(60))
+
+
 @pytest.mark.parametrize(
     "columns",
     [
         {"t": np.arange(60.0), "dt": np.ones(60)},  # there are times
         {"u": np.ones(60), "dt": np.where(np.arange(60) < 30, 1.0, 0.0)},  # no time passes
         {"u": np.ones(60), "delta_t": np.arange(1.0, 61.0)},  # since the first row
+        {"u": np.ones(60), "timestep": 1000.0 + np.arange(60) // 2},  # a coarse clock that ran before
+        {"u": np.ones(60), "dt": 1.0 + np.arange(60) % 20},  # of anything
+        {"u": np.ones(2), "dt": np.ones(2)},  # nothing tells
         {"u": np.ones(60), "dt": np.ones(60), "delta_t": np.ones(60)},  # two of them
         {"u": np.ones(60), "data": np.ones(60)},
     ],
 )
 def test_other_columns_are_not_summed(columns: dict[str, np.ndarray]) -> None:
-    table = Table(Path("log.csv"), np.arange(2, 62), columns)
+    table = Table(Path("log.csv"), np.arange(2, 2 + len(next(iter(columns.values())))), columns)
     assert sum_steps(table) is table
 
 
