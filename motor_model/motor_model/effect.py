@@ -95,6 +95,7 @@ class Effect:
         holds: it holds the motor at rest under a voltage, which nothing that only shapes a motion does.
         anywhere: it happens once, or slowly: a few pieces of a long recording do not show it.
         after_reversals: it shows for a while after the motor has turned round, and nowhere else.
+        constant: the effect of the same size that it is where it began before the motion did.
         fitted: a fit can have it as a parameter; else it is recognised in what any fit leaves.
     """
 
@@ -110,6 +111,7 @@ class Effect:
     holds: bool = False
     anywhere: bool = False
     after_reversals: bool = False
+    constant: str | None = None
     fitted: bool = True
 
     @property

@@ -75,6 +75,7 @@ EFFECTS = (
             P("step_time", "s", 0.0, 0.0, 1.0, DURATION, of_recording=True, starts=(0.1, 0.3, 0.5, 0.7, 0.9)),
         ),
         anywhere=True,
+        constant="load_bias",
     ),
     Effect(
         "dead_zone",

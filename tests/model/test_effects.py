@@ -48,6 +48,9 @@ def test_every_row_of_the_table_can_be_searched() -> None:
 def test_every_row_of_the_table_can_be_added_to_a_fitted_model() -> None:
     for effect in EFFECTS:
         assert effect.implies is None or effect.implies in EFFECT_BY_NAME
+        if effect.constant is not None:  # of the same size, and of nothing else
+            (spec,) = EFFECT_BY_NAME[effect.constant].parameters
+            assert (spec.unit, spec.scale) == (effect.parameters[0].unit, effect.parameters[0].scale)
         for spec in effect.parameters:
             started = effect.fitted and not effect.periodic  # what is periodic starts from its spectrum
             assert bool(spec.starts) == started, f"{spec.name} needs starts"

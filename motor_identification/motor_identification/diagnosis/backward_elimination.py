@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import fit_again, judge_beside_torque, refit_without
+from motor_identification.diagnosis.candidate_fit import fit_again, fit_constant, judge_beside_torque, refit_without
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
@@ -19,7 +19,7 @@ from motor_identification.diagnosis.effect_test import (
     sort_by_table,
     try_effects,
 )
-from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss
+from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss, is_better
 from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_beside_torque
 from motor_identification.diagnosis.stand_ins import stands_in_for_curve
 from motor_identification.noise.error_model import ErrorModel
@@ -49,6 +49,10 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
         current = _judge_by_errors_of(without.learned, current, selection.hold_out)
     if not _is_needed(effect, without, current):
         return selection.replace_step(step, None, without)
+    constant = _find_constant(effect, without, current, selection.hold_out)
+    if constant is not None:
+        by = replace(step, found=constant, rivals=tuple(name for name in step.rivals if name != constant.effect))
+        return _check_step(selection.replace_step(step, by, constant.model), by, reporter)
     judged_alike = step.found.model.beside_torque == current.beside_torque
     lost = list_lost(step, current.effects)
     if step is selection.steps[-1] and judged_alike and not lost:  # what could be in its place was tried beside it
@@ -61,6 +65,18 @@ def _is_needed(effect: str, without: Model, current: Model) -> bool:
     if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
         return False
     return not (EFFECT_BY_NAME[effect].after_reversals and stands_in_for_curve(without, current))
+
+
+def _find_constant(effect: str, without: Model, current: Model, hold_out: HoldOut) -> CandidateTest | None:
+    """Find the constant effect that one of the current model is, as it began before the motion did; None if it is none.
+
+    From the very motion: without a load, friction stands in for it, and a fit from there may end far away.
+    """
+    constant = EFFECT_BY_NAME[effect].constant
+    if constant is None or constant in current.effects:
+        return None
+    test = CandidateTest(constant, without, fit_constant(current, effect, constant, hold_out))
+    return test if is_better(test, effect, current) else None
 
 
 def _try_in_place(

@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import cast
 
 import pytest
-from diagnosed import fitted
+from diagnosed import fitted, with_effect
 from stub_models import rescored, stub_model, stub_test, with_effects
 from stub_selections import stub_selection
 
@@ -22,6 +22,7 @@ from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
+from motor_model.effects import EFFECT_BY_NAME
 
 BELOW, ABOVE = 0.999, 1.001
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
@@ -90,6 +91,35 @@ def test_what_is_not_needed_beside_the_others_is_taken_back() -> None:
     assert [step.found.effect for step in left.steps] == ["coulomb_friction"]
     assert left.model.effects == ("coulomb_friction",) and left.model.at_floor
     assert left.model.estimate.parameters.value("ks") == pytest.approx(0.4, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("hidden", "step_time", "named"),
+    [
+        ({"bias_voltage": 0.3}, 1e-3, "load_bias"),
+        ({"step_voltage": 0.6, "step_time": 2.5}, 2.5, "load_step"),
+    ],
+)
+def test_a_load_that_came_before_the_motion_is_constant(hidden: dict[str, float], step_time: float, named: str) -> None:
+    """It was selected without friction, which held the motor until it was driven; no other was likely there."""
+    estimate, hold_out = fitted(ks=0.4, **hidden)
+    bare = validate_model(hold_out, estimate)
+    first = with_effect(estimate, "load_step", {"step_voltage": 0.3, "step_time": step_time})
+    with_load = validate_model(hold_out, first)
+    both = fit_with_effect(first, "coulomb_friction")
+    assert both is not None and both.parameters.value("step_time") == pytest.approx(step_time, abs=0.01)
+    last = validate_model(hold_out, both)
+    load, friction = CandidateTest("load_step", bare, with_load), CandidateTest("coulomb_friction", with_load, last)
+    steps = (
+        SelectionStep(bare, load, (load,), ("quadratic_drag",), load.explains),
+        SelectionStep(with_load, friction, (friction,), (), friction.explains),
+    )
+    left = eliminate_backward(Selection(steps, last, hold_out, 1), SILENT)
+    assert [step.found.effect for step in left.steps] == [named, "coulomb_friction"]
+    assert (left.steps[0].found is load) is (named == "load_step")  # which is not given away and found again
+    assert left.model.effects == tuple(sorted((named, "coulomb_friction"))) and left.model.at_floor
+    size = EFFECT_BY_NAME[named].parameters[0].name
+    assert left.model.estimate.parameters.value(size) == pytest.approx(hidden[size], rel=1e-3)
 
 
 @pytest.mark.parametrize(
