@@ -27,6 +27,8 @@ ROUGH_PEAKS, PEAK_REACH = 32, 2.0  # of the rough spectrum, and how many of its 
 FINE_CANDIDATES = 3  # of those, which are searched in the whole recording
 KNOT_DISTANCE = 16  # grid points
 SPILLED = 2.0  # times the sum of a block's white squares: no more of it is explained, as whitening mixes neighbours
+# Numbers of cycles, from the most on, of which the finest that could be seen is; and what is tried beside each.
+FINEST_TRIED, FINEST_NEAR = 24, np.array([1.0, 0.97, 0.93])
 # Of the sum of white squares, for each counted run and so many more: slips explain by chance.
 SLIP_CHANCE, SLIP_CHANCE_BASE = 4.0, 12
 # The same of what cannot slip, for each run that has a phase of its own, and for the best of all lines: of 10,000 it
@@ -55,7 +57,8 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     most = SPEC_BY_NAME["ripple_voltage"].box(problem.unknowns.extent)[1]
     turns = max(np.ptp(np.concatenate([run.course.start, run.course.end])) for run in runs) / tau
     width = 1.0 / (POINTS_PER_LINE * min(BLOCK_TURNS, max(turns, 1.0)))
-    rough = np.arange(low, high, width)
+    high = find_finest(runs, low, high, most)
+    rough = np.arange(low, high + width, width)
     blocks = [run.number_blocks() for run in runs]
     spectrum = _spectrum(runs, rough, blocks, most, problem.raise_if_stopped)
     if spectrum.max() - 2.0 * sum(int(block.max()) + 1 for block in blocks) < least:
@@ -78,6 +81,19 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
         found.append(max(lines, key=lambda line: line.explained))
     chance = sum(map(_explained_by_chance, runs, problem.intervals)) if least > 0.0 else 0.0
     return sorted((line for line in found if line.explained > max(least, chance)), key=lambda line: -line.explained)
+
+
+def find_finest(runs: Sequence[WhitenedRun], low: float, high: float, most: float) -> float:
+    """Find the most cycles a turn, from low to high, of which a ripple of `most` [V] would stand out of the noise.
+
+    A motor hardly follows a finer one, and rows of a fast motor take its mean.
+    """
+    for cycles in np.geomspace(high, low, FINEST_TRIED):
+        for near in cycles * FINEST_NEAR:  # one alone may be where whole waves pass from row to row
+            sums = [run.sum_products(near, np.zeros_like(run.course.run)) for run in runs]
+            if 0.5 * most**2 * sum(float(part[0, 0] + part[0, 2]) for part in sums) > LINE_CHANCE:
+                return float(cycles)
+    return low
 
 
 def _explained_by_chance(run: WhitenedRun, data: Intervals) -> float:

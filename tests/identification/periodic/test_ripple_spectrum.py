@@ -12,7 +12,7 @@ from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
 from motor_identification.periodic.periodic_fit import Tracks, measure_angles
-from motor_identification.periodic.ripple_spectrum import find_ripples, fit_ripple
+from motor_identification.periodic.ripple_spectrum import LINE_CHANCE, find_finest, find_ripples, fit_ripple
 from motor_identification.periodic.whitened_run import whiten_runs
 from motor_identification.recording import check
 from motor_model.effects import SPEC_BY_NAME
@@ -85,3 +85,20 @@ def test_a_line_of_given_cycles(off: float, share: float) -> None:
         one.explained == pytest.approx(best.explained, rel=1e-9) if off == 0.0 else one.explained < 0.5 * best.explained
     )
     assert one.amplitude > share * best.amplitude
+
+
+@pytest.mark.parametrize("volts", [1.0, 0.1, 0.01])
+def test_no_finer_ripple_than_could_be_seen_is_searched(volts: float) -> None:
+    """What one of so many volts would explain, of the sum of white squares: as much as chance, and not finer."""
+    runs = whiten_runs(*lacking())
+    finest = find_finest(runs, 1.0, 400.0, volts)
+
+    def explained(cycles: float) -> float:
+        sums = [run.sum_products(cycles, np.zeros_like(run.course.run))[0] for run in runs]
+        return 0.5 * volts**2 * sum(float(part[0] + part[2]) for part in sums)
+
+    around = finest * np.array([1.0, 0.97, 0.93])
+    assert max(map(explained, around)) > LINE_CHANCE or finest == 1.0
+    finer = np.geomspace(1.3 * finest, 400.0, 12) if finest < 300.0 else []
+    assert all(explained(cycles) < 1.5 * LINE_CHANCE for cycles in finer)
+    assert {1.0: 100.0, 0.1: 20.0, 0.01: 1.0}[volts] <= finest <= {1.0: 400.0, 0.1: 100.0, 0.01: 20.0}[volts]
