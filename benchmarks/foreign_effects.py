@@ -26,23 +26,33 @@ USUAL_SPAN = 28.0  # [s] of the recordings that the sizes are made for
 def draw_rare(seed: int) -> Case:
     """Draw a motor and its log as `foreign_logs` does, and put an effect in it."""
     case, random = draw(seed), np.random.default_rng([18, seed])
-    kv, lag, span = case.values["kv"], case.lag, span_of(case)
-    ratio = np.array([case.supply, case.supply / kv, lag]) / USUAL
     outside = random.random() < 0.2
     sensor = str(random.choice(SENSORS))
     name = str(random.choice(list(OUTSIDE) if outside else RARE))
     if name == "encoder_eccentricity":  # of the disc that is counted
         sensor = str(random.choice(SENSORS[:2]))
     values = {key: value for key, value in case.values.items() if key in ("kv", "ka", "max_voltage") or "torque" in key}
-    hidden: tuple[str, ...] = (name,)
     if random.random() < 0.8 or name == "static_friction":
         values["ks"] = random.uniform(0.02, 0.12) * case.supply
-        hidden = ("coulomb_friction", name)
-    for key, bounds in (SIZES | OUTSIDE)[name].items():
-        if key != "ks" or "ks" not in values:
-            values[key] = random.uniform(*bounds) * float(np.prod(ratio ** np.array(GROWTH.get(key, (0.0, 0.0, 0.0)))))
+    values |= _draw_sizes(case, name, values, random)
+    excitation = str(random.choice(EXCITATIONS[1:]))
+    if name == "angle_friction" and excitation.endswith("one way"):  # which is what a load that ripples does
+        name = "torque_ripple"
+    hidden = ("coulomb_friction", name) if "ks" in values else (name,)  # what is outside the table may have its own
+    return replace(case, values=values, hidden=hidden, excitation=excitation, sensor=sensor)
+
+
+def _draw_sizes(case: Case, name: str, known: dict[str, float], random: np.random.Generator) -> dict[str, float]:
+    """Draw how large an effect is, for a motor and a log of this size; `known` is in the motor already."""
+    kv, span = case.values["kv"], span_of(case)
+    ratio = np.array([case.supply, case.supply / kv, case.lag]) / USUAL
+    values = {
+        key: random.uniform(*bounds) * float(np.prod(ratio ** np.array(GROWTH.get(key, (0.0, 0.0, 0.0)))))
+        for key, bounds in (SIZES | OUTSIDE)[name].items()
+        if key not in known
+    }
     if name == "static_friction":
-        values["breakaway_voltage"] = values["ks"] + random.uniform(0.02, 0.06) * case.supply
+        values["breakaway_voltage"] = known["ks"] + random.uniform(0.02, 0.06) * case.supply
     if "step_time" in values:
         values["step_time"] = random.uniform(0.2, 0.8) * span
     if "warm_up_time" in values:
@@ -50,10 +60,7 @@ def draw_rare(seed: int) -> Case:
     if "ripple_cycles" in values:  # four rows of a wave at half the top speed, and as many as motors have
         most = min(np.pi * case.rate * kv / case.supply, case.counts / 3.0, 60.0)
         values["ripple_cycles"] = float(max(1.0, most ** random.random()))
-    excitation = str(random.choice(EXCITATIONS[1:]))
-    if name == "angle_friction" and excitation.endswith("one way"):  # which is what a load that ripples does
-        hidden = (*hidden[:-1], "torque_ripple")
-    return replace(case, values=values, hidden=hidden, excitation=excitation, sensor=sensor)
+    return values
 
 
 def one(seed: int) -> Outcome:

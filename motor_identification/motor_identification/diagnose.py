@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 
 from motor_identification.diagnosis.backward_elimination import add_rivals_beside_torque, eliminate_backward
-from motor_identification.diagnosis.candidate_test import fits_torque, predicts_far_worse
+from motor_identification.diagnosis.candidate_test import fits_torque, likelihood_threshold, predicts_far_worse
 from motor_identification.diagnosis.determination import drop_undetermined
 from motor_identification.diagnosis.forward_selection import retry_with_another_first, select_forward
 from motor_identification.diagnosis.result import Diagnosis, Verdict
@@ -178,6 +178,9 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
         reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
         begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
         selection = eliminate_backward(select_forward(begun, reporter), reporter)
-        if selection.model.complete and not predicts_far_worse(selection.model.held.gap, plain.model.held.gap):
+        worse = predicts_far_worse(selection.model.held.gap, plain.model.held.gap)
+        if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
+            worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
+        if selection.model.complete and not worse:
             return selection if disturbed or set(selection.model.effects) > set(plain.model.effects) else None
     return None
