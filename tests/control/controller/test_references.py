@@ -12,6 +12,7 @@ from motor_control.controller.controller import Config, State
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
 from motor_control.controller.reference.demand import Kind
 from motor_model.sample import Info, Sample
+from motor_model.sensing.mains_rhythm import Rhythm
 
 CONFIG = config_of(DEFAULTS, Info())
 MS = 1_000_000
@@ -92,7 +93,8 @@ def test_a_plant_that_was_away_waits(away: int, resumes: bool) -> None:
 
 def test_another_plant_waits() -> None:
     """Somebody's recording was played beside a running loop: its motor/info had ten times the edges."""
-    state = controller.meet_other_plant(running())
+    state = controller.meet_other_plant(replace(running(), rhythm=Rhythm(edges=20, at_rest=1.0)))
+    assert state.rhythm == Rhythm()
     output, state = feed(state, [200, 205])
     waits(output, "another one than before")
     assert state.motion is None and feed(state, [210], 60.0)[0].state == RUNNING

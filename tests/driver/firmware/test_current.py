@@ -31,6 +31,8 @@ def test_a_blocked_motor_is_off_before_anything_else_notices(make_rig: MakeRig, 
     if stops:
         assert rig.enable() == ""
         rig.until(lambda: rig.pins > 0.9 * volts, 200)
+        rig.run(100)  # as a stop for what the motor did it counts
+        assert rig.pins == 0.0 and "It has stopped 2 times" in rig.enable()
 
 
 def test_a_driver_without_limits_takes_those_of_the_one_before_away(make_rig: MakeRig) -> None:

@@ -12,6 +12,7 @@ from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.reference.ending import AWAY, OFF, drop_old_reference
 from motor_model.sample import Info, Sample
+from motor_model.sensing.mains_rhythm import Rhythm
 
 CONFIG = config_of(DEFAULTS, Info())
 PLANT = PlantWatch(5_000_000, 7)
@@ -31,8 +32,10 @@ def test_a_reference_lasts() -> None:
 def test_a_plant_that_was_restarted_is_forgotten_whether_or_not_something_is_asked_for() -> None:
     state = controller.update(CONFIG, State(), Sample(0, 3.0, 0.0), 60.0, 0.0)[1]
     assert state.motion is not None and state.faults is not None
+    state = replace(state, rhythm=Rhythm(edges=20, at_rest=1.0))
     after = end(state, 0.01, replace(PLANT, restarted=True))
     assert after.motion is after.faults is after.demand is None and after.dropped == "The plant was restarted."
+    assert after.rhythm == Rhythm()
     free = replace(state, demand=None)
     after = end(free, 0.01, replace(PLANT, restarted=True))
     assert after.motion is None and after.dropped == free.dropped

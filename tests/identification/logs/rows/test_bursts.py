@@ -52,6 +52,14 @@ def test_a_board_that_pauses_has_a_clock_of_its_own() -> None:
     assert not spread(times)[1]
 
 
+@pytest.mark.parametrize(("one_in", "told"), [(20, True), (4, False)])
+def test_bursts_that_end_beside_an_even_clock_keep_their_times(one_in: int, told: bool) -> None:
+    """One in so many is handed on 20 ms late; a row more takes as long as before, on average."""
+    times = handed_on(120)
+    late = np.cumsum(np.diff(times, prepend=times[0]) > 2.0 * WITHIN) % one_in == 1
+    assert bool(spread(times + 0.02 * late)[1]) == told
+
+
 @pytest.mark.parametrize(("bursts", "told"), [(FEWEST + 1, True), (FEWEST, False)])
 def test_ten_bursts_tell(bursts: int, told: bool) -> None:
     assert bool(spread(handed_on(bursts))[1]) == told
