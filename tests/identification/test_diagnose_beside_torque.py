@@ -1,0 +1,61 @@
+"""Whether what was found without a random torque is judged again beside one, and which of the two is believed."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from stub_models import StubModel, rescored, stub_model, stub_test
+from stub_selections import selection_of, step_of
+
+from motor_identification import diagnose as module
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import likelihood_threshold
+from motor_identification.diagnosis.selection import Selection
+from motor_identification.progress import ProgressReporter
+
+SILENT = ProgressReporter(lambda stage: None, lambda: False)
+
+
+def seen(model: Model, by_fit: bool) -> Model:
+    """The model, judged by motion that its fit has seen, or not."""
+    return replace(model, held=replace(model.held, seen=by_fit))
+
+
+def selected(monkeypatch: pytest.MonkeyPatch, plain: Selection, begun: Selection, ended: Selection) -> Selection | None:
+    """What is selected where nothing is fitted: the selections beside a torque are given."""
+    monkeypatch.setattr(Model, "complete", True)
+    monkeypatch.setattr(module, "begin_beside_torque", lambda *rest: begun)
+    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended)
+    return module._select_beside_torque(plain, plain, SILENT)
+
+
+@pytest.mark.parametrize(
+    ("by_fit", "gain", "believed"), [(True, 0.9, True), (True, 1.1, False), (False, 0.9, False), (False, -9.0, False)]
+)
+def test_a_gap_that_was_fitted_is_no_prediction(
+    by_fit: bool, gain: float, believed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Beside a torque the load step goes, and the gap doubles: that counts where the motion was held out."""
+    before = seen(stub_model(8.0), by_fit)
+    step = step_of(stub_test("load_step", before, 4.0, 100.0))
+    plain = selection_of(seen(stub_model(4.0), by_fit), step)
+    begun = selection_of(rescored(plain.model, likelihood=gain * likelihood_threshold()), step)
+    ended = selection_of(seen(stub_model(2.0 * thresholds.WORSE_GAP * 4.0), by_fit))
+    assert (selected(monkeypatch, plain, begun, ended) is ended) is believed
+
+
+@pytest.mark.parametrize(
+    ("refused", "more", "believed"), [(True, True, True), (True, False, False), (False, True, False)]
+)
+def test_what_was_refused_is_looked_for_once_more(
+    refused: bool, more: bool, believed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At the sensor's floor nothing else is judged again: it is believed if there is more."""
+    plain = replace(selection_of(stub_model(1.0, 0.0)), refused=refused)
+    ended = selection_of(stub_model(0.9, 0.0))
+    effects: dict[int, Any] = {id(ended.model): ("load_bias",) if more else ()}
+    monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
+    assert not plain.model.above_floor and not plain.model.lasts
+    assert (selected(monkeypatch, plain, plain, ended) is ended) is believed
