@@ -10,9 +10,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 
+from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import add_rivals_beside_torque, eliminate_backward
 from motor_identification.diagnosis.candidate_test import fits_torque, likelihood_threshold, predicts_far_worse
 from motor_identification.diagnosis.determination import drop_undetermined
+from motor_identification.diagnosis.effect_test import count_waves
 from motor_identification.diagnosis.forward_selection import retry_with_another_first, select_forward
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection import Selection, begin_beside_torque, begin_selection
@@ -167,9 +169,10 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
     From what was found without it, and where that leads nowhere from the beginning. Where only something likely was
     refused, that is looked for, and nothing that was found is judged again.
     """
-    # A line of many turns is its own evidence; what repeats once in a turn, or happens once, slow torques do by chance.
+    # A line of many waves is its own evidence; what comes back a few times, or happens once, slow torques do by chance.
     effects = [EFFECT_BY_NAME[step.found.effect] for step in plain.steps]
-    line = any(effect.periodic and not effect.on_disc for effect in effects)
+    lines = [effect.name for effect in effects if effect.periodic and not effect.on_disc]
+    line = any(count_waves(plain.model, name) > thresholds.MANY_WAVES for name in lines)
     lasted = any(step.before.lasts for step, effect in zip(plain.steps, effects, strict=True) if effect.anywhere)
     disturbed = plain.model.above_floor or lasted or (plain.model.lasts and not line)
     if not (disturbed or plain.refused):

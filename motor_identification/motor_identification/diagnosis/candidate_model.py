@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from math import exp, sqrt
+from math import exp, sqrt, tau
 
 import numpy as np
 
@@ -70,6 +70,12 @@ class Model:
     def lag(self) -> Lag:
         """The motor as a first-order lag."""
         return self.estimate.lag
+
+    @cached_property
+    def turns(self) -> float:
+        """Turns of the encoder's shaft between the ends of its motion, in the recording that has most of them."""
+        rows = zip(self.estimate.problem.intervals, self.estimate.angles, strict=True)
+        return max(data.gear * float(np.ptp(angle)) for data, angle in rows) / tau
 
     @cached_property
     def whitened(self) -> WhitenedFit:

@@ -1,7 +1,5 @@
 """Find undetectable effects: of a size that matters, but with a trace that the model's own parameters imitate."""
 
-from math import tau
-
 import numpy as np
 
 from motor_identification.diagnosis.candidate_model import Model
@@ -26,7 +24,7 @@ def find_undetectable(model: Model) -> tuple[str, ...]:
     hidden, judged = [], list_candidates(model.effects, model.held)
     for effect in list_candidates(model.effects):
         if EFFECT_BY_NAME[effect].periodic:
-            if effect not in judged or count_turns(model) < LEAST_TURNS:  # of one response, any line explains some
+            if effect not in judged or model.turns < LEAST_TURNS:  # of one response, any line explains some
                 hidden.append(effect)
             continue
         larger = add_noticeable_effect(model.estimate, effect)
@@ -35,12 +33,6 @@ def find_undetectable(model: Model) -> tuple[str, ...]:
         if effect not in judged or _expect_evidence(model, left) < likelihood_threshold():
             hidden.append(effect)
     return tuple(hidden)
-
-
-def count_turns(model: Model) -> float:
-    """Count the turns of the encoder's shaft, there and back once, in the recording that has most of them."""
-    rows = zip(model.estimate.problem.intervals, model.estimate.angles, strict=True)
-    return max(data.gear * float(np.ptp(angle)) for data, angle in rows) / tau
 
 
 def remove_imitation(columns: Floats, trace: Floats, weight: Floats) -> Floats:

@@ -99,7 +99,19 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
 
 
 def _is_finding(test: CandidateTest) -> bool:
-    return is_supported(test) and test.relevant and not _is_there_from_the_start(test)
+    comes_back = count_waves(test.model, test.effect) > thresholds.LEAST_WAVES
+    return is_supported(test) and test.relevant and comes_back and not _is_there_from_the_start(test)
+
+
+def count_waves(model: Model, effect: str) -> float:
+    """Count the waves over the angle that an effect of a model has from one end of its motion to the other.
+
+    Infinitely many of one that has none, or of which no line was found to fit. What is on the disc has one in a turn.
+    """
+    specs = [spec for spec in EFFECT_BY_NAME[effect].parameters if spec.of_encoder]
+    if not specs or effect not in model.effects:
+        return inf
+    return max(model.estimate.parameters.values[spec.name] for spec in specs) * model.turns
 
 
 def _is_there_from_the_start(test: CandidateTest) -> bool:

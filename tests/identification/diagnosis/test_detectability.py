@@ -6,7 +6,7 @@ from diagnosed import fitted
 from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_fit import validate_model
-from motor_identification.diagnosis.detectability import count_turns, find_undetectable, remove_imitation
+from motor_identification.diagnosis.detectability import find_undetectable, remove_imitation
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
@@ -53,5 +53,5 @@ def test_what_repeats_shows_from_two_turns_on(turns: float, shown: bool) -> None
     hold_out = make_hold_out([recording], [])
     problem = hold_out.restrict(make_problem([recording], ()))
     model = validate_model(hold_out, fit_speeds(Estimate(problem, np.log([PAPER_KV, 0.02 * PAPER_KV]))))
-    assert count_turns(model) == pytest.approx(turns, abs=0.15)
+    assert model.turns == pytest.approx(turns, abs=0.15)
     assert {"torque_ripple", "encoder_eccentricity"}.isdisjoint(find_undetectable(model)) is shown

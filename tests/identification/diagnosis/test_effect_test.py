@@ -16,6 +16,7 @@ from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     count_parameters,
+    count_waves,
     drop_chance_harmonics,
     find_rivals,
     list_candidates,
@@ -151,3 +152,20 @@ def test_what_begins_with_the_recording_is_constant(share: float, found: bool) -
     theta[column] = share * thresholds.FROM_THE_START * fit.problem.recordings[0].duration
     moved = replace(test, model=replace(test.model, estimate=replace(fit, theta=theta)))
     assert (choose_finding([moved]) is moved) is found
+
+
+@pytest.mark.parametrize(("waves", "found"), [(0.9, False), (1.1, True)])
+def test_a_line_comes_back_a_few_times(waves: float, found: bool) -> None:
+    """Of fewer waves from one end of the motion to the other it is any slow torque."""
+    estimate, hold_out = fitted(ripple_voltage=0.4, ripple_cycles=6.0, ripple_phase=0.5)
+    (test,) = try_effects(validate_model(hold_out, estimate), hold_out, ["torque_ripple"], 1, lambda test: None)
+    assert choose_finding([test]) is test
+    fit = test.model.estimate
+    theta = fit.theta.copy()
+    cycles = waves * thresholds.LEAST_WAVES / test.model.turns
+    theta[fit.problem.unknowns.names.index("ripple_cycles")] = cycles
+    few = replace(test.model, estimate=replace(fit, theta=theta))
+    few.__dict__["turns"] = test.model.turns
+    assert count_waves(few, "torque_ripple") == pytest.approx(waves * thresholds.LEAST_WAVES)
+    assert count_waves(few, "coulomb_friction") == np.inf == count_waves(test.before, "torque_ripple")
+    assert (choose_finding([replace(test, model=few)]) is not None) is found
