@@ -111,8 +111,8 @@ def test_what_the_readme_says_of_simulated_motors_is_what_the_pages_have() -> No
     right, part, silent, wrong = (sum(map(int, column)) for column in zip(*rows, strict=True))
     assert f"{right} of {right + part + silent + wrong} were named exactly, and\n[{WORDS[wrong]} " in README
     for page, words in (
-        ("foreign_logs.md", "were right, {} told less than all and {}"),
-        ("foreign_effects.md", "right, {} less than all and {} wrong"),
+        ("foreign_logs.md", "were right, {} told less than all and {} a wrong name"),
+        ("foreign_effects.md", "were right, {} less than all and {} wrong"),
     ):
         all_ = re.search(r"^\| all \|" + 5 * r" (\d+) \|", (pages / page).read_text("utf-8"), re.M)
         assert all_ is not None
