@@ -1,5 +1,6 @@
 """A line in the residual's spectrum over the angle: its cycles, amplitude and phase; nothing where there is none."""
 
+from dataclasses import replace
 from functools import cache
 from math import tau
 
@@ -12,7 +13,17 @@ from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
 from motor_identification.periodic.periodic_fit import Tracks, measure_angles
-from motor_identification.periodic.ripple_spectrum import LINE_CHANCE, find_finest, find_ripples, fit_ripple
+from motor_identification.periodic.ripple_spectrum import (
+    LINE_CHANCE,
+    PHASE_CHANCE,
+    SLIP_CHANCE,
+    SLIP_CHANCE_BASE,
+    _explained_by_chance,
+    _spectrum,
+    find_finest,
+    find_ripples,
+    fit_ripple,
+)
 from motor_identification.periodic.whitened_run import whiten_runs
 from motor_identification.recording import check
 from motor_model.effects import SPEC_BY_NAME
@@ -102,3 +113,37 @@ def test_no_finer_ripple_than_could_be_seen_is_searched(volts: float) -> None:
     finer = np.geomspace(1.3 * finest, 400.0, 12) if finest < 300.0 else []
     assert all(explained(cycles) < 1.5 * LINE_CHANCE for cycles in finer)
     assert {1.0: 100.0, 0.1: 20.0, 0.01: 1.0}[volts] <= finest <= {1.0: 400.0, 0.1: 100.0, 0.01: 20.0}[volts]
+
+
+def test_no_block_explains_much_more_than_is_there() -> None:
+    """Whitening mixes neighbours; a block of hardly any response has no more than twice its own squares explained."""
+    runs = whiten_runs(*lacking(**RIPPLE))
+    blocks = [run.number_blocks() for run in runs]
+    there = sum(float(run.white @ run.white) for run in runs)
+    cycles = np.arange(1.0, 9.0, 0.25)
+    assert _spectrum(runs, cycles, blocks, 1e6, lambda: None).max() <= 2.0 * there
+    short = [np.arange(len(run.white)) // 2 for run in runs]  # the worst that can be: two intervals each
+    assert 0.5 * there < _spectrum(runs, cycles, short, 1e6, lambda: None).max() <= 2.0 * there
+    nothing = [replace(run, white=0.0 * run.white) for run in runs]
+    assert not _spectrum(nothing, np.array([1.0, 1.25]), blocks, 1e6, lambda: None).any()
+
+
+def test_a_ripple_of_many_volts_is_no_explanation() -> None:
+    """The prior of its size: of a thousandth of the volts next to nothing is explained, of a thousand as much."""
+    runs = whiten_runs(*lacking(**RIPPLE))
+    blocks, cycles = [run.number_blocks() for run in runs], np.array([5.25, 5.3])
+    small, usual, large = (_spectrum(runs, cycles, blocks, volts, lambda: None).max() for volts in (3e-4, 0.3, 300.0))
+    assert small < 0.01 * usual < usual < large < 1.05 * usual
+
+
+def test_phases_of_runs_explain_by_chance() -> None:
+    """A counted angle needs the best of all lines to be beaten, speeds two squares more for each further run."""
+    (run,) = whiten_runs(*lacking())
+    (data,) = lacking()[0].problem.intervals
+    last = int(run.course.run.max())
+    assert last > 1
+    told = replace(data, slot=0.0, place=np.zeros_like(data.place))
+    free = replace(data, slot=0.0, place=np.full_like(data.place, np.nan))
+    assert _explained_by_chance(run, told) == LINE_CHANCE
+    assert _explained_by_chance(run, free) == LINE_CHANCE + PHASE_CHANCE * last
+    assert _explained_by_chance(run, data) == SLIP_CHANCE * (last + SLIP_CHANCE_BASE)
