@@ -167,7 +167,7 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
     """Select on beside a random torque, where more is left than the sensor leaves; None if that leaves structure.
 
     From what was found without it, and where that leads nowhere from the beginning. Where only something likely was
-    refused, that is looked for, and nothing that was found is judged again.
+    refused, that is looked for beside a torque that is there, and nothing that was found is judged again.
     """
     # A line of many waves is its own evidence; what comes back a few times, or happens once, slow torques do by chance.
     effects = [EFFECT_BY_NAME[step.found.effect] for step in plain.steps]
@@ -185,5 +185,6 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
         if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
             worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
         if selection.model.complete and not worse:
-            return selection if disturbed or set(selection.model.effects) > set(plain.model.effects) else None
+            more = set(selection.model.effects) > set(plain.model.effects)
+            return selection if disturbed or (more and selection.model.errors.rms_voltage > 0.0) else None
     return None

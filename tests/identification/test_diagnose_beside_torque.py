@@ -12,6 +12,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
 from motor_identification.diagnosis.selection import Selection
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
@@ -47,12 +48,14 @@ def test_a_gap_that_was_fitted_is_no_prediction(
 
 
 @pytest.mark.parametrize(
-    ("refused", "more", "believed"), [(True, True, True), (True, False, False), (False, True, False)]
+    ("refused", "more", "torque", "believed"),
+    [(True, True, 0.1, True), (True, True, 0.0, False), (True, False, 0.1, False), (False, True, 0.1, False)],
 )
 def test_what_was_refused_is_looked_for_once_more(
-    refused: bool, more: bool, believed: bool, monkeypatch: pytest.MonkeyPatch
+    refused: bool, more: bool, torque: float, believed: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """At the sensor's floor nothing else is judged again: it is believed if there is more."""
+    """At the sensor's floor nothing else is judged again: it is believed if there is more, beside a torque [V]."""
+    monkeypatch.setattr(StubModel, "errors", ErrorModel(0.0, 0.0, torque, 1.0))
     plain = replace(selection_of(stub_model(1.0, 0.0)), refused=refused)
     ended = selection_of(stub_model(0.9, 0.0))
     effects: dict[int, Any] = {id(ended.model): ("load_bias",) if more else ()}
