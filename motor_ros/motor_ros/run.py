@@ -72,6 +72,10 @@ class Interrupt:
     def __bool__(self) -> bool:
         return self.received is not None
 
+    def forgive(self) -> None:
+        """Go on after a signal; the next one is the first again."""
+        self.received = None
+
     @property
     def cause(self) -> str:
         """What the first signal meant, as a clause; empty before it."""

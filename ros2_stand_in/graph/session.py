@@ -56,7 +56,7 @@ class Session:
 
     def forgive_interrupt(self) -> None:
         """Wait on after a Ctrl-C, such as for a goal to be cancelled; the next one ends that too."""
-        self._interrupt.received = False
+        self._interrupt.forgive()
 
 
 @contextmanager
