@@ -16,6 +16,7 @@ from motor_identification.recording import Floats
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
 from motor_identification.validation.instants import list_instant_columns, needs_instant
+from motor_model.effect import Effect
 from motor_model.effects import EFFECT_BY_NAME
 
 EFFECT_ORDER = {name: number for number, name in enumerate(EFFECT_BY_NAME)}  # the most common first
@@ -29,18 +30,20 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None) -> li
     model lacks, and nothing that happens once in each of several recordings; and in a single response nothing that
     happens once or repeats with the angle: some instants, or some line, are found in any.
     """
-    seen = judged is not None and judged.seen
-    repeats = judged is None or not seen or judged.confirms
-    once = judged is None or not seen or (judged.confirms and len(judged.recordings) == 1)
     return [
         effect.name
         for effect in EFFECT_BY_NAME.values()
         if effect.name not in effects
         and effect.fitted
-        and (not effect.anywhere or (once and (needs_instant(effect.name) or not seen)))
-        and (repeats or not effect.periodic)
         and (effect.implies is None or effect.implies in effects)
+        and (judged is None or _can_be_judged(effect, judged))
     ]
+
+
+def _can_be_judged(effect: Effect, judged: HeldOut) -> bool:
+    if not judged.seen or not (effect.anywhere or effect.periodic):
+        return True
+    return judged.confirms and (effect.periodic or (needs_instant(effect.name) and len(judged.recordings) == 1))
 
 
 def try_effects(
@@ -108,10 +111,8 @@ def count_waves(model: Model, effect: str) -> float:
 
     Infinitely many of one that has none, or of which no line was found to fit. What is on the disc has one in a turn.
     """
-    specs = [spec for spec in EFFECT_BY_NAME[effect].parameters if spec.of_encoder]
-    if not specs or effect not in model.effects:
-        return inf
-    return max(model.estimate.parameters.values[spec.name] for spec in specs) * model.turns
+    cycles = _find_cycles(model, effect) if effect in model.effects else None
+    return inf if cycles is None else cycles * model.turns
 
 
 def _is_there_from_the_start(test: CandidateTest) -> bool:
@@ -141,7 +142,7 @@ def drop_chance_harmonics(tests: Sequence[CandidateTest]) -> list[CandidateTest]
 
 
 def _is_by_random_slots(test: CandidateTest) -> bool:
-    size = _fitted(test, EFFECT_BY_NAME[test.effect].parameters[0].name)
+    size = _fitted(test.model, EFFECT_BY_NAME[test.effect].parameters[0].name)
     slot = max(data.slot * data.gear for data in test.model.estimate.problem.intervals)  # of the encoder's shaft
     share = test.model.noise.share if test.model.learned is None else test.model.learned.share
     return size is not None and not is_beyond_chance(size, slot, share)
@@ -149,15 +150,20 @@ def _is_by_random_slots(test: CandidateTest) -> bool:
 
 def _is_once_a_turn(test: CandidateTest) -> bool:
     """Whether an effect has cycles in a turn of the encoder's shaft, and they are one."""
-    cycles = [_fitted(test, spec.name) for spec in EFFECT_BY_NAME[test.effect].parameters if spec.of_encoder]
-    return any(one is not None and abs(one - 1.0) < thresholds.ONCE_A_TURN for one in cycles)
+    cycles = _find_cycles(test.model, test.effect)
+    return cycles is not None and abs(cycles - 1.0) < thresholds.ONCE_A_TURN
 
 
-def _fitted(test: CandidateTest, parameter: str) -> float | None:
-    """Look up the value that a test's model was fitted to have of a parameter; None where no line was found to fit."""
-    estimate = test.model.estimate
-    names = estimate.problem.unknowns.names
-    return float(estimate.theta[names.index(parameter)]) if parameter in names else None
+def _find_cycles(model: Model, effect: str) -> float | None:
+    """Find the cycles in a turn of the encoder's shaft that an effect has; None if it has none, as `_fitted`."""
+    names = [spec.name for spec in EFFECT_BY_NAME[effect].parameters if spec.of_encoder]
+    return _fitted(model, names[0]) if names else None
+
+
+def _fitted(model: Model, parameter: str) -> float | None:
+    """Look up the value that a model was fitted to have of a parameter; None where no line was found to fit."""
+    names = model.estimate.problem.unknowns.names
+    return float(model.estimate.theta[names.index(parameter)]) if parameter in names else None
 
 
 def is_beyond_chance(eccentricity: float, slot: float, share: float) -> bool:
