@@ -14,7 +14,8 @@ from board_quadrature import TWO, TWO_MEGA, quadrature, quadrature_on_mega
 from machine import machine
 
 from motor_board.build import FirmwareConfig, firmware
-from motor_board.chip import FREQUENCY
+from motor_board.emulation.chip import FREQUENCY
+from motor_board.emulation.edges import Edges
 
 RESULTS = Path(__file__).with_name("results")
 MEGA = FirmwareConfig(chip="atmega2560")
@@ -63,7 +64,7 @@ def edges(rate: int, config: FirmwareConfig | None = None) -> tuple[int, list[st
     cycles = (first + (FREQUENCY / rate + 0.37) * np.arange(EDGES)).astype(np.uint64)  # drifts through all phases
     plan = link.emulator.shaft.plan
     link.emulator._plan = lambda until: plan(until)  # type: ignore[method-assign,assignment,return-value]
-    link.chip.set_edges(first - 1, cycles, np.zeros(EDGES, dtype=np.uint8))
+    link.chip.set_edges(first - 1, Edges(cycles, np.zeros(EDGES, dtype=np.uint8)))
     link.drive(0, 6)
     link.chip.load()
     began = link.chip.cycle

@@ -1,9 +1,10 @@
 """A board on the emulated chip that is driven as a driver would, in lockstep, and the table of its interrupts."""
 
 from motor_board.build import FirmwareConfig, firmware
-from motor_board.chip import FREQUENCY, InterruptLoad
-from motor_board.emulator import Emulator
-from motor_board.shaft import EncoderConfig
+from motor_board.emulation.chip import FREQUENCY
+from motor_board.emulation.emulator import Emulator
+from motor_board.emulation.interrupts import InterruptLoad
+from motor_board.emulation.shaft import EncoderConfig
 from motor_driver.frames import Command, Configure, Enable, Ping, Telemetry
 from motor_driver.protocol import Arrival, Decoder, Encoder
 from motor_model.parameters import paper_motor

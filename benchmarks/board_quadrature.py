@@ -4,7 +4,9 @@ import numpy as np
 from board_link import EDGES, KHZ, MS, Link, load_rows
 
 from motor_board.build import FirmwareConfig
-from motor_board.chip import FREQUENCY, InterruptLoad, Line
+from motor_board.emulation.chip import FREQUENCY
+from motor_board.emulation.edges import Edges, Line
+from motor_board.emulation.interrupts import InterruptLoad
 from motor_driver.frames import Command, Ping, Setup
 
 TWO, TWO_MEGA = FirmwareConfig(channels=2), FirmwareConfig(channels=2, chip="atmega2560")
@@ -31,7 +33,7 @@ def folded(
     link.drifted.clear()
     for start in range(0, len(cycles), ROOM):
         part = slice(start, start + ROOM)
-        link.chip.set_edges(int(cycles[start]) - 1, cycles[part], what[part])
+        link.chip.set_edges(int(cycles[start]) - 1, Edges(cycles[part], what[part]))
         while link.chip.cycle < int(cycles[part][-1]) - MS // 2:
             ping = link.encoder.send(Ping(1)) if link.samples % 50 == 0 else b""
             left = (int(cycles[part][-1]) - MS // 4 - link.chip.cycle) / MS

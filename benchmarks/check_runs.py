@@ -10,7 +10,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"
 from first_run_bench import EmulatedRun, motor
 
 from motor_board.build import FirmwareConfig
-from motor_board.faults import Wiring
+from motor_board.emulation.wiring import Wiring
 from motor_driver.check.settings import Settings
 from motor_model.gearing.gear import exact_gear
 from motor_model.parameters import Parameters

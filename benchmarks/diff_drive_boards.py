@@ -18,8 +18,8 @@ from machine import commit, machine
 from page_sections import write_section
 
 from motor_board.build import FirmwareConfig
-from motor_board.chip import FREQUENCY
-from motor_board.shaft import EncoderConfig
+from motor_board.emulation.chip import FREQUENCY
+from motor_board.emulation.shaft import EncoderConfig
 from motor_control.controller import controller
 from motor_driver.config import Config
 from motor_examples.diff_drive import drive

@@ -9,8 +9,8 @@ from faults_loop import Outcome, outcome
 from faults_motor import Motor
 from faults_rows import KNOWN, MOTION
 
-from motor_board.chip import Hang, Line
-from motor_board.shaft import Edges
+from motor_board.emulation.chip import Hang
+from motor_board.emulation.edges import Edges, Line
 from motor_model.effects import INDEX
 
 

@@ -9,9 +9,9 @@ from faults_loop import DEFAULTS, TIMEOUT, Moment
 from faults_motor import MOTORS, Motor
 
 from motor_board.build import FirmwareConfig, firmware
-from motor_board.chip import FREQUENCY
-from motor_board.emulator import Emulator
-from motor_board.shaft import EncoderConfig
+from motor_board.emulation.chip import FREQUENCY
+from motor_board.emulation.emulator import Emulator
+from motor_board.emulation.shaft import EncoderConfig
 from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_driver.config import Config

@@ -20,7 +20,7 @@ from driver_rig import Rig
 from plant import profiles
 
 from motor_board.build import FirmwareConfig
-from motor_board.shaft import EncoderConfig
+from motor_board.emulation.shaft import EncoderConfig
 from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.parameters import ROWS

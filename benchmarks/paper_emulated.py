@@ -4,9 +4,9 @@ import numpy as np
 from paper_loop import MAX_VOLTAGE, Assumption, Run, law
 
 from motor_board.build import FirmwareConfig, chip_library, firmware
-from motor_board.chip import FREQUENCY
-from motor_board.emulator import CurrentSensor, Emulator
-from motor_board.shaft import EncoderConfig
+from motor_board.emulation.chip import FREQUENCY
+from motor_board.emulation.emulator import CurrentSensor, Emulator
+from motor_board.emulation.shaft import EncoderConfig
 from motor_driver.config import Config
 from motor_driver.frames import Command, Enable, Frame, Hello, Identify, Telemetry
 from motor_driver.protocol import Arrival, Decoder, Encoder

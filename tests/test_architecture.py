@@ -192,7 +192,7 @@ def test_bags_are_known_in_one_place() -> None:
 def test_serial_ports_are_opened_in_one_place() -> None:
     users = [path for _, path, names in list_modules() if names & {"serial", "termios"}]
     ports = [path for path in users if path.name == "link.py" and path.parent.name == "motor_driver"]
-    pseudo = [path for path in users if path.name == "port.py" and path.parent.name == "motor_board"]  # the other end
+    pseudo = [path for path in users if path.name == "port.py" and path.parent.name == "emulation"]  # the other end
     assert len(ports) == 1 and users == pseudo + ports
 
 

@@ -23,10 +23,12 @@ COMMANDS = {
     "ros2_stand_in/verbs/run.py": "an executable of an installed package, as the user has typed",
     "demo/demo.py": "the commands that it shows",
 }
-SOCKETS = {"motor_board/motor_board/port.py": "a name without a file that is bound and never listened on: a lock"}
+SOCKETS = {
+    "motor_board/motor_board/emulation/port.py": "a name without a file that is bound and never listened on: a lock"
+}
 PROCESSES = {"motor_identification/motor_identification/service/worker.py": "a pipe to its own child; see its test"}
 LIBRARIES = {
-    "motor_board/motor_board/chip.py": "the emulator that it has built itself",
+    "motor_board/motor_board/emulation/library.py": "the emulator that it has built itself",
 }
 KINDS = (ast.Import, ast.ImportFrom, ast.Call)
 NEVER = {"pickle", "cPickle", "dill", "cloudpickle", "joblib", "shelve", "marshal", "runpy", "code", "codeop", "imp"}

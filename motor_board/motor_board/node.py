@@ -11,12 +11,12 @@ from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
 from motor_board.build import FirmwareConfig, firmware
-from motor_board.emulator import CurrentSensor, Emulator
-from motor_board.faults import Faults
-from motor_board.live import LiveBoard
+from motor_board.emulation.emulator import CurrentSensor, Emulator
+from motor_board.emulation.faults import Faults
+from motor_board.emulation.live import LiveBoard
+from motor_board.emulation.port import Port
+from motor_board.emulation.shaft import EncoderConfig
 from motor_board.parameters import FAULTS, PROGRAM, SET_UP
-from motor_board.port import Port
-from motor_board.shaft import EncoderConfig
 from motor_model.gearing.encoder_count import read_encoder_count
 from motor_model.model_file import load
 from motor_model.parameters import paper_motor

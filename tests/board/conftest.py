@@ -9,7 +9,7 @@ from board_fixtures import live  # noqa: F401  (a fixture)
 from emulated_board import Bench, Client, need_emulator
 
 from motor_board.build import FirmwareConfig
-from motor_board.live import LiveBoard
+from motor_board.emulation.live import LiveBoard
 
 
 @pytest.fixture

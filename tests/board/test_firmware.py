@@ -7,7 +7,7 @@ import pytest
 from emulated_board import MS, TICK, Bench, on_each_chip
 
 from motor_board.build import FirmwareConfig
-from motor_board.chip import Hang
+from motor_board.emulation.chip import Hang
 from motor_driver.frames import (
     Board,
     Command,

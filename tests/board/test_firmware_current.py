@@ -8,8 +8,8 @@ from electrical import ELECTRIC, LUMPED
 from emulated_board import MS, TICK, Bench, on_each_chip
 
 from motor_board.build import FirmwareConfig
-from motor_board.emulator import SENSE_NOISE
-from motor_board.faults import Wiring
+from motor_board.emulation.emulator import SENSE_NOISE
+from motor_board.emulation.wiring import Wiring
 from motor_driver.current_limits import CurrentLimits
 from motor_driver.frames import NOT_MEASURED, Command, Flag, Protection, Sensed, Telemetry
 from motor_model.parameters import Parameters

@@ -8,6 +8,7 @@ from emulated_board import MS, TICK, Bench
 from line_events import counts_of, dither_events, line_events
 
 from motor_board.build import FirmwareConfig
+from motor_board.emulation.edges import Edges
 from motor_driver.frames import Command, Features, Ping, Setup, Telemetry
 
 MakeBench = Callable[..., Bench]
@@ -26,7 +27,7 @@ def run(bench: Bench, fold: int, cycles: np.ndarray, what: np.ndarray) -> list[T
     bench.events.clear()
     for start in range(0, len(cycles), 2_000):
         part = slice(start, start + 2_000)
-        bench.chip.set_edges(int(first + cycles[part][0]) - 1, first + cycles[part], what[part])
+        bench.chip.set_edges(int(first + cycles[part][0]) - 1, Edges(first + cycles[part], what[part]))
         while bench.chip.cycle < int(first + cycles[part][-1]) - 20:
             bench.send(Command(0), *[Ping(5)] * (len(bench.events) % 20 == 0))
             bench.run(min(1.0, max(int(first + cycles[part][-1]) - 10 - bench.chip.cycle, 1) / MS))

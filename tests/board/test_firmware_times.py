@@ -8,8 +8,8 @@ import pytest
 from emulated_board import MS, TICK, Bench, on_each_chip
 
 from motor_board.build import FirmwareConfig
-from motor_board.chip import Line
-from motor_board.shaft import EncoderConfig
+from motor_board.emulation.edges import Edges, Line
+from motor_board.emulation.shaft import EncoderConfig
 from motor_driver.frames import Command, Configure, Flag, Hello, Ping, Pong, Telemetry
 from motor_driver.protocol import Arrival
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
@@ -64,7 +64,7 @@ def test_no_edge_is_lost_up_to_20_000_a_second(bench: Bench, rate: int) -> None:
     first, spacing = bench.chip.cycle + 5 * MS, 16e6 / rate + 0.37
     cycles = (first + spacing * np.arange(8_000)).astype(np.uint64)
     bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
-    bench.chip.set_edges(first - 1, cycles, np.zeros(len(cycles), dtype=np.uint8))
+    bench.chip.set_edges(first - 1, Edges(cycles, np.zeros(len(cycles), dtype=np.uint8)))
     while bench.chip.cycle < cycles[-1] + 3 * MS:
         bench.send(Command(0), *[Ping(5)] * (len(bench.events) % 50 == 0))
         bench.run(1)
@@ -111,7 +111,7 @@ def counted(bench: Bench, position: np.ndarray) -> int:
     first = bench.chip.cycle + 5 * MS
     cycles, what = lines(position, first)
     bench.emulator._plan = lambda until: bench.emulator.shaft.plan(until)  # type: ignore[method-assign,assignment]
-    bench.chip.set_edges(first - 1, cycles, what)
+    bench.chip.set_edges(first - 1, Edges(cycles, what))
     while bench.chip.cycle < first + (len(position) + 3) * MS:
         bench.send(Command(0), *[Ping(5)] * (len(bench.events) % 50 == 0))
         bench.run(1)

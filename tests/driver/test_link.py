@@ -14,7 +14,7 @@ import pytest
 import serial
 from patience import PATIENCE
 
-from motor_board.port import Port
+from motor_board.emulation.port import Port
 from motor_driver import link
 from motor_driver.link import Link, PortError, candidates, open_port
 from motor_driver.link_events import Closed, Event, Opened, Received

@@ -12,9 +12,9 @@ from patience import PATIENCE
 from workbench import DOMAIN
 
 from motor_board.build import FirmwareConfig, firmware
-from motor_board.emulator import Emulator
-from motor_board.live import LiveBoard
-from motor_board.port import Port
+from motor_board.emulation.emulator import Emulator
+from motor_board.emulation.live import LiveBoard
+from motor_board.emulation.port import Port
 from motor_driver.node import NO_THREAD, MotorDriver
 from motor_model.errors import MotorError
 from motor_model.parameters import paper_motor

@@ -7,10 +7,10 @@ import pytest
 from emulated_board import need_emulator
 
 from motor_board.build import FirmwareConfig, firmware
-from motor_board.emulator import Emulator
-from motor_board.live import LiveBoard
-from motor_board.port import Port
-from motor_board.shaft import EncoderConfig
+from motor_board.emulation.emulator import Emulator
+from motor_board.emulation.live import LiveBoard
+from motor_board.emulation.port import Port
+from motor_board.emulation.shaft import EncoderConfig
 from motor_model.parameters import paper_motor
 
 

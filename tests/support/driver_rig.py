@@ -6,9 +6,10 @@ from dataclasses import dataclass, field, replace
 from emulated_board import MS, TICK
 
 from motor_board.build import FirmwareConfig, firmware
-from motor_board.emulator import Emulator
-from motor_board.faults import Faults, Wire
-from motor_board.shaft import EncoderConfig
+from motor_board.emulation.emulator import Emulator
+from motor_board.emulation.faults import Faults
+from motor_board.emulation.serial_line import SerialLine
+from motor_board.emulation.shaft import EncoderConfig
 from motor_driver import status
 from motor_driver.config import Config
 from motor_driver.driver import Driver, Reading
@@ -45,7 +46,7 @@ class Rig:
         self.clean = b""  # what the board said before any fault
         self.voltage: float | None = None
         self.plugged, self.alive = False, True
-        self._in, self._out = Wire(1), Wire(2)
+        self._in, self._out = SerialLine(1), SerialLine(2)
         self._asked = self._told = self._begun = self._said = 0
 
     @property

@@ -15,9 +15,9 @@ import pytest
 from patience import PATIENCE
 
 from motor_board.build import CHIPS, FirmwareConfig, chip_library, firmware
-from motor_board.emulator import Emulator
+from motor_board.emulation.emulator import Emulator
+from motor_board.emulation.shaft import EncoderConfig
 from motor_board.errors import BoardError
-from motor_board.shaft import EncoderConfig
 from motor_driver.frames import Command, Configure, Enable, Frame, Hello, OtherVersion, Telemetry
 from motor_driver.protocol import Arrival, Decoder, Encoder
 from motor_model.parameters import Parameters, paper_motor

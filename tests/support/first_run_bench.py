@@ -8,10 +8,10 @@ from math import copysign, tau
 import numpy as np
 
 from motor_board.build import FirmwareConfig, firmware
-from motor_board.chip import FREQUENCY
-from motor_board.emulator import Emulator
-from motor_board.faults import Wiring
-from motor_board.shaft import EncoderConfig
+from motor_board.emulation.chip import FREQUENCY
+from motor_board.emulation.emulator import Emulator
+from motor_board.emulation.shaft import EncoderConfig
+from motor_board.emulation.wiring import Wiring
 from motor_driver.check.check import Check
 from motor_driver.check.first_run import FirstRun
 from motor_driver.check.look import Act, Answer, Look, Prompt

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_board.chip import Line
+from motor_board.emulation.edges import Line
 
 FREQUENCY = 16e6
 LEVELS = np.array([[True, False], [True, True], [False, True], [False, False]])  # of A and B after each flank, forward

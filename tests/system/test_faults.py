@@ -15,8 +15,8 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from workbench import PATIENCE, Bench
 
-from motor_board.chip import FREQUENCY
-from motor_board.live import LiveBoard
+from motor_board.emulation.chip import FREQUENCY
+from motor_board.emulation.live import LiveBoard
 from motor_ros import qos
 
 Start = Callable[..., "Popen[str]"]

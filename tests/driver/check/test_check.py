@@ -8,7 +8,7 @@ from first_run_bench import SimulatedRun, hello, motor
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from motor_board.faults import Wiring
+from motor_board.emulation.wiring import Wiring
 from motor_driver.check.check import Check
 from motor_driver.check.look import OFF, Act, Answer, Look, Prompt
 from motor_driver.check.settings import Settings

@@ -10,7 +10,7 @@ from emulated_board import need_emulator
 from first_run_bench import EmulatedRun, motor
 
 from motor_board.build import FirmwareConfig
-from motor_board.faults import Wiring
+from motor_board.emulation.wiring import Wiring
 from motor_driver.check.look import Prompt
 from motor_driver.check.settings import Settings
 from motor_driver.check.words import board_row, line_of, plan_of, prompt_of, verdict_of

@@ -7,7 +7,7 @@ import pytest
 import yaml
 from first_run_bench import SimulatedRun, motor
 
-from motor_board.faults import Wiring
+from motor_board.emulation.wiring import Wiring
 from motor_driver.check.result import Chosen, as_json, parameter_text, refused_json
 from motor_driver.check.settings import Settings
 from motor_driver.frames import Pwm

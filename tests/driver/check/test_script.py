@@ -3,7 +3,7 @@
 import pytest
 from first_run_bench import SimulatedRun
 
-from motor_board.faults import Wiring
+from motor_board.emulation.wiring import Wiring
 from motor_driver.check.look import Prompt
 from motor_driver.check.settings import Settings
 

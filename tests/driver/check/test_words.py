@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from first_run_bench import SimulatedRun, hello
 
-from motor_board.faults import Wiring
+from motor_board.emulation.wiring import Wiring
 from motor_driver.check.look import Prompt
 from motor_driver.check.settings import Settings
 from motor_driver.check.words import board_row, line_of, plan_of, prompt_of, verdict_of

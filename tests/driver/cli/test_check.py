@@ -14,7 +14,7 @@ import yaml
 from board_fixtures import live  # noqa: F401
 from patience import PATIENCE
 
-from motor_board.live import LiveBoard
+from motor_board.emulation.live import LiveBoard
 from motor_driver.cli import check
 from motor_driver.link import open_port
 

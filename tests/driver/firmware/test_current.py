@@ -7,7 +7,7 @@ from driver_rig import MakeRig, problem
 from electrical import ELECTRIC, LUMPED
 
 from motor_board.build import FirmwareConfig
-from motor_board.faults import Wiring
+from motor_board.emulation.wiring import Wiring
 from motor_driver.config import Config
 from motor_driver.current_limits import CurrentLimits
 from motor_model.parameters import Parameters

@@ -9,7 +9,7 @@ import pytest
 from driver_rig import Rig
 
 from motor_board.build import FirmwareConfig
-from motor_board.shaft import EncoderConfig
+from motor_board.emulation.shaft import EncoderConfig
 from motor_driver import status
 from motor_driver.config import Config
 from motor_driver.frames import Decay, Pwm

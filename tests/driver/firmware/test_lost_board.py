@@ -9,7 +9,7 @@ from itertools import pairwise
 import pytest
 from driver_rig import MakeRig, Rig, problem
 
-from motor_board.chip import Hang
+from motor_board.emulation.chip import Hang
 
 MOST = 150.0  # [ms] to 0 V at the pins, whatever has died
 

@@ -10,9 +10,9 @@ from emulated_board import need_emulator
 from patience import PATIENCE
 
 from motor_board.build import FirmwareConfig, firmware
-from motor_board.emulator import Emulator
-from motor_board.live import LiveBoard
-from motor_board.port import Port
+from motor_board.emulation.emulator import Emulator
+from motor_board.emulation.live import LiveBoard
+from motor_board.emulation.port import Port
 from motor_driver.config import Config
 from motor_driver.driver import Driver
 from motor_driver.link import Link

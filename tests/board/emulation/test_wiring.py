@@ -6,7 +6,7 @@ import pytest
 from emulated_board import Bench, need_emulator
 
 from motor_board.build import FirmwareConfig
-from motor_board.faults import Wiring
+from motor_board.emulation.wiring import Wiring
 from motor_driver.frames import Telemetry
 
 

@@ -1,4 +1,4 @@
-"""The emulated chip: what runs on it, and that Python calls its library as C has it."""
+"""Python calls the emulated chip's library as C has it."""
 
 import re
 from ctypes import POINTER, c_char_p, c_int, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
@@ -7,10 +7,9 @@ from pathlib import Path
 import pytest
 from emulated_board import need_emulator
 
-from motor_board.chip import Chip, Load, PinLevels, load_library
-from motor_board.errors import BoardError
+from motor_board.emulation.library import Load, PinLevels, load_library
 
-SOURCES = Path(__file__).resolve().parents[2] / "motor_board" / "emulator"
+SOURCES = Path(__file__).resolve().parents[3] / "motor_board" / "emulator"
 DEFINED = re.compile(r"^(?P<result>\w[\w ]*[ *])chip_(?P<name>\w+)\((?P<arguments>[^)]*)\)$", re.MULTILINE)
 # What a type of C's is called here: pointers to arrays go as POINTER or as an address.
 TYPES = {
@@ -54,11 +53,3 @@ def test_a_function_has_the_signature_of_the_source(name: str) -> None:
     assert len(function.argtypes) == len(arguments.split(","))
     for given, declared in zip(function.argtypes, arguments.split(","), strict=True):
         assert given in TYPES[type_of(declared)], declared
-
-
-def test_a_file_that_is_no_program_is_refused(tmp_path: Path) -> None:
-    need_emulator()
-    (tmp_path / "text.elf").write_text("no program")
-    for name in ("text.elf", "missing.elf"):
-        with pytest.raises(BoardError, match=f"{name} is no program for an ATmega328P or ATmega2560: build it again"):
-            Chip(tmp_path / name)

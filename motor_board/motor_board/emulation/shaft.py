@@ -8,7 +8,8 @@ from math import inf, tau
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_board.chip import FREQUENCY, Line
+from motor_board.emulation.chip import FREQUENCY
+from motor_board.emulation.edges import Edges, edges_at_captures, edges_at_flanks, level_before
 from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.current import current_at
 from motor_model.dynamics.state import State, at_rest
@@ -21,39 +22,6 @@ DELAY, MISS_RATE = INDEX["delay"], INDEX["miss_rate"]
 SLIDING, BREAKAWAY = INDEX["ks"], INDEX["breakaway_voltage"]
 MOST_VOLTAGE = 1e4  # [V] that moves no blocked shaft
 MOST_EDGES = 2048  # in one step
-
-
-@dataclass(frozen=True)
-class Edges:
-    """Edges to come: chip cycles, and what the lines do there (`Line`), both of shape (K,)."""
-
-    cycle: NDArray[np.uint64]
-    what: NDArray[np.uint8]
-
-    @classmethod
-    def alike(cls, cycle: NDArray[np.uint64], what: Line) -> "Edges":
-        """The same at each of these cycles."""
-        return cls(cycle, np.full(len(cycle), what, dtype=np.uint8))
-
-    def joined(self, other: "Edges") -> "Edges":
-        """Both, in the order of their cycles."""
-        cycle, what = np.concatenate([self.cycle, other.cycle]), np.concatenate([self.what, other.what])
-        order = np.argsort(cycle, kind="stable")
-        return Edges(cycle[order], what[order])
-
-    def after(self, count: int) -> "Edges":
-        """Without the first `count`."""
-        return Edges(self.cycle[count:], self.what[count:])
-
-
-NO_EDGES = Edges(np.empty(0, dtype=np.uint64), np.empty(0, dtype=np.uint8))
-
-
-# What the lines do at A's rising flank, B's, A's falling flank, B's; passed forward and backward.
-A_UP, A_DOWN, B_ALONE, B_HIGH = Line.A_STAYS, Line.A_FALLS, Line.B_ALONE, Line.B_HIGH
-FORWARD = np.array([A_UP, B_ALONE | B_HIGH, A_DOWN | B_HIGH, B_ALONE], dtype=np.uint8)
-BACKWARD = np.array([A_DOWN, B_ALONE, A_UP | B_HIGH, B_ALONE | B_HIGH], dtype=np.uint8)
-LEVELS = np.array([A_UP, A_UP | B_HIGH, A_DOWN | B_HIGH, A_DOWN], dtype=np.uint8)  # between that flank and the next
 
 
 @dataclass(frozen=True)
@@ -135,22 +103,14 @@ class Shaft:
         if self._p[MISS_RATE] > 0.0:
             seen = (self._random.random(len(times)) >= self._p[MISS_RATE]) | (np.abs(directions) == 2)
             times, directions = times[seen], directions[seen]
-        cycles = np.rint(times * FREQUENCY).astype(np.uint64)
-        backward, falls = directions < 0, np.abs(directions) == 2
-        b_high = backward ^ falls  # a quarter of a slot behind A
-        what = np.where(falls, Line.A_FALLS, Line.A_STAYS if self._two else 0) | np.where(b_high, Line.B_HIGH, 0)
-        return Edges(cycles, what.astype(np.uint8))
+        return edges_at_captures(_cycles(times), directions, self._two)
 
     def _line_edges(self, times: NDArray[np.float64], directions: NDArray[np.int64], begun: bool) -> Edges:
         """All flanks of both lines; at power-up first their levels."""
         flanks, here = self._disc.forward, shown_angle(self._p, self._state.angle) + self._offset
         first = next_flank(flanks, here, 1, tau / self._p[INDEX["gear_ratio"]])
-        after = first + np.cumsum(directions)
-        what = np.where(directions > 0, FORWARD[(after - 1) % 4], BACKWARD[after % 4]).astype(np.uint8)
-        cycles = np.rint(times * FREQUENCY).astype(np.uint64)
-        if begun:
-            cycles, what = np.append(np.uint64(1), cycles), np.append(LEVELS[(first - 1) % 4], what)
-        return Edges(cycles, what)
+        edges = edges_at_flanks(_cycles(times), directions, first)
+        return level_before(first).joined(edges) if begun else edges
 
     def drive(self, cycle: int, share: float) -> None:
         """The pins ask for a share of the full voltage (−1 to 1) from a cycle on; what was planned beyond it is void.
@@ -185,3 +145,7 @@ class Shaft:
                 )
                 t, count = stop, count + passed
         return state, self._times[:count].copy(), self._directions[:count].copy()
+
+
+def _cycles(times: NDArray[np.float64]) -> NDArray[np.uint64]:
+    return np.rint(times * FREQUENCY).astype(np.uint64)

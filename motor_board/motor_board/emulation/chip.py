@@ -1,50 +1,17 @@
 """The emulated microcontroller: the real firmware on libsimavr, advanced cycle by cycle by its caller."""
 
-import ctypes
-from ctypes import POINTER, Structure, c_char_p, c_int, c_size_t, c_uint8, c_uint16, c_uint32, c_uint64, c_void_p
+from ctypes import c_uint8, c_uint64
 from dataclasses import dataclass
-from enum import IntEnum, IntFlag
+from enum import IntEnum
 from pathlib import Path
-from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from motor_board.build import chip_library
+from motor_board.emulation.edges import Edges
+from motor_board.emulation.interrupts import MOST_VECTORS, VECTORS, InterruptLoad
+from motor_board.emulation.library import Load, load_library
 from motor_board.errors import BoardError
 
 FREQUENCY = 16_000_000  # [Hz]
 MOST_BYTES = 4096  # taken out at once
-VECTORS = {  # what the program's interrupts are for, by their number
-    "atmega328p": {
-        3: "change",
-        5: "channel B",
-        10: "capture",
-        11: "compare",
-        13: "overflow",
-        18: "receive",
-        19: "transmit",
-    },
-    "atmega2560": {
-        4: "change",
-        3: "channel B",
-        46: "capture",
-        47: "compare",
-        50: "overflow",
-        25: "receive",
-        26: "transmit",
-    },
-}
-MOST_VECTORS = 64
-
-
-class Line(IntFlag):
-    """What the encoder's two lines do at an edge."""
-
-    B_HIGH = 1  # channel B is high there
-    A_STAYS = 2  # channel A rises and stays high; without it, it is high for a moment
-    A_FALLS = 4
-    B_ALONE = 8  # channel A stays as it is
 
 
 class Hang(IntEnum):
@@ -53,18 +20,6 @@ class Hang(IntEnum):
     HALTED = 0  # an endless loop, interrupts off
     LOOPING = 1  # an endless loop while interrupts run
     TICKLESS = 2  # all runs but the sample tick
-
-
-class PinLevels(Structure):
-    """As `struct chip_pins` of the library: mean levels of the bridge's pins, in 1/256."""
-
-    _fields_ = [("enable", c_uint16), ("forward", c_uint16), ("reverse", c_uint16)]
-
-
-class Load(Structure):
-    """As `struct chip_load` of the library: what an interrupt has cost, in cycles."""
-
-    _fields_ = [("calls", c_uint64), ("cycles", c_uint64), ("longest", c_uint64), ("waited", c_uint64)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,47 +34,6 @@ class Pins:
     def share(self) -> float:
         """Of the full voltage that the bridge gives, −1 to 1 (at most one of the pins is pulsed)."""
         return self.enable * (self.forward - self.reverse) / 65536
-
-
-@dataclass(frozen=True, slots=True)
-class InterruptLoad:
-    """What one interrupt has cost."""
-
-    calls: int
-    cycles: int  # without nested interrupts
-    longest: int  # [cycle] likewise
-    waited: int  # [cycle] the longest that one had to wait for its turn
-
-
-def load_library() -> Any:
-    """Load the emulation's shared library with the signatures of its functions."""
-    library = ctypes.CDLL(str(chip_library()))
-    bytes_, cycles = POINTER(c_uint8), POINTER(c_uint64)
-    signatures: dict[str, tuple[Any, list[Any]]] = {
-        "open": (c_void_p, [c_char_p]),
-        "close": (None, [c_void_p]),
-        "name": (c_char_p, [c_void_p]),
-        "cycle": (c_uint64, [c_void_p]),
-        "run": (c_int, [c_void_p, c_uint64]),
-        "pins": (PinLevels, [c_void_p]),
-        "pull_ups": (c_int, [c_void_p]),
-        "written": (c_uint64, [c_void_p]),
-        "edges": (c_size_t, [c_void_p, c_uint64, c_void_p, c_void_p, c_size_t]),
-        "feed": (c_size_t, [c_void_p, c_char_p, c_size_t]),
-        "drain": (c_size_t, [c_void_p, bytes_, cycles, c_size_t]),
-        "reset": (None, [c_void_p]),
-        "resets": (c_uint32, [c_void_p]),
-        "clock_zero": (c_uint64, [c_void_p]),
-        "supply": (None, [c_void_p, c_uint32]),
-        "sensing": (c_uint64, [c_void_p]),
-        "sense": (None, [c_void_p, c_uint32]),
-        "hang": (None, [c_void_p, c_int]),
-        "load": (c_uint64, [c_void_p, POINTER(Load)]),
-    }
-    for name, (result, arguments) in signatures.items():
-        function = getattr(library, f"chip_{name}")
-        function.restype, function.argtypes = result, arguments
-    return library
 
 
 class Chip:
@@ -181,9 +95,14 @@ class Chip:
         bits = int(self._library.chip_pull_ups(self._chip))
         return bool(bits & 1), bool(bits & 2)
 
-    def set_edges(self, after: int, cycles: NDArray[np.uint64], what: NDArray[np.uint8]) -> None:
-        """Replace the encoder's edges after a cycle by these (ascending, contiguous), `what` a `Line` each."""
-        if self._library.chip_edges(self._chip, after, cycles.ctypes.data, what.ctypes.data, len(cycles)) < len(cycles):
+    def set_edges(self, after: int, edges: Edges) -> None:
+        """Replace the encoder's edges after a cycle by these, ascending.
+
+        Raises:
+            BoardError: there are more of them than the chip has room for.
+        """
+        cycles, what = edges.cycle.ctypes.data, edges.what.ctypes.data
+        if self._library.chip_edges(self._chip, after, cycles, what, len(edges.cycle)) < len(edges.cycle):
             raise BoardError("more encoder edges than the emulated board has room for: use shorter steps.")
 
     def feed(self, data: bytes) -> int:

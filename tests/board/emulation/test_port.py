@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from motor_board.emulation.port import Port
 from motor_board.errors import BoardError
-from motor_board.port import Port
 
 
 @pytest.fixture

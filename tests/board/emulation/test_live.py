@@ -11,9 +11,9 @@ import pytest
 from emulated_board import Client
 from patience import PATIENCE
 
+from motor_board.emulation.live import LiveBoard
+from motor_board.emulation.port import Port
 from motor_board.errors import BoardError
-from motor_board.live import LiveBoard
-from motor_board.port import Port
 from motor_driver.frames import Command, Configure, Enable, Hello, Identify, Ping, Pong, ResetCause, Telemetry
 
 Connect = Callable[[], Client]

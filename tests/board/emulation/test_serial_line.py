@@ -1,12 +1,13 @@
 """The serial line's faults: as many as were asked for, in order, and none without being asked."""
 
-from motor_board.faults import Faults, Wire
+from motor_board.emulation.faults import Faults
+from motor_board.emulation.serial_line import SerialLine
 
 DATA = bytes(range(256)) * 400
 
 
 def through(faults: Faults) -> bytes:
-    wire = Wire(1)
+    wire = SerialLine(1)
     wire.send(DATA, faults, 0)
     return wire.receive(0)
 
@@ -30,7 +31,7 @@ def test_bytes_are_lost_at_their_rate_and_the_others_stay_in_order() -> None:
 
 
 def test_late_bytes_come_in_order_and_within_the_delay() -> None:
-    wire = Wire(1)
+    wire = SerialLine(1)
     sent = [bytes([k]) for k in range(100)]
     for k, data in enumerate(sent):
         wire.send(data, Faults(delay=0.01), k * 1_000_000)
@@ -42,7 +43,7 @@ def test_late_bytes_come_in_order_and_within_the_delay() -> None:
 
 
 def test_a_cut_loses_what_is_on_its_way() -> None:
-    wire = Wire(1)
+    wire = SerialLine(1)
     wire.send(b"lost", Faults(delay=0.01), 0)
     wire.cut()
     assert wire.receive(10**9) == b""

@@ -5,8 +5,9 @@ from math import tau
 import numpy as np
 import pytest
 
-from motor_board.chip import FREQUENCY, Line
-from motor_board.shaft import EncoderConfig, Shaft
+from motor_board.emulation.chip import FREQUENCY
+from motor_board.emulation.edges import Line
+from motor_board.emulation.shaft import EncoderConfig, Shaft
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters, paper_motor
 from motor_model.simulate import simulate
 

@@ -4,11 +4,12 @@ import threading
 import time
 from dataclasses import dataclass
 
-from motor_board.chip import FREQUENCY, Hang
-from motor_board.emulator import Emulator
+from motor_board.emulation.chip import FREQUENCY, Hang
+from motor_board.emulation.emulator import Emulator
+from motor_board.emulation.faults import Faults
+from motor_board.emulation.port import Port
+from motor_board.emulation.serial_line import SerialLine
 from motor_board.errors import BoardError
-from motor_board.faults import Faults, Wire
-from motor_board.port import Port
 
 PERIOD = 1_000_000  # [ns] between two looks at the port
 MOST_BEHIND = 40_000_000  # [ns] held up for longer, the board's time stands still: no command could reach it meanwhile
@@ -48,7 +49,7 @@ class LiveBoard:
 
     def __init__(self, emulator: Emulator, port: Port, seed: int = 0) -> None:
         self._emulator, self._port = emulator, port
-        self._in, self._out = Wire(seed), Wire(seed + 1)
+        self._in, self._out = SerialLine(seed), SerialLine(seed + 1)
         self._faults = Faults()
         emulator.run(1)  # compiled now, not while the clock runs
         self._start = time.monotonic_ns()

@@ -5,9 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
-from motor_board.chip import FREQUENCY, Chip, Line
-from motor_board.faults import Wiring
-from motor_board.shaft import NO_EDGES, Edges, EncoderConfig, Shaft
+from motor_board.emulation.chip import FREQUENCY, Chip
+from motor_board.emulation.edges import NO_EDGES, Edges, Line
+from motor_board.emulation.shaft import EncoderConfig, Shaft
+from motor_board.emulation.wiring import Wiring
 from motor_model.parameters import Parameters
 
 STEP = FREQUENCY // 1000  # [cycle] the motor is planned ahead by at most
@@ -89,7 +90,7 @@ class Emulator:
         edges = self._wiring.sense(edges, start, until, self.encoder.channels == 2)
         if self.stray_edges > 0.0:
             edges = edges.joined(self._strays(start, until))
-        self.chip.set_edges(known, edges.cycle, edges.what)
+        self.chip.set_edges(known, edges)
 
     def _strays(self, start: int, until: int) -> Edges:
         """Pulses that no flank has made."""
