@@ -4,7 +4,7 @@
 #include <avr/io.h>
 #include <util/atomic.h>
 
-#include "main.h"
+#include "board.h"
 #include "registers.h"
 
 #define DIVISOR (F_CPU / 8 / WIRE_BAUD - 1) /* with U2X; exact for 500 kbaud at 16 MHz */
@@ -45,10 +45,10 @@ ISR(SERIAL_RECEIVED_vect)
     received[at] = byte;
     written_to = next;
     if (byte == 0) {
-        zero_times[zeros_in++ & (TIMES - 1)] = main_now();
-        main_woken = true;
+        zero_times[zeros_in++ & (TIMES - 1)] = board_now();
+        board_woken = true;
     } else if (((uint8_t)(next - out) & (RECEIVED / 2))) {
-        main_woken = true; /* a frame may be longer than what is left of the buffer */
+        board_woken = true; /* a frame may be longer than what is left of the buffer */
     }
 }
 
@@ -74,7 +74,7 @@ ISR(SERIAL_EMPTY_vect)
         sending++;
         return;
     }
-    main_woken = true;
+    board_woken = true;
     left = waiting;
     waiting = 0;
     if (left) {

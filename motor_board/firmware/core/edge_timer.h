@@ -30,7 +30,7 @@ struct edge_timer {
     uint8_t fold;   /* edges counted in a period of A; 0 and 1: one polarity (quadrature.h has the others) */
     uint8_t lines;  /* their levels, as far as edges have been counted */
     uint8_t errors; /* changes of both lines at once, wraps */
-    uint32_t time[EDGE_TIMER_KEPT]; /* [tick] last, see main.c */
+    uint32_t time[EDGE_TIMER_KEPT]; /* [tick] last, see tick.c */
 };
 
 /* The 32-bit time of a 16-bit counter value.
