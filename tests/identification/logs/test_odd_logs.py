@@ -64,6 +64,9 @@ ODD = {
     "commas in quotes": table(
         lambda k: f'"{MS[k] / 1e3:.2f}","{DUTY[k]}","{RPM[k]:.1f}"'.replace(".", ","), "s,pwm,rpm"
     ),
+    "milliseconds since 1970": table(lambda k: f"{1_760_000_000_000 + MS[k]},{DUTY[k]},{RPM[k]}", "timestamp,pwm,rpm"),
+    "microseconds since 1970, newest first": "time,pwm,rpm\n"
+    + "".join(f"{1_760_000_000_000_000 + 1000 * MS[k]},{DUTY[k]},{RPM[k]}\n" for k in reversed(range(ROWS))),
     "seconds called ms": table(lambda k: f"{1.76e9 + MS[k] / 1e3:.3f},{DUTY[k]},{RPM[k]}", "timestamp(ms),pwm,rpm"),
     "a computer's clock beside the board's": table(
         lambda k: f"{1.76e9 + MS[k] / 1e3 + 0.003 * (k % 3):.3f},{DUTY[k]},{RPM[k]},{MS[k]}", "timestamp,pwm,rpm,Time"

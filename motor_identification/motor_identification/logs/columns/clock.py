@@ -5,7 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import TIME_UNITS
+from motor_model.errors import RecordingError
 
 Floats = NDArray[np.float64]
 
@@ -14,6 +16,16 @@ SLOWEST = 0.4  # [s] between rows of a recording that shows motion; also the bor
 EVEN = 0.2
 _SINCE_1970 = (1e9, 2.2e9)  # [s] 2001 to 2039
 _ROUND = 100.0  # times that are all multiples of it are no microseconds: nobody's loop is that even
+
+
+def read_clock(table: Table, name: str) -> Floats:
+    """Read a column of times, shape (K,): numbers, or dates and times of day [ns]; empty where it is neither."""
+    for read in (table.numbers, table.nanoseconds):
+        try:
+            return np.asarray(read(name), dtype=np.float64)
+        except RecordingError:
+            continue
+    return np.zeros(0)
 
 
 def since_1970(values: Floats) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour import find_position, present_values
-from motor_identification.logs.columns.clock import find_clock, runs_forward, since_1970
+from motor_identification.logs.columns.clock import find_clock, read_clock, runs_forward, since_1970
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_motion, miss_drive, miss_motion
@@ -81,23 +81,13 @@ def _is_numeric(table: Table, name: str) -> bool:
 def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
     named = [heading.name for heading in headings if heading.quantity is Quantity.TIME]
     if len(named) > 1:
-        times = {name: _read_clock(table, name) for name in named}
+        times = {name: read_clock(table, name) for name in named}
         forward = [name for name in named if runs_forward(times[name])]
         # A computer's clock says when rows came to it, the board's when they were made.
         named = sorted(forward, key=lambda name: bool(since_1970(times[name]))) or named
     if named:
         return named[0]
     return find_clock({heading.name: table.numbers(heading.name) for heading in headings if heading.quantity is None})
-
-
-def _read_clock(table: Table, name: str) -> Floats:
-    """Read a column of times, shape (K,): numbers, or dates and times of day [ns]; empty where it is neither."""
-    for read in (table.numbers, table.nanoseconds):
-        try:
-            return np.asarray(read(name), dtype=np.float64)
-        except RecordingError:
-            continue
-    return np.zeros(0)
 
 
 def _pairs(table: Table, headings: Sequence[Heading], said: Said, time: str | None) -> tuple[Pair, ...]:

@@ -1,9 +1,8 @@
 """Mends a table as loggers leave it: a few garbled rows are left out, rows that come newest first are turned round."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-from motor_identification.logs.columns.clock import runs_forward
+from motor_identification.logs.columns.clock import read_clock, runs_forward
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import GARBLED, Table
@@ -48,7 +47,7 @@ def _turn_round(table: Table) -> Table:
     for name in table.names:
         if read_heading(name).quantity is not Quantity.TIME or not table.readable(name).all():
             continue
-        times: NDArray[np.float64] = table.nanoseconds(name).astype(np.float64)
-        if runs_forward(times[::-1]) and times[0] > times[-1]:
+        times = read_clock(table, name)  # in any unit
+        if len(times) and runs_forward(times[::-1]) and times[0] > times[-1]:
             return table.rows(np.arange(len(table))[::-1], f"The rows come newest first ({name}): turned round.")
     return table

@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.clock import read_clock
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import GARBLED, Cells, Table
-from motor_model.errors import RecordingError
 
 Bools = NDArray[np.bool_]
 Integers = NDArray[np.int64]
@@ -51,10 +51,7 @@ class Filled:
         """The rows, (F,), that came last before the middle between each of some rows and the next: what held mostly."""
         if time is None:
             return rows
-        try:
-            times = self.table.numbers(time)
-        except RecordingError:  # dates and times of day
-            times = self.table.nanoseconds(time).astype(np.float64)
+        times = read_clock(self.table, time)
         if np.any(np.diff(times) < 0.0):
             return rows  # time begins again
         middles = times[rows] + 0.5 * np.diff(times[rows], append=times[rows[-1]])
