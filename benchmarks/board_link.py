@@ -5,7 +5,8 @@ from motor_board.emulation.chip import FREQUENCY
 from motor_board.emulation.emulator import Emulator
 from motor_board.emulation.interrupts import InterruptLoad
 from motor_board.emulation.shaft import EncoderConfig
-from motor_driver.frames import Command, Configure, Enable, Ping, Telemetry
+from motor_driver.frames.from_board import Telemetry
+from motor_driver.frames.from_host import Command, Configure, Enable, Ping
 from motor_driver.protocol import Arrival, Decoder, Encoder
 from motor_model.parameters import paper_motor
 

@@ -7,7 +7,7 @@ from motor_board.build import FirmwareConfig
 from motor_board.emulation.chip import FREQUENCY
 from motor_board.emulation.edges import Edges, Line
 from motor_board.emulation.interrupts import InterruptLoad
-from motor_driver.frames import Command, Ping, Setup
+from motor_driver.frames.from_host import Command, Ping, Setup
 
 TWO, TWO_MEGA = FirmwareConfig(channels=2), FirmwareConfig(channels=2, chip="atmega2560")
 # Both lines: A rises, B rises, A falls, B falls; a sensor with duty cycles of 44 % and 54 % and a phase of 61°.

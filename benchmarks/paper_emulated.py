@@ -8,7 +8,9 @@ from motor_board.emulation.chip import FREQUENCY
 from motor_board.emulation.emulator import CurrentSensor, Emulator
 from motor_board.emulation.shaft import EncoderConfig
 from motor_driver.config import Config
-from motor_driver.frames import Command, Enable, Frame, Hello, Identify, Telemetry
+from motor_driver.frames.from_board import Hello, Telemetry
+from motor_driver.frames.from_host import Command, Enable, Identify
+from motor_driver.frames.table import Frame
 from motor_driver.protocol import Arrival, Decoder, Encoder
 from motor_driver.readout import Readout
 from motor_model.parameters import Parameters

@@ -12,7 +12,7 @@ import numpy as np
 from machine import machine
 from numpy.typing import NDArray
 
-from motor_driver.frames import Telemetry
+from motor_driver.frames.from_board import Telemetry
 from motor_driver.protocol import Arrival, Decoder, pack
 
 RESULTS = Path(__file__).with_name("results")

@@ -4,7 +4,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from motor_driver.current_limits import CurrentLimits
-from motor_driver.frames import BAUD, Configure, Decay, Features, Hello, Protect, Protection, Pwm, Setup
+from motor_driver.frames.codes import BAUD, Decay, Pwm
+from motor_driver.frames.from_board import Features, Hello, Protection
+from motor_driver.frames.from_host import Configure, Protect, Setup
 from motor_model.sample import Info, Measurement
 
 SILENCE = 0.12  # [s] without telemetry, or for the board without commands: then it is 0 V within 150 ms

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from motor_driver.frames import Protect
+from motor_driver.frames.from_host import Protect
 from motor_model.errors import MotorError
 
 STEPS, REFERENCE = 1024, 5.0  # of the board's converter; [V] of them all

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 from motor_driver.config import Config
 from motor_driver.exchange import Exchange
-from motor_driver.frames import Features, Flag, Hello, OtherVersion, Pong, Protection, Telemetry
+from motor_driver.frames.codes import Flag
+from motor_driver.frames.from_board import Features, Hello, OtherVersion, Pong, Protection, Telemetry
 from motor_driver.handshake import Handshake, reset_cause
 from motor_driver.protocol import Event, LinkCounters
 from motor_driver.readout import Readout

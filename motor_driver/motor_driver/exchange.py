@@ -4,7 +4,9 @@ from dataclasses import dataclass
 
 from motor_driver.clock.board_clock import BoardClock
 from motor_driver.clock.clock_fit import ClockFit
-from motor_driver.frames import Frame, Ping, Pong, Telemetry
+from motor_driver.frames.from_board import Pong, Telemetry
+from motor_driver.frames.from_host import Ping
+from motor_driver.frames.table import Frame
 from motor_driver.protocol import LEAST
 
 PING_EVERY = 20_000_000  # [ns]

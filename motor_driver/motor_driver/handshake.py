@@ -3,17 +3,9 @@
 from enum import Enum, auto
 
 from motor_driver.config import Config
-from motor_driver.frames import (
-    Configure,
-    Features,
-    FromHost,
-    Hello,
-    Identify,
-    OtherVersion,
-    Protection,
-    ResetCause,
-    Telemetry,
-)
+from motor_driver.frames.codes import ResetCause
+from motor_driver.frames.from_board import Features, Hello, OtherVersion, Protection, Telemetry
+from motor_driver.frames.from_host import Configure, FromHost, Identify
 from motor_model.errors import MotorError
 
 ASK_EVERY = 200_000_000  # [ns]

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from motor_driver.config import Config
 from motor_driver.current_limits import CurrentLimits
-from motor_driver.frames import BAUD, Decay, Pwm
+from motor_driver.frames.codes import BAUD, Decay, Pwm
 from motor_model.errors import MotorError
 from motor_model.gearing.encoder_count import read_encoder_count
 from motor_ros.parameters import SHARED_PARAMETERS, Row, Value, max_voltage_row

@@ -12,7 +12,10 @@ from dataclasses import dataclass, fields
 from operator import attrgetter
 from typing import TypeAlias
 
-from motor_driver.frames import FRAMES, LONGEST_FRAME, VERSION, Frame, Hello, OtherVersion, ProtocolError, Telemetry
+from motor_driver.frames.codes import LONGEST_FRAME, VERSION
+from motor_driver.frames.from_board import Hello, OtherVersion, Telemetry
+from motor_driver.frames.protocol_error import ProtocolError
+from motor_driver.frames.table import FRAMES, Frame
 
 HEADER = struct.Struct("<BBH")
 CRC = struct.Struct("<I")

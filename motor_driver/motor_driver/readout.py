@@ -4,7 +4,8 @@ from math import nan
 
 from motor_driver.clock.board_clock import BoardClock
 from motor_driver.config import Config
-from motor_driver.frames import NOT_MEASURED, Flag, Hello, Sensed, Telemetry
+from motor_driver.frames.codes import NOT_MEASURED, Flag
+from motor_driver.frames.from_board import Hello, Sensed, Telemetry
 from motor_model.gearing.gear import edge_angle
 from motor_model.sample import Sample
 from motor_model.sensing.speed_rule import SpeedState, single_channel_speed, speed_magnitude

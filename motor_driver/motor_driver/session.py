@@ -3,7 +3,8 @@
 from dataclasses import dataclass, field
 
 from motor_driver.exchange import Exchange
-from motor_driver.frames import Command, FromHost, Telemetry
+from motor_driver.frames.from_board import Telemetry
+from motor_driver.frames.from_host import Command, FromHost
 from motor_driver.handshake import Handshake, Phase
 from motor_driver.protocol import Decoder, Encoder
 from motor_driver.switch import Switch

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from motor_driver.driver import Driver
 from motor_driver.exchange import Exchange
-from motor_driver.frames import Hello
+from motor_driver.frames.from_board import Hello
 from motor_driver.protocol import LinkCounters
 from motor_driver.readout import LEAST
 

@@ -2,7 +2,9 @@
 
 from enum import Enum, auto
 
-from motor_driver.frames import Enable, Flag, Telemetry
+from motor_driver.frames.codes import Flag
+from motor_driver.frames.from_board import Telemetry
+from motor_driver.frames.from_host import Enable
 
 ASK_EVERY = 10_000_000  # [ns]
 HELD_UP = "the board heard no command for too long and switched off"

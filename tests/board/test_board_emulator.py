@@ -12,7 +12,9 @@ from diagnostic_msgs.msg import DiagnosticArray
 from emulated_board import Client, need_emulator
 from std_srvs.srv import Trigger
 
-from motor_driver.frames import Hello, Identify, ResetCause, Telemetry
+from motor_driver.frames.codes import ResetCause
+from motor_driver.frames.from_board import Hello, Telemetry
+from motor_driver.frames.from_host import Identify
 from motor_ros import qos
 
 RUN = "from motor_board.node import main; import sys; sys.exit(main())"

@@ -8,21 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from motor_driver.frames import (
-    Command,
-    Configure,
-    Enable,
-    Flag,
-    Frame,
-    Hello,
-    Identify,
-    Ping,
-    Pong,
-    Protect,
-    Sensed,
-    Setup,
-    Telemetry,
-)
+from motor_driver.frames.codes import Flag
+from motor_driver.frames.from_board import Hello, Pong, Sensed, Telemetry
+from motor_driver.frames.from_host import Command, Configure, Enable, Identify, Ping, Protect, Setup
+from motor_driver.frames.table import Frame
 from motor_driver.protocol import Arrival, Decoder, pack, unstuff
 
 TIMEOUT = 200  # [tick] of the output under test

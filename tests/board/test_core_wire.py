@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from motor_board.places import share
 from motor_board.wire_table import load_table, seal
-from motor_driver.frames import FRAMES, Ping
+from motor_driver.frames.from_host import Ping
+from motor_driver.frames.table import FRAMES
 from motor_driver.protocol import Arrival, Decoder, pack, stuff, unstuff
 
 VECTORS: dict[str, Any] = json.loads((share() / "protocol" / "vectors.json").read_text(encoding="utf-8"))

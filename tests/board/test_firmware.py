@@ -8,19 +8,9 @@ from emulated_board import MS, TICK, Bench, on_each_chip
 
 from motor_board.build import FirmwareConfig
 from motor_board.emulation.chip import Hang
-from motor_driver.frames import (
-    Board,
-    Command,
-    Configure,
-    Enable,
-    Flag,
-    Hello,
-    Identify,
-    Ping,
-    Pong,
-    ResetCause,
-    Telemetry,
-)
+from motor_driver.frames.codes import Board, Flag, ResetCause
+from motor_driver.frames.from_board import Hello, Pong, Telemetry
+from motor_driver.frames.from_host import Command, Configure, Enable, Identify, Ping
 from motor_driver.protocol import pack
 
 MakeBench = Callable[..., Bench]

@@ -6,7 +6,8 @@ import pytest
 from emulated_board import Bench, on_each_chip
 
 from motor_board.build import FirmwareConfig
-from motor_driver.frames import Configure, Features, Hello, Setup, Telemetry
+from motor_driver.frames.from_board import Features, Hello, Telemetry
+from motor_driver.frames.from_host import Configure, Setup
 
 MakeBench = Callable[..., Bench]
 

@@ -11,7 +11,9 @@ from motor_board.build import FirmwareConfig
 from motor_board.emulation.emulator import SENSE_NOISE
 from motor_board.emulation.wiring import Wiring
 from motor_driver.current_limits import CurrentLimits
-from motor_driver.frames import NOT_MEASURED, Command, Flag, Protection, Sensed, Telemetry
+from motor_driver.frames.codes import NOT_MEASURED, Flag
+from motor_driver.frames.from_board import Protection, Sensed, Telemetry
+from motor_driver.frames.from_host import Command
 from motor_model.parameters import Parameters
 from motor_model.sample import CURRENT_LAG
 

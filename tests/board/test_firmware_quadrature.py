@@ -9,7 +9,8 @@ from line_events import counts_of, dither_events, line_events
 
 from motor_board.build import FirmwareConfig
 from motor_board.emulation.edges import Edges
-from motor_driver.frames import Command, Features, Ping, Setup, Telemetry
+from motor_driver.frames.from_board import Features, Telemetry
+from motor_driver.frames.from_host import Command, Ping, Setup
 
 MakeBench = Callable[..., Bench]
 TWO = FirmwareConfig(channels=2)

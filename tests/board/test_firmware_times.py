@@ -10,7 +10,9 @@ from emulated_board import MS, TICK, Bench, on_each_chip
 from motor_board.build import FirmwareConfig
 from motor_board.emulation.edges import Edges, Line
 from motor_board.emulation.shaft import EncoderConfig
-from motor_driver.frames import Command, Configure, Flag, Hello, Ping, Pong, Telemetry
+from motor_driver.frames.codes import Flag
+from motor_driver.frames.from_board import Hello, Pong, Telemetry
+from motor_driver.frames.from_host import Command, Configure, Ping
 from motor_driver.protocol import Arrival
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.simulate import simulate

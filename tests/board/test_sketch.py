@@ -9,7 +9,7 @@ from emulated_board import Bench, need_emulator
 from motor_board.build import AVR, FirmwareConfig
 from motor_board.errors import BoardError
 from motor_board.sketch import write_sketch
-from motor_driver.frames import Hello
+from motor_driver.frames.from_board import Hello
 
 
 def test_the_sketch_is_the_same_firmware(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,20 +9,24 @@ import pytest
 
 from motor_board.places import share
 from motor_board.wire_table import load_table, seal
-from motor_driver import frames, protocol
+from motor_driver import protocol
+from motor_driver.frames import codes
+from motor_driver.frames.from_board import OtherVersion
+from motor_driver.frames.from_host import Enable
+from motor_driver.frames.table import FRAMES
 from motor_driver.protocol import Arrival, Decoder, pack, unpack
 
 TABLE = load_table()
 VECTORS: dict[str, Any] = json.loads((share() / "protocol" / "vectors.json").read_text(encoding="utf-8"))
-KINDS = {kind.__name__.lower(): kind for kind in frames.FRAMES.values()}
+KINDS = {kind.__name__.lower(): kind for kind in FRAMES.values()}
 
 
 def test_the_driver_has_the_table_s_constants() -> None:
-    assert (TABLE.version, TABLE.baud, TABLE.longest_frame) == (frames.VERSION, frames.BAUD, frames.LONGEST_FRAME)
-    enums = {"decay": frames.Decay, "board": frames.Board, "pwm": frames.Pwm}
+    assert (TABLE.version, TABLE.baud, TABLE.longest_frame) == (codes.VERSION, codes.BAUD, codes.LONGEST_FRAME)
+    enums = {"decay": codes.Decay, "board": codes.Board, "pwm": codes.Pwm}
     for name, members in TABLE.values.items():
         assert {member.name.lower(): member.value for member in enums[name]} == members
-    flags = {"flag": frames.Flag, "reset_cause": frames.ResetCause}
+    flags = {"flag": codes.Flag, "reset_cause": codes.ResetCause}
     for name, bits in TABLE.bits.items():
         assert {member.name.lower(): member.value for member in flags[name]} == {k: 1 << bit for k, bit in bits.items()}
 
@@ -62,12 +66,12 @@ def test_the_driver_reads_no_bad_vector(vector: dict[str, Any]) -> None:
 def test_another_version_is_known_and_refused_in_a_sentence() -> None:
     wire = bytes.fromhex(VECTORS["other_version"]["wire"])
     (event,) = Decoder().receive(wire)
-    assert event == frames.OtherVersion(TABLE.version + 1)
-    newer, older = (str(frames.OtherVersion(v).error("/dev/ttyACM0")) for v in (TABLE.version + 1, TABLE.version - 1))
+    assert event == OtherVersion(TABLE.version + 1)
+    newer, older = (str(OtherVersion(v).error("/dev/ttyACM0")) for v in (TABLE.version + 1, TABLE.version - 1))
     assert "/dev/ttyACM0 speaks protocol version 2, this driver version 1" in newer and "update" in newer
     assert "speaks protocol version 0" in older and "motor_board flash" in older and "update" not in older
 
 
 def test_sealing_by_the_definitions_is_what_the_driver_does() -> None:
     data = TABLE.data("enable", 0, {"on": 1, "boot": 0, "latch": 0})
-    assert unpack(seal(data)[:-1]) == Arrival(0, frames.Enable(1, 0, 0))
+    assert unpack(seal(data)[:-1]) == Arrival(0, Enable(1, 0, 0))

@@ -6,7 +6,8 @@ import pytest
 from board_frames import HELLO
 
 from motor_driver.config import SILENCE, Config
-from motor_driver.frames import Configure, Decay
+from motor_driver.frames.codes import Decay
+from motor_driver.frames.from_host import Configure
 
 
 @pytest.mark.parametrize(

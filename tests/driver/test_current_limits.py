@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from motor_driver.config import Config
 from motor_driver.current_limits import MOST_BUDGET, CurrentLimits
-from motor_driver.frames import Protect
+from motor_driver.frames.from_host import Protect
 from motor_model.errors import MotorError
 
 

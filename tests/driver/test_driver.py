@@ -16,7 +16,8 @@ from emulated_board import MS
 from motor_board.build import FirmwareConfig
 from motor_driver import status
 from motor_driver.config import Config
-from motor_driver.frames import Decay, Telemetry
+from motor_driver.frames.codes import Decay
+from motor_driver.frames.from_board import Telemetry
 from motor_driver.protocol import Arrival, Decoder, LinkCounters
 from motor_driver.readout import Readout
 from motor_model.parameters import PAPER_KV

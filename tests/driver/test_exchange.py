@@ -4,7 +4,9 @@ import pytest
 
 from motor_driver.clock.board_clock import BoardClock
 from motor_driver.exchange import MEMORY, PING_EVERY, Exchange
-from motor_driver.frames import BAUD, Ping, Pong
+from motor_driver.frames.codes import BAUD
+from motor_driver.frames.from_board import Pong
+from motor_driver.frames.from_host import Ping
 
 BYTE = 20_000  # [ns] at 500,000 baud, start and stop bit included
 TICK = 500  # [ns]

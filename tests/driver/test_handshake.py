@@ -7,17 +7,9 @@ from board_frames import HELLO, TELEMETRY
 
 from motor_driver.config import Config
 from motor_driver.current_limits import CurrentLimits
-from motor_driver.frames import (
-    Configure,
-    Features,
-    Hello,
-    Identify,
-    OtherVersion,
-    Protect,
-    Protection,
-    ResetCause,
-    Setup,
-)
+from motor_driver.frames.codes import ResetCause
+from motor_driver.frames.from_board import Features, Hello, OtherVersion, Protection
+from motor_driver.frames.from_host import Configure, Identify, Protect, Setup
 from motor_driver.handshake import ASK_EVERY, PATIENCE, Handshake, Phase, reset_cause
 
 LIMITS = CurrentLimits(5.0, 2.0, 1.0)

@@ -8,7 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from motor_driver.frames import FRAMES, Command, Frame, Hello, Ping, Pong, ProtocolError, Telemetry
+from motor_driver.frames.from_board import Hello, Pong, Telemetry
+from motor_driver.frames.from_host import Command, Ping
+from motor_driver.frames.protocol_error import ProtocolError
+from motor_driver.frames.table import FRAMES, Frame
 from motor_driver.protocol import Arrival, Decoder, Encoder, LinkCounters, pack, stuff, unstuff
 
 RANGES = {"B": (0, 255), "H": (0, 65535), "h": (-32768, 32767), "I": (0, 2**32 - 1)}

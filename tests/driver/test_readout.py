@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from motor_control.controller.plant_watch import watch_plant
 from motor_driver.config import Config
-from motor_driver.frames import NOT_MEASURED, Flag, Sensed, Telemetry
+from motor_driver.frames.codes import NOT_MEASURED, Flag
+from motor_driver.frames.from_board import Sensed, Telemetry
 from motor_driver.readout import Readout
 from motor_model.sample import Sample
 

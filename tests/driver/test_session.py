@@ -6,7 +6,9 @@ from board_frames import HELLO, TELEMETRY, enabled
 
 from motor_driver.config import Config
 from motor_driver.exchange import Exchange
-from motor_driver.frames import BAUD, Command, Configure, Enable, Frame, Identify, Ping
+from motor_driver.frames.codes import BAUD
+from motor_driver.frames.from_host import Command, Configure, Enable, Identify, Ping
+from motor_driver.frames.table import Frame
 from motor_driver.handshake import Handshake
 from motor_driver.protocol import Arrival, Decoder
 from motor_driver.session import REPEAT, Session

@@ -6,7 +6,8 @@ from dataclasses import replace
 import pytest
 from board_frames import TELEMETRY, enabled
 
-from motor_driver.frames import Enable, Flag
+from motor_driver.frames.codes import Flag
+from motor_driver.frames.from_host import Enable
 from motor_driver.switch import ASK_EVERY, Output, Switch, reason_off
 
 

@@ -2,7 +2,8 @@
 
 from dataclasses import replace
 
-from motor_driver.frames import NOT_MEASURED, Decay, Flag, Hello, ResetCause, Telemetry
+from motor_driver.frames.codes import NOT_MEASURED, Decay, Flag, ResetCause
+from motor_driver.frames.from_board import Hello, Telemetry
 
 HELLO = Hello(
     firmware_major=1,

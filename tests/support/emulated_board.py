@@ -18,7 +18,9 @@ from motor_board.build import CHIPS, FirmwareConfig, chip_library, firmware
 from motor_board.emulation.emulator import Emulator
 from motor_board.emulation.shaft import EncoderConfig
 from motor_board.errors import BoardError
-from motor_driver.frames import Command, Configure, Enable, Frame, Hello, OtherVersion, Telemetry
+from motor_driver.frames.from_board import Hello, OtherVersion, Telemetry
+from motor_driver.frames.from_host import Command, Configure, Enable
+from motor_driver.frames.table import Frame
 from motor_driver.protocol import Arrival, Decoder, Encoder
 from motor_model.parameters import Parameters, paper_motor
 

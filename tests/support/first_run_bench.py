@@ -16,7 +16,8 @@ from motor_driver.check.check import Check
 from motor_driver.check.first_run import FirstRun
 from motor_driver.check.look import Act, Answer, Look, Prompt
 from motor_driver.check.settings import Settings, config_of
-from motor_driver.frames import BAUD, Hello
+from motor_driver.frames.codes import BAUD
+from motor_driver.frames.from_board import Hello
 from motor_model.gearing.gear import exact_gear
 from motor_model.parameters import Parameters
 from motor_model.sensing.board import BoardConfig, SimulatedBoard

@@ -6,7 +6,7 @@ from motor_driver.check.look import OFF, Act, Look
 from motor_driver.check.record import Record
 from motor_driver.check.script import run_script
 from motor_driver.check.settings import Settings
-from motor_driver.frames import Hello
+from motor_driver.frames.from_board import Hello
 
 STAYS_OFF = "the board does not switch its output on"
 

@@ -4,7 +4,7 @@ from motor_driver.check.check import Check
 from motor_driver.check.look import OFF, Answer, Look, Prompt
 from motor_driver.check.settings import AnyBoard, Settings
 from motor_driver.driver import Driver, Reading
-from motor_driver.frames import Hello
+from motor_driver.frames.from_board import Hello
 from motor_driver.handshake import PATIENCE
 
 ANSWERS = {"": Answer.DONE, "y": Answer.YES, "n": Answer.NO}

@@ -7,7 +7,7 @@ from motor_driver.check.hand import Turned, judge_counts
 from motor_driver.check.look import Answer
 from motor_driver.check.record import UNKNOWN, Record
 from motor_driver.check.settings import Settings
-from motor_driver.frames import Hello
+from motor_driver.frames.from_board import Hello
 
 FOLLOWS = 1.1  # that the quicker of two paces is over the slower one at least
 WAYS = {Answer.YES: 1, Answer.NO: -1, Answer.DONE: 0}

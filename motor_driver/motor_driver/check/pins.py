@@ -3,7 +3,7 @@
 import re
 from collections.abc import Mapping
 
-from motor_driver.frames import Board
+from motor_driver.frames.codes import Board
 
 NAMES = {Board.ATMEGA328P: "an ATmega328P", Board.ATMEGA2560: "an ATmega2560"}
 ELSEWHERE: Mapping[int, Mapping[str, str]] = {Board.ATMEGA2560: {"D5": "D7", "D7": "D19", "D8": "D48"}}

@@ -5,7 +5,7 @@ from math import nan
 
 from motor_driver.check.findings import Finding, finding
 from motor_driver.check.pins import name_pins
-from motor_driver.frames import Board
+from motor_driver.frames.codes import Board
 
 OK, WRONG, CURED, UNKNOWN = "ok", "wrong", "cured", "not known"
 

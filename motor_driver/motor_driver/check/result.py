@@ -8,7 +8,7 @@ from typing import Any
 from motor_driver.check.check import Check
 from motor_driver.check.record import UNKNOWN
 from motor_driver.check.settings import Settings
-from motor_driver.frames import Hello
+from motor_driver.frames.from_board import Hello
 
 NODE = "/**/motor_driver"  # in any namespace
 

@@ -10,7 +10,7 @@ from motor_driver.check.look import OFF, Prompt, Steps
 from motor_driver.check.record import UNKNOWN, Record
 from motor_driver.check.rest import ask, watch_rest
 from motor_driver.check.settings import Settings
-from motor_driver.frames import Hello
+from motor_driver.frames.from_board import Hello
 
 LITTLE = 3.0  # [V] of supply: no bridge works with less
 LEAST_SUPPLY, MOST_SUPPLY = 0.8, 1.1  # of the expected one: a battery that is empty, a divider of two 5 % resistors

@@ -4,7 +4,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from motor_driver.config import Config
-from motor_driver.frames import Decay, Hello, Pwm
+from motor_driver.frames.codes import Decay, Pwm
+from motor_driver.frames.from_board import Hello
 from motor_model.gearing.gear import edge_angle
 
 HIGHEST = 0.5  # of the motor's voltage: turns any motor that is meant for it, with half of its stall current at most

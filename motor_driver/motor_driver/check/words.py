@@ -5,7 +5,7 @@ from motor_driver.check.look import Prompt
 from motor_driver.check.pins import name_board
 from motor_driver.check.record import CURED, OK, UNKNOWN, WRONG, Row
 from motor_driver.check.settings import Settings
-from motor_driver.frames import Hello
+from motor_driver.frames.from_board import Hello
 
 MARKS = {OK: "ok", WRONG: "WRONG", CURED: "cured", UNKNOWN: "?"}
 

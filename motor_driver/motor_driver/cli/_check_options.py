@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from motor_driver.check.settings import Settings
-from motor_driver.frames import BAUD, Decay
+from motor_driver.frames.codes import BAUD, Decay
 from motor_driver.parameters import MOST_ID
 from motor_model.errors import MotorError
 from motor_model.gearing.gear import parse_gear_ratio

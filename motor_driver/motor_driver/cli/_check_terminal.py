@@ -13,7 +13,7 @@ from motor_driver.check import words
 from motor_driver.check.first_run import FirstRun
 from motor_driver.check.look import Prompt
 from motor_driver.check.settings import Settings, config_of
-from motor_driver.frames import Decay, Pwm
+from motor_driver.frames.codes import Decay, Pwm
 from motor_driver.link import open_port
 from motor_driver.ports.port_error import COMMAND
 from motor_model.errors import MotorError

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 from emulated_board import MS, Bench, need_emulator
 
-from motor_driver.frames import Hello, Telemetry
+from motor_driver.frames.from_board import Hello, Telemetry
 
 
 @pytest.fixture

@@ -14,7 +14,9 @@ from patience import PATIENCE
 from motor_board.emulation.live import LiveBoard
 from motor_board.emulation.port import Port
 from motor_board.errors import BoardError
-from motor_driver.frames import Command, Configure, Enable, Hello, Identify, Ping, Pong, ResetCause, Telemetry
+from motor_driver.frames.codes import ResetCause
+from motor_driver.frames.from_board import Hello, Pong, Telemetry
+from motor_driver.frames.from_host import Command, Configure, Enable, Identify, Ping
 
 Connect = Callable[[], Client]
 

@@ -7,7 +7,7 @@ from emulated_board import Bench, need_emulator
 
 from motor_board.build import FirmwareConfig
 from motor_board.emulation.wiring import Wiring
-from motor_driver.frames import Telemetry
+from motor_driver.frames.from_board import Telemetry
 
 
 @pytest.fixture

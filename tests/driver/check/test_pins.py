@@ -4,7 +4,7 @@ import pytest
 
 from motor_driver.check.pins import name_board, name_pins
 from motor_driver.check.record import Record
-from motor_driver.frames import Board
+from motor_driver.frames.codes import Board
 
 
 @pytest.mark.parametrize(("board", "name"), [(1, "an ATmega328P"), (2, "an ATmega2560"), (9, "a board of kind 9")])

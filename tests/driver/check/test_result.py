@@ -10,7 +10,7 @@ from first_run_bench import SimulatedRun, motor
 from motor_board.emulation.wiring import Wiring
 from motor_driver.check.result import Chosen, as_json, parameter_text, refused_json
 from motor_driver.check.settings import Settings
-from motor_driver.frames import Pwm
+from motor_driver.frames.codes import Pwm
 from motor_driver.parameters import ROWS, config_of
 
 TOLD = Settings(max_voltage=9.0, supply_voltage=12.0, edges_per_revolution=96)

@@ -3,7 +3,7 @@
 from first_run_bench import hello
 
 from motor_driver.check.settings import Settings, config_of
-from motor_driver.frames import BAUD
+from motor_driver.frames.codes import BAUD
 
 
 def refusal(settings: Settings, channels: int = 1, edges: int = 0, board_id: int = 0) -> str:

@@ -12,7 +12,7 @@ from motor_board.build import FirmwareConfig
 from motor_board.emulation.shaft import EncoderConfig
 from motor_driver import status
 from motor_driver.config import Config
-from motor_driver.frames import Decay, Pwm
+from motor_driver.frames.codes import Decay, Pwm
 from motor_model.parameters import Parameters
 from motor_model.sensing.encoder import Lines
 

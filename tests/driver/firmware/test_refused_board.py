@@ -7,7 +7,7 @@ from driver_rig import MakeRig, problem
 
 from motor_board.build import FirmwareConfig
 from motor_driver.config import Config
-from motor_driver.frames import Identify
+from motor_driver.frames.from_host import Identify
 from motor_driver.protocol import pack
 
 

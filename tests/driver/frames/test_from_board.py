@@ -1,11 +1,12 @@
-"""Frames as values: what their flags mean, and what is said of another version."""
+"""What the board says, as values: what flags mean, and what is said of another version."""
 
 from dataclasses import replace
 
 import pytest
 from board_frames import TELEMETRY
 
-from motor_driver.frames import FRAMES, LONGEST_FRAME, VERSION, Flag, OtherVersion
+from motor_driver.frames.codes import VERSION, Flag
+from motor_driver.frames.from_board import OtherVersion
 
 
 @pytest.mark.parametrize(
@@ -14,11 +15,6 @@ from motor_driver.frames import FRAMES, LONGEST_FRAME, VERSION, Flag, OtherVersi
 def test_flags(flags: int, enabled: bool, edge: bool) -> None:
     frame = replace(TELEMETRY, flags=flags)
     assert (frame.enabled, frame.edge_valid) == (enabled, edge)
-
-
-def test_every_frame_has_a_number_and_fits_on_the_wire() -> None:
-    assert len(FRAMES) == 13 and all(number == kind.TYPE for number, kind in FRAMES.items())
-    assert all(4 + kind.BODY.size + 4 + 2 <= LONGEST_FRAME for kind in FRAMES.values())
 
 
 def test_who_is_older_is_to_be_renewed() -> None:
