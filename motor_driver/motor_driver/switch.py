@@ -16,6 +16,7 @@ CURRENT_UNKNOWN = (
     "the board could not measure the motor's current for ten samples, and current_limit needs it: see whether more "
     "edges come than the board counts, and flash it again"
 )
+OWN_WAYS = Flag.TIMED_OUT | Flag.OVERCURRENT | Flag.CURRENT_UNKNOWN  # off, and only if it was on
 
 
 def reason_off(frame: Telemetry) -> str:
@@ -42,6 +43,7 @@ class Switch:
     def __init__(self) -> None:
         self.output = Output.OFF  # to configure is to switch off
         self._asked: int | None = None
+        self._named: int | None = None  # latch in the latest enable, while turning on
 
     @property
     def listening(self) -> bool:
@@ -56,10 +58,15 @@ class Switch:
             elif self.output is Output.OFF:
                 self._go(Output.TURNING_OFF)
             return False
-        fell = self.output is Output.ON
-        if self.output is not Output.TURNING_ON:
+        fell = self.output is Output.ON or self._fell_unseen(frame)
+        if fell or self.output is not Output.TURNING_ON:
             self.output = Output.OFF
         return fell
+
+    def _fell_unseen(self, frame: Telemetry) -> bool:
+        """Whether it was on after the enable, in frames that are lost, and has switched off by itself since."""
+        turning_on = self.output is Output.TURNING_ON and self._named is not None
+        return turning_on and frame.latch != self._named and bool(frame.flags & OWN_WAYS)
 
     def asks(self, wish: bool, latest: Telemetry | None, now: int) -> Enable | None:
         """What to send at `now`, given what the user wants and the board said last."""
@@ -73,7 +80,8 @@ class Switch:
         self._asked = now
         if self.output is Output.TURNING_OFF or latest is None:
             return Enable(0)
+        self._named = latest.latch
         return Enable(1, latest.boot, latest.latch)
 
     def _go(self, output: Output) -> None:
-        self.output, self._asked = output, None
+        self.output, self._asked, self._named = output, None, None

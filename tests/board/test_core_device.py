@@ -1,10 +1,11 @@
 """The firmware's output and its whole device, on this computer, over hours that no emulator could run."""
 
-from ctypes import byref, create_string_buffer
+from ctypes import byref
 from dataclasses import dataclass
 
 import firmware_core as core
 import pytest
+from core_board import LEAD, WRAP, CoreBoard
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -12,11 +13,8 @@ from motor_driver.frames.codes import Flag
 from motor_driver.frames.from_board import Hello, Pong, Sensed, Telemetry
 from motor_driver.frames.from_host import Command, Configure, Enable, Identify, Ping, Protect, Setup
 from motor_driver.frames.table import Frame
-from motor_driver.protocol import Arrival, Decoder, pack, unstuff
 
 TIMEOUT = 200  # [tick] of the output under test
-WRAP = 1 << 32
-LEAD = 30  # [tick] that a sample is after its interrupt
 
 steps = st.lists(
     st.tuples(
@@ -71,51 +69,9 @@ def test_the_output_keeps_the_rules(script: list[tuple[str, int, int]], start: i
         assert (output.on, output.latch, output.newest) == (model.on, model.latch, model.newest)
 
 
-class Board:
-    """The firmware without its registers: the test is its timer."""
-
-    CONFIG = core.DeviceConfig(1, 0, 96, 1, 500, 256, 2_000, 2_000, 10_000, LEAD, 100, 0)
-
-    def __init__(self, config: core.DeviceConfig = CONFIG) -> None:
-        self.lib, self.device, self.config = core.load(), core.Device(), config
-        self.lib.device_start(byref(self.device), byref(config), 5, 1)
-        self.now, self.seq = 0, 0
-        self.decoder = Decoder()
-        self.compare = 10_000
-
-    def step(self) -> None:
-        """The next compare interrupt."""
-        self.now += (self.compare - self.now) % 65536 or 65536
-        for _ in range(self.now // 65536 - (self.now - 1) // 65536):
-            self.lib.device_overflow(byref(self.device))
-        ticks = self.lib.device_latch(byref(self.device))
-        self.compare = self.lib.device_next(byref(self.device))
-        if ticks:
-            self.lib.device_sample(byref(self.device), byref(self.device.edges))
-
-    def send(self, frame: Frame, version: int = 1) -> bool:
-        """A frame comes in; whether it was one for a board."""
-        plain = unstuff(pack(frame, self.seq)[:-1])
-        assert plain is not None
-        body = create_string_buffer(plain[4:-4])
-        raw = core.Frame(version, frame.TYPE, len(plain) - 8, self.seq, core.POINTER(core.c_uint8)())
-        raw.body = core.ctypes.cast(body, core.POINTER(core.c_uint8))
-        self.seq += 1
-        return bool(self.lib.device_act(byref(self.device), byref(raw), self.now % WRAP))
-
-    def hear(self, quiet: bool = True) -> list[Frame]:
-        """All that it has to say."""
-        frames: list[Frame] = []
-        out, wire = core.DeviceFrame(), create_string_buffer(48)
-        while self.lib.device_take(byref(self.device), byref(out), quiet, self.now % WRAP, 0):
-            length = self.lib.frame_seal(out.data, out.type, out.seq, out.size, wire)
-            frames += [event.frame for event in self.decoder.receive(wire.raw[:length]) if isinstance(event, Arrival)]
-        return frames
-
-
 def test_samples_stay_on_their_grid_for_an_hour_while_the_clock_wraps() -> None:
     """Two wraps of the 32-bit clock: 72 min at the longest period, every tick exactly one period after the last."""
-    board = Board()
+    board = CoreBoard()
     board.step()
     board.send(Configure(2**24, 1_000, 0))
     board.step()
@@ -130,7 +86,7 @@ def test_samples_stay_on_their_grid_for_an_hour_while_the_clock_wraps() -> None:
 
 
 def test_a_tick_that_could_not_be_sent_is_left_out_and_counted() -> None:
-    board = Board()
+    board = CoreBoard()
     for _ in range(4):
         board.step()
     board.send(Ping(9))
@@ -140,7 +96,7 @@ def test_a_tick_that_could_not_be_sent_is_left_out_and_counted() -> None:
 
 
 def test_a_pong_waits_for_quiet_and_then_goes_first() -> None:
-    board = Board()
+    board = CoreBoard()
     board.step()
     board.send(Ping(1))
     assert board.hear(quiet=False) == []
@@ -148,7 +104,7 @@ def test_a_pong_waits_for_quiet_and_then_goes_first() -> None:
 
 
 def test_frames_that_are_not_for_a_board_have_no_effect() -> None:
-    board = Board()
+    board = CoreBoard()
     board.hear()
     assert not board.send(Pong(1, 2, 3, 4, 5)) and board.hear() == []
     assert not board.send(Enable(1, 5, 0), version=2)
@@ -159,7 +115,7 @@ def test_frames_that_are_not_for_a_board_have_no_effect() -> None:
 
 
 def test_a_command_acts_at_the_next_tick_and_no_longer_than_the_time_out() -> None:
-    board = Board()
+    board = CoreBoard()
     board.send(Enable(1, 5, 0))
     board.send(Command(99))
     assert board.device.output.duty == 0
@@ -176,7 +132,7 @@ def test_a_command_acts_at_the_next_tick_and_no_longer_than_the_time_out() -> No
 
 
 def test_a_new_period_does_not_wait_for_the_end_of_a_long_one() -> None:
-    board = Board()
+    board = CoreBoard()
     board.send(Configure(2**24, 1_000, 0))
     for _ in range(3):
         board.step()
@@ -203,7 +159,7 @@ def test_a_command_that_came_after_the_tick_is_not_late() -> None:
 
 
 def test_identify_gives_a_hello_and_changes_nothing() -> None:
-    board = Board()
+    board = CoreBoard()
     (first,) = board.hear()
     board.send(Identify())
     assert board.hear() == [first]
@@ -213,14 +169,14 @@ SENSING = core.DeviceConfig(1, 0, 96, 1, 500, 256, 2_000, 2_000, 10_000, LEAD, 1
 TRIPPED = Flag.OVERCURRENT | Flag.CURRENT_UNKNOWN
 
 
-def protected(most: int) -> Board:
+def protected(most: int) -> CoreBoard:
     """A board that senses the current, watches it, and is on."""
-    board = Board(SENSING)
+    board = CoreBoard(SENSING)
     assert board.send(Protect(512, most, most, 2**30 - 1)) and board.send(Enable(1, 5, 1))
     return board
 
 
-def tick(board: Board, current: int | None) -> Sensed:
+def tick(board: CoreBoard, current: int | None) -> Sensed:
     """The next sample, after a conversion of the current or without one."""
     if current is not None:
         board.device.current = current

@@ -51,6 +51,17 @@ def test_a_board_that_switches_off_by_itself_is_noticed_once() -> None:
     assert not switch.hear(enabled(False))
 
 
+@pytest.mark.parametrize("flag", [Flag.TIMED_OUT, Flag.OVERCURRENT, Flag.CURRENT_UNKNOWN])
+def test_a_board_that_was_on_and_off_again_in_frames_that_are_lost_is_not_asked_again(flag: Flag) -> None:
+    switch = Switch()
+    switch.asks(True, TELEMETRY, 0)
+    assert not switch.hear(replace(TELEMETRY, flags=flag))  # of a fall before: its latch is the one that was named
+    assert not switch.hear(replace(TELEMETRY, latch=TELEMETRY.latch + 1))  # an enable(0) that was still under way
+    fell = replace(TELEMETRY, latch=TELEMETRY.latch + 1, flags=flag)
+    assert switch.hear(fell) and switch.output is Output.OFF
+    assert not switch.hear(fell) and switch.asks(True, fell, 1) == Enable(1, fell.boot, fell.latch)  # once it is wished
+
+
 @pytest.mark.parametrize(
     ("flags", "words"),
     [
