@@ -7,6 +7,7 @@ parameters that were found: the library's own simulation has no say in what is c
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from plant import Truth, profiles, record
@@ -85,6 +86,7 @@ class Run:
         return score(self.recording, move(values, self.recording.time, voltage))
 
 
+@cache
 def hidden_run(reference: Reference, seed: int, rate: float, begin: int = 0, irregularity: float = IRREGULAR) -> Run:
     """The hidden motor under the law; the disc belongs to the seed, where it stands also to `begin`."""
     angle = float(np.random.default_rng([seed, begin]).uniform(0.0, 2.0 * np.pi))

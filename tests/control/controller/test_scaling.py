@@ -1,5 +1,7 @@
 """The same motor at another voltage and another speed behaves the same: nothing is scaled in volts or rad/s."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from bench_board import DEFAULTS
@@ -12,7 +14,8 @@ from motor_model.sensing.board import BoardConfig
 PROFILE = (0.57, -0.57, 0.0, 0.02, -0.02)  # of the top speed
 
 
-def run(volts: float, edges: int, source: str, single: bool, rate: float = 200.0) -> Rehearsal:
+@cache
+def run(volts: float, edges: int, source: str, single: bool) -> Rehearsal:
     """The paper's motor with friction, scaled to a voltage and to so many edges a turn; in shares of its top speed."""
     speed, voltage = 96 / edges, volts / 12.0
     kv, ka = PAPER_KV * voltage / speed, PAPER_KA * voltage / speed
@@ -24,7 +27,9 @@ def run(volts: float, edges: int, source: str, single: bool, rate: float = 200.0
         "stribeck_speed": 4.0 * speed,
     }
     plant = Parameters(values, ("static_friction",), max_voltage=volts)
-    board = BoardConfig(sample_rate=rate, edges_per_revolution=edges, start_angle=0.01 * speed, edge_resolution=0.0)
+    board = BoardConfig(
+        edges_per_revolution=edges, single_channel=single, start_angle=0.01 * speed, edge_resolution=0.0
+    )
     observed = source == "observer"
     loop = {"kp": ka / 0.02, "ki": kv / 0.02, "voltage_limit": volts, "speed_source": source, "feedforward": observed}
     config = config_of({**DEFAULTS, **loop}, board.info(plant), plant if observed else None)  # type: ignore[dict-item]

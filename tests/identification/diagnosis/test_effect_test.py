@@ -1,6 +1,7 @@
 """Which effects a model can be given, and which of those that were tried is the finding."""
 
 from dataclasses import replace
+from functools import cache
 from math import tau
 from types import SimpleNamespace
 from typing import cast
@@ -140,11 +141,18 @@ def test_friction_is_the_most_likely_of_what_is_tried(workers: int) -> None:
     assert useless.model is useless.before and useless.evidence == 0.0 and not useless.relevant  # nothing was promised
 
 
+@cache
+def tried(effect: str, **hidden: float) -> CandidateTest:
+    """That effect, tried where it is hidden."""
+    estimate, hold_out = fitted(**hidden)
+    (test,) = try_effects(validate_model(hold_out, estimate), hold_out, [effect], 1, lambda test: None)
+    return test
+
+
 @pytest.mark.parametrize(("share", "found"), [(0.5, False), (1.5, True)])
 def test_what_begins_with_the_recording_is_constant(share: float, found: bool) -> None:
     """However likely: an instant at the start is a load that is always there, or a wrong initial speed."""
-    estimate, hold_out = fitted(ks=0.0, step_voltage=0.6, step_time=2.5)
-    (test,) = try_effects(validate_model(hold_out, estimate), hold_out, ["load_step"], 1, lambda test: None)
+    test = tried("load_step", ks=0.0, step_voltage=0.6, step_time=2.5)
     fit = test.model.estimate
     column = fit.problem.unknowns.names.index("step_time")
     assert choose_finding([test]) is test and 2.0 < fit.theta[column] < 3.0
@@ -157,8 +165,7 @@ def test_what_begins_with_the_recording_is_constant(share: float, found: bool) -
 @pytest.mark.parametrize(("waves", "found"), [(0.9, False), (1.1, True)])
 def test_a_line_comes_back_a_few_times(waves: float, found: bool) -> None:
     """Of fewer waves from one end of the motion to the other it is any slow torque."""
-    estimate, hold_out = fitted(ripple_voltage=0.4, ripple_cycles=6.0, ripple_phase=0.5)
-    (test,) = try_effects(validate_model(hold_out, estimate), hold_out, ["torque_ripple"], 1, lambda test: None)
+    test = tried("torque_ripple", ripple_voltage=0.4, ripple_cycles=6.0, ripple_phase=0.5)
     assert choose_finding([test]) is test
     fit = test.model.estimate
     theta = fit.theta.copy()
