@@ -10,9 +10,10 @@ from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID, printed_digit
 from motor_identification.logs.rows.count_rate import count_rates
 from motor_identification.logs.rows.flicker import remove_flicker
+from motor_identification.logs.rows.resets import split_at_resets
 from motor_identification.logs.rows.speed_sign import give_signs
 from motor_identification.logs.rows.swapped_sign import turn_round
-from motor_identification.logs.rows.wraps import split_at_resets, unwrap
+from motor_identification.logs.rows.wraps import unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.sensor.running_mean import find_running_mean
 from motor_identification.sensor.speed_sensor import find_noise

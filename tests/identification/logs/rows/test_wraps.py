@@ -1,32 +1,13 @@
-"""Positions that wrap are unwrapped, counters that are reset split, and other jumps refused."""
+"""Positions that wrap are unwrapped."""
 
 from math import tau
-from pathlib import Path
 
 import numpy as np
 import pytest
+from position_rows import form, rows
 
-from motor_identification.logs.form import CsvForm, Kind
-from motor_identification.logs.rows.wraps import split_at_resets, unwrap
-from motor_identification.logs.signals import Floats, Integers, Signals
+from motor_identification.logs.rows.wraps import unwrap
 from motor_model.errors import RecordingError
-
-
-def form(unit: str) -> CsvForm:
-    return CsvForm("t", "u", "y", Kind.POSITION, unit)
-
-
-def whole(values: Floats) -> Integers:
-    return np.rint(values).astype(np.int64)
-
-
-def rows(motion: Floats) -> Signals:
-    count = len(motion)
-    unknown, time = np.full(count, np.nan), np.arange(count) * 10_000_000
-    volts = np.full(count, 5.0)
-    return Signals(
-        Path("log.csv"), np.arange(2, count + 2), time, volts, motion, unknown, unknown, {"": slice(0, count)}
-    )
 
 
 @pytest.mark.parametrize(
@@ -58,55 +39,3 @@ def test_positions_that_do_not_wrap_stay() -> None:
         assert said == [] and np.array_equal(signals.motion, there)
     fast = 200.0 * np.arange(40)  # more than half a turn a row
     assert unwrap(rows(fast), form("deg"))[1] == []
-
-
-def test_a_reset_begins_a_run_and_a_second_one_from_the_same_place_is_a_wrap() -> None:
-    once = np.concatenate([10.0 * np.arange(60), 10.0 * np.arange(50)])
-    signals, said = split_at_resets(rows(once), form("deg"), whole)
-    assert [run.stop - run.start for run in signals.runs.values()] == [60, 50]
-    assert said == ["y is reset once: 2 runs, a bag each."]
-    again = np.concatenate([10.0 * np.arange(60), 10.0 * np.arange(60), 10.0 * np.arange(60)])
-    with pytest.raises(RecordingError, match=r"line 122: y jumps from 590 to 0, and not for the first time: say where"):
-        split_at_resets(rows(again), form("deg"), whole)
-
-
-def with_jumps(number: int) -> Floats:
-    there = 10.0 * np.arange(900)
-    for k in range(number):
-        there[60 * (k + 1) :] += 5000.0 + 700.0 * k
-    return there
-
-
-def test_a_jump_to_somewhere_else_begins_a_run() -> None:
-    signals, said = split_at_resets(rows(with_jumps(8)), form("deg"), whole)
-    assert [run.stop - run.start for run in signals.runs.values()] == [60] * 8 + [420]
-    assert list(signals.runs) == [str(k) for k in range(1, 10)]
-    assert (
-        said[0].startswith("Caution: y jumps 8 times, at line 62, 122, 182, 242,") and "9 runs, a bag each" in said[0]
-    )
-    with pytest.raises(
-        RecordingError, match=r"jumps from -?\d+ to -?\d+, as in more than 8 places: say where it wraps"
-    ):
-        split_at_resets(rows(with_jumps(9)), form("deg"), whole)
-
-
-@pytest.mark.parametrize(("first", "left_out"), [(-101.0, True), (-99.0, False)])
-def test_a_first_row_of_something_before_is_left_out(first: float, left_out: bool) -> None:
-    """The motor goes 10 a row; the buffer of the program still had the end of the run before."""
-    signals, said = split_at_resets(rows(np.append(first, 10.0 * np.arange(200))), form("deg"), whole)
-    assert [run.stop - run.start for run in signals.runs.values()] == [200 if left_out else 201]
-    assert said == (["Left out: 1 first row, whose y is that of something before."] if left_out else [])
-    quick = np.cumsum(np.concatenate([[0.0, 500.0], np.zeros(20), np.full(50, 600.0)]))  # it moves so later on, too
-    assert len(split_at_resets(rows(quick), form("deg"), whole)[0]) == len(quick)
-
-
-@pytest.mark.parametrize(("length", "runs"), [(1, [300, 599]), (3, [300, 597]), (19, [300, 581])])
-def test_values_that_are_misread_are_left_out(length: int, runs: list[int]) -> None:
-    there = 10.0 * np.arange(900)
-    there[300 : 300 + length] += 4000.0
-    signals, said = split_at_resets(rows(there), form("deg"), whole)
-    assert [run.stop - run.start for run in signals.runs.values()] == runs
-    assert said == [
-        "Caution: y jumps once, at line 302, further than the motor goes: 2 runs, a bag each "
-        "(where it wraps: --wrap R)."
-    ]

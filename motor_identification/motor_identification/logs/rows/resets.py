@@ -1,0 +1,140 @@
+"""Counters that are reset, and positions that jump to somewhere else: a run ends there, and another begins."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import numpy as np
+
+from motor_identification.logs.form import CsvForm
+from motor_identification.logs.rows.held import find_fresh_rows
+from motor_identification.logs.signals import Bools, Floats, Integers, Signals
+from motor_identification.measurement.sanity_checks import find_count_jump
+from motor_model.errors import RecordingError
+
+FIRST_STEPS, FAR = 5, 10.0  # steps after a run's first, which is wrong where it is so many times each of them
+MOST_JUMPS = 8  # to somewhere else: as many are misread values or a potentiometer's gap, more are a range
+SCRAP = 20  # rows between two jumps, below which they are no recording
+BACK_STEPS = 1.5  # usual steps a row that the motor has gone on meanwhile
+RESET_STEPS = 3.0  # usual steps from 0, or from a run's first value, within which a counter is said to be reset
+
+ToCounts: TypeAlias = Callable[[Floats], Integers]
+
+
+def split_at_resets(signals: Signals, form: CsvForm, count_of: ToCounts) -> tuple[Signals, list[str]]:
+    """Begin a run wherever a counter is reset, to 0 or to the run's first value, or jumps to somewhere else.
+
+    What is on either side of a jump is right, whatever made it: a value that was misread, a potentiometer's gap, a
+    frame that came late. Many jumps, or two alike, are a range that nobody knows.
+
+    Args:
+        signals: rows with positions.
+        form: what they are.
+        count_of: converts them to counts.
+
+    Raises:
+        RecordingError: a position wraps at a size that is not known.
+    """
+    begins = _mark_wrong_first_rows(signals, count_of)
+    wrong_first, breaks = int(begins.sum()), _Breaks(form)
+    split = signals.split(begins)
+    while (row := _first_jump(split, count_of)) is not None:
+        begins[np.searchsorted(signals.lines, split.lines[breaks.add(split, row)])] = True
+        split = signals.split(begins)
+    said = []
+    if wrong_first:
+        rows = "1 first row" if wrong_first == 1 else f"{wrong_first} first rows"
+        said.append(f"Left out: {rows}, whose {form.motion} is that of something before.")
+    if breaks.tops:
+        said.append(f"{form.motion} is reset {_times(len(breaks.tops))}: {len(split.runs)} runs, a bag each.")
+    if breaks.lines:
+        split = _without_scraps(split)
+        said.append(_describe_jumps(split, form, breaks.lines))
+    return split, said
+
+
+@dataclass
+class _Breaks:
+    """Where positions break off, one after the other as they are found."""
+
+    form: CsvForm
+    tops: list[float] = field(default_factory=list)  # the last positions before resets
+    lines: list[int] = field(default_factory=list)  # of jumps to somewhere else
+
+    def add(self, signals: Signals, row: int) -> list[int]:
+        """Take note of a break before a row; returns the rows at which runs begin for it.
+
+        Raises:
+            RecordingError: it is one of so many, or so like another, that the position wraps.
+        """
+        run = next(run for run in signals.runs.values() if run.start < row < run.stop)
+        motion = signals.motion
+        usual = float(np.quantile(np.abs(np.diff(motion[run])), 0.9))
+        near = RESET_STEPS * usual
+        if min(abs(motion[row]), abs(motion[row] - motion[run.start])) <= near:
+            if any(abs(top - motion[row - 1]) <= near for top in self.tops):
+                raise _wrapped(signals, self.form, row, "and not for the first time")
+            self.tops.append(float(motion[row - 1]))
+            return [row]
+        self.lines.append(int(signals.lines[row]))
+        if len(self.lines) > MOST_JUMPS:
+            raise _wrapped(signals, self.form, row, f"as in more than {MOST_JUMPS} places")
+        return [row, _row_back(motion, row, run.stop, usual)]
+
+
+def _mark_wrong_first_rows(signals: Signals, count_of: ToCounts) -> Bools:
+    """Mark the second rows (K,) of runs whose first is far from it, as it is from nothing that follows."""
+    begins = np.zeros(len(signals), np.bool_)
+    counts = count_of(signals.motion)
+    for run in signals.runs.values():
+        steps = np.abs(np.diff(counts[run])).astype(np.float64)
+        if len(steps) > FIRST_STEPS and steps[0] > FAR * max(np.max(steps[1 : 1 + FIRST_STEPS]), 1.0):
+            begins[run.start + 1] = steps[0] > np.max(steps[1:])
+    return begins
+
+
+def _row_back(motion: Floats, row: int, stop: int, usual: float) -> int:
+    """The row at which a value that was misread from `row` on is right again; `row`, where it does not come back."""
+    beside = np.abs(motion[row : min(row + SCRAP, stop)] - motion[row - 1])
+    back = np.flatnonzero(beside <= BACK_STEPS * usual * np.arange(1, len(beside) + 1))
+    return row + int(back[0]) if len(back) else row
+
+
+def _without_scraps(signals: Signals) -> Signals:
+    """The runs but for the few rows between a jump and the next, unless all are such."""
+    keep = np.zeros(len(signals), np.bool_)
+    for run in signals.runs.values():
+        keep[run] = run.stop - run.start >= SCRAP
+    return signals.only(keep) if keep.any() else signals
+
+
+def _describe_jumps(signals: Signals, form: CsvForm, lines: list[int]) -> str:
+    where = ", ".join(str(line) for line in sorted(lines))
+    return (
+        f"Caution: {form.motion} jumps {_times(len(lines))}, at line {where}, further than the motor goes: "
+        f"{len(signals.runs)} runs, a bag each (where it wraps: --wrap R)."
+    )
+
+
+def _first_jump(signals: Signals, count_of: ToCounts) -> int | None:
+    counts = count_of(signals.motion)
+    for run in signals.runs.values():
+        rows, _ = find_fresh_rows(signals.time[run], counts[run].astype(np.float64))
+        rows = rows + run.start
+        time = (signals.time[rows] - signals.time[run.start]) * 1e-9
+        jump = find_count_jump(time, counts[rows], signals.voltage[rows])
+        if jump is not None:
+            return int(rows[jump])
+    return None
+
+
+def _times(count: int) -> str:
+    return "once" if count == 1 else f"{count} times"
+
+
+def _wrapped(signals: Signals, form: CsvForm, row: int, how: str) -> RecordingError:
+    before, here = (f"{signals.motion[k]:.9g}" for k in (row - 1, row))
+    return RecordingError(
+        f"{signals.path}, line {signals.lines[row]}: {form.motion} jumps from {before} to {here}, {how}: say where it "
+        "wraps (--wrap R)."
+    )
