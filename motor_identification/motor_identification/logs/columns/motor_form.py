@@ -1,12 +1,11 @@
 """The form of one motor in a table: how its drive becomes volts, what its motion is, when its runs begin."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.behaviour import can_have_stood
-from motor_identification.logs.columns.clock import row_period
+from motor_identification.logs.columns.behaviour import begins_at_rest
 from motor_identification.logs.columns.direction import guess_direction
 from motor_identification.logs.columns.drive import Drive, duty_drive, supply_scale, voltage_drive
 from motor_identification.logs.columns.heading import Heading, read_heading
@@ -15,6 +14,7 @@ from motor_identification.logs.columns.movement import ASKED, Unit, guess_kind, 
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.columns.speed_beside import find_counted_position, tell_position_unit
 from motor_identification.logs.columns.turn_counts import say_turn_counts
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.csv.table import Table
@@ -23,7 +23,6 @@ from motor_identification.logs.form import UNITS, CsvForm, Kind, time_unit_size
 Floats = NDArray[np.float64]
 
 STEPS_BETWEEN = 0.8  # of the rows that a steady curve's voltage changes in
-FIRST_ROWS = 6.0  # sample periods after 0, within which a run's clock began with its voltage
 _KINDS = {Quantity.SPEED: Kind.SPEED, Quantity.POSITION: Kind.POSITION, Quantity.COUNT: Kind.COUNT}
 _ORDER = (Kind.SPEED, Kind.COUNT, Kind.POSITION)  # `count` is a count before it is a position
 
@@ -46,15 +45,22 @@ class Rows:
 def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, notes: Notes) -> CsvForm:
     """The form of one motor; what is guessed and what is missing goes to the notes."""
     whose = f" of {pair.label}" if pair.label else ""
-    said = say_turn_counts(table, pair, rows.stamps(table), said, notes)
+    stamps = rows.stamps(table)
+    counted = None
+    if stamps is not None and (said.motion, said.unit, said.motors) == (None, None, ()):
+        others = frozenset(name for name in (rows.time, roles.supply, roles.current, said.split) if name)
+        counted = find_counted_position(table, pair, others, stamps)
+    beside_it = f", of which {counted.speed} is the speed (otherwise: --speed {counted.speed})" if counted else ""
+    pair = replace(pair, motion=counted.column) if counted else pair
+    said = say_turn_counts(table, pair, stamps, said, notes)
     drive, scale, supply = _drive(table, pair, roles, said, notes)
     driven = bool(pair.label or np.any(table.numbers(pair.voltage)))  # of several motors, one may not be
     volts = supply_scale(read_heading(supply), table.numbers(supply)) if supply else (1.0, "")
     beside = f", times {supply} in {volts[1]}" if supply else ""
     notes.findings.append(f"Voltage{whose}: {pair.voltage} {drive.why}{beside}.")
-    kind, unit = _motion(table, pair, said, rows.period if rows.time else 0.0, notes)
+    kind, unit = _motion(table, pair, said, rows.period if rows.time else 0.0, stamps, notes)
     why = f" ({unit.why})" if unit.why else ""
-    notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}.")
+    notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}{beside_it}.")
     if rows.time is None and not said.steady:
         _ask_for_times(table, pair, kind, notes)
     increments = kind is Kind.COUNT and count_anew(table, pair, said, notes)
@@ -77,7 +83,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
         unit=unit.name or ASKED.get(kind, ("count",))[0],
         voltage_scale=scale,
         split=said.split,
-        rest_until=_rest(table, rows, pair, kind, said, notes),
+        rest_until=_rest(table, stamps, pair, kind, said, notes),
         voltage_before=said.voltage_before,
         name=said.name if said.name != "motor" or not pair.label else pair.label,
         max_voltage=said.max_voltage or (said.supply_voltage if drive.full and driven else None),
@@ -122,7 +128,9 @@ def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> 
     return drive, 1.0, None
 
 
-def _motion(table: Table, pair: Pair, said: Said, period: float, notes: Notes) -> tuple[Kind, Unit]:
+def _motion(
+    table: Table, pair: Pair, said: Said, period: float, stamps: Floats | None, notes: Notes
+) -> tuple[Kind, Unit]:
     """Kind and unit of the column of motion."""
     heading, values = read_heading(pair.motion), table.numbers(pair.motion)
     kind = said.kind or _kind_of(heading)
@@ -133,6 +141,8 @@ def _motion(table: Table, pair: Pair, said: Said, period: float, notes: Notes) -
     if kind is None:
         kind = guess_kind(values, table.numbers(pair.voltage)) if period else Kind.SPEED
     unit = _unit(heading, values, kind, said, period)
+    if kind is Kind.POSITION and not unit.name and stamps is not None:
+        unit = tell_position_unit(table, heading, stamps) or unit
     if unit.name == "count" and kind is Kind.POSITION and said.kind is None:
         kind = Kind.COUNT
     _ask_about(pair.motion, kind, unit, said, notes)
@@ -183,23 +193,11 @@ def _kind_of(heading: Heading) -> Kind | None:
     return _KINDS[heading.quantity] if heading.quantity in MOVES else None
 
 
-def _rest(table: Table, rows: Rows, pair: Pair, kind: Kind, said: Said, notes: Notes) -> float | None:
-    """0, where every run's clock begins with its voltage, just before its first row, and the motor may have stood."""
-    if rows.time is None or said.rest_until is not None:
+def _rest(table: Table, stamps: Floats | None, pair: Pair, kind: Kind, said: Said, notes: Notes) -> float | None:
+    """0, where every run's clock begins with its voltage, and the motor may have stood then."""
+    if stamps is None or said.rest_until is not None:
         return said.rest_until
-    stamps = rows.stamps(table)
-    assert stamps is not None
-    begins = np.concatenate(([0], np.flatnonzero(np.diff(stamps) < 0.0) + 1, [len(stamps)]))
-    if len(begins) < 3:
-        return None
-    volts, period = table.numbers(pair.voltage), row_period(stamps)
-    runs = [slice(start, stop) for start, stop in zip(begins[:-1], begins[1:], strict=True) if stop - start > 1]
-    even = all(np.all(volts[run] == volts[run.start]) for run in runs)
-    if not even or not all(0.0 < stamps[run.start] < FIRST_ROWS * period for run in runs):
-        return None
-    values = table.numbers(pair.motion)
-    speeds = [values[run] if kind is Kind.SPEED else np.diff(values[run]) for run in runs]
-    if not all(can_have_stood(speed, float(volts[run.start])) for speed, run in zip(speeds, runs, strict=True)):
+    if not begins_at_rest(stamps, table.numbers(pair.voltage), table.numbers(pair.motion), kind is Kind.SPEED):
         return None
     notes.findings.append(
         "Every run has one voltage, and its clock begins just before its first row: the voltage is taken to come upon "

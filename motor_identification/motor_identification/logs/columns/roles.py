@@ -12,7 +12,7 @@ from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_motion, miss_drive, miss_motion
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.vocabulary import MOVES, SIDES, Quantity
+from motor_identification.logs.columns.vocabulary import MOVES, SIDES, UNITS, Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.constant_voltage import CONSTANT
 from motor_model.errors import RecordingError
@@ -99,7 +99,7 @@ def _pairs(table: Table, headings: Sequence[Heading], said: Said, time: str | No
     found = []
     for side in sides:
         own = [one for one in headings if one.side in (side, "")]
-        found.append(Pair(side, _driving(table, own, side, ()), _moving(table, own, side)))
+        found.append(Pair(side, _driving(table, own, side, ()), _moving(table, own, side, None, said.unit)))
     return tuple(found)
 
 
@@ -113,7 +113,7 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
     rest = [one for one in headings if one.name not in (motion, voltage)]
     if not voltage and not motion and not any(map(drives, rest)) and not any(one.quantity in MOVES for one in rest):
         return _by_behaviour(table, rest, time)
-    motion = motion or _moving(table, rest, "", time)
+    motion = motion or _moving(table, rest, "", time, said.unit)
     voltage = voltage or _driving(table, [one for one in rest if one.name != motion], "", ("",))
     return Pair("", voltage, motion)
 
@@ -140,8 +140,12 @@ def _unnamed(table: Table, headings: Sequence[Heading]) -> list[str]:
     return [one.name for one in headings if one.quantity is None and np.any(table.numbers(one.name))]
 
 
-def _moving(table: Table, headings: Sequence[Heading], side: str, time: str | None = None) -> str:
-    for quantity in _BEST_FIRST:
+def _moving(
+    table: Table, headings: Sequence[Heading], side: str, time: str | None = None, unit: str | None = None
+) -> str:
+    """Name the column of motion; a unit that was said is one of its kind, if there is one."""
+    told = UNITS[unit][0] if unit in UNITS else None
+    for quantity in sorted(_BEST_FIRST, key=lambda one: one is not told):
         found = [one.name for one in headings if one.quantity is quantity and one.side == side]
         found = found or [one.name for one in headings if one.quantity is quantity]
         if len(found) > 1:

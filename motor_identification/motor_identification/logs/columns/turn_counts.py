@@ -46,18 +46,36 @@ def say_turn_counts(table: Table, pair: Pair, stamps: Floats | None, said: Said,
         notes: gets the finding.
     """
     heading = read_heading(pair.motion)
-    open_kind = said.kind in (None, Kind.COUNT) and heading.quantity is Quantity.COUNT and said.unit in (None, "count")
-    if not open_kind or said.edges_per_revolution is not None or stamps is None:
+    open_kind = said.kind in (None, Kind.COUNT) and said.unit in (None, "count")
+    counts = heading.quantity is Quantity.COUNT
+    if (
+        not open_kind
+        or not (counts or _is_whole_position(table, heading))
+        or said.edges_per_revolution is not None
+        or stamps is None
+    ):
         return said
     found = find_turn_counts(table, heading, stamps)
-    if found is None or (said.increments is not None and said.increments is not found.anew):
+    if (
+        found is None
+        or (found.anew and not counts)
+        or (said.increments is not None and said.increments is not found.anew)
+    ):
         return said
     since = "since the row before" if found.anew else "from the beginning"
     notes.findings.append(
         f"{pair.motion}: {found.counts} counts a turn, counted {since}, as {found.column} in {found.unit} says "
         "(otherwise: --edges-per-revolution)."
     )
-    return replace(said, edges_per_revolution=found.counts, increments=found.anew)
+    kind = said.kind if counts else Kind.COUNT
+    return replace(said, edges_per_revolution=found.counts, increments=found.anew, kind=kind)
+
+
+def _is_whole_position(table: Table, heading: Heading) -> bool:
+    """Whether a position of an unknown unit is in whole numbers: those of its counts, or degrees."""
+    if heading.quantity is not Quantity.POSITION or heading.unit:
+        return False
+    return not np.any(table.numbers(heading.name) % 1.0)
 
 
 def find_turn_counts(table: Table, count: Heading, stamps: Floats) -> TurnCounts | None:

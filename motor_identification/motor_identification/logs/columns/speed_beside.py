@@ -1,0 +1,104 @@
+"""What a position and a speed of the same shaft tell of each other: units, and which column without a name is one."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.movement import ASKED, Unit, guess_position_unit
+from motor_identification.logs.columns.said import Pair
+from motor_identification.logs.columns.vocabulary import UNITS, Quantity
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import Kind
+from motor_model.errors import RecordingError
+
+Floats = NDArray[np.float64]
+
+PARTS, FEWEST_PARTS = 40, 5  # of a log, over which a way and a speed's integral are compared, as one row is coarse
+TOGETHER = 0.95  # their correlation, from which on they are of one shaft
+NEAR = 0.07  # by which the ratio of a pair of units may be off; the nearest two pairs are 5 times apart
+
+
+@dataclass(frozen=True)
+class Counted:
+    """A column without a telling name that is the position of which another one is the speed."""
+
+    column: str
+    speed: str
+
+
+def find_counted_position(table: Table, pair: Pair, taken: frozenset[str], stamps: Floats) -> Counted | None:
+    """Find the position, of a unit that its numbers tell, of which a motor's column of motion is the speed.
+
+    A position was counted; its speed was computed from it, often filtered, and of a unit that nobody wrote down.
+
+    Args:
+        table: the log.
+        pair: the motor's columns.
+        taken: columns that are something else.
+        stamps: times of the rows [s], shape (K,).
+    """
+    speed = read_heading(pair.motion)
+    if speed.quantity is not Quantity.SPEED:
+        return None
+    units = [speed.unit] if speed.unit else [*ASKED[Kind.SPEED], "rev/s"]
+    sizes = [size for unit in units if (size := UNITS[unit][1]) is not None]
+    for heading in _unnamed(table, taken | {pair.voltage, pair.motion}):
+        if heading.side not in (speed.side, ""):
+            continue
+        ratio = _ratio(table.numbers(heading.name), table.numbers(speed.name), stamps)
+        angle = UNITS[unit][1] if ratio and (unit := guess_position_unit(table.numbers(heading.name)).name) else None
+        if ratio is not None and angle is not None and any(_is_near(ratio * angle / size) for size in sizes):
+            return Counted(heading.name, speed.name)
+    return None
+
+
+def tell_position_unit(table: Table, position: Heading, stamps: Floats) -> Unit | None:
+    """Tell the unit of a position by a speed of a known one beside it; stamps are times of the rows [s], shape (K,)."""
+    for name in table.names:
+        speed = read_heading(name)
+        size = UNITS[speed.unit][1] if speed.quantity is Quantity.SPEED and speed.unit else None
+        if size is None or speed.side != position.side:
+            continue
+        ratio = _ratio(table.numbers(position.name), table.numbers(name), stamps)
+        for unit in ("rad", "deg", "rev"):
+            if ratio is not None and _is_near(ratio * (UNITS[unit][1] or 1.0) / size):
+                return Unit(unit, f"as {name} in {speed.unit} says; otherwise: --unit")
+    return None
+
+
+def _unnamed(table: Table, taken: frozenset[str]) -> Iterator[Heading]:
+    """The columns of numbers that change and whose names tell nothing."""
+    for name in table.names:
+        heading = read_heading(name)
+        if name in taken or heading.quantity is not None:
+            continue
+        try:
+            changes = np.ptp(table.numbers(name)) > 0.0
+        except RecordingError:  # a column of words
+            continue
+        if changes:
+            yield heading
+
+
+def _is_near(ratio: float) -> bool:
+    return abs(ratio - 1.0) < NEAR
+
+
+def _ratio(position: Floats, speed: Floats, stamps: Floats) -> float | None:
+    """How far a position, shape (K,), goes for a second of speed 1; None where they do not go together.
+
+    As much of the position as of the speed is noise: the ratio of their sizes, and not a regression, tells it.
+    """
+    steps = np.diff(stamps, append=stamps[-1:])
+    steps[steps < 0.0] = 0.0  # where time begins again
+    travel = np.concatenate(([0.0], np.cumsum(speed[1:] * steps[:-1])))
+    ends = np.unique(np.linspace(0, len(position) - 1, min(PARTS, len(position) // 3) + 1).astype(np.int64))
+    way, integral = np.diff(position[ends]), np.diff(travel[ends])
+    if len(way) < FEWEST_PARTS or np.ptp(way) == 0.0 or np.ptp(integral) == 0.0:
+        return None
+    if np.corrcoef(way, integral)[0, 1] < TOGETHER:
+        return None
+    return float(np.sqrt(np.mean(way**2) / np.mean(integral**2)))

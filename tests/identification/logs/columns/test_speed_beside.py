@@ -1,0 +1,90 @@
+"""What a position and a speed of the same shaft tell of each other."""
+
+from math import pi, radians
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.guess import guess_forms
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.columns.speed_beside import Counted, find_counted_position, tell_position_unit
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import Kind
+
+PERIOD = 0.01
+STAMPS = np.arange(500) * PERIOD
+DRIVE = np.where(np.random.default_rng(3).integers(0, 2, 50).repeat(10) > 0, 0.8, -0.6)
+SPEED = np.zeros(500)
+for k in range(499):
+    SPEED[k + 1] = SPEED[k] + (200.0 * DRIVE[k] - SPEED[k]) * 0.18
+ANGLE = np.cumsum(SPEED) * PERIOD  # [rad]
+PER = {"rad/s": 1.0, "deg/s": 1.0 / radians(1.0), "rpm": 30.0 / pi, "rev/s": 0.5 / pi}
+
+
+def log(unit: str, slip: float = 1.0, counts: int = 1024) -> dict[str, np.ndarray]:
+    """Degrees in steps of counts, and the noisy, late speed that a board made of them, in some unit."""
+    degrees = np.floor(ANGLE / (2.0 * pi) * counts) * 360.0 / counts
+    noise = np.random.default_rng(1).normal(0.0, 5.0, 500)
+    return {"t": STAMPS, "u": DRIVE, "alpha": degrees, "vel": slip * PER[unit] * (np.roll(SPEED, 1) + noise)}
+
+
+def table(cells: dict[str, np.ndarray], **names: str) -> Table:
+    renamed = {names.get(name, name): column for name, column in cells.items()}
+    return Table(Path("log.csv"), np.arange(2, 502), renamed)
+
+
+@pytest.mark.parametrize("unit", ["rad/s", "deg/s", "rpm", "rev/s"])
+def test_a_counted_angle_is_taken_before_a_speed_of_any_unit(unit: str) -> None:
+    found = guess_forms(table(log(unit)), Said())
+    (form,) = found.forms
+    assert (form.motion, form.kind, form.unit) == ("alpha", Kind.POSITION, "deg")
+    said = "Motion: alpha, a position in deg (steps of 0.3516 are 1024 counts a turn in deg"
+    assert any(line.startswith(said) and line.endswith("--speed vel).") for line in found.findings)
+
+
+@pytest.mark.parametrize(
+    ("said", "motion"), [(Said(motion="vel", kind=Kind.SPEED, unit="rpm"), "vel"), (Said(unit="rpm"), "vel")]
+)
+def test_the_speed_where_it_is_said(said: Said, motion: str) -> None:
+    assert guess_forms(table(log("rpm")), said).forms[0].motion == motion
+
+
+@pytest.mark.parametrize(("slip", "told"), [(1.05, True), (0.95, True), (1.1, False), (0.9, False), (3.0, False)])
+def test_both_are_of_one_shaft(slip: float, told: bool) -> None:
+    pair, taken = Pair("", "u", "vel"), frozenset({"t"})
+    assert (find_counted_position(table(log("rpm", slip)), pair, taken, STAMPS) == Counted("alpha", "vel")) is told
+    named = find_counted_position(table(log("rpm", slip), vel="vel_rpm"), Pair("", "u", "vel_rpm"), taken, STAMPS)
+    assert (named is not None) is told
+    assert find_counted_position(table(log("rpm"), vel="vel_dps"), Pair("", "u", "vel_dps"), taken, STAMPS) is None
+
+
+def test_a_column_that_goes_another_way_is_no_position() -> None:
+    cells = log("rpm")
+    pair, taken = Pair("", "u", "vel"), frozenset({"t"})
+    noisy = cells["alpha"] + np.random.default_rng(4).normal(0.0, 0.3, 500)  # nothing tells its unit
+    for other in (np.cumsum(DRIVE), np.flip(cells["alpha"]), np.zeros(500), noisy):
+        assert find_counted_position(table({**cells, "alpha": other}), pair, taken, STAMPS) is None
+    assert find_counted_position(table(cells), pair, frozenset({"t", "alpha"}), STAMPS) is None
+    assert find_counted_position(table(cells), Pair("", "u", "alpha"), taken, STAMPS) is None
+
+
+@pytest.mark.parametrize(("unit", "size"), [("rad", 1.0), ("deg", 180.0 / pi), ("rev", 0.5 / pi)])
+def test_a_known_speed_tells_the_unit_of_a_position(unit: str, size: float) -> None:
+    rng = np.random.default_rng(2)
+    cells = {**log("rpm"), "alpha": size * (ANGLE + rng.normal(0.0, 1e-3, 500))}
+    found = tell_position_unit(table(cells, vel="rpm"), read_heading("alpha"), STAMPS)
+    assert found is not None and found.name == unit and found.why == "as rpm in rpm says; otherwise: --unit"
+    assert tell_position_unit(table(cells), read_heading("alpha"), STAMPS) is None  # of an unknown unit itself
+    assert tell_position_unit(table(cells, vel="left_rpm"), read_heading("alpha"), STAMPS) is None
+    (form,) = guess_forms(table(cells, vel="rpm", alpha="position"), Said()).forms
+    assert (form.motion, form.unit) == ("position", unit)
+
+
+def test_whole_positions_beside_a_speed_are_counts() -> None:
+    cells = {**log("rpm"), "alpha": np.floor(ANGLE / (2.0 * pi) * 540), "vel": SPEED * PER["rpm"]}
+    found = guess_forms(table(cells, vel="rpm", alpha="position"), Said())
+    (form,) = found.forms
+    assert (form.motion, form.kind, form.unit, form.edges_per_revolution) == ("position", Kind.COUNT, "count", 540)
+    assert not form.increments
