@@ -56,7 +56,7 @@ def describe_excitation(log: Log) -> list[str]:
         f"the motor stands in {100 * found.standing:.0f} % of the rows, full voltage in {100 * found.full:.0f} %."
     )
     lines = [about]
-    if found.forward + found.backward < FEW:
+    if _stands(found):
         return [*lines, "The motor hardly moves: nothing can be identified from this."]
     unsigned = found.low >= 0.0 and ways == "both ways"
     if unsigned:
@@ -78,6 +78,15 @@ def describe_excitation(log: Log) -> list[str]:
     if found.standing > MOSTLY:
         lines.append(f"The motor stands for {100 * found.standing:.0f} % of the time, which says little.")
     return lines
+
+
+def hardly_moves(log: Log) -> bool:
+    """Whether the motor stands in nearly all of a log's rows."""
+    return _stands(measure_excitation(log))
+
+
+def _stands(found: Excitation) -> bool:
+    return found.forward + found.backward < FEW
 
 
 def _column(run: Run, name: str) -> NDArray[np.float64]:

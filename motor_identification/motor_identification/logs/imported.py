@@ -7,12 +7,11 @@ from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.mending import mend_table
 from motor_identification.logs.csv.sparse import fill_gaps
-from motor_identification.logs.excitation import describe_excitation
+from motor_identification.logs.excitation import describe_excitation, hardly_moves
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
 from motor_identification.logs.rows.constant_voltage import CONSTANT, give_voltage
 from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows, sum_steps
-from motor_identification.logs.still_runs import moves
 from motor_model.errors import RecordingError
 
 
@@ -71,11 +70,11 @@ def import_source(source: Source, said: Said) -> Imported:
 
 
 def _without_still(motors: list[Motor]) -> tuple[list[Motor], list[str]]:
-    """The motors but for those that were not driven and never move, beside one that does, and a finding for each."""
-    still = [motor for motor in motors if not any(map(moves, motor.log.runs)) and not _is_driven(motor)]
+    """The motors but for those that were not driven and hardly move, beside one that does, and a finding for each."""
+    still = [motor for motor in motors if motor.log.runs and hardly_moves(motor.log) and not _is_driven(motor)]
     if not still or len(still) == len(motors):
         return motors, []
-    said = [f"Left out: motor {motor.label}, which is not driven and never moves." for motor in still]
+    said = [f"Left out: motor {motor.label}, which is not driven and hardly moves." for motor in still]
     return [motor for motor in motors if motor not in still], said
 
 

@@ -50,16 +50,18 @@ class Signals:
         return self._rows(keep, kept).only(still)
 
     def split(self, begins: Bools) -> "Signals":
-        """Runs that begin anew at marked rows, shape (K,); runs of one row are gone."""
+        """Runs that begin anew at marked rows, shape (K,); runs of one row are gone, and need no number."""
         runs: dict[str, slice] = {}
         for label, run in self.runs.items():
             inside = np.flatnonzero(begins[run.start + 1 : run.stop]) + run.start + 1
-            if not len(inside):
-                runs[label] = run
-                continue
             edges = [run.start, *map(int, inside), run.stop]
-            for number, (start, stop) in enumerate(zip(edges, edges[1:], strict=False), start=1):
-                runs[f"{label}_{number}" if label else f"{number}"] = slice(start, stop)
+            parts = list(zip(edges, edges[1:], strict=False))
+            several = sum(stop - start > 1 for start, stop in parts) > 1
+            for number, (start, stop) in enumerate(parts, start=1):
+                if stop - start > 1 and not several:
+                    runs[label] = slice(start, stop)
+                else:
+                    runs[f"{label}_{number}" if label else f"{number}"] = slice(start, stop)
         return replace(self, runs=runs).only(np.ones(len(self), np.bool_))
 
     def steps(self) -> Integers:

@@ -45,10 +45,26 @@ def test_a_motor_that_is_not_driven_is_left_out(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_text("\n".join(["t,pwmL,velL,pwmR,velR", *rows]) + "\n")
     imported = import_log(tmp_path / "log.csv", Said(supply_voltage=7.4, unit="rad/s"))
     assert [motor.label for motor in imported.motors] == ["left"]
-    assert imported.findings[-1] == "Left out: motor right, which is not driven and never moves."
+    assert imported.findings[-1] == "Left out: motor right, which is not driven and hardly moves."
+    begun = [row if k else row[:-1] + "90" for k, row in enumerate(rows)]  # what a board sent before it began
+    (tmp_path / "log.csv").write_text("\n".join(["t,pwmL,velL,pwmR,velR", *begun]) + "\n")
+    assert [motor.label for motor in import_log(tmp_path / "log.csv", Said(supply_voltage=7.4, unit="rpm")).motors] == [
+        "left"
+    ]
+    pushed = [row[:-1] + str(k % 30) for k, row in enumerate(rows)]  # not driven, and moves
+    (tmp_path / "log.csv").write_text("\n".join(["t,pwmL,velL,pwmR,velR", *pushed]) + "\n")
+    assert len(import_log(tmp_path / "log.csv", Said(supply_voltage=7.4, unit="rpm")).motors) == 2
     stuck = [row[:-1].replace(",0,", ",90,") + "0" for row in rows]  # driven, and does not move: worth a word
     (tmp_path / "log.csv").write_text("\n".join(["t,pwmL,velL,pwmR,velR", *stuck]) + "\n")
     assert len(import_log(tmp_path / "log.csv", Said(supply_voltage=7.4, unit="rad/s")).motors) == 2
+
+
+def test_what_is_full_is_the_same_for_both_motors(tmp_path: Path) -> None:
+    rows = [f"{10 * k},{200 * (k > 9)},{round(30 * (1 - np.exp(-k / 9)))},{k % 2},{k % 7}" for k in range(99)]
+    (tmp_path / "log.csv").write_text("\n".join(["t,pwmL,velL,pwmR,velR", *rows]) + "\n")
+    imported = import_log(tmp_path / "log.csv", Said(supply_voltage=10.2, unit="rad/s"))
+    top = [max(one.voltage for run in motor.log.runs for one in run.samples) for motor in imported.motors]
+    assert top == pytest.approx([8.0, 0.04])
 
 
 def test_the_table_names_every_log() -> None:

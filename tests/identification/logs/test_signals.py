@@ -33,7 +33,7 @@ def test_rows_that_go_take_their_place_in_runs_along() -> None:
     kept = signals.only(np.array([True, False, True, True, False, True]))
     assert kept.runs == {"b": slice(0, 3)} and kept.motion.tolist() == [2, 3, 5] and len(kept) == 3
     parts = signals.split(np.array([False, False, False, True, False, True]))
-    assert parts.runs == {"a": slice(0, 2), "b_2": slice(2, 4)} and parts.motion.tolist() == [0, 1, 3, 4]
+    assert parts.runs == {"a": slice(0, 2), "b": slice(2, 4)} and parts.motion.tolist() == [0, 1, 3, 4]
     assert parts.steps().tolist() == [5_000_000, 5_000_000]
     assert len(signals.only(np.zeros(6, np.bool_)).steps()) == 0
 

@@ -108,7 +108,7 @@ def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> 
     if said.voltage_scale is not None:
         return Drive(said.voltage_scale, f"times {said.voltage_scale:g} V"), said.voltage_scale, None
     if said.full_duty or heading.quantity is Quantity.DUTY:
-        drive = duty_drive(heading, values, said.full_duty)
+        drive = duty_drive(heading, _duties(table, pair, roles), said.full_duty)
     else:
         drive = voltage_drive(heading, values)
     if drive.scale is not None:
@@ -128,6 +128,12 @@ def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> 
     return drive, 1.0, None
 
 
+def _duties(table: Table, pair: Pair, roles: Roles) -> Floats:
+    """The duties of all motors of a table, any shape: what is full is the same for each, also for one that stands."""
+    drives = {one.voltage for one in roles.pairs if read_heading(one.voltage).quantity is Quantity.DUTY}
+    return np.concatenate([table.numbers(name) for name in sorted(drives | {pair.voltage})])
+
+
 def _motion(
     table: Table, pair: Pair, said: Said, period: float, stamps: Floats | None, notes: Notes
 ) -> tuple[Kind, Unit]:
@@ -145,7 +151,7 @@ def _motion(
         unit = tell_position_unit(table, heading, stamps) or unit
     if unit.name == "count" and kind is Kind.POSITION and said.kind is None:
         kind = Kind.COUNT
-    _ask_about(pair.motion, kind, unit, said, notes)
+    _ask_about(pair.motion, values, kind, unit, said, notes)
     return kind, unit
 
 
@@ -164,10 +170,12 @@ def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: floa
     return guessed
 
 
-def _ask_about(column: str, kind: Kind, unit: Unit, said: Said, notes: Notes) -> None:
+def _ask_about(column: str, values: Floats, kind: Kind, unit: Unit, said: Said, notes: Notes) -> None:
     if not unit.name:
         options = f"{', '.join(unit.candidates[:-1])} or {unit.candidates[-1]}"
-        notes.questions.append((column, f"in {options}, which the numbers do not tell: say --unit"))
+        counted = kind is Kind.SPEED and not np.any(values % 1.0)
+        counts = ", or --count where they are the counts of each row" if counted else ""
+        notes.questions.append((column, f"in {options}, which the numbers do not tell: say --unit{counts}"))
     if unit.name in ("count", "count/s") and said.edges_per_revolution is None:
         question = f"in {unit.name}: say how many counts there are in a turn (--edges-per-revolution N)"
         notes.questions.append((column, question))

@@ -30,13 +30,17 @@ def ask_column(table: Table, what: str, option: str, names: Sequence[str]) -> Re
     return RecordingError(f"{table.path}: which column is the {what}? Say {option} and one of {listed}.")
 
 
-def ask_motion(table: Table, headings: Sequence[Heading], quantity: Quantity, found: Sequence[str]) -> RecordingError:
+def ask_motion(
+    table: Table, headings: Sequence[Heading], quantity: Quantity | None, found: Sequence[str]
+) -> RecordingError:
     """Ask which of several motions is meant, or whether each is that of a motor of its own on the one drive."""
     driving = [one.name for one in headings if one.quantity in (Quantity.DUTY, Quantity.VOLTAGE)]
     each = ""
     if len(driving) == 1:
         motors = " ".join(f"--motor {k}:{driving[0]},{name}" for k, name in enumerate(found[:2], start=1))
         each = f" For a motor of each: {motors}{' …' if len(found) > 2 else ''}"
+    if quantity is None:
+        return RecordingError(f"{ask_column(table, 'motion', '--speed, --position or --count', found)}{each}")
     what, option = quantity.value, f"--{quantity.value}"
     if quantity is Quantity.COUNT and any(np.any(table.numbers(name) % 1.0) for name in found):  # none, by any name
         what, option = "motion", "--speed or --position"

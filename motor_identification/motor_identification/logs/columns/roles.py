@@ -12,7 +12,7 @@ from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_motion, miss_drive, miss_motion
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.vocabulary import MOVES, SIDES, UNITS, Quantity
+from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, UNITS, Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.constant_voltage import CONSTANT
 from motor_model.errors import RecordingError
@@ -53,19 +53,27 @@ def find_roles(table: Table, said: Said) -> Roles:
 
 
 def _of_a_loop(headings: list[Heading]) -> list[Heading]:
-    """Input and output side by side: of a controller where a set point stands there too, else of the motor."""
-    words = {_without_side(one) for one in headings}
-    if not {("input",), ("output",)} <= words:
+    """Input and output side by side: of a controller where a set point stands there too, else of the motor.
+
+    An output beside what drives, where nothing else moves, is the motor's.
+    """
+    places = {_place(one) for one in headings} - {None}
+    drive_it = [one for one in headings if drives(one) and _place(one) is None]
+    if INPUTS in places and OUTPUTS in places:
+        moves = INPUTS if any(one.quantity is Quantity.REFERENCE for one in headings) else OUTPUTS
+    elif OUTPUTS in places and drive_it and not any(one.quantity in MOVES for one in headings):
+        moves = OUTPUTS
+    else:
         return headings
-    moves = ("input",) if any(one.quantity is Quantity.REFERENCE for one in headings) else ("output",)
-    sides = sum(_without_side(one) == moves for one in headings) > 1
+    sides = sum(_place(one) == moves for one in headings) > 1
     found = Quantity.POSITION if sides else None  # of which kind, its numbers tell
-    return [replace(one, quantity=found) if _without_side(one) == moves else one for one in headings]
+    return [replace(one, quantity=found) if _place(one) == moves else one for one in headings]
 
 
-def _without_side(heading: Heading) -> tuple[str, ...]:
-    """The words of a name but for which motor it is of: `outputL`."""
-    return tuple(word for word in heading.words if word not in SIDES and word != "r")
+def _place(heading: Heading) -> frozenset[str] | None:
+    """Which end of a system a name is of, but for which motor it belongs to: `outputL`; None where of none."""
+    words = [word for word in heading.words if word not in SIDES and word != "r"]
+    return next((place for place in (INPUTS, OUTPUTS) if len(words) == 1 and words[0] in place), None)
 
 
 def _is_numeric(table: Table, name: str) -> bool:
@@ -160,7 +168,9 @@ def _moving(
     still = [one.name for one in headings if one.quantity is None and one.name != CONSTANT]
     if still and not unnamed:
         raise miss_motion(table, still[0])
-    raise ask_column(table, "motion", "--speed, --position or --count", unnamed or table.names)
+    if len(unnamed) > 1:
+        raise ask_motion(table, headings, None, unnamed)
+    raise ask_column(table, "motion", "--speed, --position or --count", table.names)
 
 
 def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple[str, ...]) -> str:

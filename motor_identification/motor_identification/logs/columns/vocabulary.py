@@ -27,36 +27,51 @@ def words_of(words: str) -> frozenset[str]:
 _row = words_of
 
 
+INPUTS = _row("input entrada eingang entrée entree ingresso")  # of a system: what drives it, or a controller
+OUTPUTS = _row("output saída saida salida ausgang sortie uscita")
+
 # Earlier rows win: a target speed is no speed, a battery's voltage is not the motor's, a speed command is a reference.
 WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.OTHER: _row(
-        "error err kp ki kd integral gyro temp temperature accel acceleration acc derivative id index loop state mode "
-        "enabled fault torque heading dir direction drehrichtung richtung yaw pitch roll rate"
+        "error err erro fehler erreur errore galat kp ki kd integral gyro temp temperature accel acceleration "
+        "acc derivative id index loop state mode enabled fault torque heading dir direction drehrichtung "
+        "richtung yaw pitch roll rate"
     ),
-    Quantity.REFERENCE: _row("target setpoint set sp ref reference desired goal soll consigna r wanted demand profile"),
+    Quantity.REFERENCE: _row(
+        "target sollwert consigne referencia referência référence referenz riferimento setpoint set sp ref "
+        "reference desired goal soll consigna r wanted demand profile"
+    ),
     Quantity.SUPPLY: _row("supply battery batt bat vbat vbatt vbus bus akku bateria batería batterie vcc vdd vin"),
     Quantity.TIME: _row(
-        "t time times timestamp stamp tiempo zeit temps tempo tid clock elapsed seconds secs sec millis micros nanos "
-        "milliseconds microseconds ms us ns tijd czas čas cas idő zaman время 时间 時間"
+        "t time times timp waktu 시간 timestamp stamp tiempo zeit temps tempo tid clock elapsed seconds secs sec "
+        "millis micros nanos milliseconds microseconds ms us ns tijd czas čas cas idő zaman время 时间 時間"
     ),
-    Quantity.DUTY: _row("duty pwm dutycycle throttle power command cmd effort ctrl control output"),
-    Quantity.COUNT: _row("count counts tick ticks encoder enc pulses pulse edges qei"),
+    Quantity.DUTY: OUTPUTS
+    | _row(
+        "duty pwm esforço esforco esfuerzo mando comando stellgröße stellgroesse шим 占空比 듀티 dutycycle throttle "
+        "power command cmd effort ctrl control"
+    ),
+    Quantity.COUNT: _row(
+        "count counts pulsos impulsos impulse cuentas contagem contador tick ticks encoder enc pulses pulse edges qei"
+    ),
     Quantity.SPEED: _row(
-        "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w wm rpm rps dps "
-        "tacho tachometer "
-        "velocita snelheid toerental hastighed hastighet prędkość predkosc obroty rychlost otáčky otacky hız hiz "
-        "скорость обороты 速度 转速 角速度 回転数"
+        "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w wm rpm rps "
+        "dps tacho tachometer velocita snelheid viteza viteză kecepatan 속도 toerental hastighed hastighet "
+        "prędkość predkosc obroty rychlost otáčky otacky hız hiz скорость обороты 速度 转速 角速度 回転数"
     ),
     Quantity.POSITION: _row(
-        "position pos posición posicion posizione angle angulo ángulo theta θ winkel distance dist phi posição posicao "
-        "ângulo angolo hoek pozycja kąt kat poloha úhel uhel konum açı aci угол положение 位置 角度"
+        "position pos posición posicion posizione angle angulo ángulo theta θ winkel distance dist phi posição "
+        "posicao posisi sudut poziție pozitie unghi 위치 각도 ângulo angolo hoek pozycja kąt kat poloha úhel uhel "
+        "konum açı aci угол положение 位置 角度"
     ),
-    Quantity.VOLTAGE: _row(
-        "voltage volt volts voltaje spannung tension tensión tensão u v vm vmotor input applied tensao tensione "
-        "spanning spænding spänning napięcie napiecie napětí napeti gerilim voltaj напряжение 电压 電圧"
+    Quantity.VOLTAGE: INPUTS
+    | _row(
+        "voltage volt volts voltaje spannung tension tensión tensão u v vm vmotor applied tensao tensione "
+        "tegangan tensiune 전압 spanning spænding spänning napięcie napiecie napětí napeti gerilim voltaj "
+        "напряжение 电压 電圧"
     ),
     Quantity.CURRENT: _row(
-        "current curr amps amp i corriente strom courant corrente stroom prąd proud akım ток 电流 電流"
+        "current curr arus 전류 amps amp i corriente strom courant corrente stroom prąd proud akım ток 电流 電流"
     ),
 }
 MOVES = frozenset({Quantity.SPEED, Quantity.POSITION, Quantity.COUNT})
@@ -95,15 +110,15 @@ _SPELLINGS = {
     "mA": "ma",
     "%": "% pct percent",
     "rad/s": "rad/s rad/sec rads rads/s radps rad.s-1 rad_s rad_sec",
-    "deg/s": "deg/s deg/sec °/s dps degps degrees/s deg_s deg_sec",
-    "rpm": "rpm rev/min u/min tr/min 1/min min-1 r/min rev_min",
+    "deg/s": "deg/s deg/sec °/s grad/s grados/s graus/s dps degps degrees/s deg_s deg_sec",
+    "rpm": "rpm upm rev/min umdr/min об/мин ot/min giri/min u/min tr/min 1/min min-1 r/min rev_min",
     "rev/s": "rps rev/s r/s rotations/s turns/s hz rev_s",
     "count/s": (
         "count/s counts/s tick/s ticks/s step/s steps/s pulse/s pulses/s edges/s cps pps count_s counts_s ticks_s"
     ),
     "m/s": "m/s mps m_s meters/s metres/s",
     "rad": "rad radian radians",
-    "deg": "deg degs degree degrees °",
+    "deg": "deg grad grados graus gradi degs degree degrees °",
     "rev": "rev revs turn turns rotation rotations revolutions",
     "m": "m meter meters metre metres",
     "count": "count counts tick ticks pulse pulses edges",

@@ -52,6 +52,15 @@ omega_degPerSec   | speed          | deg/s |
 wheel turns per minute | speed     | rpm   |
 theta_dot         | speed          |       |
 Tensão (V)        | voltage        | V     |
+Esforço           | duty           |       |
+Referência        | reference      |       |
+Fehler            | other          |       |
+Winkel [Grad]     | position       | deg   |
+Drehzahl [U/min]  | speed          | rpm   |
+Velocidad (grados/s) | speed       | deg/s |
+Kecepatan (RPM)   | speed          | rpm   |
+waktu (ms)        | time           | ms    |
+pulsos            | count          |       |
 Prędkość [rpm]    | speed          | rpm   |
 время             | time           |       |
 转速 (rpm)        | speed          | rpm   |

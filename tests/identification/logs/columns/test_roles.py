@@ -83,6 +83,27 @@ def test_the_outputs_of_one_input() -> None:
     assert both.pairs == (Pair("left", "input", "outputL"), Pair("right", "input", "outputR"))
     loop = find_roles(table(t="t", setpoint="r", input="y", output="u"), Said())
     assert loop.pairs == (Pair("", "output", "input"),)
+    spanish = find_roles(table(Tiempo="t", Referencia="r", Entrada="y", Salida="u"), Said())
+    assert spanish.pairs == (Pair("", "Salida", "Entrada"),)
+    plant = find_roles(table(Zeit="t", Eingang="u", Ausgang="y"), Said())
+    assert plant.pairs == (Pair("", "Eingang", "Ausgang"),)
+
+
+def test_an_output_beside_what_drives_is_the_motors() -> None:
+    effort = find_roles(table(Tempo="t", Saída="y", Erro="r", Esforço="u"), Said())
+    assert effort.pairs == (Pair("", "Esforço", "Saída"),)
+    assert find_roles(table(t="t", ref="r", output="y", pwm="u"), Said()).pairs == (Pair("", "pwm", "output"),)
+    assert find_roles(table(t="t", output="u", speed="y"), Said()).pairs == (Pair("", "output", "speed"),)
+    with pytest.raises(RecordingError, match="the duty\\? Say --voltage and one of output, pwm"):
+        find_roles(table(t="t", output="u", pwm="u", speed="y"), Said())
+
+
+def test_the_unit_that_is_said_picks_its_column() -> None:
+    columns = {"t": "t", "angle": "y", "omega": "y", "u": "u"}
+    for unit, motion in (("rpm", "omega"), ("rad/s", "omega"), ("deg", "angle"), (None, "angle")):
+        assert find_roles(table(**columns), Said(unit=unit)).pairs[0].motion == motion
+    both = {"t": "t", "angleL": "y", "velL": "y", "angleR": "y", "velR": "y", "u": "u"}
+    assert {pair.motion for pair in find_roles(table(**both), Said(unit="rpm")).pairs} == {"velL", "velR"}
 
 
 def test_current_beside_a_target_is_what_is_present() -> None:
@@ -113,7 +134,7 @@ def test_a_motion_changes_more_than_a_few_times(changes: int, told: bool) -> Non
         ({"t": "t", "speed_a": "y", "speed_b": "y", "u": "u"}, "the speed? Say --speed and one of speed_a, speed_b."),
         ({"t": "t", "w1": "y", "w2": "y", "pwm": "u"}, "w1, w2. For a motor of each: --motor 1:pwm,w1 --motor 2:"),
         ({"t": "t", "Enc1": "y", "Enc2": "y", "pwm": "u"}, "the motion? Say --speed or --position and one of Enc1,"),
-        ({"t": "t", "x": "y", "z": "y", "u": "u"}, "the motion? Say --speed, --position or --count and one of x, z."),
+        ({"t": "t", "x": "y", "z": "y", "u": "u"}, "one of x, z. For a motor of each: --motor 1:u,x --motor 2:u,z"),
         ({"t": "t", "speed": "y"}, "no column is the voltage or duty: say which one is (--voltage COL), or --c"),
         ({"t": "t", "u": "u", "b": "0"}, "log.csv: b is 0 in every row: the motor never moves in it."),
         ({"t": "t", "a": "u", "b": "0"}, "b is 0 in every row: the motor never moves in it, or a is its motion and"),

@@ -12,6 +12,7 @@ from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.speed_beside import Counted, find_counted_position, tell_position_unit
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
+from motor_model.errors import RecordingError
 
 PERIOD = 0.01
 STAMPS = np.arange(500) * PERIOD
@@ -88,3 +89,11 @@ def test_whole_positions_beside_a_speed_are_counts() -> None:
     (form,) = found.forms
     assert (form.motion, form.kind, form.unit, form.edges_per_revolution) == ("position", Kind.COUNT, "count", 540)
     assert not form.increments
+
+
+def test_whole_speeds_of_no_unit_may_be_counts_of_each_row() -> None:
+    cells = {**log("rpm"), "alpha": np.zeros(500)}
+    for speed, offered in ((np.rint(SPEED / 9.7), True), (np.round(SPEED / 9.7, 1), False)):
+        with pytest.raises(RecordingError, match="vel in .* which the numbers do not tell: say --unit") as complaint:
+            guess_forms(table({**cells, "vel": speed}), Said())
+        assert ("--unit, or --count where they are the counts of each row." in str(complaint.value)) is offered
