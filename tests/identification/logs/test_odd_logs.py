@@ -64,6 +64,13 @@ ODD = {
     "commas in quotes": table(
         lambda k: f'"{MS[k] / 1e3:.2f}","{DUTY[k]}","{RPM[k]:.1f}"'.replace(".", ","), "s,pwm,rpm"
     ),
+    "a matrix": "Sample   Time [ms]   Motor PWM   Wheel rpm\n\n["
+    + ";\n".join(f"{k:5d} {MS[k]:6d} {DUTY[k]:5d} {RPM[k]:8.1f}" for k in range(ROWS))
+    + "]\n",
+    "semicolons at the end": table(lambda k: plain(k) + ";", "ms,pwm,rpm;"),
+    "a line for each column": "".join(
+        f"{name},{','.join(map(str, column))}\n" for name, column in {"ms": MS, "pwm": DUTY, "rpm": RPM}.items()
+    ),
     "milliseconds since 1970": table(lambda k: f"{1_760_000_000_000 + MS[k]},{DUTY[k]},{RPM[k]}", "timestamp,pwm,rpm"),
     "microseconds since 1970, newest first": "time,pwm,rpm\n"
     + "".join(f"{1_760_000_000_000_000 + 1000 * MS[k]},{DUTY[k]},{RPM[k]}\n" for k in reversed(range(ROWS))),

@@ -21,6 +21,7 @@ _NOTHING = " ,;\t|"  # all that is in a line without cells
 COMMENT = re.compile(r"^\s*(#|%|//)\s*")
 _NO_VALUE = ("", "nan", "NaN", "NAN", "null", "None", "-")
 _QUOTED_COMMA = re.compile(r'"([+-]?\d+,\d+)"')
+_APART = re.compile(r"\s{2,}|\t")  # names of several words
 _UNIT_ROW = re.compile(r"[\[(]?[A-Za-zµμ°%/²\d.^_-]{1,10}[\])]?$")
 
 
@@ -160,7 +161,7 @@ def _width(rows: Sequence[Sequence[str]]) -> int:
 
 def _header(before: Sequence[str], delimiter: str, comma: bool, width: int, most: int) -> tuple[str, ...]:
     """Names of columns out of the lines before the first row: the last that has as many cells as the rows."""
-    cells = [_without_empty_end(split_line(COMMENT.sub("", line), delimiter)) for line in before]
+    cells = [_without_empty_end(_names(COMMENT.sub("", line), delimiter, width)) for line in before]
     fitting = [row for row in cells if width <= len(row) <= most and not any(is_number(one, comma) for one in row)]
     if not fitting:
         return ()
@@ -171,6 +172,13 @@ def _header(before: Sequence[str], delimiter: str, comma: bool, width: int, most
             units = (unit.strip("[]()") for unit in names)
             names = [f"{name} [{unit}]" for name, unit in zip_longest(above, units, fillvalue="")]
     return tuple(names)
+
+
+def _names(line: str, delimiter: str, width: int) -> list[str]:
+    """The cells of a line of names; between blanks, names of several words stand apart by two blanks."""
+    names = split_line(line, delimiter)
+    apart = _APART.split(line.strip()) if delimiter == SPACES and len(names) > width else []
+    return apart if len(apart) == width else names
 
 
 def _without_empty_end(cells: list[str]) -> list[str]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.csv.cells import is_number
 from motor_identification.logs.csv.dialect import COMMENT, SPACES, Dialect, find_dialect, read_text, split_line
+from motor_identification.logs.csv.matrix import take_off_brackets, turn_lines_into_columns
 from motor_identification.logs.csv.monitor import RECEIVED, Lines, take_apart
 from motor_identification.logs.csv.quotes import unquote_rows
 from motor_identification.logs.csv.table import GARBLED, Table
@@ -33,7 +34,8 @@ def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
     text, encoding = read_text(path)
     if not text.strip():
         raise RecordingError(f"{path} is empty: it needs a line of column names and a row for each sample.")
-    taken = take_apart(unquote_rows(text.splitlines()))
+    upright, turned = turn_lines_into_columns(take_off_brackets(unquote_rows(text.splitlines())))
+    taken = take_apart(upright)
     lines = taken.lines
     dialect = find_dialect(lines)
     if dialect is None:
@@ -41,7 +43,7 @@ def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
     dialect = _named_by_lines(dialect, taken)
     for column in wanted:
         _check_column(path, dialect.header, column)
-    notes = [f"The file is read as {encoding}, as it is not UTF-8."] if encoding else []
+    notes = [*turned, *([f"The file is read as {encoding}, as it is not UTF-8."] if encoding else [])]
     end = _end_of_table(lines, dialect)
     if end < len(lines):
         notes.append(f"Left out: the lines from {end + 1} on, which have fewer than half of the cells of those before.")

@@ -1,0 +1,40 @@
+"""Tables as programs print matrices: brackets and a semicolon around each row, and a line for each column."""
+
+from collections.abc import Sequence
+
+from motor_identification.logs.csv.cells import is_number
+
+MOSTLY = 0.9  # of the first lines
+_LOOKED_AT = 100  # lines
+MOST_COLUMNS, FEWEST_ROWS, LONGER = 20, 40, 5  # of a table that lies on its side: so many lines, and cells in each
+NOTE = "The file has a line for each column: they are taken for columns."
+
+
+def take_off_brackets(lines: Sequence[str]) -> Sequence[str]:
+    """Take the brackets and the semicolons off rows such as `[0 0.02 5;`, where nearly every line ends with one."""
+    begin = [line.strip() for line in lines[: 2 * _LOOKED_AT] if line.strip()][:_LOOKED_AT]
+    if sum(line.count(";") == 1 and line[-1] == ";" for line in begin) < MOSTLY * len(begin) or not begin:
+        return lines
+    return [_without_brackets(line) for line in lines]
+
+
+def _without_brackets(line: str) -> str:
+    before, bracket, row = line.partition("[")
+    inside = row if bracket and (not before.strip() or before.rstrip().endswith("=")) else line
+    return inside.rstrip(" \t];")
+
+
+def turn_lines_into_columns(lines: Sequence[str]) -> tuple[Sequence[str], tuple[str, ...]]:
+    """Turn a table that has a line for each column, and what has to be said of it; other tables as they are."""
+    filled = [line.strip() for line in lines[: 10 * MOST_COLUMNS] if line.strip()]
+    if not 2 <= len(filled) <= MOST_COLUMNS or len(lines) > 10 * MOST_COLUMNS:
+        return lines, ()
+    for delimiter in (",", ";", "\t", None):
+        comma = delimiter != "," and not any("." in line for line in filled)
+        rows = [[cell.strip() for cell in line.rstrip(delimiter).split(delimiter)] for line in filled]
+        if len({len(row) for row in rows}) != 1 or len(rows[0]) < max(FEWEST_ROWS, LONGER * len(rows)):
+            continue
+        named = not any(is_number(row[0], comma) for row in rows)
+        if all(is_number(cell, comma) for row in rows for cell in row[named:]):
+            return [";".join(row) for row in zip(*rows, strict=True)], (NOTE,)
+    return lines, ()
