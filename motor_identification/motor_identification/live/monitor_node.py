@@ -2,25 +2,20 @@
 
 import time
 from concurrent.futures import Future, ThreadPoolExecutor
-from math import nan
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rclpy.node import Node
 
+from motor_identification.live.health_message import health_message
 from motor_identification.live.monitor_parameters import PARAMETERS, PROGRAM
 from motor_identification.live.recorder import Recorder
-from motor_identification.mapping import load_mapping
-from motor_identification.monitoring.evaluation import Watch, evaluate
-from motor_identification.monitoring.health import Health, Limits, State, Verdict, ratio_of, update_health
+from motor_identification.monitoring.evaluation import evaluate
+from motor_identification.monitoring.health import Health, Limits, State, Verdict, update_health
 from motor_identification.monitoring.heard import Heard
-from motor_identification.monitoring.live_motor import LiveMotor
-from motor_identification.monitoring.model_gap import Model
-from motor_identification.reporting.model_comparison import Identified
-from motor_model.errors import MotorError
-from motor_model.model_file import load, load_errors, load_residual_rms
+from motor_identification.monitoring.load_watch import load_watch
 from motor_msgs.msg import MotorHealth
 from motor_ros import qos
-from motor_ros.messages import diagnostic_message, time_message
+from motor_ros.messages import diagnostic_message
 from motor_ros.parameters import declare
 from motor_ros.run import run
 
@@ -40,7 +35,7 @@ class Monitor(Node):
         super().__init__("monitor")
         values = declare(self, PARAMETERS)
         limits = Limits(float(values["window"]), float(values["tolerance"]))
-        self._watch = make_watch(str(values["model"]), str(values["mapping"]), self.get_namespace(), limits)
+        self._watch = load_watch(str(values["model"]), str(values["mapping"]), self.get_namespace(), limits)
         self._heard = Heard(limits.window)
         self._recorder = Recorder(self, self._heard, self._watch.motor.topics)
         self._told = 0  # notes of the recorder that are in the log
@@ -96,41 +91,6 @@ class Monitor(Node):
         """Stop listening, and end what is computed."""
         self._recorder.close()
         self._pool.shutdown(cancel_futures=True)
-
-
-def make_watch(model: str, mapping: str, namespace: str, limits: Limits) -> Watch:
-    """Load what is to be watched.
-
-    Raises:
-        MotorError: there is no model, or a file cannot be used.
-    """
-    if not model:
-        raise MotorError(
-            "There is no model to compare with: name one (-p model:=model.yaml, made by identify --output)."
-        )
-    identified = Identified(model, load(model), load_errors(model))
-    motor = LiveMotor(load_mapping(mapping) if mapping else None, namespace, identified.parameters.max_voltage)
-    return Watch(motor, Model(identified, load_residual_rms(model)), limits)
-
-
-def health_message(health: Health, name: str) -> MotorHealth:
-    """A motor's health as it goes out on `motor/health`."""
-    verdict, gap = health.verdict, health.verdict.gap
-    message = MotorHealth(
-        state=verdict.state.value,
-        sentence=verdict.sentence,
-        innovation_ratio=ratio_of(gap),
-        since=time_message(health.since),
-        changed_names=[change.name for change in verdict.changes],
-        changed_values=[change.value for change in verdict.changes],
-        changed_errors=[change.error for change in verdict.changes],
-        residual_rms=gap.rms if gap else nan,
-        noise_floor=gap.expected if gap else nan,
-        window=gap.duration if gap else 0.0,
-    )
-    message.header.stamp = time_message(time.time_ns())
-    message.header.frame_id = name
-    return message
 
 
 def main(args: list[str] | None = None) -> int:

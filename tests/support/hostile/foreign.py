@@ -105,13 +105,13 @@ def watch(words: list[str]) -> int:
 
     def work() -> int:
         from motor_identification.bag.storage import Bag
-        from motor_identification.live.monitor_node import make_watch
         from motor_identification.monitoring.evaluation import evaluate
         from motor_identification.monitoring.health import Health, Limits, update_health
         from motor_identification.monitoring.heard import Heard
+        from motor_identification.monitoring.load_watch import load_watch
 
         uri, mapping, model, window = words
-        watched = make_watch(f"{model}.yaml", mapping, "/", Limits(float(window)))
+        watched = load_watch(f"{model}.yaml", mapping, "/", Limits(float(window)))
         kept, health = Heard(float(window)), Health()
         for number, (topic, at, data) in enumerate(Bag(uri).messages(set(watched.motor.topics))):
             kept.write(kept.topic(topic.name, topic.type_name), at, data)
