@@ -161,6 +161,7 @@ from motor_identification.service.warm_up import main as compile_the_motor
 compile_the_motor()
 compile_the_observer()" >"$log.compiling" 2>&1 &
 compiling=$!
+find build install -xtype l -delete 2>/dev/null || true # links to files that were renamed since: the build would stop at them
 quietly "building the packages" "$venv/bin/python" -m colcon --log-base log build --symlink-install \
   --base-paths motor_* --event-handlers console_direct- \
   --cmake-args -DBUILD_TESTING=OFF "-DPython3_EXECUTABLE=$venv/bin/python" --no-warn-unused-cli

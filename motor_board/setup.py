@@ -30,8 +30,8 @@ setup(
     zip_safe=False,
     entry_points={
         "console_scripts": [
-            "board_emulator = motor_board.node:main",
-            "flash = motor_board.cli.flash:main",
+            "board_emulator = motor_board.programs:board_emulator",
+            "flash = motor_board.programs:flash",
         ],
     },
 )

@@ -17,8 +17,8 @@ setup(
     zip_safe=False,
     entry_points={
         "console_scripts": [
-            "motor_control = motor_control.node:main",
-            "tune = motor_control.cli.tune:main",
+            "motor_control = motor_control.programs:motor_control",
+            "tune = motor_control.programs:tune",
         ],
     },
 )

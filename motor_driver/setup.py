@@ -17,8 +17,8 @@ setup(
     zip_safe=False,
     entry_points={
         "console_scripts": [
-            "motor_driver = motor_driver.node:main",
-            "check = motor_driver.cli.check:main",
+            "motor_driver = motor_driver.programs:motor_driver",
+            "check = motor_driver.programs:check",
         ],
     },
 )

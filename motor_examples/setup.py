@@ -17,7 +17,7 @@ setup(
     zip_safe=False,
     entry_points={
         "console_scripts": [
-            "diff_drive = motor_examples.diff_drive.node:main",
+            "diff_drive = motor_examples.programs:diff_drive",
         ],
     },
 )

@@ -17,7 +17,7 @@ setup(
     zip_safe=False,
     entry_points={
         "console_scripts": [
-            "motor_sim = motor_sim.node:main",
+            "motor_sim = motor_sim.programs:motor_sim",
         ],
     },
 )

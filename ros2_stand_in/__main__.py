@@ -1,8 +1,14 @@
 """Where the `ros2` launcher enters: finds the package beside this file, whatever the current directory is."""
 
-import os
-import sys
-from pathlib import Path
+import signal
+
+heard = signal.getsignal(signal.SIGINT)
+if heard is signal.default_int_handler:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # while nothing runs but imports, Ctrl-C ends it silently
+
+import os  # noqa: E402
+import sys  # noqa: E402
+from pathlib import Path  # noqa: E402
 
 # The workbench's root is on the path for this one import only: it holds folders named like the packages in them.
 sys.path[0] = str(Path(__file__).resolve().parent.parent)
@@ -13,6 +19,7 @@ del sys.path[0]
 try:
     from ros2_stand_in.main import main
 
+    signal.signal(signal.SIGINT, heard)
     status = main(sys.argv[1:])
 except ModuleNotFoundError as error:
     sys.exit(f"{error.name} is not on the path: 'source env.sh' in the workbench's root, then try again.")

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Sequence
 
 from motor_model.errors import MotorError
-from motor_model.internal_error import report
+from motor_model.program.internal_error import report
 from motor_ros.loopback import stay_on_this_machine
 from motor_ros.terminal import escaped_output
 from ros2_stand_in.verb_table import VERBS, Verb
@@ -24,7 +24,8 @@ READER_GONE = 141
 def main(words: Sequence[str]) -> int:
     """Run one command line (without the leading `ros2`) and return its exit status."""
     stay_on_this_machine()  # no stranger's node moves a motor
-    sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
+    if sys.stdout is not None:  # it may have been closed
+        sys.stdout.reconfigure(line_buffering=True)  # type: ignore[union-attr]
     with escaped_output():
         return _answered(list(words))
 

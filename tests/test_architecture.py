@@ -50,16 +50,16 @@ BAGS = re.compile(r"motor_identification/bag/((mcap|fields)/)?\w+\.py$")
 # Inside a package too: its rooms (folders, or files beside them) from the ground up; each may import those before it.
 ROOMS = {
     "motor_model": (
-        "compiled printable errors gearing internal_error regular_file yaml_file text_table effect effects "
+        "compiled printable errors gearing program regular_file yaml_file text_table effect effects "
         "sample parameters physical model_file excitation dynamics sensing simulate warm_up"
     ),
     "motor_control": (
         "checks filter controller announcements tuning configuration parameters warm_up preparation settings "
-        "messages answers node cli"
+        "messages answers node cli programs"
     ),
     "motor_identification": (
         "recording progress experiment bag sensor measurement noise estimation timing periodic uncertainty physical "
-        "validation discrepancy diagnosis identify diagnose reporting logs mapping monitoring service live cli"
+        "validation discrepancy diagnosis identify diagnose reporting logs mapping monitoring service live cli programs"
     ),
 }
 MOST_MODULES = 15  # in one folder of a package
@@ -141,7 +141,7 @@ def is_algorithmic(path: Path, imported: set[str]) -> bool:
     shell = (
         imported & ROS
         or {"cli", "live"} & set(path.relative_to(ROOT).parts)
-        or path.name in ("__init__.py", "warm_up.py")
+        or path.name in ("__init__.py", "warm_up.py", "programs.py")
     )
     tree = ast.parse(path.read_text(encoding="utf-8"))
     return not shell and any(isinstance(node, ast.FunctionDef) for node in ast.walk(tree))

@@ -12,8 +12,9 @@ from types import FrameType
 from typing import Any, NoReturn
 
 from motor_model.errors import MotorError
-from motor_model.internal_error import report
 from motor_model.printable import escape
+from motor_model.program.entry_point import is_interrupted_import
+from motor_model.program.internal_error import report
 from motor_ros.terminal import OutputLost, escaped_output
 
 INTERRUPTED = 130  # exit status after Ctrl-C
@@ -111,13 +112,19 @@ def shell(work: Callable[[], int]) -> int:
             _drop_output()
             return 0
         except KeyboardInterrupt:
-            print(f"{_CLEAR if sys.stderr.isatty() else ''}Interrupted.", file=sys.stderr)
-            return INTERRUPTED
+            return _interrupted()
         except Exception as error:
+            if is_interrupted_import(error):
+                return _interrupted()
             of_ros = type(error).__name__ in ("RCLError", "RMWError")  # without importing rclpy, which takes a while
             said = f"ROS 2 refuses ({error})." if of_ros else _capitalized(report(error))
             print(" ".join(said.split()), file=sys.stderr)
             return 1
+
+
+def _interrupted() -> int:
+    print(f"{_CLEAR if sys.stderr.isatty() else ''}Interrupted.", file=sys.stderr)
+    return INTERRUPTED
 
 
 def _drop_output() -> None:

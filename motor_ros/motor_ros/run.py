@@ -15,7 +15,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from motor_model.errors import MotorError
-from motor_model.internal_error import report
+from motor_model.program.internal_error import report
 from motor_ros.loopback import stay_on_this_machine
 from motor_ros.parameters import unknown_parameters
 from motor_ros.program import INVALID_ARGUMENTS, Program, answer, plain_sentence

@@ -5,9 +5,13 @@ import os
 import shlex
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import NoReturn
 
+from motor_model.program.entry_point import hold_interrupt_back
 from ros2_stand_in.interfaces import packages
+
+WORKBENCH = Path(__file__).resolve().parents[2]
 
 
 def run_arguments(parser: argparse.ArgumentParser) -> None:
@@ -21,6 +25,8 @@ def run_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> int:
     """Replace this process by the executable."""
     path = packages.executable(args.package_name, args.executable_name)
+    if (WORKBENCH / args.package_name / args.package_name / "programs.py").is_file():
+        hold_interrupt_back()
     become([*shlex.split(args.prefix), str(path), *args.argv])
 
 

@@ -19,8 +19,12 @@ def test_the_status_says_how_it_ended(capsys: pytest.CaptureFixture[str]) -> Non
     def interrupted() -> int:
         raise KeyboardInterrupt
 
-    assert [shell(lambda: 0), shell(lambda: 3), shell(refused), shell(interrupted)] == [0, 3, 1, 130]
-    assert capsys.readouterr() == ("", "this cannot be: do that.\nInterrupted.\n")
+    def interrupted_import() -> int:
+        raise ImportError("initialization failed") from KeyboardInterrupt()
+
+    works = (lambda: 0, lambda: 3, refused, interrupted, interrupted_import)
+    assert [shell(work) for work in works] == [0, 3, 1, 130, 130]
+    assert capsys.readouterr() == ("", "this cannot be: do that.\nInterrupted.\nInterrupted.\n")
 
 
 @pytest.mark.parametrize(

@@ -54,7 +54,7 @@ def test_a_garbled_last_voltage_is_not_sent_and_0_v_is(
     bench.wait(lambda: len(voltages) >= 2, "two voltages")
     out, err = play.communicate(timeout=PATIENCE)
     assert [message.voltage for message in voltages] == [5.0, 0.0]
-    assert play.returncode == 0 and "1 messages are not of their types and were not played." in err
+    assert play.returncode == 0 and "1 message is not of its type and was not played." in err
     assert "Traceback" not in err
 
 

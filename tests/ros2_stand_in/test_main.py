@@ -1,11 +1,17 @@
 """What `ros2` says about itself, and what it does with words it does not know."""
 
 import importlib
+import shlex
+import subprocess
+import sys
+from pathlib import Path
 
 import pytest
+from patience import PATIENCE
 
 from ros2_stand_in.verb_table import VERBS
 
+LAUNCHED = Path(__file__).resolve().parents[2] / "ros2_stand_in" / "__main__.py"
 ABOUT = "This is the motor workbench's stand-in for machines without the real ros2 command."
 
 
@@ -15,6 +21,12 @@ def test_help_says_what_this_is_and_lists_every_verb(ros2):
         assert ABOUT in out
         listed = [line.strip() for line in out.splitlines() if line.startswith("  ")]
         assert [line.split("  ")[0] for line in listed] == [verb.words for verb in VERBS]
+
+
+def test_a_closed_output_is_no_mistake():
+    command = [sys.executable, str(LAUNCHED), "pkg", "list"]
+    done = subprocess.run(["sh", "-c", f"{shlex.join(command)} >&-"], capture_output=True, text=True, timeout=PATIENCE)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_help_of_a_group_lists_its_verbs_only(ros2):

@@ -2,9 +2,11 @@
 
 import os
 import signal
+import time
 from pathlib import Path
 
 import pytest
+from patience import PATIENCE
 
 SHOW = '#!/bin/sh\necho "$$ $ROS_AUTOMATIC_DISCOVERY_RANGE"\nfor word in "$@"; do echo "<$word>"; done\nexit 7\n'
 WAIT = "#!/bin/sh\ntrap 'echo caught; exit 3' INT\necho waiting\nwhile :; do sleep 0.01; done\n"
@@ -59,6 +61,16 @@ def test_the_process_becomes_the_executable_and_gets_the_signals(prefixed):
     output, took = process.end(signal.SIGINT)
     assert (output.status, output.out, output.err) == (3, "waiting\ncaught\n", "")
     assert took < 1.0
+
+
+@pytest.mark.on_time
+def test_an_interrupt_while_a_program_of_the_workbench_starts_is_silent(ros2):
+    process = ros2.start("run", "motor_sim", "motor_sim")
+    cmdline, end = Path(f"/proc/{process.pid}/cmdline"), time.monotonic() + PATIENCE
+    while b"lib/motor_sim/motor_sim" not in cmdline.read_bytes() and time.monotonic() < end:
+        time.sleep(0.001)
+    output, _ = process.end(signal.SIGINT)
+    assert (output.status, output.out, output.err) == (-signal.SIGINT, "", "")
 
 
 def test_prefix_goes_before_the_executable(prefixed):

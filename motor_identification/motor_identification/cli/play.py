@@ -99,7 +99,9 @@ def _play(options: argparse.Namespace) -> int:
         rclpy.try_shutdown()
     in_place("")
     if publishers.garbled:
-        print(f"{publishers.garbled} messages are not of their types and were not played.", file=sys.stderr)
+        one = publishers.garbled == 1
+        what = "message is not of its type and was" if one else "messages are not of their types and were"
+        print(f"{publishers.garbled} {what} not played.", file=sys.stderr)
     print(_summary(options.bag, schedule))
     return 0
 
@@ -126,7 +128,8 @@ def _summary(uri: str, schedule: "Schedule") -> str:
     if not schedule.played:
         return f"{uri}: nothing played"
     late = schedule.late_at_most(0.99) * 1e3
-    return f"{uri}: {schedule.played} messages played. Playback jitter: {late:.2f} ms (99 %)"
+    messages = "message" if schedule.played == 1 else "messages"
+    return f"{uri}: {schedule.played} {messages} played. Playback jitter: {late:.2f} ms (99 %)"
 
 
 if __name__ == "__main__":

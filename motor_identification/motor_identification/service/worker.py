@@ -13,7 +13,7 @@ from multiprocessing.connection import Connection
 from typing import Any
 
 from motor_model.errors import MotorError
-from motor_model.internal_error import report
+from motor_model.program.internal_error import report
 
 GRACE = 0.5  # [s] that a computation has to stop by itself; after that its process is ended
 LOOK_EVERY = 0.1  # [s] how long it takes at most to notice that a computation is to stop

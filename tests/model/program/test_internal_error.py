@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from motor_model.internal_error import log_directory, report
+from motor_model.program.internal_error import log_directory, report
 
 
 def stumbled() -> ZeroDivisionError:
