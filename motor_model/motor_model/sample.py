@@ -6,7 +6,7 @@ from fractions import Fraction
 from math import nan
 
 from motor_model.errors import MotorError
-from motor_model.gearing.gear import MOST, edge_angle, exact_gear
+from motor_model.gearing.gear import LEAST, MOST, edge_angle, exact_gear
 
 
 class Measurement(str, Enum):
@@ -100,3 +100,7 @@ def check_info(info: Info) -> None:
         value = getattr(info, name)
         if not low <= value <= high:
             raise MotorError(f"motor/info says {name} {value:g}: it must be from {low:g} to {high:g}.")
+    if 0.0 < info.gear_ratio < LEAST:
+        raise MotorError(
+            f"motor/info says gear_ratio {info.gear_ratio:g}: it must be 0 (none), or {float(LEAST):g} and more."
+        )
