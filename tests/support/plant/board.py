@@ -48,7 +48,7 @@ class SignOfOneChannel:
 
     def voltage(self, volts: float) -> None:
         """A voltage is latched."""
-        wanted = int(np.sign(volts)) or self.wanted
+        wanted = (volts > 0.0) - (volts < 0.0) or self.wanted
         if wanted != self.wanted:
             self.armed = wanted == -self.sign
             self.speeding_up = not self.periods[1] >= 0.9 * self.periods[0] > 0.0  # or has only just started
@@ -113,13 +113,15 @@ def report(
 def _signs(voltage: Floats, seen: Integers, stamps: Integers, periods: Floats) -> Integers:
     """Sign that one channel claims at each sample, shape (K,)."""
     rule = SignOfOneChannel()
-    signs = np.zeros(len(voltage), dtype=np.int64)
-    told = 0
-    for k in range(len(voltage)):
-        for edge in range(told, int(seen[k])):
-            stood = edge == 0 or stamps[edge] - stamps[edge - 1] > STANDSTILL
-            rule.edge(float(periods[edge]), bool(stood))
-        told = int(seen[k])
-        signs[k] = rule.sign
-        rule.voltage(float(voltage[k]))
-    return signs
+    stood = np.diff(stamps, prepend=np.iinfo(np.int64).min // 2) > STANDSTILL
+    edges = list(zip(periods.tolist(), stood.tolist(), strict=True))
+    signs, told, before = [], 0, np.nan
+    for volts, count in zip(voltage.tolist(), seen.tolist(), strict=True):
+        for period, after_standstill in edges[told:count]:
+            rule.edge(period, after_standstill)
+        told = count
+        signs.append(rule.sign)
+        if volts != before:  # the same again tells the rule nothing
+            rule.voltage(volts)
+            before = volts
+    return np.array(signs, dtype=np.int64)

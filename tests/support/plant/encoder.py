@@ -10,7 +10,7 @@ so at θ = 0 it already shows e·sin(phase). An edge that is missed is neither c
 it spans the gap; each edge is missed independently of the others.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from math import floor, pi, sin
 
 import numpy as np
@@ -58,8 +58,8 @@ class Edges:
     def __len__(self) -> int:
         return len(self.time)
 
-    def only(self, which: NDArray[np.bool_]) -> "Edges":
-        """The edges at which `which`, shape (E,), is true."""
+    def only(self, which: NDArray[np.bool_] | NDArray[np.int64]) -> "Edges":
+        """The edges at which `which`, shape (E,), is true, or of those numbers."""
         return Edges(self.time[which], self.angle[which], self.speed[which], self.direction[which], self.flank[which])
 
 
@@ -88,24 +88,21 @@ def with_returns(
     nodes = np.column_stack([motion.time, motion.angle, motion.speed])
     found, flank = _passes(nodes, disc.end, disc.begin, start_angle, eccentricity, phase)
     falls = Edges(found[:, 0], found[:, 1], found[:, 2], found[:, 3].astype(np.int64), flank)
-    every = [(rises.time[i], 0, i, rises) for i in range(len(rises))]
-    every += [(falls.time[i], 1, i, falls) for i in range(len(falls))]
-    inside, kept = None, []
-    for _, falling, i, edges in sorted(every, key=lambda one: one[:3]):
-        hole, forward = int(edges.flank[i]), edges.direction[i] > 0
-        by_begin = forward != bool(falling)  # which of the hole's two flanks is passed
-        if not falling:
-            inside = (hole, by_begin)
-            kept.append((edges, i, False))
-        else:
-            if inside == (hole, by_begin):
-                kept.append((edges, i, True))
-            inside = None
-    columns = [
-        np.array([getattr(edges, name)[i] for edges, i, _ in kept], dtype=getattr(rises, name).dtype)
-        for name in ("time", "angle", "speed", "direction", "flank")
-    ]
-    return Edges(*columns), np.array([back for _, _, back in kept], dtype=np.bool_)
+    every = _joined(rises, falls)
+    falling = np.repeat([False, True], [len(rises), len(falls)])
+    by_begin = (every.direction > 0) != falling  # which of the hole's two flanks is passed
+    order = np.lexsort((falling, every.time))
+    hole, by_begin, falling = every.flank[order], by_begin[order], falling[order]
+    back = np.zeros(len(order), dtype=np.bool_)  # by the flank of the edge before, which was a rising one
+    back[1:] = falling[1:] & ~falling[:-1] & (hole[1:] == hole[:-1]) & (by_begin[1:] == by_begin[:-1])
+    kept = ~falling | back
+    return every.only(order[kept]), back[kept]
+
+
+def _joined(first: Edges, second: Edges) -> Edges:
+    """All of them, one after the other."""
+    names = (field.name for field in fields(Edges))
+    return Edges(*(np.concatenate([getattr(first, name), getattr(second, name)]) for name in names))
 
 
 def missed(edges: Edges, rate: float, random: np.random.Generator) -> NDArray[np.bool_]:
