@@ -96,6 +96,7 @@ def shell(work: Callable[[], int]) -> int:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if signal.getsignal(signal.SIGTERM) == signal.SIG_DFL:  # what is half done is taken back then, too
         signal.signal(signal.SIGTERM, signal.default_int_handler)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT, signal.SIGTERM})  # who started us may hold them back
     with escaped_output():
         try:
             status = work()

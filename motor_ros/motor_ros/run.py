@@ -65,6 +65,7 @@ class Interrupt:
         for number in CAUSES:
             if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
                 signal.signal(number, self._on_signal)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, CAUSES)  # whoever started us may have held them back
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         self.received = self.received or number

@@ -1,6 +1,7 @@
 """What commands share: exit statuses, sentences, numbers on the command line, completion of lists."""
 
 import argparse
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -25,6 +26,18 @@ def test_the_status_says_how_it_ended(capsys: pytest.CaptureFixture[str]) -> Non
     works = (lambda: 0, lambda: 3, refused, interrupted, interrupted_import)
     assert [shell(work) for work in works] == [0, 3, 1, 130, 130]
     assert capsys.readouterr() == ("", "this cannot be: do that.\nInterrupted.\nInterrupted.\n")
+
+
+def test_a_command_hears_ctrl_c_although_whoever_started_it_holds_it_back() -> None:
+    def wait() -> int:
+        signal.raise_signal(signal.SIGINT)
+        return 0
+
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        assert shell(wait) == 130
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @pytest.mark.parametrize(

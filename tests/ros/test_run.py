@@ -1,5 +1,6 @@
 """A node that cannot start says why in one sentence."""
 
+import signal
 import subprocess
 from pathlib import Path
 
@@ -68,3 +69,19 @@ def test_security_needs_its_keystore(tmp_path: Path) -> None:
     check_security({"ROS_SECURITY_ENABLE": "true", "ROS_SECURITY_KEYSTORE": str(tmp_path)})
     with pytest.raises(MotorError, match="there is no keystore .*none"):
         check_security({"ROS_SECURITY_ENABLE": "true", "ROS_SECURITY_KEYSTORE": str(tmp_path / "none")})
+
+
+def test_ctrl_c_is_heard_although_whoever_started_us_holds_it_back() -> None:
+    """As `ros2 run` does for a program that is built anew; an older one ran on, and moved its motor."""
+    numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    before = {number: signal.getsignal(number) for number in numbers}
+    signal.pthread_sigmask(signal.SIG_BLOCK, numbers)
+    try:
+        interrupt = run.Interrupt()
+        assert not interrupt
+        signal.raise_signal(signal.SIGINT)
+        assert interrupt and interrupt.cause == "Ctrl-C"
+    finally:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, numbers)
+        for number, handler in before.items():
+            signal.signal(number, handler)
