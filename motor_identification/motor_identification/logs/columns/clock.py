@@ -12,8 +12,7 @@ from motor_model.errors import RecordingError
 Floats = NDArray[np.float64]
 
 SLOWEST = 0.4  # [s] between rows of a recording that shows motion; also the border between units, which are 1,000 apart
-# Of the step of most rows: clocks of whole milliseconds, 5 and 6 in turn, are even, an encoder's 2 and 3 are not.
-EVEN = 0.2
+LATE = 3.0  # times the usual step: a row that came later than that
 _SINCE_1970 = (1e9, 2.2e9)  # [s] 2001 to 2039
 _ROUND = 100.0  # times that are all multiples of it are no microseconds: nobody's loop is that even
 
@@ -62,13 +61,20 @@ def find_clock(columns: Mapping[str, Floats]) -> str | None:
     A motor's angle may go on as times do, but not from the first row on, and not so evenly.
     """
     able = {name: values for name, values in columns.items() if runs_forward(values)}
-    return min(able, key=lambda name: _share_uneven(able[name]), default=None)
+    return min(able, key=lambda name: _unevenness(able[name]), default=None)
 
 
-def _share_uneven(values: Floats) -> float:
-    """Measure the share of rows in which values, shape (K,), do not go on by about as much as in most."""
+def _unevenness(values: Floats) -> float:
+    """Measure how far values, shape (K,), are beside a straight line, RMS in steps; late rows count for nothing.
+
+    Of 3,500 simulated pairs of a clock and the counts of a motor at one voltage, 5 % are taken for one another; by the
+    share of equal steps it were 21 %, as whole milliseconds are no more even than counts.
+    """
     steps = np.diff(values)
-    return float(np.mean(np.abs(steps - np.median(steps)) > EVEN * np.median(steps)))
+    steps = steps[steps <= LATE * np.median(steps[steps > 0.0])]
+    place, row = np.concatenate(([0.0], np.cumsum(steps))), np.arange(len(steps) + 1.0)
+    rest = place - np.polyval(np.polyfit(row, place, 1), row)
+    return float(np.std(rest) / max(np.mean(steps), 1e-300))
 
 
 def runs_forward(values: Floats) -> bool:

@@ -55,3 +55,12 @@ def test_times_are_told_from_an_angle_that_goes_on_too() -> None:
     twice[7] = twice[6]  # a clock of whole hundredths says one of them twice
     counts = np.cumsum(np.concatenate([np.arange(1.0, 49.0), np.full(252, 48.0)]))
     assert find_clock({"counts": counts, "time": twice}) == "time"
+
+
+@pytest.mark.parametrize("time_constant", [30.0, 100.0])
+def test_whole_milliseconds_are_told_from_counts_that_go_on_as_evenly(time_constant: float) -> None:
+    """As of a LEGO motor that starts: 3 and 4 ms in turn, two degrees in nearly every row, and pauses."""
+    time = np.floor(5027.0 + 3.35 * np.arange(300) + 200.0 * (np.arange(300) // 120))
+    since = time - time[0]
+    angle = np.floor(0.56 * (since + time_constant * (np.exp(-since / time_constant) - 1.0)))
+    assert find_clock({"angle": angle, "time": time}) == "time" == find_clock({"time": time, "angle": angle})
