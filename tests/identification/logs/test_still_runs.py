@@ -1,11 +1,14 @@
 """Runs in which the motor never moves."""
 
+from dataclasses import replace
 from pathlib import Path
+
+import pytest
 
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.imported import import_log
 from motor_identification.logs.run import Run
-from motor_identification.logs.still_runs import leave_out_still_runs
+from motor_identification.logs.still_runs import leave_out_still_runs, rows_in_motion
 from motor_model.sample import Sample
 
 
@@ -17,6 +20,21 @@ def test_they_are_left_out_and_told() -> None:
     runs, said = leave_out_still_runs([run("0V", 0.0, 0.0), run("-1V", -1.0, 0.0), run("3V", 3.0, 2.0)])
     assert [one.label for one in runs] == ["3V"]
     assert said == ("Left out: 2 runs in which the motor never moves, at 1 V at most (0V, -1V).",)
+
+
+@pytest.mark.parametrize(("rows", "left"), [(3, 1), (4, 2)])
+def test_runs_that_hardly_begin_are_left_out(rows: int, left: int) -> None:
+    """As behind the last gap of a log: a bag of two rows is refused, and with it all that are given together."""
+    counted = Run("8", tuple(Sample(k, 0.0, 1.0, min(k, rows), 0, 0.0, 12.0, 0.0) for k in range(20)))
+    assert rows_in_motion(counted) == rows
+    runs, said = leave_out_still_runs([run("7", 3.0, 2.0), counted])
+    assert len(runs) == left
+    assert said == (("Left out: 1 run of fewer than 4 rows in motion (8).",) if left == 1 else ())
+    both, said = leave_out_still_runs(
+        [run("7", 3.0, 2.0), run("0", 0.0, 0.0), replace(counted, samples=counted.samples[:3])]
+    )
+    assert len(both) == 1 and len(said) == 2
+    assert len(leave_out_still_runs([replace(counted, samples=counted.samples[:3])])[0]) == 1
 
 
 def test_all_stay_where_all_move_or_none_does() -> None:
