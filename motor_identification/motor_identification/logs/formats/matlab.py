@@ -11,6 +11,8 @@ from motor_identification.logs.formats.mat_version_4 import is_version_4, read_m
 from motor_model.errors import RecordingError
 
 SIGNALS = 3  # time, voltage and motion: vectors of one length, of which more tell nothing
+OBJECTS = "objects of MATLAB (a timeseries, Simulink's output)"
+SAVE_THEM = "save their Time and Data as vectors (t = y.Time; y = y.Data)"
 MOST_COLUMNS = 64  # of a matrix of signals: a wider one is a picture or a model
 
 
@@ -24,7 +26,8 @@ def read_matlab(path: Path) -> Table:
     try:
         data = path.read_bytes()
         variables = read_matrices(data) if is_version_4(data) else read_variables(data)
-        for name, value in variables.items():  # without a name: objects, and what MATLAB keeps of them
+        objects = variables.pop("", None) is not None  # what MATLAB keeps of them has no name
+        for name, value in variables.items():
             _collect(name, value, vectors)
     except TooLargeError as error:
         raise RecordingError(f"{path} is too large ({error}): cut it into parts.") from error
@@ -32,6 +35,8 @@ def read_matlab(path: Path) -> Table:
         raise RecordingError(f"{path} does not fit the memory: cut it into parts.") from error
     except BrokenFileError as error:
         raise RecordingError(f"{path} is a damaged MATLAB file ({error}): save it again with -v7.") from error
+    if objects and len(vectors) < 2:
+        raise RecordingError(f"{path} holds {OBJECTS}, which only MATLAB reads: {SAVE_THEM}.")
     lengths = [len(vector) for vector in vectors.values() if len(vector) >= 2]
     if not lengths:
         raise RecordingError(f"{path} has no vectors of numbers: save time, voltage and motion as vectors.")
@@ -40,8 +45,9 @@ def read_matlab(path: Path) -> Table:
     if len(fitting) < 2:
         raise RecordingError(f"{path} has no two vectors of one length: save time, voltage and motion with one.")
     others = [name for name, vector in vectors.items() if name and 2 <= len(vector) != length]
-    notes = (f"Left out, as they have other lengths: {', '.join(others[:8])}.",) if others else ()
-    return Table(path, np.arange(1, length + 1), fitting, notes=notes)
+    notes = [f"Left out, as they have other lengths: {', '.join(others[:8])}."] if others else []
+    notes += [f"Not read: {OBJECTS}; {SAVE_THEM}, if the motion is in them."] if objects else []
+    return Table(path, np.arange(1, length + 1), fitting, notes=tuple(notes))
 
 
 def _collect(name: str, value: Value, vectors: dict[str, Any]) -> None:

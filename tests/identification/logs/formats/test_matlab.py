@@ -70,4 +70,9 @@ def test_variables_without_a_name_are_not_listed(tmp_path: Path, monkeypatch: py
     there = {"t": TIME[:, None], "u": TIME[:, None], "": np.zeros((1, 9)), "x": np.zeros((1, 7))}
     monkeypatch.setattr("motor_identification.logs.formats.matlab.read_variables", lambda _: there)
     (tmp_path / "log.mat").write_bytes(b"MATLAB 5.0 MAT-file" + bytes(200))
-    assert read_matlab(tmp_path / "log.mat").notes == ("Left out, as they have other lengths: x.",)
+    left_out, objects = read_matlab(tmp_path / "log.mat").notes
+    assert left_out == "Left out, as they have other lengths: x."
+    assert objects.startswith("Not read: objects of MATLAB (a timeseries, Simulink's output); save their Time and Data")
+    del there["t"], there["x"]
+    with pytest.raises(RecordingError, match="log.mat holds objects of MATLAB .*: save their Time and Data as vectors"):
+        read_matlab(tmp_path / "log.mat")
