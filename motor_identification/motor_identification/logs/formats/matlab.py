@@ -26,9 +26,10 @@ def read_matlab(path: Path) -> Table:
     try:
         data = path.read_bytes()
         variables = read_matrices(data) if is_version_4(data) else read_variables(data)
-        objects = variables.pop("", None) is not None  # what MATLAB keeps of them has no name
+        objects = "" in variables  # what MATLAB keeps of them has no name
         for name, value in variables.items():
-            _collect(name, value, vectors)
+            if name:
+                _collect(name, value, vectors)
     except TooLargeError as error:
         raise RecordingError(f"{path} is too large ({error}): cut it into parts.") from error
     except MemoryError as error:
