@@ -37,7 +37,7 @@ def import_log(path: Path, said: Said) -> Imported:
     Raises:
         RecordingError: it cannot be read, or what cannot be guessed has to be said: the sentence asks for it.
     """
-    return import_source(read_source(path), said)
+    return import_source(read_source(path, said.sheet), said)
 
 
 def import_source(source: Source, said: Said) -> Imported:
@@ -48,7 +48,7 @@ def import_source(source: Source, said: Said) -> Imported:
     """
     said = said.with_names(source.table.names)
     if said.sample_period is None:
-        table = sum_steps(mend_table(source.table)) if said.time is None else mend_table(source.table)
+        table = mend_table(sum_steps(source.table) if said.time is None else source.table)
     else:
         table = give_times(mend_table(number_rows(source.table)), said.sample_period)
         said = replace(said, time=ROW_TIMES, time_unit="ns")

@@ -26,6 +26,7 @@ def add_log_options(parser: argparse.ArgumentParser) -> None:
     add("--dry-run", action="store_true", help="say what would be imported, and write nothing")
     add("--name", default="motor", help="the motor's name in the bag (default: motor)")
     add_force_option(parser)
+    add("--sheet", metavar="NAME", help="sheet of a workbook (default: the one with the most numbers)")
     _add_columns(parser)
     _add_meaning(parser)
 

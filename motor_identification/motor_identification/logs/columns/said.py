@@ -48,6 +48,7 @@ class Said:
     max_voltage: float | None = None
     name: str = "motor"
     motors: tuple[Pair, ...] = ()
+    sheet: str | None = None  # of a workbook
 
     def with_names(self, names: Sequence[str]) -> "Said":
         """Name the columns that were said by number: 4 is the fourth, if none is called 4."""

@@ -34,7 +34,18 @@ def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
     text, encoding = read_text(path)
     if not text.strip():
         raise RecordingError(f"{path} is empty: it needs a line of column names and a row for each sample.")
-    upright, turned = turn_lines_into_columns(take_off_brackets(unquote_rows(text.splitlines())))
+    notes = [f"The file is read as {encoding}, as it is not UTF-8."] if encoding else []
+    return table_of(path, text.splitlines(), notes, wanted)
+
+
+def table_of(path: Path, text: Sequence[str], notes: list[str], wanted: Sequence[str] = ()) -> Table:
+    """Make a table of lines; the other arguments are as of `read_table`, and notes what has to be said of the file.
+
+    Raises:
+        RecordingError: as there.
+    """
+    upright, turned = turn_lines_into_columns(take_off_brackets(unquote_rows(text)))
+    notes = [*notes, *turned]
     taken = take_apart(upright)
     lines = taken.lines
     dialect = find_dialect(lines)
@@ -43,7 +54,6 @@ def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
     dialect = _named_by_lines(dialect, taken)
     for column in wanted:
         _check_column(path, dialect.header, column)
-    notes = [*turned, *([f"The file is read as {encoding}, as it is not UTF-8."] if encoding else [])]
     end = _end_of_table(lines, dialect)
     if end < len(lines):
         notes.append(f"Left out: the lines from {end + 1} on, which have fewer than half of the cells of those before.")

@@ -7,12 +7,13 @@ from pathlib import Path
 from motor_identification.bag.storage import OF_ROS_1, ROS_1
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.dialect import check_file
-from motor_identification.logs.csv.reader import read_table
+from motor_identification.logs.csv.reader import read_table, table_of
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.json_lines import are_json_lines, read_json_lines
 from motor_identification.logs.formats.mat_version_4 import is_version_4
 from motor_identification.logs.formats.matlab import read_matlab
 from motor_identification.logs.formats.sysid import read_sysid
+from motor_identification.logs.formats.workbook import is_workbook, read_workbook
 from motor_identification.logs.formats.wpilog import LETTERS, read_wpilog
 from motor_model.errors import RecordingError
 
@@ -37,8 +38,8 @@ class Source:
         return replace(said, **unsaid)
 
 
-def read_source(path: Path) -> Source:
-    """Read a log file.
+def read_source(path: Path, sheet: str | None = None) -> Source:
+    """Read a log file; of a workbook, the sheet that is named, or the one with the most numbers.
 
     Raises:
         RecordingError: it cannot be read, or is of a format that is not known.
@@ -49,6 +50,16 @@ def read_source(path: Path) -> Source:
             head = file.read(HEAD)
     except OSError as error:
         raise RecordingError(f"{path} cannot be read ({error.strerror}): give a log file.") from error
+    if head.startswith(_ZIP) and is_workbook(path):
+        lines, note = read_workbook(path, sheet)
+        return Source(table_of(path, lines, [note]), "workbook")
+    if sheet is not None:
+        raise RecordingError(f"{path} has no sheets: leave out --sheet.")
+    return _read_other(path, head)
+
+
+def _read_other(path: Path, head: bytes) -> Source:
+    """Read a file of one table, whose first bytes tell its format."""
     for is_format, cure in _REFUSED:
         if is_format(head):
             raise RecordingError(f"{path} is {cure}.")

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
-from motor_identification.logs.csv.table import Table
+from motor_identification.logs.csv.table import GARBLED, Table
 
 _STEP = frozenset({"dt", "δt", "deltat", "deltatime", "timestep", "timedelta"})
 LONGEST = 5.0  # times the shortest of nine in ten steps, which the longest of them are at most
@@ -31,16 +31,22 @@ def sum_steps(table: Table) -> Table:
     """Add a column of times where there is none, and one says by its name how long every row took: `dt`, `delta_t_ms`.
 
     Such a column has about the same value in all rows, above 0, but for the first, which is at 0 and may say so; one
-    that grows from row to row is a clock.
+    that grows from row to row is a clock. Rows that are left out later keep their time.
     """
     headings = [read_heading(name) for name in table.names]
     if any(one.quantity is Quantity.TIME and not _STEP & _joined(one) for one in headings):
         return table
-    named = [one for one in headings if _STEP & _joined(one) and bool(np.all(table.readable(one.name)))]
+    named = [one for one in headings if _STEP & _joined(one)]
     if len(named) != 1:
         return table
     (step,) = named
-    steps = table.numbers(step.name)[1:]
+    readable = table.readable(step.name)
+    good = np.flatnonzero(readable)
+    if len(good) < max(2, (1.0 - GARBLED) * len(readable)):
+        return table
+    values = np.full(len(readable), np.nan)
+    values[good] = table.rows(good, "").numbers(step.name)
+    steps = np.where(readable, values, np.median(values[good]))[1:]  # a garbled row took as long as most
     if not np.all(steps > 0.0) or _is_clock(steps):
         return table
     if np.quantile(steps, 0.9) > LONGEST * np.quantile(steps, 0.1):

@@ -61,6 +61,8 @@ Velocidad (grados/s) | speed       | deg/s |
 Kecepatan (RPM)   | speed          | rpm   |
 waktu (ms)        | time           | ms    |
 pulsos            | count          |       |
+ω, рад/с          | speed          | rad/s |
+время, мс         | time           | ms    |
 Prędkość [rpm]    | speed          | rpm   |
 время             | time           |       |
 转速 (rpm)        | speed          | rpm   |

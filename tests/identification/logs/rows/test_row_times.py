@@ -114,3 +114,16 @@ def test_a_log_of_steps_is_read_as_one_of_times(tmp_path: Path) -> None:
     (tmp_path / "steps.csv").write_text("\n".join([f"dt,{HEADER}", *(f"0.002,{row}" for row in rows)]) + "\n")
     (one,), (other,) = (import_log(path, Said(**SAID)).motors for path in (tmp_path / "steps.csv", full))
     assert one.log.runs == other.log.runs
+
+
+@pytest.mark.parametrize("spoilt", ["dt,#,6", "10,#,6"])
+def test_a_row_that_is_left_out_keeps_its_time_in_the_sum(tmp_path: Path, spoilt: str) -> None:
+    """A garbled row of a table of `dt`: those behind it do not come 10 ms earlier."""
+    rows = [f"10,{5 * max(k - 50, 0)},{6 * (k > 50)}" for k in range(200)]
+    for name, here in (("whole.csv", rows[120]), ("garbled.csv", spoilt)):
+        (tmp_path / name).write_text("\n".join(["dt_ms,angle [deg],u", *rows[:120], here, *rows[121:]]) + "\n")
+    times = [
+        [sample.sample_time for run in import_log(tmp_path / name, Said()).motors[0].log.runs for sample in run.samples]
+        for name in ("whole.csv", "garbled.csv")
+    ]
+    assert len(times[0]) == 200 and times[1] == [*times[0][:120], *times[0][121:]]

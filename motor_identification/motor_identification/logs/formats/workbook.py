@@ -1,0 +1,241 @@
+"""A workbook of Excel (.xlsx) as the lines of a text table: the sheet with the most numbers, or the one that is named.
+
+The format is "Office Open XML": a ZIP archive of XML. Only what a table needs is read: the names of the sheets, the
+texts that cells share, which styles show dates, and the cells' values, not their formulas. What the archive says of its
+sizes is not believed: every part is read up to a limit, and a part that declares entities is refused.
+"""
+
+from __future__ import annotations
+
+import re
+import zipfile
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from datetime import datetime, timedelta
+from io import BytesIO
+from pathlib import Path
+from xml.etree import ElementTree
+
+from motor_identification.logs.csv.cells import is_number
+from motor_model.errors import RecordingError
+
+MOST_BYTES = 2**28  # unpacked, of one part
+MOST_CELLS, MOST_COLUMNS, MOST_SHEETS = 10_000_000, 256, 100
+SEPARATOR = "\t"
+_DAMAGES = (
+    zipfile.BadZipFile,
+    zlib.error,
+    ElementTree.ParseError,
+    LookupError,
+    ValueError,
+    OSError,
+    NotImplementedError,
+)
+_FIRST_DAY = datetime(1899, 12, 30)  # of Excel's days, as it counts 29 February 1900
+_DATES = frozenset([*range(14, 23), *range(45, 48)])  # formats that every workbook has
+_CLOCK = re.compile(r"(?i)[yd]|h|m+:|:m|s")  # in a format of its own: it shows a date or a time of day
+_QUOTED = re.compile(r'"[^"]*"|\\.|\[[^\]]*\]')  # not part of what a format shows
+_PLACE = re.compile(r"([A-Z]{1,3})\d+$")
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A sheet's lines, with a tab between cells."""
+
+    name: str
+    lines: list[str]
+
+    @property
+    def numbers(self) -> int:
+        """How many of its cells are numbers."""
+        return sum(is_number(cell, comma=False) for line in self.lines for cell in line.split(SEPARATOR))
+
+
+@dataclass
+class _Workbook:
+    """An open workbook."""
+
+    path: Path
+    archive: zipfile.ZipFile
+    texts: list[str] = field(default_factory=list)
+    dates: frozenset[int] = frozenset()  # styles
+    cells: int = 0
+
+
+def is_workbook(path: Path) -> bool:
+    """Whether a ZIP archive is a workbook of Excel."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return "xl/workbook.xml" in archive.namelist()
+    except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
+        return False
+
+
+def read_workbook(path: Path, wanted: str | None) -> tuple[list[str], str]:
+    """Read the lines of one sheet, and what has to be said of which it is.
+
+    Args:
+        path: the file.
+        wanted: the sheet's name; None: the one with the most numbers.
+
+    Raises:
+        RecordingError: it is damaged, too large, or has no such sheet.
+    """
+    try:
+        with zipfile.ZipFile(BytesIO(path.read_bytes())) as archive:
+            sheets = list(_read_sheets(_Workbook(path, archive), wanted))
+    except _DAMAGES as error:
+        raise RecordingError(f"{path} is a damaged workbook: save it again, or its sheet as CSV.") from error
+    except (EOFError, RuntimeError, MemoryError) as error:  # cut off, encrypted, or too large
+        raise RecordingError(f"{path} cannot be read as a workbook: save its sheet as CSV.") from error
+    if not sheets:
+        raise RecordingError(f"{path} has no sheet with cells: give a workbook with a table.")
+    best = max(sheets, key=lambda sheet: sheet.numbers)
+    others = [sheet.name for sheet in sheets if sheet is not best and sheet.numbers]
+    more = f" (others: {', '.join(others[:8])}; otherwise: --sheet)" if others else ""
+    return best.lines, f"Sheet: {best.name}{more}."
+
+
+def _read_sheets(book: _Workbook, wanted: str | None) -> Iterator[Sheet]:
+    """Read the sheets with cells, or the one that is wanted."""
+    parts = _sheet_parts(book)
+    if wanted is not None and wanted not in parts:
+        raise RecordingError(f"{book.path} has no sheet {wanted}: name one of {', '.join(list(parts)[:20])}.")
+    book.texts = _shared_texts(book)
+    book.dates = _date_styles(book)
+    for name, part in list(parts.items())[:MOST_SHEETS]:
+        if wanted in (None, name):
+            lines = _lines(book, part)
+            if any(line.strip() for line in lines):
+                yield Sheet(name, lines)
+
+
+def _sheet_parts(book: _Workbook) -> dict[str, str]:
+    """Name the part of the archive that holds each sheet."""
+    targets = {}
+    for one in _parse(book, "xl/_rels/workbook.xml.rels"):
+        target = one.get("Target", "")
+        targets[one.get("Id", "")] = target.lstrip("/") if target.startswith("/") else f"xl/{target}"
+    found = {}
+    for one in _parse(book, "xl/workbook.xml").iter():
+        if _tag(one) == "sheet":
+            relation = next((value for key, value in one.attrib.items() if key.endswith("}id")), "")
+            if targets.get(relation) in book.archive.namelist():
+                found[one.get("name", "")] = targets[relation]
+    return found
+
+
+def _shared_texts(book: _Workbook) -> list[str]:
+    if "xl/sharedStrings.xml" not in book.archive.namelist():
+        return []
+    return [_text(one) for one in _parse(book, "xl/sharedStrings.xml") if _tag(one) == "si"]
+
+
+def _date_styles(book: _Workbook) -> frozenset[int]:
+    """Find the styles that show numbers as dates or times of day."""
+    if "xl/styles.xml" not in book.archive.namelist():
+        return frozenset()
+    own: dict[int, str] = {}
+    styles: list[int] = []
+    for one in _parse(book, "xl/styles.xml"):
+        if _tag(one) == "numFmts":
+            own = {int(form.get("numFmtId", "0")): form.get("formatCode", "") for form in one}
+        elif _tag(one) == "cellXfs":
+            styles = [int(form.get("numFmtId", "0")) for form in one]
+    shown = {number for number, code in own.items() if _CLOCK.search(_QUOTED.sub("", code))}
+    return frozenset(k for k, number in enumerate(styles) if number in (shown if number in own else _DATES))
+
+
+def _lines(book: _Workbook, part: str) -> list[str]:
+    """Read a sheet's rows as lines; rows that it leaves out are empty."""
+    lines: list[str] = []
+    with BytesIO(_read(book, part)) as stream:
+        for _, row in ElementTree.iterparse(stream):
+            if _tag(row) != "row":
+                continue
+            place = int(row.get("r", str(len(lines) + 1)))
+            lines += [""] * min(place - 1 - len(lines), 1000)
+            lines.append(_line(book, row))
+            row.clear()
+    return lines
+
+
+def _line(book: _Workbook, row: ElementTree.Element) -> str:
+    cells: list[str] = []
+    for cell in row:
+        book.cells += 1
+        if book.cells > MOST_CELLS:
+            raise RecordingError(f"{book.path} has more than {MOST_CELLS // 10**6} million cells: cut it into parts.")
+        column = _column(cell.get("r", ""), len(cells))
+        if column < MOST_COLUMNS:
+            cells += [""] * (column - len(cells))
+            cells.append(_value(book, cell))
+    return SEPARATOR.join(cells)
+
+
+def _column(place: str, following: int) -> int:
+    """The place of a cell from 0, by its name such as `AB12`."""
+    match = _PLACE.match(place)
+    if match is None:
+        return following
+    number = 0
+    for letter in match[1]:
+        number = 26 * number + ord(letter) - ord("A") + 1
+    return max(number - 1, following)
+
+
+def _value(book: _Workbook, cell: ElementTree.Element) -> str:
+    kind = cell.get("t", "n")
+    if kind == "inlineStr":
+        text = _text(cell)
+    else:
+        text = next((one.text or "" for one in cell if _tag(one) == "v"), "")
+        if kind == "s" and text:
+            text = _text_of(book, int(text))
+        elif kind == "e":
+            text = ""
+        elif kind == "n" and text and int(cell.get("s", "0")) in book.dates:
+            text = _as_time(float(text))
+        elif kind == "n" and text:
+            text = f"{float(text):.15g}"  # as it is shown; 17 digits are stored
+    return " ".join(text.split())
+
+
+def _text_of(book: _Workbook, place: int) -> str:
+    if not 0 <= place < len(book.texts):
+        raise ValueError(place)
+    return book.texts[place]
+
+
+def _as_time(days: float) -> str:
+    """A number of Excel's days as a date and a time; below one as a time of day."""
+    if not 0.0 <= days < 2_900_000.0:
+        return str(days)
+    time = _FIRST_DAY + timedelta(microseconds=round(days * 86_400e6))
+    return time.strftime("%H:%M:%S.%f" if days < 1.0 else "%Y-%m-%dT%H:%M:%S.%f")
+
+
+def _text(element: ElementTree.Element) -> str:
+    """The text of an element, however it is set; without how it is pronounced."""
+    inner = [one for one in element.iter() if _tag(one) == "t"]
+    spoken = {id(one) for ruby in element.iter() if _tag(ruby) == "rPh" for one in ruby}
+    return "".join(one.text or "" for one in inner if id(one) not in spoken)
+
+
+def _parse(book: _Workbook, part: str) -> ElementTree.Element:
+    return ElementTree.fromstring(_read(book, part))
+
+
+def _read(book: _Workbook, part: str) -> bytes:
+    with book.archive.open(part) as stream:
+        data = stream.read(MOST_BYTES + 1)
+    if len(data) > MOST_BYTES:
+        raise RecordingError(f"{book.path} has more than {MOST_BYTES >> 20} MiB in {part}: save the sheet as CSV.")
+    if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
+        raise RecordingError(f"{book.path} declares entities, as no workbook does: save its sheet as CSV.")
+    return data
+
+
+def _tag(element: ElementTree.Element) -> str:
+    return element.tag.rpartition("}")[2]
