@@ -24,11 +24,33 @@ UNITS: dict[Kind, dict[str, float | None]] = {
         "deg/s": radians(1.0),
         "rpm": 2.0 * pi / 60.0,
         "rev/s": 2.0 * pi,
+        "krpm": 2000.0 * pi / 60.0,
         "m/s": None,
+        "cm/s": None,
+        "mm/s": None,
+        "km/h": None,
         "count/s": None,
     },
-    Kind.POSITION: {"rad": 1.0, "deg": radians(1.0), "rev": 2.0 * pi, "m": None, "count": None},
+    Kind.POSITION: {
+        "rad": 1.0,
+        "deg": radians(1.0),
+        "rev": 2.0 * pi,
+        "m": None,
+        "cm": None,
+        "mm": None,
+        "count": None,
+    },
     Kind.COUNT: {"count": None},
+}
+# Of a wheel or a belt: in which length a turn is said (`units_per_revolution`), and how many of it (a second) one is.
+LENGTHS = {
+    "m": ("m", 1.0),
+    "m/s": ("m", 1.0),
+    "cm": ("cm", 1.0),
+    "cm/s": ("cm", 1.0),
+    "mm": ("mm", 1.0),
+    "mm/s": ("mm", 1.0),
+    "km/h": ("m", 1.0 / 3.6),
 }
 TIME_UNITS = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}  # in nanoseconds
 
@@ -80,8 +102,8 @@ class CsvForm:
     @property
     def unit_size(self) -> float | None:
         """What one unit is in rad/s or rad; None where counts are to be sized by the encoder."""
-        if self.unit in ("m", "m/s") and self.units_per_revolution:
-            return 2.0 * pi / self.units_per_revolution
+        if self.unit in LENGTHS and self.units_per_revolution:
+            return LENGTHS[self.unit][1] * 2.0 * pi / self.units_per_revolution
         if self.unit == "count/s" and self.edges_per_revolution:
             return edge_angle(self.edges_per_revolution, self.gear)
         return UNITS[self.kind][self.unit]

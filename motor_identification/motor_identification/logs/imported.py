@@ -5,13 +5,19 @@ from pathlib import Path
 
 from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.said import Said
-from motor_identification.logs.csv.mending import mend_table
+from motor_identification.logs.csv.mending import mend_table, take_off_units
 from motor_identification.logs.csv.sparse import fill_gaps
 from motor_identification.logs.excitation import describe_excitation, hardly_moves
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
 from motor_identification.logs.rows.constant_voltage import CONSTANT, give_voltage
-from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows, sum_steps
+from motor_identification.logs.rows.row_times import (
+    ROW_TIMES,
+    give_times,
+    number_rows,
+    sum_steps,
+    write_times_in_seconds,
+)
 from motor_model.errors import RecordingError
 
 
@@ -46,11 +52,13 @@ def import_source(source: Source, said: Said) -> Imported:
     Raises:
         RecordingError: as above.
     """
-    said = said.with_names(source.table.names)
+    given = take_off_units(source.table)
+    said = said.with_names(given.names)
     if said.sample_period is None:
-        table = mend_table(sum_steps(source.table) if said.time is None else source.table)
+        timed = given if said.time_unit else write_times_in_seconds(given)
+        table = mend_table(sum_steps(timed) if said.time is None else timed)
     else:
-        table = give_times(mend_table(number_rows(source.table)), said.sample_period)
+        table = give_times(mend_table(number_rows(given)), said.sample_period)
         said = replace(said, time=ROW_TIMES, time_unit="ns")
     if said.constant_voltage is not None:
         table = give_voltage(table, said.constant_voltage)

@@ -6,7 +6,7 @@ from math import pi, tau
 import numpy as np
 
 from motor_identification.logs.count_size import AGREE_SPEED, agree_on_edges, count_size
-from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.form import LENGTHS, CsvForm, Kind
 from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID, printed_digit
 from motor_identification.logs.rows.count_rate import count_rates
 from motor_identification.logs.rows.flicker import remove_flicker
@@ -43,7 +43,7 @@ def read_motion(form: CsvForm, info: Info, signals: Signals) -> Motion:
     Raises:
         RecordingError: the size of a count is not to be had, or contradicts the edges per revolution; counts jump.
     """
-    if form.unit_size is None and form.unit in ("m", "m/s"):
+    if form.unit_size is None and form.unit in LENGTHS:
         raise RecordingError(f"{form.motion} is in {form.unit}: say how far a turn goes (--units-per-revolution).")
     if form.kind is Kind.SPEED:
         return _mean_speeds(form, info, signals)

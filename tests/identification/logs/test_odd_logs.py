@@ -64,6 +64,23 @@ ODD = {
     "commas in quotes": table(
         lambda k: f'"{MS[k] / 1e3:.2f}","{DUTY[k]}","{RPM[k]:.1f}"'.replace(".", ","), "s,pwm,rpm"
     ),
+    "units in the cells": table(lambda k: f"{MS[k] / 1e3:.2f} sec,{DUTY[k]},{RPM[k]} rpm", "Time,pwm,speed"),
+    "names of months": table(lambda k: f"03-May-2024 {clock(MS[k])},{DUTY[k]},{RPM[k]}", "Time,pwm,rpm"),
+    "time since the beginning": table(
+        lambda k: f"0 days 00:00:{MS[k] / 1e3:09.6f},{DUTY[k]},{RPM[k]}", "elapsed,pwm,rpm"
+    ),
+    "minutes and seconds": table(
+        lambda k: f"{58 + (MS[k] + 57_000) // 60_000}:{(MS[k] + 57_000) % 60_000 / 1e3:06.3f},{DUTY[k]},{RPM[k]}",
+        "time,pwm,rpm",
+    ),
+    "days of a spreadsheet": table(
+        lambda k: f"{45_413.5 + MS[k] / 86_400e3:.11f},{DUTY[k]},{RPM[k]}", "Timestamp,pwm,rpm"
+    ),
+    "seconds and nanoseconds": table(
+        lambda k: f"{1_760_000_000 + MS[k] // 1000},{MS[k] % 1000 * 10**6},{DUTY[k]},{RPM[k]}",
+        "header.stamp.sec,header.stamp.nanosec,pwm,rpm",
+    ),
+    "whole centiseconds in us": table(lambda k: f"{1000 * MS[k]},{DUTY[k]},{RPM[k]}", "time,pwm,rpm"),
     "a matrix": "Sample   Time [ms]   Motor PWM   Wheel rpm\n\n["
     + ";\n".join(f"{k:5d} {MS[k]:6d} {DUTY[k]:5d} {RPM[k]:8.1f}" for k in range(ROWS))
     + "]\n",

@@ -14,6 +14,8 @@ Floats = NDArray[np.float64]
 SLOWEST = 0.4  # [s] between rows of a recording that shows motion; also the border between units, which are 1,000 apart
 LATE = 3.0  # times the usual step: a row that came later than that
 _SINCE_1970 = (1e9, 2.2e9)  # [s] 2001 to 2039
+SLOWEST_STEADY = 5e3  # [ms] between the rows of a static curve
+_DAYS = ((2e4, 7e4), (7e5, 8e5))  # of a date, as spreadsheets and MATLAB count them
 _ROUND = 100.0  # times that are all multiples of it are no microseconds: nobody's loop is that even
 
 
@@ -36,6 +38,13 @@ def since_1970(values: Floats) -> str:
     return ""
 
 
+def are_days(values: Floats) -> bool:
+    """Whether times, shape (K,), are dates in days: as seconds their rows would be microseconds apart."""
+    if len(values) < 2 or not any(low < float(np.median(values)) < high for low, high in _DAYS):
+        return False
+    return 0.0 < row_period(values) * 86_400.0 < SLOWEST
+
+
 def guess_time_unit(values: Floats) -> tuple[str, str]:
     """The unit of times, shape (K,), and why."""
     if unit := since_1970(values):
@@ -43,7 +52,7 @@ def guess_time_unit(values: Floats) -> tuple[str, str]:
     period = row_period(values)
     rounded = not np.any(values % _ROUND) and bool(np.any(values))
     for unit, size in TIME_UNITS.items():
-        if period * size * 1e-9 < SLOWEST or (unit == "ms" and rounded and period < 1e5):
+        if period * size * 1e-9 < SLOWEST or (unit == "ms" and rounded and period < SLOWEST_STEADY):
             return unit, f"rows are then {period * size * 1e-6:.4g} ms apart"
     return "ns", f"rows are then {period * 1e-6:.4g} ms apart"
 

@@ -18,7 +18,7 @@ from motor_identification.logs.columns.speed_beside import find_counted_position
 from motor_identification.logs.columns.turn_counts import say_turn_counts
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.form import UNITS, CsvForm, Kind, time_unit_size
+from motor_identification.logs.form import LENGTHS, UNITS, CsvForm, Kind, time_unit_size
 
 Floats = NDArray[np.float64]
 
@@ -179,8 +179,9 @@ def _ask_about(column: str, values: Floats, kind: Kind, unit: Unit, said: Said, 
     if unit.name in ("count", "count/s") and said.edges_per_revolution is None:
         question = f"in {unit.name}: say how many counts there are in a turn (--edges-per-revolution N)"
         notes.questions.append((column, question))
-    if unit.name in ("m", "m/s") and said.units_per_revolution is None:
-        notes.questions.append((column, f"in {unit.name}: say how far a turn goes (--units-per-revolution U)"))
+    if unit.name in LENGTHS and said.units_per_revolution is None:
+        how_far = f"in {unit.name}: say how many {LENGTHS[unit.name][0]} a turn goes (--units-per-revolution U)"
+        notes.questions.append((column, how_far))
 
 
 def _ask_for_times(table: Table, pair: Pair, kind: Kind, notes: Notes) -> None:

@@ -92,11 +92,17 @@ UNITS: dict[str, tuple[Quantity, float | None]] = {
     "rpm": (Quantity.SPEED, 2.0 * pi / 60.0),
     "rev/s": (Quantity.SPEED, 2.0 * pi),
     "count/s": (Quantity.SPEED, None),
+    "krpm": (Quantity.SPEED, 2000.0 * pi / 60.0),
     "m/s": (Quantity.SPEED, None),
+    "cm/s": (Quantity.SPEED, None),
+    "mm/s": (Quantity.SPEED, None),
+    "km/h": (Quantity.SPEED, None),
     "rad": (Quantity.POSITION, 1.0),
     "deg": (Quantity.POSITION, radians(1.0)),
     "rev": (Quantity.POSITION, 2.0 * pi),
     "m": (Quantity.POSITION, None),
+    "cm": (Quantity.POSITION, None),
+    "mm": (Quantity.POSITION, None),
     "count": (Quantity.COUNT, None),
 }
 _SPELLINGS = {
@@ -116,6 +122,12 @@ _SPELLINGS = {
     "count/s": (
         "count/s counts/s tick/s ticks/s step/s steps/s pulse/s pulses/s edges/s cps pps count_s counts_s ticks_s"
     ),
+    "krpm": "krpm",
+    "cm/s": "cm/s cm_s cmps cm/sec",
+    "mm/s": "mm/s mm_s mmps mm/sec",
+    "km/h": "km/h km_h kmh kmph kph",
+    "cm": "cm centimeter centimeters",
+    "mm": "mm millimeter millimeters",
     "m/s": "m/s mps m_s meters/s metres/s",
     "rad": "rad рад radian radians",
     "deg": "deg град grad grados graus gradi degs degree degrees °",

@@ -8,16 +8,20 @@ _THOUSANDS = {  # 1.234,5 and 1,234.5: only with both signs it is sure which of 
     True: re.compile(r"[+-]?\d{1,3}(\.\d{3})+,\d*$"),
     False: re.compile(r"[+-]?\d{1,3}(,\d{3})+\.\d*$"),
 }
+_MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 _CLOCK = re.compile(
-    r"((?P<date>\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4})[T ,] {0,3})?"
+    r"((?P<date>\d{1,4}[-/.](\d{1,2}|[A-Za-z]{3})[-/.]\d{1,4})[T ,] {0,3}|(?P<days>\d{1,5}) days? )?"
     r"(?P<hour>\d{1,2}):(?P<minute>\d\d):(?P<second>\d\d)([.,:](?P<fraction>\d{1,9}))?"
     r" {0,3}(?P<half>[AaPp])?(?(half)[Mm]) {0,3}(?P<zone>Z|UTC|[+-]\d\d:?\d\d)?$"
 )
 
 
+_MINUTES = re.compile(r"\d{1,3}:[0-5]\d[.,]\d{1,9}$")  # and seconds: a spreadsheet shows times of day so
+
+
 def is_number(cell: str, comma: bool) -> bool:
     """Whether a cell is a number or a clock's time, with a decimal comma or without."""
-    return bool(_NUMBER.match(with_point(cell, comma)) or _CLOCK.match(cell))
+    return bool(_NUMBER.match(with_point(cell, comma)) or _CLOCK.match(cell) or _MINUTES.match(cell))
 
 
 def with_point(cell: str, comma: bool) -> str:
@@ -28,13 +32,16 @@ def with_point(cell: str, comma: bool) -> str:
 
 
 def clock_nanoseconds(cell: str) -> int:
-    """[ns] of 12:34:56.789 since midnight; of 2026-05-01T12:34:56.789+02:00 since 1970.
+    """[ns] of 12:34:56.789, 34:56.789, 1 days 12:34:56 since midnight; of 2026-05-01T12:34:56.789+02:00 since 1970.
 
     Dates are year-month-day, day.month.year, or month/day/year where that is a date, as their writers mostly mean.
 
     Raises:
         ValueError: it is no time.
     """
+    if _MINUTES.match(cell):
+        minutes, _, rest = cell.partition(":")
+        cell = f"{int(minutes) // 60}:{int(minutes) % 60:02d}:{rest}"
     found = _CLOCK.match(cell)
     if found is None:
         raise ValueError(cell)
@@ -43,12 +50,16 @@ def clock_nanoseconds(cell: str) -> int:
     if found["half"]:
         hour = hour % 12 + (12 if found["half"] in "Pp" else 0)
     whole = datetime(year, month, day, hour, int(found["minute"]), int(found["second"]), tzinfo=timezone.utc)
-    seconds = round(whole.timestamp()) - _offset(found["zone"] or "Z")
+    seconds = round(whole.timestamp()) - _offset(found["zone"] or "Z") + 86_400 * int(found["days"] or 0)
     return seconds * 10**9 + int(((found["fraction"] or "") + "000000000")[:9])
 
 
 def _date(text: str) -> tuple[int, int, int]:
-    first, second, third = (int(part) for part in re.split(r"[-/.]", text))
+    parts = re.split(r"[-/.]", text)
+    if not parts[1].isdigit():  # 01-May-2024
+        parts[1] = str(_MONTHS.index(parts[1].lower()) + 1)
+        text = text.replace("/", "-")
+    first, second, third = (int(part) for part in parts)
     if first > 31:
         return first, second, third
     year = third if third > 99 else 2000 + third

@@ -1,13 +1,33 @@
 """Mends a table as loggers leave it: a few garbled rows are left out, rows that come newest first are turned round."""
 
+import re
+from dataclasses import replace
+
 import numpy as np
 
 from motor_identification.logs.columns.clock import read_clock, runs_forward
 from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.vocabulary import Quantity
+from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING, Quantity
 from motor_identification.logs.csv.table import GARBLED, Table
 
+_WITH_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) ?([^\W\d_][\w/]{0,9}|%|°)$")
 _LOOKED_AT = 200  # cells that tell whether a column holds numbers at all
+
+
+def take_off_units(table: Table) -> Table:
+    """Take the unit off the cells of a column that all have one, `0.01 sec`, and put it behind the column's name."""
+    cells = dict(table.cells)
+    for name in table.names:
+        column = table.column(name)
+        matches = [_WITH_UNIT.match(table.text(name, row)) for row in range(min(len(table), _LOOKED_AT))]
+        units = {UNIT_BY_SPELLING.get(match[2].lower(), "") if match else "" for match in matches}
+        if len(units) != 1 or "" in units:
+            continue
+        (unit,) = units
+        bare = [match[1] if (match := _WITH_UNIT.match(table.text(name, row))) else "" for row in range(len(column))]
+        cells = {f"{name} [{unit}]" if one == name else one: other for one, other in cells.items()}
+        cells[f"{name} [{unit}]"] = bare
+    return replace(table, cells=cells)
 
 
 def mend_table(table: Table) -> Table:

@@ -1,10 +1,12 @@
 """Times of rows that have none: so many seconds from row to row, where the user or a column says so."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.clock import are_days, read_clock
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import GARBLED, Table
@@ -12,6 +14,8 @@ from motor_identification.logs.csv.table import GARBLED, Table
 _STEP = frozenset({"dt", "δt", "deltat", "deltatime", "timestep", "timedelta"})
 LONGEST = 5.0  # times the shortest of nine in ten steps, which the longest of them are at most
 
+_WORDS = re.compile(r"[^\W_\d]+|\d+")
+_SECONDS, _NANOSECONDS = frozenset({"sec", "secs", "seconds"}), frozenset({"nanosec", "nsec", "nsecs", "nanoseconds"})
 ROW_TIMES = "(row times)"  # column: where a row stands, and then when it was
 
 
@@ -25,6 +29,51 @@ def give_times(table: Table, period: float) -> Table:
     place: NDArray[np.int64] = np.asarray(table.column(ROW_TIMES), dtype=np.int64)
     time = np.rint(np.abs(place - place[:1]) * (period * 1e9)).astype(np.int64)
     return replace(table, cells={**table.cells, ROW_TIMES: time})
+
+
+def write_times_in_seconds(table: Table) -> Table:
+    """Write times that are dates in days, or seconds and nanoseconds in two columns, as one column of a usual unit."""
+    return _join_nanoseconds(_count_from_first_day(table))
+
+
+def _count_from_first_day(table: Table) -> Table:
+    """Turn days, as spreadsheets and MATLAB count them, into seconds since the first row."""
+    for name in table.names:
+        heading = read_heading(name)
+        if heading.quantity is not Quantity.TIME or heading.unit or not bool(np.all(table.readable(name))):
+            continue
+        values = read_clock(table, name)
+        if are_days(values):
+            said = f"{name} is in days, as spreadsheets and MATLAB count them: seconds since the first row are taken."
+            cells = {**table.cells, name: np.round((values - values[0]) * 86_400.0, 6)}
+            return replace(table, cells=cells, notes=(*table.notes, said))
+    return table
+
+
+def _join_nanoseconds(table: Table) -> Table:
+    """Make one column of `stamp.sec` and `stamp.nanosec`, as tools write the stamps of ROS messages."""
+    words = {name: tuple(_WORDS.findall(name.lower())) for name in table.names}
+    for name, own in words.items():
+        fine = next((one for one in own if one in _NANOSECONDS), None)
+        rest = tuple(word for word in own if word != fine)
+        pairs = [one for one, other in words.items() if other[-1:] and _is_seconds_of(other, rest)] if fine else []
+        columns = (*pairs, name)
+        if len(pairs) != 1 or not all(bool(np.all(table.readable(one))) for one in columns):
+            continue
+        seconds, nanoseconds = (table.numbers(one) for one in columns)
+        if np.any(seconds % 1.0) or np.any(nanoseconds % 1.0) or np.any((nanoseconds < 0.0) | (nanoseconds >= 1e9)):
+            continue
+        joined = np.rint(seconds).astype(np.int64) * 10**9 + np.rint(nanoseconds).astype(np.int64)
+        others = {one: other for one, other in table.cells.items() if one not in columns}
+        cells = {f"{'.'.join(rest) or 'time'} [ns]": joined, **others}
+        said = f"Times are {pairs[0]} and {name} together."
+        return replace(table, cells=cells, notes=(*table.notes, said))
+    return table
+
+
+def _is_seconds_of(words: tuple[str, ...], rest: tuple[str, ...]) -> bool:
+    """Whether a column's words are those of another's, with seconds for nanoseconds."""
+    return any(word in _SECONDS and tuple(one for one in words if one != word) == rest for word in words)
 
 
 def sum_steps(table: Table) -> Table:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.clock import find_clock, guess_time_unit, runs_forward
+from motor_identification.logs.columns.clock import are_days, find_clock, guess_time_unit, runs_forward
 
 
 @pytest.mark.parametrize(
@@ -16,6 +16,8 @@ from motor_identification.logs.columns.clock import find_clock, guess_time_unit,
         (8859.0, 11.0, "ms"),
         (17800.0, 1100.0, "ms"),  # a static curve: multiples of 100 are no microseconds
         (17801.0, 5003.0, "us"),
+        (0.0, 4900.0, "ms"),  # a static curve
+        (0.0, 5000.0, "us"),  # 200 Hz of a computer that writes what it wanted
         (0.0, 390_000.0, "us"),
         (0.0, 1_000_037.0, "ns"),
         (1.76e9, 0.005, "s"),
@@ -64,3 +66,18 @@ def test_whole_milliseconds_are_told_from_counts_that_go_on_as_evenly(time_const
     since = time - time[0]
     angle = np.floor(0.56 * (since + time_constant * (np.exp(-since / time_constant) - 1.0)))
     assert find_clock({"angle": angle, "time": time}) == "time" == find_clock({"time": time, "angle": angle})
+
+
+@pytest.mark.parametrize(
+    ("first", "step", "days"),
+    [
+        (45_413.5, 0.01 / 86_400.0, True),
+        (739_007.5, 0.3 / 86_400.0, True),
+        (45_413.5, 0.5 / 86_400.0, False),  # slower than a log of motion
+        (1000.0, 1e-7, False),
+        (45_413.5, 0.01, False),  # seconds
+        (1e5, 1e-7, False),
+    ],
+)
+def test_days(first: float, step: float, days: bool) -> None:
+    assert are_days(first + step * np.arange(100)) is days

@@ -61,6 +61,10 @@ Velocidad (grados/s) | speed       | deg/s |
 Kecepatan (RPM)   | speed          | rpm   |
 waktu (ms)        | time           | ms    |
 pulsos            | count          |       |
+speed_cm_s        | speed          | cm/s  |
+Belt speed (mm/s) | speed          | mm/s  |
+speed kmh         | speed          | km/h  |
+position_mm       | position       | mm    |
 ω, рад/с          | speed          | rad/s |
 время, мс         | time           | ms    |
 Prędkość [rpm]    | speed          | rpm   |

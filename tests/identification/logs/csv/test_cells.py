@@ -33,6 +33,11 @@ def test_numbers_with_points_commas_and_marks_of_thousands() -> None:
         ("02.01.1970 00:00:00", 86_400.0),
         ("1/2/1970 00:00:00", 86_400.0),
         ("31/1/1970 00:00:00", 30 * 86_400.0),
+        ("02-Jan-1970 00:00:01.5", 86_401.5),
+        ("1 days 00:00:02.25", 86_402.25),
+        ("1 day 0:00:01", 86_401.0),
+        ("61:02.500", 3662.5),
+        ("0:59,125", 59.125),
     ],
 )
 def test_clocks(cell: str, seconds: float) -> None:
@@ -40,7 +45,10 @@ def test_clocks(cell: str, seconds: float) -> None:
     assert clock_nanoseconds(cell) == round(seconds * 1e9)
 
 
-@pytest.mark.parametrize("cell", ["25:00:00", "12:61:00", "13/13/2024 00:00:00", "2024-02-30 00:00:00", "12:00"])
+@pytest.mark.parametrize(
+    "cell",
+    ["25:00:00", "12:61:00", "13/13/2024 00:00:00", "2024-02-30 00:00:00", "12:00", "02-Xyz-1970 00:00:00", "1:60.5"],
+)
 def test_what_is_no_time(cell: str) -> None:
     with pytest.raises(ValueError, match=r".*"):
         clock_nanoseconds(cell)

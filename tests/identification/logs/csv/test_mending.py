@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from motor_identification.logs.csv.mending import mend_table
+from motor_identification.logs.csv.mending import mend_table, take_off_units
 from motor_identification.logs.csv.table import Table
 
 
@@ -36,3 +36,13 @@ def test_rows_are_turned_round_where_all_of_them_come_backwards() -> None:
     assert mend_table(made(time=clock, u=back[:60])).text("time", 0) == "12:00:00"
     restarts = [str(k % 10) for k in range(100)]
     assert not mend_table(made(t=restarts, u=back)).notes
+
+
+def test_units_are_taken_off_cells_that_all_have_the_same() -> None:
+    table = take_off_units(
+        made(t=["0 ms", "10 ms", "20.5 ms"], u=["1V", "-2.5V", "x"], y=["1 ms", "2 s", "3 ms"], z=["1", "2 V", "3"])
+    )
+    assert table.names == ["t [ms]", "u", "y", "z"] and table.numbers("t [ms]").tolist() == [0.0, 10.0, 20.5]
+    assert take_off_units(made(mode=["run 1", "run 2"], w=["3 furlongs", "4 furlongs"])).names == ["mode", "w"]
+    many = take_off_units(made(t=[f"{k} sec" for k in range(300)] + ["end"]))
+    assert many.names == ["t [s]"] and many.text("t [s]", 299) == "299" and many.text("t [s]", 300) == ""

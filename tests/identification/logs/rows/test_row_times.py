@@ -9,7 +9,13 @@ from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
 from motor_identification.logs.imported import import_log
-from motor_identification.logs.rows.row_times import ROW_TIMES, give_times, number_rows, sum_steps
+from motor_identification.logs.rows.row_times import (
+    ROW_TIMES,
+    give_times,
+    number_rows,
+    sum_steps,
+    write_times_in_seconds,
+)
 from motor_model.errors import RecordingError
 
 HEADER = "Channel 1,Channel 2,Channel 4"
@@ -127,3 +133,32 @@ def test_a_row_that_is_left_out_keeps_its_time_in_the_sum(tmp_path: Path, spoilt
         for name in ("whole.csv", "garbled.csv")
     ]
     assert len(times[0]) == 200 and times[1] == [*times[0][:120], *times[0][121:]]
+
+
+def test_days_of_matlab_are_known_to_ten_microseconds() -> None:
+    days = [f"{739_007.5 + 0.01 * k / 86_400.0:.12f}" for k in range(50)]
+    table = write_times_in_seconds(Table(Path("log.csv"), np.arange(2, 52), {"t": np.array(days), "u": np.ones(50)}))
+    assert table.numbers("t") == pytest.approx(0.01 * np.arange(50), abs=2e-5)
+    assert table.notes == (
+        "t is in days, as spreadsheets and MATLAB count them: seconds since the first row are taken.",
+    )
+
+
+@pytest.mark.parametrize(
+    ("seconds", "nanoseconds", "joined"),
+    [
+        ("stamp.sec", "stamp.nanosec", "stamp [ns]"),
+        ("secs", "nsecs", "time [ns]"),
+        ("header_stamp_secs", "header_stamp_nsecs", "header.stamp [ns]"),
+        ("stamp.sec", "other.nanosec", ""),
+        ("sec", "rpm", ""),
+    ],
+)
+def test_seconds_and_nanoseconds_are_one_time(seconds: str, nanoseconds: str, joined: str) -> None:
+    cells = {seconds: np.array([1.0, 1.0, 2.0]), nanoseconds: np.array([0.0, 5e8, 7.0]), "u": np.ones(3)}
+    table = write_times_in_seconds(Table(Path("log.csv"), [2, 3, 4], cells))
+    assert table.names == ([joined, "u"] if joined else [seconds, nanoseconds, "u"])
+    if joined:
+        assert table.nanoseconds(joined, 1).tolist() == [10**9, 15 * 10**8, 2 * 10**9 + 7]
+        cells[nanoseconds][1] = 1e9  # none: a second has fewer
+        assert write_times_in_seconds(Table(Path("log.csv"), [2, 3, 4], cells)).names == [seconds, nanoseconds, "u"]
