@@ -49,7 +49,8 @@ class State:
 def check(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     """Check one sample: a sentence if the motor has to stop, else ""."""
     speed = state.speed + (1.0 - exp(-seen.dt / FAST)) * (abs(seen.sample.speed) - state.speed)
-    voltage, limit = seen.motion.slow_voltage, seen.voltage_limit
+    limit = seen.voltage_limit
+    voltage = min(seen.motion.slow_voltage, limit)  # the limit may have been lowered just now
     if state.kept == 0.0 or abs(speed - state.kept) > BAND * state.kept or limit <= 0.0:
         return "", _begin(config, seen, speed)
     time, push = state.time + seen.dt, state.push + voltage * seen.dt

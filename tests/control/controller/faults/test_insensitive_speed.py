@@ -51,6 +51,20 @@ def test_a_motor_that_answers_is_none() -> None:
     assert told([(0.0, volts) for volts in RISE]) == (inf, "")  # a standstill is the matter of others
 
 
+@pytest.mark.parametrize("limit", [1e-300, 0.01, 1.0, 6.0])
+def test_a_limit_that_is_lowered_makes_no_fault_of_the_voltage_before(limit: float) -> None:
+    state = insensitive_speed.State()
+    for k in range(600):
+        voltage = 4.5 if k < 310 else limit  # a sample or two later, and the mean of them
+        voltage += 0.02 * (k % 2)
+        look = Seen(
+            Sample(k * 5_000_000, 60.0, voltage), 60.0, replace(LEARNT, slow_voltage=voltage), 60.0, 0.005, LIMIT
+        )
+        look = replace(look, voltage_limit=LIMIT if k < 300 else limit)
+        reason, state = insensitive_speed.check(ENCODER, state, look)
+        assert reason == ""
+
+
 def lost_at(hum: float) -> list[tuple[float, float]]:
     """A line that is lost under 60 rad/s: the loop is at all the voltage before any average has settled."""
     rows, mean = [], 4.5
