@@ -4,6 +4,7 @@ import argparse
 import os
 import signal
 import sys
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from math import inf, nan
@@ -97,7 +98,9 @@ def shell(work: Callable[[], int]) -> int:
     if signal.getsignal(signal.SIGTERM) == signal.SIG_DFL:  # what is half done is taken back then, too
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT, signal.SIGTERM})  # who started us may hold them back
-    with escaped_output():
+    with escaped_output(), warnings.catch_warnings():
+        if not sys.warnoptions:  # what NumPy says of odd numbers is no sentence for users
+            warnings.simplefilter("ignore", RuntimeWarning)
         try:
             status = work()
             sys.stdout.flush()

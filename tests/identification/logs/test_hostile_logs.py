@@ -119,3 +119,16 @@ def test_the_largest_numbers_warn_of_nothing(tmp_path: Path) -> None:
         warnings.simplefilter("error")
         with pytest.raises(MotorError, match="V, which no such motor has"):
             import_log(path, Said(unit="deg", voltage_scale=1.0))
+
+
+@pytest.mark.parametrize("size", [1e-299, 1e-160, 1e160, 1e299])
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("names", ["time,u,speed (deg/s),pos", "time,u,a,b"])
+def test_a_speed_of_no_size_beside_counts_is_a_sentence(tmp_path: Path, size: float, names: str) -> None:
+    steps = np.random.default_rng(3).integers(1, 9, 200)
+    rows = [
+        f"{0.1 * k:.1f},{5 * (k > 20)},{float(step * size)!r},{sum(steps[: k + 1])}" for k, step in enumerate(steps)
+    ]
+    (tmp_path / "log.csv").write_text("\n".join([names, *rows]))
+    with pytest.raises(MotorError):
+        import_log(tmp_path / "log.csv", Said())

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.clock import row_period
 from motor_identification.logs.columns.heading import Heading
 from motor_identification.logs.columns.vocabulary import MOVES, Quantity
+from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]
@@ -36,12 +37,11 @@ def find_position(table: Table, names: Sequence[str], time: str | None) -> str:
 
 def _agreement(table: Table, position: str, speed: str, steps: Floats) -> float:
     """Correlation of a column's way with another's integral, over parts of the log."""
-    angle, travel = table.numbers(position), np.cumsum(table.numbers(speed) * steps)
+    with np.errstate(over="ignore", invalid="ignore"):  # a column of anything
+        angle, travel = table.numbers(position), np.cumsum(table.numbers(speed) * steps)
     ends = np.unique(np.linspace(0, len(angle) - 1, min(PARTS, len(angle) // 3) + 1).astype(np.int64))
     way, integral = np.diff(angle[ends]), np.diff(travel[ends])
-    if len(way) < FEWEST_PARTS or np.ptp(way) == 0.0 or np.ptp(integral) == 0.0:
-        return 0.0
-    return float(np.corrcoef(way, integral)[0, 1])
+    return correlate(way, integral) if len(way) >= FEWEST_PARTS else 0.0
 
 
 def present_values(headings: list[Heading]) -> list[Heading]:

@@ -10,6 +10,7 @@ from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.movement import ASKED, Unit, guess_position_unit
 from motor_identification.logs.columns.said import Pair
 from motor_identification.logs.columns.vocabulary import UNITS, Quantity
+from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
 from motor_model.errors import RecordingError
@@ -97,8 +98,8 @@ def _ratio(position: Floats, speed: Floats, stamps: Floats) -> float | None:
     travel = np.concatenate(([0.0], np.cumsum(speed[1:] * steps[:-1])))
     ends = np.unique(np.linspace(0, len(position) - 1, min(PARTS, len(position) // 3) + 1).astype(np.int64))
     way, integral = np.diff(position[ends]), np.diff(travel[ends])
-    if len(way) < FEWEST_PARTS or np.ptp(way) == 0.0 or np.ptp(integral) == 0.0:
+    if len(way) < FEWEST_PARTS or correlate(way, integral) < TOGETHER:
         return None
-    if np.corrcoef(way, integral)[0, 1] < TOGETHER:
-        return None
-    return float(np.sqrt(np.mean(way**2) / np.mean(integral**2)))
+    with np.errstate(over="ignore"):
+        size = np.max(np.abs(integral))
+        return float(np.linalg.norm(way / size) / np.linalg.norm(integral / size))

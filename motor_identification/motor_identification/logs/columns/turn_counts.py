@@ -11,6 +11,7 @@ from motor_identification.logs.columns.movement import guess_speed_unit
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import UNITS, Quantity
+from motor_identification.logs.correlation import correlate
 from motor_identification.logs.count_size import MOST_EDGES
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
@@ -22,6 +23,7 @@ AGREE = 0.999  # correlation of the counts of a part with its angle: the speed w
 NEAR = 0.02  # from a whole number, relative to it, that the counts of a turn may be off; of few
 MOST_PLACES = 7  # behind the point, of a digit
 FEWEST_LEVELS = 5  # of counts in a row: what is cut off of fewer grows with them
+TINY, HUGE = 1e-100, 1e100  # [rad] of a part: a speed of less, or more, is none
 ALIKE, TOLD = 1.1, 0.01  # times what fits the rows best; share of the counts that does not matter then
 
 
@@ -137,7 +139,7 @@ def _fit_counts(way: Floats, angle: Floats) -> tuple[float, float] | None:
     if len(ends) <= FEWEST_PARTS:
         return None
     counted, turned = np.add.reduceat(np.abs(way), ends[:-1]), np.add.reduceat(angle, ends[:-1])
-    if np.ptp(counted) == 0.0 or np.ptp(turned) == 0.0 or np.corrcoef(counted, turned)[0, 1] < AGREE:
+    if correlate(counted, turned) < AGREE or not TINY < float(np.max(turned)) < HUGE:
         return None
     number = tau * float(counted @ turned) / float(turned @ turned)
     return number, float(np.sqrt(np.mean((angle - tau / number * np.abs(way)) ** 2)))
