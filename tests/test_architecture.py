@@ -235,7 +235,7 @@ def test_linted() -> None:
 
 
 @pytest.mark.long
-def test_pure_modules_are_typed() -> None:
+def test_all_modules_are_typed() -> None:
     run("mypy")
 
 

@@ -65,10 +65,10 @@ class Parameters:
             if not isfinite(value):
                 raise ModelError(f"{name} = {value:g} {spec.unit} must be a finite number.")
             if not spec.minimum <= value <= spec.maximum:
-                most = (
+                limits = (
                     f"{spec.minimum:g} to {spec.maximum:g}" if isfinite(spec.maximum) else f"at least {spec.minimum:g}"
                 )
-                raise ModelError(f"{name} = {value:g} {spec.unit} is not physical: it must be {most}.")
+                raise ModelError(f"{name} = {value:g} {spec.unit} is not physical: it must be {limits}.")
             if spec.at_least is not None and value < self.values[spec.at_least]:
                 least = f"{self.values[spec.at_least]:g} {spec.unit}"
                 raise ModelError(f"{name} must be at least {spec.at_least}: it is {value:g}, and that is {least}.")

@@ -41,7 +41,7 @@ class CommandParser(argparse.ArgumentParser):
         """Say what is wrong with the command line; what was typed, or pasted, steers no terminal."""
         super().error(escape(message, longest=0))
 
-    def parse_args(self, *args: Any, **named: Any) -> Any:  # type: ignore[override]
+    def parse_args(self, *args: Any, **named: Any) -> Any:
         """As argparse does; where the shell asks what could come next, answer that and exit."""
         if "_ARGCOMPLETE" in os.environ:
             from argcomplete import autocomplete

@@ -68,7 +68,7 @@ def _complete(program: Program) -> None:
     parameter = parser.add_argument("-p", "--param", action="append")
     parameter.completer = lambda **_: [f"{row.name}:=" for row in program.rows]  # type: ignore[attr-defined]
     renamed = parser.add_argument("-r", "--remap", action="append")
-    renamed.completer = SuppressCompleter()  # type: ignore[attr-defined, no-untyped-call]
+    renamed.completer = SuppressCompleter()  # type: ignore[attr-defined]
     parser.add_argument("--params-file", action="append")
     autocomplete(parser, always_complete_options=False)
 

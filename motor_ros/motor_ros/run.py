@@ -21,7 +21,11 @@ from motor_ros.parameters import unknown_parameters
 from motor_ros.program import INVALID_ARGUMENTS, Program, answer, plain_sentence
 
 LOOK_FOR_SIGNALS_EVERY = 0.1  # [s] how long an idle node takes at most to notice Ctrl-C
-CAUSES = {signal.SIGINT: "Ctrl-C", signal.SIGTERM: "it was told to end", signal.SIGHUP: "the terminal was closed"}
+CAUSES: dict[int, str] = {
+    signal.SIGINT: "Ctrl-C",
+    signal.SIGTERM: "it was told to end",
+    signal.SIGHUP: "the terminal was closed",
+}
 
 
 def start_ros(args: list[str] | None = None) -> None:

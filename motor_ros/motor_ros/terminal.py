@@ -57,7 +57,7 @@ def escaped_output() -> Iterator[None]:
     """Within, what is printed is escaped; a stream that was closed swallows it."""
     before = sys.stdout, sys.stderr
     with open(os.devnull, "w", encoding="utf-8") as nowhere:
-        sys.stdout, sys.stderr = (EscapedStream(stream or nowhere) for stream in before)  # type: ignore[assignment]
+        sys.stdout, sys.stderr = (EscapedStream(stream or nowhere) for stream in before)
         try:
             yield
         finally:

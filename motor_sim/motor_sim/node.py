@@ -32,8 +32,9 @@ class MotorSim(Node):
         model = load(str(values["model"])) if values["model"] else paper_motor()
         limit = declare(self, (max_voltage_row(model.max_voltage),))["max_voltage"]
         limit, supply = float(limit), float(values["supply_voltage"]) or float(limit)
-        known = {name: float(values[name]) for name in ("resistance", "torque_constant") if values[name]}
-        model = replace(model, max_voltage=supply, **known)
+        resistance = float(values["resistance"]) or model.resistance
+        torque_constant = float(values["torque_constant"]) or model.torque_constant
+        model = replace(model, max_voltage=supply, resistance=resistance, torque_constant=torque_constant)
         config = board_config_of(values)
         self._board = SimulatedBoard(model, config)
         self._board.sample(0.0)  # compiled now, not in the first sample

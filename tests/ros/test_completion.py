@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+import sys
 from importlib import import_module
 from pathlib import Path
 
@@ -9,10 +10,10 @@ import pytest
 import workbench
 
 ROOT = Path(__file__).resolve().parents[2]
-EXECUTABLES = {  # by package and name, the module whose main it calls
-    (path.parent.name, name): module
+EXECUTABLES = {  # by package and name, the module and the function that it calls
+    (path.parent.name, name): (module, function)
     for path in sorted(ROOT.glob("motor_*/setup.py"))
-    for name, module in re.findall(r'"(\w+) = ([\w.]+):main"', path.read_text(encoding="utf-8"))
+    for name, module, function in re.findall(r'"(\w+) = ([\w.]+):(\w+)"', path.read_text(encoding="utf-8"))
 }
 ASK = """
 source "$ROOT/motor_ros/motor_ros/completion.bash"
@@ -62,16 +63,20 @@ def test_tab_knows_what_can_come_next(line: str, expected: list[str]) -> None:
 
 
 @pytest.mark.parametrize(("package", "name"), EXECUTABLES)
-def test_every_executable_answers_before_it_starts(package: str, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_executable_answers_before_it_starts(
+    package: str, name: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A TAB must never start a program, which might move a motor; nor must a look at its help."""
     line = f"ros2 run {package} {name} --ver"
     assert complete(line) == ["--version"]
     declared = re.search(r"<version>(.*)</version>", (ROOT / package / "package.xml").read_text(encoding="utf-8"))
     assert declared is not None
     starts = {"--version": f"{name} {declared[1]}\n", "--help": f"usage: ros2 run {package} {name} ["}
+    module, function = EXECUTABLES[package, name]
     for word, start in starts.items():
+        monkeypatch.setattr(sys, "argv", [name, word])
         with pytest.raises(SystemExit) as ended:
-            import_module(EXECUTABLES[package, name]).main([word])
+            getattr(import_module(module), function)()
         out, err = capsys.readouterr()
         assert (ended.value.code, err) == (0, "") and out.startswith(start)
     assert f"\n  ros2 run {package} {name} " in out  # an example, to be typed as it stands

@@ -41,9 +41,8 @@ class DiffDrive(Node):
         self._frames = (str(self._values["odom_frame"]), str(self._values["base_frame"]))
         self._odometry = self.create_publisher(Odometry, "odom", qos.ODOMETRY)
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
-        self._tf, self._tf_type = None, self._transforms() if self._values["publish_tf"] else None
-        if self._tf_type is not None:
-            self._tf = self.create_publisher(self._tf_type, "/tf", qos.TRANSFORMS)
+        self._transforms = self._load_transforms() if self._values["publish_tf"] else None
+        self._tf = self.create_publisher(self._transforms, "/tf", qos.TRANSFORMS) if self._transforms else None
         kind = TwistStamped if self._values["stamped"] else TwistMessage
         self.create_subscription(kind, "cmd_vel", self._on_cmd_vel, qos.REFERENCE)
         steady_timer(self, 1.0 / float(self._values["rate"]), self._on_timer)
@@ -54,7 +53,7 @@ class DiffDrive(Node):
         """Stop both wheels and let go of them."""
         self._tell(drive.Decision(Wheels(0.0, 0.0), True))
 
-    def _transforms(self) -> Any:
+    def _load_transforms(self) -> Any:
         try:
             return load_message("tf2_msgs/msg/TFMessage")
         except NotInstalled:
@@ -93,8 +92,8 @@ class DiffDrive(Node):
         stamp = self.get_clock().now().to_msg()
         twist = body_twist(self._config.geometry, Wheels(self._left.wheel.speed, self._right.wheel.speed))
         self._odometry.publish(odometry_message(self._pose, twist, stamp, self._frames))
-        if self._tf is not None:
-            self._tf.publish(self._tf_type(transforms=[transform_message(self._pose, stamp, self._frames)]))
+        if self._transforms and self._tf:
+            self._tf.publish(self._transforms(transforms=[transform_message(self._pose, stamp, self._frames)]))
 
     def _on_second(self) -> None:
         self._left.ask_controller()

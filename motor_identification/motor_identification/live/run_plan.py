@@ -2,6 +2,7 @@
 
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import rclpy
@@ -85,15 +86,15 @@ def _raise_problem(refusal: MotorError | None, node: Driver, bag: Path | None) -
         raise MotorError(f"{node.plant_says if SWITCH in node.plant_says else node.problem}{kept}")
 
 
+def _is_found(node: Driver, interrupt: Interrupt, until: float) -> bool:
+    """Whether a plant answers, waiting has ended, or something is wrong."""
+    return bool((node.plan and node.heard) or node.failed() or interrupt) or time.monotonic() > until
+
+
 def _wait_for_plant(node: Driver, interrupt: Interrupt) -> None:
     deadline = time.monotonic() + PATIENCE
     for until in (deadline - PATIENCE + SILENT, deadline):
-        spin(
-            node,
-            lambda until=until: (
-                bool((node.plan and node.heard) or node.failed() or interrupt) or time.monotonic() > until
-            ),
-        )
+        spin(node, partial(_is_found, node, interrupt, until))
         if node.problem:
             raise MotorError(node.problem)
         if (node.plan is not None and node.heard is not None) or interrupt:

@@ -38,7 +38,8 @@ def read_physical(options: argparse.Namespace) -> PhysicalRequest | None:
         if options.torque_constant:
             raise MotorError("--torque-constant goes with --resistance: give both, or record the current.")
         return PhysicalRequest() if options.physical else None
-    return PhysicalRequest(*options.resistance, options.torque_constant)
+    resistance, error = options.resistance
+    return PhysicalRequest(resistance, error, options.torque_constant)
 
 
 def _measured(text: str) -> tuple[float, float]:
