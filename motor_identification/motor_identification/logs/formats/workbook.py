@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from io import BytesIO
+from itertools import groupby
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -106,7 +107,7 @@ def _read_sheets(book: _Workbook, wanted: str | None) -> Iterator[Sheet]:
     book.dates = _date_styles(book)
     for name, part in list(parts.items())[:MOST_SHEETS]:
         if wanted in (None, name):
-            lines = _lines(book, part)
+            lines = _largest_block(_lines(book, part))
             if any(line.strip() for line in lines):
                 yield Sheet(name, lines)
 
@@ -159,6 +160,22 @@ def _lines(book: _Workbook, part: str) -> list[str]:
             lines.append(_line(book, row))
             row.clear()
     return lines
+
+
+def _largest_block(lines: list[str]) -> list[str]:
+    """Cut the block of columns with the most numbers out of a sheet, on which notes and sums stand beside the table."""
+    rows = [line.split(SEPARATOR) for line in lines]
+    numbers = [0] * max(map(len, rows), default=0)
+    filled = [False] * len(numbers)
+    for row in rows:
+        for k, cell in enumerate(row):
+            filled[k] = filled[k] or bool(cell)
+            numbers[k] += bool(cell) and is_number(cell, comma=False)
+    blocks = [list(block) for there, block in groupby(range(len(filled)), key=filled.__getitem__) if there]
+    if len(blocks) < 2 and filled[:1] == [True]:
+        return lines
+    best = max(blocks, key=lambda block: sum(numbers[k] for k in block), default=[0])
+    return [SEPARATOR.join(row[best[0] : best[-1] + 1]) for row in rows]
 
 
 def _line(book: _Workbook, row: ElementTree.Element) -> str:

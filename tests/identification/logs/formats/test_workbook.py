@@ -64,18 +64,26 @@ def test_the_sheet_with_the_most_numbers_and_the_one_that_is_named(tmp_path: Pat
 def test_cells_of_every_kind(tmp_path: Path) -> None:
     cells = (
         '<c t="s"><v>0</v></c><c t="s"><v>1</v></c><c t="inlineStr"><is><t>rpm</t></is></c><c t="b"><v>1</v></c>'
-        '<c t="e"><v>#DIV/0!</v></c><c><f>A1*2</f><v>7.5</v></c><c/>'
+        '<c><f>A1*2</f><v>7.5</v></c><c t="e"><v>#DIV/0!</v></c><c/>'
     )
     texts = ("<t>time  [s]</t>", "<r><t>du</t></r><r><t>ty</t></r><rPh><t>spoken</t></rPh>")
     lines, _ = read_workbook(write(tmp_path / "a.xlsx", texts, a=sheet(cells)), None)
-    assert lines == ["time [s]\tduty\trpm\t1\t\t7.5\t"]
+    assert lines == ["time [s]\tduty\trpm\t1\t7.5"]
 
 
 def test_cells_and_rows_that_are_left_out_are_empty(tmp_path: Path) -> None:
     rows = '<row r="2"><c r="B2"><v>1</v></c><c r="AA2"><v>2</v></c><c r="ZZZ2"><v>3</v></c></row>'
     path = write(tmp_path / "a.xlsx", a=f"<worksheet {MAIN}><sheetData>{rows}</sheetData></worksheet>")
     lines, _ = read_workbook(path, None)
-    assert lines[0] == "" and lines[1].split("\t") == ["", "1", *[""] * 24, "2"]
+    assert lines == ["", "1"]
+
+
+def test_what_stands_beside_the_table_is_left_out(tmp_path: Path) -> None:
+    """Two columns of the table, one of which begins later, an empty one, and a note with its number."""
+    rows = ['<c r="B1"><v>1</v></c><c r="E1" t="str"><v>R</v></c><c r="F1"><v>1.6</v></c>']
+    rows += [f'<c r="B{k}"><v>{k}</v></c><c r="C{k}"><v>7</v></c>' for k in range(2, 5)]
+    lines, _ = read_workbook(write(tmp_path / "a.xlsx", a=sheet(*rows)), None)
+    assert lines == ["1\t", "2\t7", "3\t7", "4\t7"]
 
 
 def test_dates_and_times_of_day(tmp_path: Path) -> None:
