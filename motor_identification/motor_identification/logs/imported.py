@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from motor_identification.logs.columns.direction import join_two_ways
 from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.mending import mend_table, take_off_units
@@ -63,7 +64,7 @@ def import_source(source: Source, said: Said) -> Imported:
     if said.constant_voltage is not None:
         table = give_voltage(table, said.constant_voltage)
         said = replace(said, voltage=CONSTANT)
-    filled = fill_gaps(table)
+    filled = fill_gaps(table if said.motors else join_two_ways(table, said.voltage))
     guess = guess_forms(filled.table, source.with_said(said))
     motors = []
     for form in guess.forms:

@@ -81,6 +81,9 @@ ODD = {
         "header.stamp.sec,header.stamp.nanosec,pwm,rpm",
     ),
     "whole centiseconds in us": table(lambda k: f"{1000 * MS[k]},{DUTY[k]},{RPM[k]}", "time,pwm,rpm"),
+    "a drive for each way": table(
+        lambda k: f"{MS[k]},{max(DUTY[k], 0)},{max(-DUTY[k], 0)},{RPM[k]}", "ms,pwm_fwd,pwm_rev,rpm"
+    ),
     "a matrix": "Sample   Time [ms]   Motor PWM   Wheel rpm\n\n["
     + ";\n".join(f"{k:5d} {MS[k]:6d} {DUTY[k]:5d} {RPM[k]:8.1f}" for k in range(ROWS))
     + "]\n",

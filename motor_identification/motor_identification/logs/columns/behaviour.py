@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.clock import row_period
+from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading
-from motor_identification.logs.columns.vocabulary import MOVES, Quantity
+from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 
@@ -57,6 +58,42 @@ def _any_moves(headings: Sequence[Heading]) -> bool:
 
 def _is_present(heading: Heading) -> bool:
     return heading.quantity is Quantity.CURRENT and not heading.unit and "current" in heading.words
+
+
+def numbered_motors(headings: list[Heading]) -> list[Heading]:
+    """Motors by number, where as many drives as motions have the same ones: `pwm1`, `pwm2`, `enc1`, `enc2`."""
+    numbers = {
+        one.name: one.words[-1] for one in headings if not one.side and one.words[-1:] and one.words[-1].isdigit()
+    }
+    moving = [numbers[one.name] for one in headings if one.quantity in MOVES and one.name in numbers]
+    driving = [numbers[one.name] for one in headings if drives(one) and one.name in numbers]
+    if len(moving) < 2 or sorted(moving) != sorted(driving) or len(set(moving)) != len(moving):
+        return headings
+    return [replace(one, side=numbers.get(one.name, one.side)) for one in headings]
+
+
+def ends_of_a_loop(headings: list[Heading]) -> list[Heading]:
+    """Input and output side by side: of a controller where a set point stands there too, else of the motor.
+
+    An output beside what drives, where nothing else moves, is the motor's.
+    """
+    places = {_place(one) for one in headings} - {None}
+    drive_it = [one for one in headings if drives(one) and _place(one) is None]
+    if INPUTS in places and OUTPUTS in places:
+        moves = INPUTS if any(one.quantity is Quantity.REFERENCE for one in headings) else OUTPUTS
+    elif OUTPUTS in places and drive_it and not any(one.quantity in MOVES for one in headings):
+        moves = OUTPUTS
+    else:
+        return headings
+    sides = sum(_place(one) == moves for one in headings) > 1
+    found = Quantity.POSITION if sides else None  # of which kind, its numbers tell
+    return [replace(one, quantity=found) if _place(one) == moves else one for one in headings]
+
+
+def _place(heading: Heading) -> frozenset[str] | None:
+    """Which end of a system a name is of, but for which motor it belongs to: `outputL`; None where of none."""
+    words = [word for word in heading.words if word not in SIDES and word != "r"]
+    return next((place for place in (INPUTS, OUTPUTS) if len(words) == 1 and words[0] in place), None)
 
 
 def begins_at_rest(stamps: Floats, volts: Floats, values: Floats, is_speed: bool) -> bool:

@@ -1,12 +1,13 @@
 """A duty without a sign, and beside it the pin that says which way: which of its two values is forward."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.heading import read_heading, split_words
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import words_of
@@ -19,6 +20,10 @@ NONE = "-"  # instead of a column's name: there is none
 WORDS = words_of("dir direction drehrichtung richtung sentido sens reverse reversed ccw cw")
 FORWARD = words_of("1 1.0 +1 f fw fwd forward forwards cw high true vor vorwärts adelante avant")
 BACKWARD = words_of("0 0.0 -1 -1.0 r rev reverse b bw back backward backwards ccw low false zurück atras arrière")
+TWO_WAYS = frozenset(
+    [("fwd", "rev"), ("forward", "reverse"), ("forward", "backward"), ("fwd", "bwd"), ("rpwm", "lpwm"), ("cw", "ccw")]
+)
+TOGETHER = 0.01  # of the rows
 NEITHER = words_of("stop stopped brake coast idle halt none off 0 0.0")  # 0 is one beside 1 and -1
 
 
@@ -97,3 +102,34 @@ def _values(table: Table, column: str) -> list[str]:
     for value in np.unique(np.asarray(table.column(column)))[:4]:
         found.append(value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value))
     return found
+
+
+def join_two_ways(table: Table, voltage: str | None) -> Table:
+    """Make one drive of two that are never on together, one for each way: `pwm_fwd`, `pwm_rev`; `RPWM`, `LPWM`.
+
+    Args:
+        table: the log.
+        voltage: the column that a user said it is; then nothing is joined.
+    """
+    words = {name: split_words(name) for name in table.names}  # those of its unit too: pwm_rev is in no turns
+    for one, other in permutations(table.names, 2):
+        if voltage is None and _are_two_ways(words[one], words[other]) and _take_turns(table, one, other):
+            cells = {name: cell for name, cell in table.cells.items() if name not in (one, other)}
+            joined = table.numbers(one) - table.numbers(other)
+            note = f"Voltage: {one} less {other}, as they are never on together (otherwise: --voltage)."
+            return replace(table, cells={**cells, f"{one} - {other} (duty)": joined}, notes=(*table.notes, note))
+    return table
+
+
+def _are_two_ways(one: tuple[str, ...], other: tuple[str, ...]) -> bool:
+    """Whether names are alike but for a word, which says forward in the first and backward in the other."""
+    differ = [(a, b) for a, b in zip(one, other, strict=False) if a != b]
+    return len(one) == len(other) and len(differ) == 1 and differ[0] in TWO_WAYS
+
+
+def _take_turns(table: Table, one: str, other: str) -> bool:
+    if not (bool(table.readable(one).all()) and bool(table.readable(other).all())):
+        return False
+    first, second = table.numbers(one), table.numbers(other)
+    never_below = bool(np.min(first) >= 0.0 and np.min(second) >= 0.0)
+    return never_below and bool(np.any(first) and np.any(second)) and float(np.mean(first * second != 0.0)) < TOGETHER

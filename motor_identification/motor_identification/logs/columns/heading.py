@@ -19,7 +19,6 @@ _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position
 _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
 _AXES, _JOINT_FIELDS = frozenset(["yaw", "pitch", "roll"]), frozenset(["position", "velocity", "effort"])
 _PER = {**dict.fromkeys(("s", "sec", "second"), "s"), **dict.fromkeys(("min", "minute"), "min")}
-_MOTOR_NUMBER = re.compile(r"(?:m|motor|wheel|enc|encoder)(\d)$", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -36,9 +35,11 @@ class Heading:
 def read_heading(name: str) -> Heading:
     """Read a column's name: `leftSpeedRpm`, `Tiempo (s)`, `duty_pct`, `Battery [mV]`."""
     unit, rest = _unit_in_brackets(name)
-    words = _words(rest)
+    words = split_words(rest)
     if not unit:
-        unit, words = _unit_at_the_end(words)
+        behind = 1 if len(words) > 1 and (words[-1] in SIDES or words[-1] == "r") else 0  # rpm_left
+        unit, before = _unit_at_the_end(words[: len(words) - behind])
+        words = (*before, *words[len(words) - behind :])
     side = _side(words)
     return Heading(name, words, _quantity(words, unit), unit, side)
 
@@ -51,7 +52,8 @@ def _unit_in_brackets(name: str) -> tuple[str, str]:
     return "", _BRACKETS.sub(lambda match: " " if "/" in match[1] else f" {match[1]} ", name)  # furlongs/s: no seconds
 
 
-def _words(text: str) -> tuple[str, ...]:
+def split_words(text: str) -> tuple[str, ...]:
+    """The words of a name, in lower case."""
     whole = _MILLI.sub(lambda match: f" m{match[1].lower()} ", text)
     apart = _CAMEL.sub(" ", whole.replace("ω", " ω ").replace("θ", " θ "))
     return tuple(word.lower() for word in _PARTS.findall(apart))
@@ -92,6 +94,8 @@ def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
     ]
     if _is_joint(words):
         told.remove(Quantity.OTHER)
+    if unit == "rev" and Quantity.DUTY in told:  # pwm_rev: that of the other way
+        return Quantity.DUTY
     by_unit = UNITS[unit][0] if unit else None
     if Quantity.OTHER in told and "rate" not in words:
         return Quantity.OTHER

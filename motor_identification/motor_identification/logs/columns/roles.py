@@ -1,18 +1,18 @@
 """Which column is which: those that were named by the user, then by their names, then by how their numbers behave."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.behaviour import find_position, present_values
+from motor_identification.logs.columns.behaviour import ends_of_a_loop, find_position, numbered_motors, present_values
 from motor_identification.logs.columns.clock import find_clock, read_clock, runs_forward, since_1970
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_motion, miss_drive, miss_motion
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, UNITS, Quantity
+from motor_identification.logs.columns.vocabulary import MEASURED, MOVES, UNITS, Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.constant_voltage import CONSTANT
 from motor_model.errors import RecordingError
@@ -43,37 +43,13 @@ def find_roles(table: Table, said: Said) -> Roles:
     time = said.time or (None if said.steady else _time_of(table, headings))
     if said.time:
         table.column(said.time)
-    free = _of_a_loop([heading for heading in headings if heading.name not in (time, said.supply)])
-    free = present_values(free)
+    free = ends_of_a_loop([heading for heading in headings if heading.name not in (time, said.supply)])
+    free = numbered_motors(present_values(free))
     pairs = said.motors or _pairs(table, free, said, time)
     supply = said.supply or _supply_of(table, free, pairs)
     named = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs} | {supply}
     currents = [one.name for one in free if one.quantity is Quantity.CURRENT and one.name not in named]
     return Roles(time, pairs, supply, currents[0] if len(currents) == 1 and len(pairs) == 1 else None)
-
-
-def _of_a_loop(headings: list[Heading]) -> list[Heading]:
-    """Input and output side by side: of a controller where a set point stands there too, else of the motor.
-
-    An output beside what drives, where nothing else moves, is the motor's.
-    """
-    places = {_place(one) for one in headings} - {None}
-    drive_it = [one for one in headings if drives(one) and _place(one) is None]
-    if INPUTS in places and OUTPUTS in places:
-        moves = INPUTS if any(one.quantity is Quantity.REFERENCE for one in headings) else OUTPUTS
-    elif OUTPUTS in places and drive_it and not any(one.quantity in MOVES for one in headings):
-        moves = OUTPUTS
-    else:
-        return headings
-    sides = sum(_place(one) == moves for one in headings) > 1
-    found = Quantity.POSITION if sides else None  # of which kind, its numbers tell
-    return [replace(one, quantity=found) if _place(one) == moves else one for one in headings]
-
-
-def _place(heading: Heading) -> frozenset[str] | None:
-    """Which end of a system a name is of, but for which motor it belongs to: `outputL`; None where of none."""
-    words = [word for word in heading.words if word not in SIDES and word != "r"]
-    return next((place for place in (INPUTS, OUTPUTS) if len(words) == 1 and words[0] in place), None)
 
 
 def _is_numeric(table: Table, name: str) -> bool:
@@ -161,8 +137,9 @@ def _moving(
         if found:
             return found[0]
     unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
-    if len(unnamed) == 1:
-        return unnamed[0]
+    measured = [one.name for one in headings if one.name in unnamed and MEASURED & set(one.words)]
+    if len(unnamed) == 1 or len(measured) == 1:
+        return (measured or unnamed)[0]
     if len(unnamed) == 2 and (position := find_position(table, unnamed, time)):
         return position
     still = [one.name for one in headings if one.quantity is None and one.name != CONSTANT]
@@ -185,6 +162,9 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
             raise ask_column(table, quantity.value, "--voltage", found)
         if found:
             return found[0]
+    swinging = [one.name for one in headings if one.quantity is Quantity.SUPPLY and _swings(table.numbers(one.name))]
+    if len(swinging) == 1:
+        return swinging[0]  # Vin, which is no supply then
     unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
     if len(unnamed) == 1 and others:
         return unnamed[0]
@@ -192,6 +172,11 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
     if not candidates:
         raise miss_drive(table)
     raise ask_drive(table, candidates)
+
+
+def _swings(values: Floats) -> bool:
+    """Whether voltages, shape (K,), come to 0 or change their sign, as no supply's do."""
+    return bool(np.min(values) <= 0.0 < np.max(np.abs(values)))
 
 
 def _supply_of(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair]) -> str | None:

@@ -24,6 +24,8 @@ NEAR = 0.02  # from a whole number, relative to it, that the counts of a turn ma
 MOST_PLACES = 7  # behind the point, of a digit
 FEWEST_LEVELS = 5  # of counts in a row: what is cut off of fewer grows with them
 TINY, HUGE = 1e-100, 1e100  # [rad] of a part: a speed of less, or more, is none
+SENSOR_TURNS = (1024, 4096, 16384)  # counts of magnetic sensors: 10, 12, 14 bits
+NEARLY, FEWEST_WRAPS = 0.97, 3  # of a turn that is reached; jumps that tell
 ALIKE, TOLD = 1.1, 0.01  # times what fits the rows best; share of the counts that does not matter then
 
 
@@ -58,6 +60,12 @@ def say_turn_counts(table: Table, pair: Pair, stamps: Floats | None, said: Said,
     ):
         return said
     found = find_turn_counts(table, heading, stamps)
+    turn = None if found or said.wrap else _find_turn(table.numbers(pair.motion), heading)
+    if turn is not None and said.increments is not True:
+        notes.findings.append(
+            f"{pair.motion}: {turn} counts a turn, where they begin again (assumed; otherwise: --edges-per-revolution)."
+        )
+        return replace(said, edges_per_revolution=turn, kind=Kind.COUNT)
     if (
         found is None
         or (found.anew and not counts)
@@ -71,6 +79,17 @@ def say_turn_counts(table: Table, pair: Pair, stamps: Floats | None, said: Said,
     )
     kind = said.kind if counts else Kind.COUNT
     return replace(said, edges_per_revolution=found.counts, increments=found.anew, kind=kind)
+
+
+def _find_turn(values: Floats, heading: Heading) -> int | None:
+    """Find the counts of a turn of a magnetic sensor, whose numbers, shape (K,), begin again at 0 after the last."""
+    angles = heading.quantity is Quantity.POSITION or bool({"raw", "angle"} & set(heading.words))
+    largest = float(np.max(values, initial=0.0))
+    for turn in SENSOR_TURNS:
+        if angles and NEARLY * turn < largest < turn and np.min(values) >= 0.0:
+            jumps = np.abs(np.diff(values)) > 0.5 * turn
+            return turn if int(np.count_nonzero(jumps)) >= FEWEST_WRAPS else None
+    return None
 
 
 def _is_whole_position(table: Table, heading: Heading) -> bool:

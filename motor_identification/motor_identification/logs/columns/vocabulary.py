@@ -30,6 +30,8 @@ _row = words_of
 INPUTS = _row("input entrada eingang entrée entree ingresso")  # of a system: what drives it, or a controller
 OUTPUTS = _row("output saída saida salida ausgang sortie uscita")
 
+MEASURED = _row("meas measured measurement medido medida feedback fb actual ist istwert pv messwert")
+
 # Earlier rows win: a target speed is no speed, a battery's voltage is not the motor's, a speed command is a reference.
 WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.OTHER: _row(

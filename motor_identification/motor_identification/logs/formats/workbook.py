@@ -172,7 +172,7 @@ def _largest_block(lines: list[str]) -> list[str]:
             filled[k] = filled[k] or bool(cell)
             numbers[k] += bool(cell) and is_number(cell, comma=False)
     blocks = [list(block) for there, block in groupby(range(len(filled)), key=filled.__getitem__) if there]
-    if len(blocks) < 2 and filled[:1] == [True]:
+    if all(filled):
         return lines
     best = max(blocks, key=lambda block: sum(numbers[k] for k in block), default=[0])
     return [SEPARATOR.join(row[best[0] : best[-1] + 1]) for row in rows]

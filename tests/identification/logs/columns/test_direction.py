@@ -3,8 +3,12 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
+from numpy.typing import NDArray
 
-from motor_identification.logs.columns.direction import find_direction_column, read_direction
+from motor_identification.logs.columns.direction import find_direction_column, join_two_ways, read_direction
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
 
 DRIVE = np.array([0.0, 5.0, 5.0, 7.0])
@@ -36,3 +40,29 @@ def test_which_value_is_backward() -> None:
         assert found is not None and found.backward == backward
     assert read_direction(made(["A", "A", "B", "B"]), "dir", DRIVE, SPEED) is None
     assert read_direction(made(["1", "1", "0", "0"]), "dir", DRIVE, np.abs(SPEED)) is None
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "joined"),
+    [
+        ("pwm_fwd", "pwm_rev", True),
+        ("RPWM", "LPWM", True),
+        ("duty forward", "duty reverse", True),
+        ("pwm_left", "pwm_right", False),  # two motors
+        ("pwm_fwd", "duty_rev", False),
+    ],
+)
+def test_two_drives_that_are_never_on_together_are_one(one: str, other: str, joined: bool) -> None:
+    first, second = np.tile([0.0, 5.0, 0.0, 0.0], 30), np.tile([0.0, 0.0, 7.0, 0.0], 30)
+
+    def made_of(a: NDArray[np.float64], b: NDArray[np.float64]) -> Table:
+        return Table(Path("log.csv"), np.arange(2, 122), {other: b, one: a, "rpm": first})
+
+    found = join_two_ways(made_of(first, second), None)
+    assert (found.names == ["rpm", f"{one} - {other} (duty)"]) is joined
+    if joined:
+        assert found.numbers(found.names[-1]).tolist() == (first - second).tolist()
+        assert read_heading(found.names[-1]).quantity is Quantity.DUTY and len(found.notes) == 1
+        for a, b in ((first, -second), (first, np.zeros(120)), (first, first), (first + (np.arange(120) < 30), second)):
+            assert join_two_ways(made_of(a, b), None).names == [other, one, "rpm"]
+        assert join_two_ways(made_of(first, second), one).names == [other, one, "rpm"]

@@ -61,6 +61,11 @@ Velocidad (grados/s) | speed       | deg/s |
 Kecepatan (RPM)   | speed          | rpm   |
 waktu (ms)        | time           | ms    |
 pulsos            | count          |       |
+rpm_left          | speed          | rpm   | left
+rpmR              | speed          | rpm   | right
+l_vel_deg_s_right | speed          | deg/s | left
+pwm_rev           | duty           | rev   |
+position_rev      | position       | rev   |
 speed_cm_s        | speed          | cm/s  |
 Belt speed (mm/s) | speed          | mm/s  |
 speed kmh         | speed          | km/h  |

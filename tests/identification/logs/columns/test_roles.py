@@ -98,6 +98,28 @@ def test_an_output_beside_what_drives_is_the_motors() -> None:
         find_roles(table(t="t", output="u", pwm="u", speed="y"), Said())
 
 
+def test_motors_by_number_where_drives_and_motions_have_the_same() -> None:
+    both = find_roles(table(t="t", pwm1="u", pwm2="r", enc1="y", enc2="y"), Said())
+    assert both.pairs == (Pair("1", "pwm1", "enc1"), Pair("2", "pwm2", "enc2"))
+    for columns in ({"pwm1": "u", "enc1": "y", "enc2": "y"}, {"pwm1": "u", "pwm3": "r", "enc1": "y", "enc2": "y"}):
+        with pytest.raises(RecordingError, match="of enc1, enc2"):
+            find_roles(table(t="t", **columns), Said())
+
+
+def test_what_is_called_a_supply_and_swings_drives() -> None:
+    assert find_roles(table(t="t", Vin="u", speed="y"), Said()).pairs == (Pair("", "Vin", "speed"),)
+    with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+        find_roles(table(t="t", Vin="b", speed="y"), Said())
+    assert find_roles(table(t="t", Vin="b", pwm="u", speed="y"), Said()).supply == "Vin"
+
+
+def test_what_is_called_measured_is_the_motion() -> None:
+    loop = find_roles(table(t="t", ref="r", meas="y", u="u", e="r", P="r", D="y"), Said())
+    assert loop.pairs == (Pair("", "u", "meas"),)
+    with pytest.raises(RecordingError, match="which column is the motion"):
+        find_roles(table(t="t", meas_a="y", meas_b="y", u="u"), Said())
+
+
 def test_the_unit_that_is_said_picks_its_column() -> None:
     columns = {"t": "t", "angle": "y", "omega": "y", "u": "u"}
     for unit, motion in (("rpm", "omega"), ("rad/s", "omega"), ("deg", "angle"), (None, "angle")):

@@ -96,3 +96,18 @@ def test_nobody_is_asked_for_the_counts_that_a_speed_tells() -> None:
     assert said.forms[0].edges_per_revolution == 600
     with pytest.raises(RecordingError, match="how many counts there are in a turn"):
         guess_forms(table(cells, "t_ms", "pwm", "enc_count"), Said(supply_voltage=12.0))
+
+
+@pytest.mark.parametrize(("name", "turn"), [("raw_angle", 4096), ("angle", 1024), ("position", 16384)])
+def test_a_magnetic_sensor_begins_again_at_its_turn(name: str, turn: int) -> None:
+    count = np.floor(ANGLE * turn / (2.0 * np.pi)) % turn
+    cells = {"t_ms": 1e3 * STAMPS, "pwm": DRIVE, name: count}
+    found = guess_forms(table(cells, *cells), Said(supply_voltage=12.0))
+    (form,) = found.forms
+    assert (form.kind, form.unit, form.edges_per_revolution) == (Kind.COUNT, "count", turn)
+    assert f"{name}: {turn} counts a turn, where they begin again" in "".join(found.findings)
+    said = guess_forms(table(cells, *cells), Said(supply_voltage=12.0, unit="count", edges_per_revolution=500)).forms[0]
+    assert said.edges_per_revolution == 500
+    for other in (np.where(count > 0.96 * turn, 0.0, count), np.minimum(np.cumsum(np.full(400, turn / 401.0)), turn)):
+        with pytest.raises(RecordingError, match="which the numbers do not tell: say --unit"):
+            guess_forms(table({**cells, name: np.floor(other)}, *cells), Said(supply_voltage=12.0))
