@@ -60,18 +60,18 @@ class FirmwareConfig:
 
 
 def sources(*folders: str, suffixes: Iterable[str] = (".c",)) -> list[Path]:
-    """The files of some folders of the package."""
+    """Return the files of some folders of the package."""
     return sorted(path for folder in folders for path in (share() / folder).iterdir() if path.suffix in suffixes)
 
 
 def first_error(said: str) -> str:
-    """The line of a compiler's report that says what is wrong: the first error, or else the last line."""
+    """Return the line of a compiler's report that says what is wrong: the first error, or else the last line."""
     lines = said.strip().splitlines() or ["it says nothing"]
     return next((line.strip() for line in lines if " error: " in line), lines[-1].strip())
 
 
 def firmware(config: FirmwareConfig | None = None, strict: bool = False) -> Path:
-    """The firmware's ELF file; with `strict` a warning is an error.
+    """Return the firmware's ELF file; with `strict` a warning is an error.
 
     Raises:
         BoardError: the compiler is missing or refuses the sources.
@@ -84,7 +84,7 @@ def firmware(config: FirmwareConfig | None = None, strict: bool = False) -> Path
 
 
 def chip_library(strict: bool = False) -> Path:
-    """The emulated chip as a shared library; with `strict` a warning is an error.
+    """Return the emulated chip as a shared library; with `strict` a warning is an error.
 
     Raises:
         BoardError: the compiler or libsimavr is missing.
@@ -94,7 +94,7 @@ def chip_library(strict: bool = False) -> Path:
 
 
 def core_library() -> Path:
-    """The firmware's portable core, compiled for this computer.
+    """Return the firmware's portable core, compiled for this computer.
 
     Raises:
         BoardError: the compiler is missing or refuses the sources.

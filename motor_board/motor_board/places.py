@@ -8,7 +8,7 @@ _HERE = Path(__file__).resolve().parent
 
 @cache
 def share() -> Path:
-    """The folder with firmware/, emulator/ and protocol/."""
+    """Return the folder with firmware/, emulator/ and protocol/."""
     source = _HERE.parent
     if (source / "firmware").is_dir():
         return source

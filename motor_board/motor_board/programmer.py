@@ -31,12 +31,12 @@ KINDS = {
 
 
 def ports() -> list[str]:
-    """The serial ports that look like boards."""
+    """List the serial ports that look like boards."""
     return sorted(path for pattern in PORTS for path in glob.glob(pattern))
 
 
 def the_port(asked: str | None) -> str:
-    """The port to use.
+    """Return the port to use.
 
     Raises:
         BoardError: there is none, several and none was asked for, or no permission for it.
@@ -58,7 +58,7 @@ def the_port(asked: str | None) -> str:
 
 
 def command(elf: Path, port: str, board: str) -> list[str]:
-    """What flashes the board."""
+    """Return what flashes the board."""
     kind = KINDS[board]
     told = {"-c": kind.protocol, "-p": kind.part, "-P": port, "-b": str(kind.baud)}
     return ["avrdude", "-q", *(word for pair in told.items() for word in pair), "-D", "-U", f"flash:w:{elf}:e"]

@@ -124,7 +124,7 @@ def vectors(table: WireTable) -> dict[str, object]:
 
 
 def files(root: Path | None = None) -> dict[Path, str]:
-    """What follows from the table, by path."""
+    """Return what follows from the table, by path."""
     root = root or share()
     table = load_table()
     return {

@@ -17,7 +17,7 @@ from motor_model.errors import MotorError
 
 
 def described(arguments: Iterable[Argument], session: Callable[[Mapping[str, str]], Session]) -> LaunchDescription:
-    """A launch file: its arguments, and the session that they make."""
+    """Return a launch file: its arguments, and the session that they make."""
 
     def start(context: LaunchContext) -> list[Action]:
         told = {argument.name: LaunchConfiguration(argument.name).perform(context) for argument in arguments}

@@ -31,7 +31,7 @@ ARGUMENTS = (
 
 
 def session(told: Mapping[str, str]) -> Session:
-    """What `diff_drive.launch.py` starts.
+    """Return what `diff_drive.launch.py` starts.
 
     Raises:
         MotorError: a word is none of the choices, a file cannot be read, or the boards cannot be told apart.

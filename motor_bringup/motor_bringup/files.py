@@ -8,12 +8,12 @@ from motor_model.errors import MotorError
 
 
 def config(name: str) -> str:
-    """The path of a parameter file of this package."""
+    """Return the path of a parameter file of this package."""
     return str(Path(get_package_share_directory("motor_bringup")) / "config" / name)
 
 
 def named(path: str, what: str) -> str:
-    """An absolute path, so that it does not matter where a program is started.
+    """Return an absolute path, so that it does not matter where a program is started.
 
     Raises:
         MotorError: there is no such file.

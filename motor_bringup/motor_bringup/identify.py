@@ -23,7 +23,7 @@ ARGUMENTS = (
 
 
 def session(told: Mapping[str, str]) -> Session:
-    """What `identify.launch.py` starts: no controller, and everything ends with the analysis.
+    """Return what `identify.launch.py` starts: no controller, and everything ends with the analysis.
 
     Raises:
         MotorError: a word is none of the choices, or a file that was named cannot be read.

@@ -26,7 +26,7 @@ ARGUMENTS = (
 
 
 def session(told: Mapping[str, str]) -> Session:
-    """What `motor.launch.py` starts.
+    """Return what `motor.launch.py` starts.
 
     Raises:
         MotorError: a word is none of the choices, or a file that was named cannot be read.

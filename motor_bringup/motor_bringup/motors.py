@@ -21,7 +21,7 @@ ARGUMENTS = (
 
 
 def session(told: Mapping[str, str]) -> Session:
-    """What `motors.launch.py` starts.
+    """Return what `motors.launch.py` starts.
 
     Raises:
         MotorError: a word is none of the choices, a file cannot be read, or the boards cannot be told apart.

@@ -16,7 +16,7 @@ HERE = "ros__parameters"
 
 
 def parameters_for(node: str, path: str) -> dict[str, Value]:
-    """The parameters for a node of that full name, such as /left/motor_sim; later sections prevail.
+    """Return the parameters for a node of that full name, such as /left/motor_sim; later sections prevail.
 
     Raises:
         MotorError: the file is no parameter file.
@@ -25,7 +25,7 @@ def parameters_for(node: str, path: str) -> dict[str, Value]:
 
 
 def parameters_named(node: str, path: str) -> dict[str, Value]:
-    """The parameters for a node in whatever namespace they were written for, as `ros2 param dump` does.
+    """Return the parameters for a node in whatever namespace they were written for, as `ros2 param dump` does.
 
     Raises:
         MotorError: the file is no parameter file, or has nothing for this node.

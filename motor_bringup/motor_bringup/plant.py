@@ -13,7 +13,7 @@ WORKED_OUT = ("name", "max_voltage")  # from the namespace and the model file; a
 
 
 def plant_programs(values: Mapping[str, str]) -> tuple[Program, ...]:
-    """What `plant:=` asks for; the program that has the motor's topics comes first.
+    """Return what `plant:=` asks for; the program that has the motor's topics comes first.
 
     Raises:
         MotorError: the model or the parameter file cannot be read.
@@ -44,7 +44,7 @@ def with_files(node: str, name: str, values: Mapping[str, str], own: Mapping[str
 
 
 def model_of(values: Mapping[str, str]) -> dict[str, Value]:
-    """The model as the parameter of a node."""
+    """Return the model as the parameter of a node."""
     return {"model": named(values["model"], "model file")} if values["model"] else {}
 
 

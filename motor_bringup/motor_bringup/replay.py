@@ -24,7 +24,7 @@ ARGUMENTS = (
 
 
 def session(told: Mapping[str, str]) -> Session:
-    """What `replay.launch.py` starts: motor/speed is recorded, simulated/motor/speed what the model makes of it.
+    """Return what `replay.launch.py` starts: motor/speed is recorded, simulated/motor/speed what the model makes of it.
 
     Raises:
         MotorError: the bag, the model or the parameter file cannot be read.

@@ -23,13 +23,13 @@ MOST_READ = 4096  # [byte] at once
 
 
 def ports() -> str:
-    """The serial ports there are, in words."""
+    """List the serial ports there are, in words."""
     found = [f"{port.device} ({port.description})" for port in list_ports.comports()]
     return f"the ports here are {', '.join(found)}" if found else "there is no serial port here at all"
 
 
 def candidates(port: str, search: bool = False, wording: Wording = NODE) -> list[str]:
-    """The ports that may be opened: the one, or those of the pattern, that was asked for, or else those on USB.
+    """List the ports that may be opened: the one, or those of the pattern, that was asked for, or else those on USB.
 
     Raises:
         PortError: there is none, or there are several and nobody is to `search` them.

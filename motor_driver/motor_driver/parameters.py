@@ -73,7 +73,7 @@ PROGRAM = Program(
 
 
 def config_of(values: Mapping[str, Value]) -> Config:
-    """The driver's configuration.
+    """Return the driver's configuration.
 
     Raises:
         MotorError: there is no such decay or board_id, the encoder's parameters or the current's limits contradict each

@@ -50,7 +50,7 @@ def stuff(data: bytes) -> bytes:
 
 
 def unstuff(data: bytes) -> bytes | None:
-    """The inverse of `stuff`; None if `data` is not a result of it."""
+    """Return the inverse of `stuff`; None if `data` is not a result of it."""
     out, at = bytearray(), 0
     while at < len(data):
         code = data[at]
@@ -65,7 +65,7 @@ def unstuff(data: bytes) -> bytes | None:
 
 
 def pack(frame: Frame, seq: int, version: int = VERSION) -> bytes:
-    """A frame as it goes on the wire.
+    """Pack a frame as it goes on the wire.
 
     Raises:
         ProtocolError: a value that does not fit its field.
@@ -79,7 +79,7 @@ def pack(frame: Frame, seq: int, version: int = VERSION) -> bytes:
 
 
 def unpack(chunk: bytes) -> Event | None:
-    """The frame between two zeros of the wire; None if it is not right in every respect."""
+    """Unpack the frame between two zeros of the wire; None if it is not right in every respect."""
     data = unstuff(chunk)
     if data is None or len(data) < LEAST or zlib.crc32(data[: -CRC.size]) != CRC.unpack(data[-CRC.size :])[0]:
         return None

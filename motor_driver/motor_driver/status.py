@@ -25,12 +25,12 @@ class Tally:
 
 
 def tally(driver: Driver, now: int) -> Tally:
-    """What has been counted by now [ns]."""
+    """Return what has been counted by now [ns]."""
     return Tally(now, driver.readings, driver.counters, driver.runs, driver.openings, driver.encoder_errors)
 
 
 def problem(driver: Driver, was: Tally, now: int) -> str:
-    """What is wrong, the most important first; empty if nothing is."""
+    """Return what is wrong, the most important first; empty if nothing is."""
     session, rate = driver.session, achieved(driver, was, now)
     if session is None:
         return driver.trouble
@@ -51,7 +51,7 @@ def problem(driver: Driver, was: Tally, now: int) -> str:
 
 
 def connection(driver: Driver) -> str:
-    """What has just begun to run, as a sentence."""
+    """Return what has just begun to run, as a sentence."""
     board, config = driver.board, driver.config
     if driver.session is None or board is None:
         return ""
@@ -63,7 +63,7 @@ def connection(driver: Driver) -> str:
 
 
 def values(driver: Driver, was: Tally, now: int) -> dict[str, str]:
-    """The link's numbers by name and unit."""
+    """Return the link's numbers by name and unit."""
     session, counters = driver.session, driver.counters
     rows = {
         "port": session.port if session else "none",
@@ -119,7 +119,7 @@ def _supply(driver: Driver) -> str:
 
 
 def capital(sentence: str) -> str:
-    """A clause as a sentence."""
+    """Return a clause as a sentence."""
     return f"{sentence[0].upper()}{sentence[1:]}." if sentence else ""
 
 

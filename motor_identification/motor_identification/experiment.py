@@ -57,7 +57,7 @@ class Plan:
 
 
 def announce(plan: Plan, motor: str, max_voltage: float, limit: float | None) -> str:
-    """What is about to happen to a motor, and what limits it, in two or three sentences.
+    """Announce what is about to happen to a motor, and what limits it, in two or three sentences.
 
     limit: [rad/s] the speed at which the experiment is stopped; None: there is none.
     """
@@ -72,7 +72,7 @@ def announce(plan: Plan, motor: str, max_voltage: float, limit: float | None) ->
 
 
 def make_plan(profile: Profile, voltage: float | None, max_voltage: float, sample_period: float) -> Plan:
-    """A plan for a plant; without a voltage it uses all the plant has.
+    """Make a plan for a plant; without a voltage it uses all the plant has.
 
     Raises:
         MotorError: the voltage is not positive or more than the plant has.
@@ -84,7 +84,7 @@ def make_plan(profile: Profile, voltage: float | None, max_voltage: float, sampl
 
 
 def slowed(plan: Plan, parameters: Parameters, limit: float) -> Plan:
-    """The plan with the largest peak, at most its own, that keeps a motor within a speed [rad/s] all the time.
+    """Return the plan with the largest peak, at most its own, that keeps a motor within a speed [rad/s] all the time.
 
     Raises:
         MotorError: no voltage does, or only one that hardly moves the motor (with static friction it stands or runs).
@@ -111,7 +111,7 @@ def _fastest(plan: Plan, parameters: Parameters) -> float:
 
 
 def simulate_plan(plan: Plan, parameters: Parameters, config: BoardConfig) -> Iterator[tuple[float, Sample]]:
-    """The commands [V] and what a simulated board reports, sample by sample."""
+    """Return the commands [V] and what a simulated board reports, sample by sample."""
     board = SimulatedBoard(parameters, config)
     for command in plan.commands:
         yield float(command), board.sample(float(command))

@@ -92,7 +92,7 @@ class Recording:
 
 
 def recording_of(samples: Sequence[Sample], info: Info, uri: str, notes: tuple[str, ...] = ()) -> Recording:
-    """The recording that a sequence of samples makes; not checked."""
+    """Return the recording that a sequence of samples makes; not checked."""
 
     def column(name: str, kind: type[np.generic]) -> NDArray[Any]:
         return np.array([getattr(sample, name) for sample in samples], dtype=kind)

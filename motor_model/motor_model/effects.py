@@ -223,7 +223,7 @@ INDEX = {name: i for i, name in enumerate(VECTOR_NAMES)}
 
 
 def normalised(effects: tuple[str, ...]) -> tuple[str, ...]:
-    """The effects with what they imply, each once, in the order of the table.
+    """Return the effects with what they imply, each once, in the order of the table.
 
     Raises:
         ModelError: an effect is not in the table.

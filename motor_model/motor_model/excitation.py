@@ -103,7 +103,7 @@ PROFILES = {profile.name: profile for profile in (*_BASIC, _in_turn(_BASIC))}
 
 
 def profile(name: str) -> Profile:
-    """The profile of that name.
+    """Return the profile of that name.
 
     Raises:
         MotorError: there is none.

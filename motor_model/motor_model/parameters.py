@@ -112,7 +112,7 @@ class Parameters:
 
 
 def neutral(max_voltage: float, coarseness: float = 1.0, gear_ratio: float = 1.0) -> NDArray[np.float64]:
-    """A vector with every effect off; kv and ka are yet to be set. Shape (P,)."""
+    """Return a vector with every effect off; kv and ka are yet to be set. Shape (P,)."""
     vector = np.empty(len(VECTOR_NAMES))
     for spec in (*SPECS, *ELECTRICAL):
         vector[INDEX[spec.name]] = spec.off
@@ -122,5 +122,5 @@ def neutral(max_voltage: float, coarseness: float = 1.0, gear_ratio: float = 1.0
 
 
 def paper_motor() -> Parameters:
-    """The base paper's motor."""
+    """Return the base paper's motor."""
     return Parameters({"kv": PAPER_KV, "ka": PAPER_KA}, name="paper")

@@ -131,7 +131,7 @@ class Trajectory:
 def simulate(
     parameters: Parameters, command_time: Floats, command: Floats, out_time: Floats, start_speed: float = 0.0
 ) -> Trajectory:
-    """The motion of one motor under a piecewise constant command.
+    """Simulate the motion of one motor under a piecewise constant command.
 
     command[i] [V] holds from command_time[i] [s] (both of shape (M,)); out_time [s], shape (K,), ascending.
 

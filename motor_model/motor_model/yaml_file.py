@@ -36,7 +36,7 @@ def read(path: str | Path) -> Any:
 
 
 def parse(text: str) -> Any:
-    """The values in a text.
+    """Parse the values in a text.
 
     Raises:
         NotYaml: it is not YAML, has aliases, is nested too deep or too large.

@@ -78,7 +78,7 @@ class _Version(argparse.Action):
 
 
 def listed_names(names: Sequence[str]) -> Callable[..., list[str]]:
-    """A completer for names in a list with commas."""
+    """Return a completer for names in a list with commas."""
 
     def complete(prefix: str, **_: object) -> list[str]:
         before, comma, _begun = prefix.rpartition(",")
@@ -164,7 +164,7 @@ def ended_by_interrupt(sentence: str) -> Iterator[None]:
 
 
 def positive(text: str) -> float:
-    """A number above 0, as an argparse type."""
+    """Return a number above 0, as an argparse type."""
     number = _number(text)
     if not 0.0 < number < inf:
         raise argparse.ArgumentTypeError(f"{text} is not a number above 0")
@@ -172,7 +172,7 @@ def positive(text: str) -> float:
 
 
 def not_negative(text: str) -> float:
-    """A number that is 0 or more, as an argparse type."""
+    """Return a number that is 0 or more, as an argparse type."""
     number = _number(text)
     if not 0.0 <= number < inf:
         raise argparse.ArgumentTypeError(f"{text} is not a number from 0 on")
@@ -180,7 +180,7 @@ def not_negative(text: str) -> float:
 
 
 def between(low: float, high: float) -> Callable[[str], float]:
-    """An argparse type: a number from `low` to `high`."""
+    """Return an argparse type: a number from `low` to `high`."""
 
     def take(text: str) -> float:
         number = _number(text)
@@ -192,7 +192,7 @@ def between(low: float, high: float) -> Callable[[str], float]:
 
 
 def whole_between(low: int, high: int) -> Callable[[str], int]:
-    """An argparse type: a whole number from `low` to `high`."""
+    """Return an argparse type: a whole number from `low` to `high`."""
 
     def take(text: str) -> int:
         if not text.removeprefix("-").isdecimal() or not low <= int(text) <= high:

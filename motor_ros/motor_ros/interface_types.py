@@ -24,7 +24,7 @@ class NotInstalled(MotorError):
 
 
 def definition_file(type_name: str, suffix: str = "") -> Path:
-    """The installed file that defines a type; `suffix` chooses another beside it, such as `.json`.
+    """Return the installed file that defines a type; `suffix` chooses another beside it, such as `.json`.
 
     Raises:
         NotInstalled: the name is not of the form package/kind/Name, or there is no such interface.
@@ -40,7 +40,7 @@ def definition_file(type_name: str, suffix: str = "") -> Path:
 
 
 def load(type_name: str) -> Any:
-    """The class of an installed message, service or action type, or of a part of one.
+    """Return the class of an installed message, service or action type, or of a part of one.
 
     Raises:
         NotInstalled: there is no such type, or its Python code is not where its package is installed.
@@ -55,7 +55,7 @@ def load(type_name: str) -> Any:
 
 
 def load_message(type_name: str) -> Any:
-    """The class of an installed type that can be sent on a topic.
+    """Return the class of an installed type that can be sent on a topic.
 
     Raises:
         NotInstalled: there is no such type, or it is a service or an action as a whole.

@@ -15,7 +15,7 @@ INFO_FIELDS = [field.name for field in fields(Info) if field.name in MotorInfo.g
 
 
 def speed_message(sample: Sample, stamp: Time, name: str) -> MotorSpeed:
-    """A sample as it goes out on `motor/speed`."""
+    """Return a sample as it goes out on `motor/speed`."""
     message = MotorSpeed(
         sample_time=sample.sample_time,
         speed=sample.speed,
@@ -32,7 +32,7 @@ def speed_message(sample: Sample, stamp: Time, name: str) -> MotorSpeed:
 
 
 def sample_of(message: MotorSpeed) -> Sample:
-    """The sample in a message."""
+    """Return the sample in a message."""
     return Sample(
         sample_time=message.sample_time,
         speed=message.speed,
@@ -46,7 +46,7 @@ def sample_of(message: MotorSpeed) -> Sample:
 
 
 def info_message(info: Info, stamp: Time) -> MotorInfo:
-    """What `motor/info` says."""
+    """Return what `motor/info` says."""
     values = {name: getattr(info, name) for name in INFO_FIELDS}
     message = MotorInfo(**values | {"measurement": info.measurement.value})
     message.header.stamp = stamp
@@ -55,7 +55,7 @@ def info_message(info: Info, stamp: Time) -> MotorInfo:
 
 
 def info_of(message: MotorInfo) -> Info:
-    """The plain value of a `motor/info` message.
+    """Return the plain value of a `motor/info` message.
 
     Raises:
         MotorError: its `measurement` is none of edges, counts and speed, or a number is out of range.
@@ -69,7 +69,7 @@ def info_of(message: MotorInfo) -> Info:
 
 
 def voltage_message(voltage: float, stamp: Time, name: str) -> MotorVoltage:
-    """A command as it goes out on `motor/voltage`."""
+    """Return a command as it goes out on `motor/voltage`."""
     message = MotorVoltage(voltage=voltage)
     message.header.stamp = stamp
     message.header.frame_id = name

@@ -167,5 +167,5 @@ SHARED_PARAMETERS = (
 
 
 def max_voltage_row(default: float = 12.0) -> Row:
-    """The shared parameter whose default a model file may set."""
+    """Return the shared parameter whose default a model file may set."""
     return Row("max_voltage", default, "the motor's; commands are limited to it", "V", 0.1, 100.0, read_only=True)

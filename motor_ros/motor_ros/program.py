@@ -74,7 +74,7 @@ def _complete(program: Program) -> None:
 
 
 def plain_sentence(error: Exception) -> str:
-    """What ROS says of arguments that it does not understand, without the places in its sources."""
+    """Return what ROS says of arguments that it does not understand, without the places in its sources."""
     if isinstance(error, rclpy_implementation.UnknownROSArgsError):
         return f"unknown ROS arguments: {str(error).strip('[]')}"
     text = str(error).removeprefix("Failed to parse ROS arguments: ").removeprefix("failed to initialize rcl: ")
@@ -103,7 +103,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def describe(program: Program) -> str:
-    """What the node is for, its parameters, topics and services, and an example."""
+    """Return what the node is for, its parameters, topics and services, and an example."""
     topics = {topic.name: topic for topic in (*TOPICS, *ROBOT_TOPICS)}
     services = {service.name: service for service in SERVICES}
     fixed = all(row.read_only for row in program.rows)
@@ -120,7 +120,7 @@ def describe(program: Program) -> str:
 
 
 def own(name: str) -> str:
-    """A topic's or service's name in its motor's namespace, as it stands in the tables."""
+    """Return a topic's or service's name in its motor's namespace, as it stands in the tables."""
     before, slash, after = name.partition("/motor/")
     return f"motor/{after}" if slash else before
 

@@ -71,7 +71,7 @@ PROGRAM = Program(
 
 
 def board_config_of(values: Mapping[str, Value]) -> BoardConfig:
-    """The simulated board.
+    """Return the simulated board.
 
     Raises:
         MotorError: the encoder's parameters contradict each other.

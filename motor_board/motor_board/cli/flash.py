@@ -12,7 +12,7 @@ from motor_ros.command import CommandParser
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Make the command line's parser."""
     parser = CommandParser(
         "motor_board",
         "flash",

@@ -13,7 +13,7 @@ from motor_ros.output_files import add_force_option, check_outputs
 
 
 def share(text: str) -> float:
-    """A number from 0 to below 1, as an argparse type."""
+    """Return a number from 0 to below 1, as an argparse type."""
     number = float(text)
     if not 0.0 <= number < 1.0:
         raise argparse.ArgumentTypeError(f"{text} is not a share from 0 to below 1")
@@ -21,7 +21,7 @@ def share(text: str) -> float:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Make the command line's parser."""
     parser = CommandParser(
         "motor_control",
         "tune",

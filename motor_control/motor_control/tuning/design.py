@@ -62,7 +62,7 @@ class Tuning:
 
 
 def tune(parameters: Parameters, encoder: Encoder, wish: Wish) -> Tuning:
-    """The gains for a motor, an encoder and a wish.
+    """Find the gains for a motor, an encoder and a wish.
 
     Raises:
         MotorError: the wish is faster than the delays allow, or there is no such speed.
@@ -93,7 +93,7 @@ def tune(parameters: Parameters, encoder: Encoder, wish: Wish) -> Tuning:
 
 
 def sight_of(parameters: Parameters, encoder: Encoder, wish: Wish) -> Sight:
-    """How the law will see the speed."""
+    """Return how the law will see the speed."""
     if wish.source != OBSERVER:
         return Measured(encoder)
     from motor_control.controller.observer import Observer

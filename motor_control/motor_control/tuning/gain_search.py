@@ -47,7 +47,7 @@ def quiet_kp(sight: Sight, bare: Plant, speeds: tuple[float, ...], most: float, 
 
 
 def wished_gains(sight: Sight, plant: Plant, wanted: float, largest: float) -> Gains:
-    """The gains for a closed-loop time constant [s]."""
+    """Find the gains for a closed-loop time constant [s]."""
     from scipy.optimize import brentq
 
     fastest = cancelling(plant, largest)

@@ -131,7 +131,7 @@ def sampled(plant: Plant, watched: bool = False) -> Sampled:
 
 
 def continuous(plant: Plant, watched: bool) -> tuple[Floats, Floats]:
-    """A and B of (ω, v) or (ω, θ, d, v), v only with inductance; d is a load in V that stays."""
+    """Return A and B of (ω, v) or (ω, θ, d, v), v only with inductance; d is a load in V that stays."""
     lag, inertia = plant.electrical_lag, plant.ka
     size = 1 + 2 * watched + (lag > 0.0)
     a, b = np.zeros((size, size)), np.zeros(size)

@@ -28,7 +28,7 @@ class Margins:
 
 
 def margins_of(loop: Loop, period: float, late: float) -> Margins:
-    """The margins of L(z), sampled every `period` [s]; delay margin = phase margin / crossover frequency.
+    """Return the margins of L(z), sampled every `period` [s]; delay margin = phase margin / crossover frequency.
 
     late: what makes the loop late [s]; the search for crossovers begins far below its inverse.
     """
@@ -42,5 +42,5 @@ def margins_of(loop: Loop, period: float, late: float) -> Margins:
 
 
 def least(margins: Sequence[Margins]) -> Margins:
-    """The smallest of each."""
+    """Return the smallest of each."""
     return Margins(min(m.gain for m in margins), min(m.phase for m in margins), min(m.delay for m in margins))

@@ -58,6 +58,6 @@ def respond(
 
 
 def small_step(plant: Plant, gains: Gains, feedforward: float) -> StepResponse:
-    """A step that no voltage limit is felt in, from 0 to 1 rad/s; feedforward [V] is what that adds."""
+    """Simulate a step that no voltage limit is felt in, from 0 to 1 rad/s; feedforward [V] is what that adds."""
     duration = max(12.0 * plant.ka / (gains.kp * plant.gain + plant.kv * (feedforward > 0.0)), 20.0 * plant.late)
     return respond(plant, gains, 1.0, duration, -UNLIMITED, UNLIMITED, feedforward)

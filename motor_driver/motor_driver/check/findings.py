@@ -149,6 +149,6 @@ TABLE: dict[str, tuple[str, str, tuple[str, ...]]] = {
 
 
 def finding(code: str, **values: object) -> Finding:
-    """The row of the table, with its numbers."""
+    """Return the row of the table, with its numbers."""
     sentence, cure, parameters = TABLE[code]
     return Finding(code, sentence.format(**values), cure.format(**values), dict.fromkeys(parameters, True))

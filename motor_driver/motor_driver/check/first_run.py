@@ -13,7 +13,7 @@ SILENT = "no telemetry comes from {port} any more"
 
 
 def code_of_refusal(config: AnyBoard, board: Hello | None) -> str:
-    """The finding's code where a board was not accepted."""
+    """Return the finding's code where a board was not accepted."""
     if board is None:
         return "no_board"
     if config.board_id not in (None, board.board_id):

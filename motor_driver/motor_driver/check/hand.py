@@ -55,7 +55,7 @@ def turn_by_hand(most: float) -> Steps[Turned]:
 
 
 def judge_counts(turned: Turned, turns: int, edges: int | None, gear: float = 1.0) -> Finding | None:
-    """Whether so many edges of the encoder's shaft, behind a gear, can be true; None if they can."""
+    """Judge whether so many edges of the encoder's shaft, behind a gear, can be true; None if they can."""
     counted = abs(turned.count)
     words = "One turn" if turns == 1 else f"{turns} turns"
     if edges is None:

@@ -16,7 +16,7 @@ MOST_EDGES = {1: 20_000.0, 2: 10_000.0}  # [1/s] that the board counts for certa
 
 
 def judge_hand(settings: Settings, board: Hello, record: Record, turned: Turned) -> None:
-    """What the turn by hand has shown."""
+    """Judge what the turn by hand has shown."""
     step = "encoder"
     if turned.to_and_fro and board.channels == 2:
         record.find(step, "b_missing")
@@ -45,7 +45,7 @@ def judge_hand(settings: Settings, board: Hello, record: Record, turned: Turned)
 def judge_motion(
     settings: Settings, two: bool, record: Record, turned: Turned, found: tuple[Breakaway, Breakaway]
 ) -> None:
-    """Whether it moves in both directions."""
+    """Judge whether it moves in both directions."""
     moved = [one.voltage is not None for one in found]
     if two and any(one.to_and_fro for one in found):
         record.find("motion", "b_missing")
@@ -61,7 +61,7 @@ def judge_motion(
 
 
 def judge_direction(two: bool, record: Record, by_hand: int, found: Breakaway, answer: Answer | None) -> None:
-    """What is exchanged: the motor's wires, channels A and B, or both."""
+    """Judge what is exchanged: the motor's wires, channels A and B, or both."""
     step, counted = "direction", 0 if not two else 1 if found.count > 0 else -1
     motor_forward = counted * by_hand or (WAYS[answer] if answer else 0)
     if motor_forward < 0:
@@ -78,7 +78,7 @@ def judge_direction(two: bool, record: Record, by_hand: int, found: Breakaway, a
 
 
 def judge_paces(settings: Settings, board: Hello, record: Record, ahead: list[Pace], back: list[Pace]) -> None:
-    """What a volt does, and the speed to expect at the motor's voltage."""
+    """Judge what a volt does, and the speed to expect at the motor's voltage."""
     step, per_volt, top = "speed", [], []
     for slow, fast in (ahead, back):
         if not slow.edges or not fast.edges or fast.voltage == slow.voltage:

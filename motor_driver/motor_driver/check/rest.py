@@ -36,7 +36,7 @@ class Rhythm:
 
 
 def rhythm_of(edges: Sequence[Edge]) -> Rhythm:
-    """The rhythm of edges, of which a sample shows the latest only."""
+    """Return the rhythm of edges, of which a sample shows the latest only."""
     times, counts = np.array([edge.time for edge in edges]), np.array([edge.count for edge in edges])
     passed = np.diff(counts)
     if len(edges) < 4 or times[-1] <= times[0]:
@@ -79,7 +79,7 @@ def watch_rest(two_channels: bool, hand: bool, hand_time: float) -> Steps[Rest]:
 
 
 def cause_of(rhythm: Rhythm, two_channels: bool, turns: Answer | None) -> str:
-    """The finding's code; `turns`: what somebody who looks at the shaft says."""
+    """Return the finding's code; `turns`: what somebody who looks at the shaft says."""
     if turns is Answer.YES:
         return "bridge_stuck_on"
     if turns is Answer.NO:
@@ -92,7 +92,7 @@ def cause_of(rhythm: Rhythm, two_channels: bool, turns: Answer | None) -> str:
 
 
 def ask(prompt: Prompt, most: float) -> Steps[Answer | None]:
-    """What a person answers, with the motor off; None after `most` [s]."""
+    """Return what a person answers, with the motor off; None after `most` [s]."""
     look = yield Act(prompt=prompt)
     begun = look.time
     while look.answer is None and look.time - begun < most:

@@ -24,7 +24,7 @@ class Chosen:
 
 
 def parameters_of(check: Check, chosen: Chosen) -> dict[str, bool | int | float | str]:
-    """The driver's parameters that this board and motor need."""
+    """Return the driver's parameters that this board and motor need."""
     settings, board = check.settings, check.board
     place = {"board_id": str(board.board_id)} if board.board_id else {"port": chosen.port}
     cures = {key: value for found in check.record.findings for key, value in found.parameters.items()}
@@ -61,7 +61,7 @@ def _sensor_of(settings: Settings) -> dict[str, float]:
 
 
 def parameter_text(check: Check, chosen: Chosen) -> str:
-    """The parameter file, with what was measured as comments."""
+    """Return the parameter file, with what was measured as comments."""
     lines = [
         "# The driver's parameters, by `ros2 run motor_driver check`. To use them:",
         "#   ros2 run motor_driver motor_driver --ros-args --params-file THIS_FILE",
@@ -74,7 +74,7 @@ def parameter_text(check: Check, chosen: Chosen) -> str:
 
 
 def as_json(check: Check, chosen: Chosen) -> dict[str, Any]:
-    """The whole result; null where there is no number."""
+    """Return the whole result; null where there is no number."""
     record, board = check.record, check.board
     measured = {key: value if isfinite(value) else None for key, value in asdict(record.measured).items()}
     return {
@@ -97,7 +97,7 @@ def as_json(check: Check, chosen: Chosen) -> dict[str, Any]:
 
 
 def refused_json(settings: Settings, port: str, code: str, sentence: str) -> dict[str, Any]:
-    """The result where no board could be checked."""
+    """Return the result where no board could be checked."""
     found = {"code": code, "sentence": sentence, "cure": "", "parameters": {}}
     board = {"port": port, "board_id": settings.board_id}
     return {"right": False, "board": board, "findings": [found], "not_known": [], "measured": {}, "parameters": None}

@@ -78,7 +78,7 @@ class AnyBoard(Config):
 
 
 def config_of(settings: Settings, baud: int, decay: int, pwm: Pwm = Pwm.STANDARD) -> AnyBoard:
-    """The driver's configuration for this run; the run watches the motion itself."""
+    """Return the driver's configuration for this run; the run watches the motion itself."""
     return AnyBoard(
         edges_per_revolution=settings.edges_per_revolution or 1,
         single_channel=settings.single_channel is not False,

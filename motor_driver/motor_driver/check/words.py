@@ -11,7 +11,7 @@ MARKS = {OK: "ok", WRONG: "WRONG", CURED: "cured", UNKNOWN: "?"}
 
 
 def plan_of(settings: Settings) -> str:
-    """What is about to happen, before it does."""
+    """Return what is about to happen, before it does."""
     return (
         f"The motor will turn a little, both ways, at {settings.highest:.3g} V at most, for some seconds in all. "
         "Keep the supply's switch within reach; Ctrl-C gives 0 V."
@@ -19,7 +19,7 @@ def plan_of(settings: Settings) -> str:
 
 
 def prompt_of(prompt: Prompt, settings: Settings) -> str:
-    """What a person is asked."""
+    """Return what a person is asked."""
     times = "one turn" if settings.turns == 1 else f"{settings.turns} turns"
     return {
         Prompt.HANDS_OFF: "Keep your hands off the shaft.",
@@ -31,7 +31,7 @@ def prompt_of(prompt: Prompt, settings: Settings) -> str:
 
 
 def board_row(board: Hello, port: str) -> Row:
-    """Which board was found."""
+    """Return which board was found."""
     number = f"board_id {board.board_id}" if board.board_id else "no board_id"
     channels = "one channel" if board.channels == 1 else "two channels"
     return Row("board", OK, f"firmware {board.firmware} on {name_board(board.board)} at {port}, {number}, {channels}")
@@ -43,7 +43,7 @@ def line_of(row: Row) -> str:
 
 
 def verdict_of(check: Check) -> str:
-    """The last sentence."""
+    """Return the last sentence."""
     wrong = [found for found in check.record.findings if not found.cured]
     if wrong:
         return "Not everything is right: no parameter file is written."

@@ -14,7 +14,7 @@ from motor_ros.output_files import add_force_option
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Make the command line's parser."""
     made = CommandParser(
         "motor_driver",
         "check",
@@ -33,7 +33,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def settings_of(options: argparse.Namespace) -> Settings:
-    """The settings of the run.
+    """Return the settings of the run.
 
     Raises:
         MotorError: two options contradict each other.

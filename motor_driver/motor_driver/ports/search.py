@@ -14,7 +14,7 @@ DOUBLED = (
 
 
 def the_only(matches: list[str], found: list[str], wording: Wording = NODE) -> str:
-    """The port of the board that has the number, of those that were found.
+    """Return the port of the board that has the number, of those that were found.
 
     Raises:
         PortError: none has it, or several have.

@@ -96,7 +96,7 @@ class SpeedDecoder:
 
 
 def decode_info(message: bytes, definition: str) -> Info:
-    """The plain value of a serialised `MotorInfo`; fields that its definition lacks keep their defaults.
+    """Decode the plain value of a serialised `MotorInfo`; fields that its definition lacks keep their defaults.
 
     Raises:
         Undecodable: the message or its definition cannot be understood.

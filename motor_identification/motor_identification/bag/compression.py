@@ -18,13 +18,13 @@ _ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"  # of a compressed message; CDR starts with a 
 
 
 def plain_name(path: Path) -> str:
-    """What a file is called before it is compressed."""
+    """Return what a file is called before it is compressed."""
     return path.name.removesuffix(COMPRESSED)
 
 
 @contextmanager
 def decompress_file(path: Path) -> Iterator[Path]:
-    """Where a file is that was decompressed if it had to be; gone afterwards.
+    """Yield where a file is that was decompressed if it had to be; gone afterwards.
 
     Raises:
         RecordingError: it is damaged, or unpacks to more than there is room for.
@@ -43,7 +43,7 @@ def decompress_file(path: Path) -> Iterator[Path]:
 
 
 def is_compressed(data: bytes) -> bool:
-    """Whether a message is."""
+    """Tell whether a message is compressed."""
     return data[:4] == _ZSTD_MAGIC
 
 

@@ -25,7 +25,7 @@ class Definition:
 
 @cache
 def installed(type_name: str) -> Definition:
-    """The definition of `package/msg/Name` from the installed share directories."""
+    """Return the definition of `package/msg/Name` from the installed share directories."""
     text = _source(type_name)
     if not text:
         return Definition()

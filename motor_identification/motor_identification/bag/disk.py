@@ -23,6 +23,6 @@ def told(path: Path) -> Iterator[None]:
 
 
 def refused(path: Path, error: OSError, rest: str = "") -> RecordingError:
-    """What was refused, what to do, and the rest of the sentence."""
+    """Return what was refused, what to do, and the rest of the sentence."""
     cure = _CURES.get(error.errno or 0, "choose another place")
     return RecordingError(f"{path} cannot be written ({error.strerror}): {cure}{rest}.")

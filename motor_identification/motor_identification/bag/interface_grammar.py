@@ -41,7 +41,7 @@ class Field:
 
 
 def parse(definition: str, type_name: str) -> Mapping[str, tuple[Field, ...]]:
-    """The fields of a type and of all types nested in it, by full names; constants and remarks are left out.
+    """Parse the fields of a type and of all types nested in it, by full names; constants and remarks are left out.
 
     Raises:
         NotOfGrammar: a line is no field, constant or remark, or a type is nested in itself, missing or too large.

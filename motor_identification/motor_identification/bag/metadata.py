@@ -19,7 +19,7 @@ KEY = "rosbag2_bagfile_information"  # that everything stands under
 
 
 def bag_metadata(files: Mapping[str, Contents], storage: str) -> dict[str, Any]:
-    """The content for a bag of these files, by name and in their order; `storage` is `mcap` or `sqlite3`."""
+    """Make the content for a bag of these files, by name and in their order; `storage` is `mcap` or `sqlite3`."""
     whole = Contents()
     for contents in files.values():
         whole = whole.joined(contents)
@@ -53,7 +53,7 @@ def write_metadata(bag: Path, metadata: dict[str, Any]) -> None:
 
 
 def read_metadata(bag: Path) -> dict[str, Any]:
-    """What `metadata.yaml` says; empty where it is missing or damaged."""
+    """Read what `metadata.yaml` says; empty where it is missing or damaged."""
     try:
         return dict(yaml_file.read(bag / FILE_NAME)[KEY])
     except (OSError, MotorError, KeyError, TypeError, ValueError):

@@ -21,7 +21,7 @@ _INFO = "motor/info"
 
 
 def read_recording(uri: str | Path, topic_namespace: str = "", start: float = 0.0, stop: float = 0.0) -> Recording:
-    """The samples on `motor/speed` with the latest `motor/info`, in the order of the log.
+    """Read the samples on `motor/speed` with the latest `motor/info`, in the order of the log.
 
     Args:
         uri: a rosbag2 directory (MCAP or sqlite3, compressed or not, with or without metadata.yaml) or a storage file.

@@ -24,7 +24,7 @@ def contents(uri: str | Path) -> Contents:
 
 
 def topics(uri: str | Path) -> tuple[Topic, ...]:
-    """The topics of a bag, with type, offered QoS and number of messages.
+    """List the topics of a bag, with type, offered QoS and number of messages.
 
     Raises:
         RecordingError: no such bag, or not a bag.
@@ -53,7 +53,7 @@ def messages(
 
 
 def in_time_order(stored: Iterable[Message], uri: str | Path) -> Iterator[Message]:
-    """The same messages by log time, with memory for a few of them only.
+    """Return the same messages by log time, with memory for a few of them only.
 
     Raises:
         RecordingError: a message stands more than 20,000 messages behind its place.

@@ -116,7 +116,7 @@ class Bag:
 
 
 def tell_damage(bag: Messages, uri: str, done: str = "used") -> str:
-    """What a bag that was read has lost, and what was done with the rest; empty where nothing is."""
+    """Return what a bag that was read has lost, and what was done with the rest; empty where nothing is."""
     if not (bag.damaged or bag.lost):
         return ""
     lost = f"{bag.lost} messages" if bag.lost else "some messages"

@@ -49,7 +49,7 @@ def absolute_name(namespace: str, name: str) -> str:
 
 
 def named_topic(name: str, topics: Iterable[str]) -> str:
-    """The topic that a user means by a name: that one, or the only one that is it in some namespace.
+    """Return the topic that a user means by a name: that one, or the only one that is it in some namespace.
 
     Raises:
         RecordingError: it is in several namespaces.

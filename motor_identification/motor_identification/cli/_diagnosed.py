@@ -51,7 +51,7 @@ def diagnosed(job: "DiagnosisJob", files: "Files", interrupted: str) -> "Diagnos
 
 
 def as_text(diagnosis: "Diagnosis") -> str:
-    """What a terminal shows."""
+    """Return what a terminal shows."""
     from motor_identification.reporting.diagnosis_text import format_diagnosis, summarize_diagnosis
     from motor_identification.service.job import notes_of
 
@@ -114,7 +114,7 @@ class Files:
 
 
 def write_model(diagnosis: "Diagnosis", path: Path) -> None:
-    """The model with the effects that were found, as a model file."""
+    """Write the model with the effects that were found, as a model file."""
     from motor_identification.reporting.fit_model_file import save_model
 
     save_model(path, diagnosis.model, datetime.now(timezone.utc).isoformat(timespec="seconds"))

@@ -13,7 +13,7 @@ from motor_ros.output_files import add_force_option
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Make the command line's parser."""
     effects = "\n".join(f"  {effect.name:22}{effect.summary}" for effect in EFFECTS)
     parser = CommandParser(
         "motor_identification",
@@ -66,7 +66,7 @@ def _diagnose(options: argparse.Namespace) -> int:
 
 
 def named(effects: str) -> tuple[str, ...]:
-    """The names in a list with commas."""
+    """Return the names in a list with commas."""
     return tuple(name.strip() for name in effects.split(",") if name.strip())
 
 

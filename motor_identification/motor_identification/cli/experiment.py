@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Make the command line's parser."""
     rows = "\n".join(f"  {p.name:11}{p.duration:6.2f} s  {p.shows}" for p in PROFILES.values())
     parser = CommandParser(
         "motor_identification",

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Make the command line's parser."""
     parser = CommandParser(
         "motor_identification",
         "explore",

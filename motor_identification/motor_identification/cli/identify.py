@@ -28,7 +28,7 @@ LIMITS = SearchConfig()
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Make the command line's parser."""
     effects = "\n".join(f"  {effect.name:22}{effect.summary}" for effect in EFFECTS)
     parser = CommandParser(
         "motor_identification",

@@ -49,7 +49,7 @@ def run(
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Make the command line's parser."""
     made = CommandParser(
         "motor_identification",
         "import_log",

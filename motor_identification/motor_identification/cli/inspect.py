@@ -28,7 +28,7 @@ def main(args: list[str] | None = None) -> int:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Make the command line's parser."""
     made = CommandParser(
         "motor_identification",
         "inspect",

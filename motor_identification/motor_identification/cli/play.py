@@ -23,7 +23,7 @@ and the recorded speed alone, from the tenth second on, as if the motor ran:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Make the command line's parser."""
     parser = CommandParser(
         "motor_identification",
         "play",

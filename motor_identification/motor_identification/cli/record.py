@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def parser() -> CommandParser:
-    """The command line."""
+    """Make the command line's parser."""
     names = ", ".join(topic.name for topic in TOPICS)
     parser = CommandParser(
         "motor_identification",

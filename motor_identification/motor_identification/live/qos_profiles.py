@@ -12,7 +12,7 @@ _PLAYED_DEPTH = 100  # of a publisher whose recorded depth is unknown: DDS does 
 
 
 def offered(*profiles: QoSProfile) -> tuple[Qos, ...]:
-    """What publishers offer, in the words of a bag; each different offer once."""
+    """Return what publishers offer, in the words of a bag; each different offer once."""
     described = (
         Qos(
             reliability=profile.reliability.short_key,
@@ -26,7 +26,7 @@ def offered(*profiles: QoSProfile) -> tuple[Qos, ...]:
 
 
 def to_hear(publishers: Iterable[QoSProfile]) -> QoSProfile:
-    """A subscription that connects to all of these publishers, and asks for as much as they all offer."""
+    """Return a subscription that connects to all of these publishers, and asks for as much as they all offer."""
     profiles = list(publishers)
     reliable = all(profile.reliability == ReliabilityPolicy.RELIABLE for profile in profiles)
     latched = all(profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for profile in profiles)
@@ -34,7 +34,7 @@ def to_hear(publishers: Iterable[QoSProfile]) -> QoSProfile:
 
 
 def to_play(recorded: tuple[Qos, ...]) -> QoSProfile:
-    """A publisher that every subscriber of the recorded publishers connects to."""
+    """Return a publisher that every subscriber of the recorded publishers connects to."""
     best_effort = bool(recorded) and all(profile.reliability == "best_effort" for profile in recorded)
     latched = any(profile.durability == "transient_local" for profile in recorded)
     known = [profile.depth for profile in recorded if profile.history == "keep_last" and profile.depth > 0]

@@ -51,7 +51,7 @@ def find_candidates(fields: Sequence[Field]) -> list[Candidate]:
 
 
 def quantity_of(field: Field) -> Quantity | None:
-    """What a field's name says, or its topic's where it says nothing."""
+    """Return what a field's name says, or its topic's where it says nothing."""
     inner = read_heading(" ".join(part for part in field.path.steps if isinstance(part, str)))
     if inner.quantity is not None:
         return inner.quantity

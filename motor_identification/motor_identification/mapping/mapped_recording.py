@@ -33,7 +33,7 @@ class MappedReader:
 
 
 def make_reader(path: str) -> MappedReader | None:
-    """The reader by a mapping file; None without a path.
+    """Make the reader by a mapping file; None without a path.
 
     Raises:
         RecordingError: it is no mapping.

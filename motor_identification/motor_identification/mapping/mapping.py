@@ -164,7 +164,7 @@ def _number(content: dict[Any, Any], name: str, signed: bool = False) -> float |
 
 
 def mapping_text(mapping: Mapping) -> str:
-    """The YAML of a mapping, with what else it may have as remarks."""
+    """Write the YAML of a mapping, with what else it may have as remarks."""
     lines = [f"name: {_quoted(mapping.name)}", f"voltage: {_entry(mapping.voltage)}  # times scale: volts"]
     lines.append(f"{mapping.kind.value}: {_entry(mapping.motion)}  # units: {', '.join(UNITS[mapping.kind])}")
     if mapping.current:

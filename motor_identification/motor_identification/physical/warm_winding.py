@@ -20,7 +20,7 @@ FALLS = "which no warm winding does; the load, the supply or the sensor drifts"
 
 
 def describe_warm_winding(fit: JointFit) -> Iterator[str]:
-    """A sentence for each recording in which the resistance changes, where the model has it constant."""
+    """Write a sentence for each recording in which the resistance changes, where the model has it constant."""
     if WARM_UP.name in fit.problem.unknowns.effects:
         return
     simulated = simulate_currents(fit.problem, fit.residuals.currents, fit.theta[None])[0]

@@ -54,7 +54,7 @@ def make_held_out_curves(held: HeldOut, share: float, number: int, regions: tupl
 
 
 def make_fit_curves(recording: Recording, fit: Fit) -> Curves:
-    """A fitted model on one of the recordings that it was fitted to."""
+    """Make the curves of a fitted model on one of the recordings that it was fitted to."""
     recording = read_again(recording, fit.timing)
     number = fit.uris.index(recording.uri) if recording.uri in fit.uris else -1
     start = fit.start_speeds[number] if number >= 0 else 0.0

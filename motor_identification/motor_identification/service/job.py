@@ -150,6 +150,6 @@ def run_reported(
 
 
 def notes_of(diagnosis: "Diagnosis") -> tuple[str, ...]:
-    """What a user has to read beside the result: bags that were cut off, what was left out; each once."""
+    """Return what a user has to read beside the result: bags that were cut off, what was left out; each once."""
     judged_by = (note for recording in diagnosis.after.recordings for note in recording.notes)
     return tuple(dict.fromkeys((*diagnosis.model.notes, *judged_by)))

@@ -16,7 +16,7 @@ from motor_msgs.srv import Identify
 
 
 def job_of(request: Identify.Request, particles: int, epochs: int, seed: int, workers: int) -> Job:
-    """What a request asks for; its zeros stand for the node's own parameters, given here.
+    """Return what a request asks for; its zeros stand for the node's own parameters, given here.
 
     Raises:
         MotorError: it asks for more than the parameters allow.
@@ -35,7 +35,7 @@ def _check_range(name: str, value: int, most: int) -> None:
 
 
 def model_message(fit: Fit, stamp: Time) -> MotorModel:
-    """A fit as it goes out on `motor/model`."""
+    """Return a fit as it goes out on `motor/model`."""
     names = list(fit.parameters.values)
     message = MotorModel(
         name=fit.parameters.name,
@@ -65,7 +65,7 @@ def fill_response(response: Identify.Response, fit: Fit, model: MotorModel, trou
 
 
 def diagnosis_job_of(goal: Diagnose.Goal, workers: int) -> DiagnosisJob:
-    """What a goal asks for."""
+    """Return what a goal asks for."""
     return DiagnosisJob(
         source=Source(tuple(goal.bag_uris), goal.topic_namespace),
         validation=tuple(goal.validation_uris),
@@ -74,12 +74,12 @@ def diagnosis_job_of(goal: Diagnose.Goal, workers: int) -> DiagnosisJob:
 
 
 def feedback_message(stage: Stage, progress: float) -> Diagnose.Feedback:
-    """How far a diagnosis is, 0 to 1; its gap is NaN as long as there is none."""
+    """Return how far a diagnosis is, 0 to 1; its gap is NaN as long as there is none."""
     return Diagnose.Feedback(stage=stage.text, progress=progress, best_effect=stage.best_effect, gap=float(stage.gap))
 
 
 def result_message(reported: Reported, model: MotorModel, trouble: str = "") -> Diagnose.Result:
-    """A diagnosis, and the message of its model, as the action's result; `trouble` is what else went wrong."""
+    """Return a diagnosis, and the message of its model, as the action's result; `trouble` is what else went wrong."""
     from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 
     diagnosis = reported.diagnosis

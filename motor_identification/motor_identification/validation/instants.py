@@ -11,7 +11,7 @@ from motor_model.effects import EFFECT_BY_NAME
 
 
 def needs_instant(effect: str) -> bool:
-    """Whether an effect begins at an instant, which a search finds a place for where any size would help."""
+    """Tell whether an effect begins at an instant, which a search finds a place for where any size would help."""
     return any(spec.is_instant for spec in EFFECT_BY_NAME[effect].parameters)
 
 

@@ -55,7 +55,7 @@ def loads_at(p: Floats, angle: float, t: float) -> float:
 
 @compiled
 def load_slope_at(p: Floats, angle: float) -> float:
-    """The slope of the loads over the angle [rad] of the output, in V/rad, cold."""
+    """Return the slope of the loads over the angle [rad] of the output, in V/rad, cold."""
     if p[RIPPLE] == 0.0:
         return 0.0
     cycles = p[CYCLES] * p[GEAR]
@@ -75,7 +75,7 @@ def friction_at(p: Floats, speed: float, direction: float) -> float:
 
 @compiled
 def friction_slope_at(p: Floats, speed: float) -> float:
-    """The slope of friction over the speed, in V·s/rad."""
+    """Return the slope of friction over the speed, in V·s/rad."""
     slope = viscous_part(p) + 2.0 * p[DRAG] * abs(speed)
     if p[BREAKAWAY] > p[KS]:
         x = abs(speed) / p[STRIBECK]
@@ -86,13 +86,13 @@ def friction_slope_at(p: Floats, speed: float) -> float:
 
 @compiled
 def drag_curvature_at(p: Floats, speed: float) -> float:
-    """The size of half the second derivative of friction without Stribeck's over the speed, in V·s²/rad²."""
+    """Return the size of half the second derivative of friction without Stribeck's over the speed, in V·s²/rad²."""
     return p[DRAG]
 
 
 @compiled
 def is_bent(p: Floats) -> bool:
-    """Whether friction or loads are more than lines while the shaft turns one way, or change with time."""
+    """Tell whether friction or loads are more than lines while the shaft turns one way, or change with time."""
     return bool(p[BREAKAWAY] > p[KS] or p[DRAG] != 0.0 or p[RISE] != 0.0 or p[RIPPLE] != 0.0)
 
 

@@ -24,7 +24,7 @@ def _excess(p: Floats, u: float, speed: float, torque: float) -> float:
 
 @compiled
 def needed_command(p: Floats, speed: float, acceleration: float, load: float, direction: float) -> float:
-    """The command [V] for a speed [rad/s] and an acceleration [rad/s²] under a load [V] beyond the model's.
+    """Return the command [V] for a speed [rad/s] and an acceleration [rad/s²] under a load [V] beyond the model's.
 
     direction: ±1 or 0, of the friction. Sag and coasting make the drive a curve in u: it is solved by bisection within
     what the supply gives, the bridge (dead zone, asymmetry) after that in closed form.

@@ -77,7 +77,7 @@ def _hold(p: Floats, s: State, source: float, load: float, level: float, h: floa
 
 @compiled
 def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, float]:
-    """The motion until the next event, at most h [s] long, in which the shaft does not reverse.
+    """Return the motion until the next event, at most h [s] long, in which the shaft does not reverse.
 
     p: parameter vector, u: effective voltage [V], s: state, t: time [s]. Returns the state and the time it took.
     """

@@ -25,7 +25,7 @@ class State(NamedTuple):
 
 @compiled
 def at_rest(angle: float) -> State:
-    """A motor that stands at this angle [rad] and has not moved yet."""
+    """Return a motor that stands at this angle [rad] and has not moved yet."""
     return State(angle, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 

@@ -98,7 +98,7 @@ def turn_lagging(p: Floats, hold: Hold, s: State, h: float, latest: Lagging) -> 
 
 @compiled
 def keeps_turning(c: Coefficients, tau: float, speed: float, drive: float, h: float) -> bool:
-    """Whether a motor with inductance surely keeps its direction for h [s].
+    """Tell whether a motor with inductance surely keeps its direction for h [s].
 
     Of acceleration x and y = dv/dt, x² + y²·τ/(inertia·back_emf) never grows: no speed changes by more than h·√ of it.
     """

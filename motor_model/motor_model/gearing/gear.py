@@ -42,7 +42,7 @@ def parse_gear_ratio(text: str) -> Fraction:
 
 
 def exact_gear(ratio: float) -> Fraction:
-    """The ratio that a message's number stands for; 0 (not said) is 1."""
+    """Return the ratio that a message's number stands for; 0 (not said) is 1."""
     if not isfinite(ratio) or ratio <= 0.0:
         return Fraction(1)
     return Fraction(ratio).limit_denominator(MOST_TEETH)

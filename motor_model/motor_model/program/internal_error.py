@@ -26,7 +26,7 @@ def report(error: BaseException) -> InternalError:
 
 
 def log_directory() -> Path:
-    """Where ROS 2 keeps its logs."""
+    """Return where ROS 2 keeps its logs."""
     if own := os.environ.get("ROS_LOG_DIR"):
         return Path(own)
     return Path(os.environ.get("ROS_HOME") or Path.home() / ".ros") / "log"

@@ -43,7 +43,7 @@ class Disc:
 
 
 def make_disc(edges_per_revolution: int, irregularity: float = 0.0, seed: int = 0, gear: float = 1.0) -> Disc:
-    """A disc whose flanks are off by a Gaussian share `irregularity` of a slot, the same every turn."""
+    """Make a disc whose flanks are off by a Gaussian share `irregularity` of a slot, the same every turn."""
     random = np.random.default_rng(seed)
     slot = tau / edges_per_revolution / gear
     nominal = slot * np.arange(edges_per_revolution)
@@ -77,7 +77,7 @@ def shown_angle(p: Floats, angle: float) -> float:
 
 @compiled
 def shaft_angle_at(p: Floats, shown: float) -> float:
-    """The output's travel [rad] when the disc has shown this travel since the output was at 0; within e³."""
+    """Return the output's travel [rad] when the disc has shown this travel since the output was at 0; within e³."""
     e, phase, gear = p[ECCENTRICITY], p[ECCENTRICITY_PHASE], p[GEAR]
     if e == 0.0:
         return shown

@@ -39,7 +39,7 @@ def speed_magnitude(slot: float, now: int, edge_time: int, edge_period: float, q
 
 
 def single_channel_speed(state: SpeedState, magnitude: float, voltage: float, now: int) -> tuple[float, SpeedState]:
-    """The signed speed [rad/s] at a sample and the rule's next state.
+    """Return the signed speed [rad/s] at a sample and the rule's next state.
 
     `voltage` [V] is what this sample latches: it acts from now on, so the motion so far is judged by the one before.
     """

@@ -25,7 +25,7 @@ class Garbled(Exception):
 
 
 def make_decoder(topic: Topic) -> Decode:
-    """What decodes the messages of a topic; it raises Garbled where they are none.
+    """Make what decodes the messages of a topic; it raises Garbled where they are none.
 
     Raises:
         RecordingError: there is no definition of its type, or it cannot be understood.

@@ -15,7 +15,7 @@ _OTHER = ("std_msgs/msg/Header", "builtin_interfaces/msg/Time", "builtin_interfa
 
 
 def read_value(message: Any, steps: Sequence[str | Element]) -> float | None:
-    """The finite number at a path; None where this message has none there."""
+    """Read the finite number at a path; None where this message has none there."""
     here = message
     owners: list[Any] = []
     for step in steps:
@@ -32,7 +32,7 @@ def read_value(message: Any, steps: Sequence[str | Element]) -> float | None:
 
 
 def list_fields(message: Any) -> list[str]:
-    """The paths of all numbers in a message, without its header's; elements by their names where it has some."""
+    """List the paths of all numbers in a message, without its header's; elements by their names where it has some."""
     return list(_walk(message, "", 0))
 
 

@@ -63,7 +63,7 @@ def records(stream: BinaryIO, size: int) -> Iterator[Read]:
 
 
 def parse(read: Callable[[ReadDataStream], Record], content: bytes) -> Record:
-    """A record's fields.
+    """Parse a record's fields.
 
     Raises:
         Damaged: they are not of its kind.
@@ -75,7 +75,7 @@ def parse(read: Callable[[ReadDataStream], Record], content: bytes) -> Record:
 
 
 def unpack(content: bytes, ended: bool) -> bytes:
-    """The records in a chunk, as far as they are there: of one that has not ended, what can be decompressed.
+    """Unpack the records in a chunk, as far as they are there: of one that has not ended, what can be decompressed.
 
     Raises:
         Damaged: they are not what was written, or more than anybody writes.
@@ -94,7 +94,7 @@ def unpack(content: bytes, ended: bool) -> bytes:
 
 
 def unpack_zstd(data: bytes, most: int) -> bytes:
-    """What the data stand for, `most` bytes and one at most; of data that are cut, what is there."""
+    """Return what the data stand for, `most` bytes and one at most; of data that are cut, what is there."""
     reader = zstandard.ZstdDecompressor().stream_reader(data)
     parts: list[bytes] = []
     left = most + 1
@@ -126,7 +126,7 @@ def noted(found: Iterable[Metadata]) -> dict[str, str]:
 
 
 def topic(channel: Channel, schema: Schema | None, message_count: int = 0) -> Topic:
-    """The topic of a channel."""
+    """Return the topic of a channel."""
     type_name = schema.name if schema else ""
     return Topic(
         name=channel.topic,

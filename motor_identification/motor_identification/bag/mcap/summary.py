@@ -48,7 +48,7 @@ class Summary:
 
 
 def read_summary(stream: BinaryIO, size: int) -> Summary | None:
-    """The index of a file of so many bytes; None where there is none, or a damaged one."""
+    """Read the index of a file of so many bytes; None where there is none, or a damaged one."""
     try:
         return _read(stream, size)
     except (Damaged, struct.error, OSError):

@@ -32,7 +32,7 @@ def add_mapping_options(parser: argparse.ArgumentParser) -> None:
 
 
 def make_source(options: argparse.Namespace) -> "Source":
-    """The source that the options describe.
+    """Make the source that the options describe.
 
     Raises:
         RecordingError: a mapping cannot be read, or is not complete.

@@ -38,6 +38,6 @@ def add_plant_options(parser: argparse.ArgumentParser) -> None:
 
 
 def passed_on(options: argparse.Namespace) -> list[str]:
-    """The same options as words for another command that has them."""
+    """Return the same options as words for another command that has them."""
     given = {name: getattr(options, name) for name in _NAMES}
     return [f"--{name.replace('_', '-')}={value}" for name, value in given.items() if value is not None]

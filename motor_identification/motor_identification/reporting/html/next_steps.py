@@ -46,7 +46,7 @@ class NextStep:
 
 
 def list_diagnosis_steps(diagnosis: Diagnosis, files: Files) -> list[NextStep]:
-    """What to type after a diagnosis."""
+    """List what to type after a diagnosis."""
     bags, reading = _bags(diagnosis.bags), _quote(*files.reading)
     validation = _join("--validate", _bags(diagnosis.validation)) if diagnosis.validation else ""
     steps = []
@@ -68,7 +68,7 @@ def list_diagnosis_steps(diagnosis: Diagnosis, files: Files) -> list[NextStep]:
 
 
 def list_fit_steps(fit: Fit, files: Files) -> list[NextStep]:
-    """What to type after a fit."""
+    """List what to type after a fit."""
     bags, reading, effects = _bags(fit.uris), _quote(*files.reading), _effects("--effects", fit)
     steps = []
     if not files.model:

@@ -48,7 +48,7 @@ def svg_style() -> Iterator[None]:
 
 
 def to_svg(figure: "Figure", title: str) -> str:
-    """The figure as an <svg> element; `title` is what a screen reader says."""
+    """Return the figure as an <svg> element; `title` is what a screen reader says."""
     from matplotlib import pyplot as plt
 
     stream = StringIO()

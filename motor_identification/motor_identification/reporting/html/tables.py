@@ -45,7 +45,7 @@ class ParameterRow:
 
 
 def list_gaps(diagnosis: Diagnosis) -> list[GapRow]:
-    """The gap before, after every effect, and the noise floor; bars by the logarithm."""
+    """List the gap before, after every effect, and the noise floor; bars by the logarithm."""
     known = "".join(f", {effect_name(effect)}" for effect in diagnosis.baseline.parameters.effects)
     rows = [(f"kv, ka{known}", diagnosis.gap_before)]
     for one in diagnosis.findings:
