@@ -1,6 +1,7 @@
 """A run of the plant as the recording a board would make of it, and the truth that no board knows."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -105,12 +106,7 @@ def record(
     if start_angle is None:
         start_angle = float(random.uniform(0.0, 2.0 * np.pi))
     disc = Disc.cut(edges, irregularity, disc_seed)
-    shown = {"start_angle": start_angle, "eccentricity": p["eccentricity"], "phase": p["eccentricity_phase"]}
-    every = edges_of(motion, disc, **shown)
-    lost = missed(every, p["miss_rate"], random)
-    counted, back = every.only(~lost), None
-    if not single_channel:
-        counted, back = with_returns(motion, disc, counted, **shown)
+    counted, back, lost = _counted(motion, disc, p, start_angle, single_channel, random)
     stamps = _stamps(counted.time, start_time, tick)
     seen = np.searchsorted(counted.time, sample_times, side="right")  # by true time: a stamp may be a tick early
     board = report(samples + start_time, latched, seen, stamps, counted.direction, edges, single_channel, back)
@@ -124,7 +120,19 @@ def record(
     )
     current = ammeter.read(p, sample_times, latched, motion, np.random.default_rng([seed, 1]))
     recording = _recording(name, info, samples + start_time, latched, board, current)
-    return recording, _truth(parameters, sample_times, motion, counted, every.time[lost], board, start_angle, disc)
+    return recording, _truth(parameters, sample_times, motion, counted, lost, board, start_angle, disc)
+
+
+def _counted(
+    motion: Motion, disc: Disc, p: Any, start_angle: float, single_channel: bool, random: np.random.Generator
+) -> tuple[Edges, NDArray[np.bool_] | None, Floats]:
+    """The edges that the board counts, which of them take one back (None with one channel), and when it misses one."""
+    shown = {"start_angle": start_angle, "eccentricity": p["eccentricity"], "phase": p["eccentricity_phase"]}
+    every = edges_of(motion, disc, **shown)
+    lost = missed(every, p["miss_rate"], random)
+    if single_channel:
+        return every.only(~lost), None, every.time[lost]
+    return *with_returns(motion, disc, every.only(~lost), **shown), every.time[lost]
 
 
 def _latched(times: Floats, volts: Floats, samples: Integers, limit: float) -> Floats:
