@@ -84,6 +84,14 @@ ODD = {
     "a drive for each way": table(
         lambda k: f"{MS[k]},{max(DUTY[k], 0)},{max(-DUTY[k], 0)},{RPM[k]}", "ms,pwm_fwd,pwm_rev,rpm"
     ),
+    "names and units in every row": table(lambda k: f"t: {MS[k]} ms, PWM: {DUTY[k]}, speed: {RPM[k]} rpm"),
+    "an ESP32's log": table(lambda k: f"I ({5310 + MS[k]}) motor: pwm={DUTY[k]} rpm={RPM[k]}", "boot: ready"),
+    "an ESP32's log in colours": table(
+        lambda k: f"\x1b[0;32mI ({5310 + MS[k]}) motor: pwm: {DUTY[k]}, rpm: {RPM[k]}\x1b[0m"
+    ),
+    "Python's logging": table(
+        lambda k: f"2024-05-06 {clock(MS[k]).replace('.', ',')} - INFO - pwm={DUTY[k]} rpm={RPM[k]}"
+    ),
     "a matrix": "Sample   Time [ms]   Motor PWM   Wheel rpm\n\n["
     + ";\n".join(f"{k:5d} {MS[k]:6d} {DUTY[k]:5d} {RPM[k]:8.1f}" for k in range(ROWS))
     + "]\n",

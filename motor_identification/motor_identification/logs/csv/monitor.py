@@ -4,13 +4,20 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING
+
 RECEIVED = "received time"  # the column of a monitor's stamps: the last, so that a board's own clock goes before
 MOSTLY = 0.8  # of the first lines: others are the program's greetings
 _LOOKED_AT = 100  # lines
-_STAMP = re.compile(r"\s{0,8}\[?(\d{1,2}:\d\d:\d\d[.,]\d{1,6})\]?\s{0,8}(?:->|>)\s*(.*)$")
+_STAMPS = (
+    re.compile(r"\s{0,8}\[?(\d{1,2}:\d\d:\d\d[.,]\d{1,6})\]?\s{0,8}(?:->|>)\s*(.*)$"),
+    re.compile(r"(?:\x1b\[[\d;]{1,8}m)?[EWIDV] \((\d{1,10})\) [^:]{1,40}: ?([^\x1b]*)"),  # an ESP32's log, in ms
+    re.compile(r"(\d{4}-\d\d-\d\d[ T]\d\d:\d\d:\d\d[.,]\d{3,6}) - (?:[^-=:]{1,40} - ){0,3}(.*)$"),  # Python's
+)
 _CELL = (
     r"\s{0,8}(?P<name>[^\W\d][\w /%°\[\]()]{0,40}?)\s{0,8}[:=]"
     r"\s{0,8}(?P<value>[+-]?(?:\d+(?:[.,]\d+|\.)?|\.\d+)(?:[eE][+-]?\d+)?)\s{0,8}"
+    r"(?P<unit>[^\W\d_][\w/]{0,7}(?![\w/]*\s{0,8}[:=])|%|°)?\s{0,8}"
 )
 _NAME, _NUMBER = re.compile(r"[^\W\d][\w /%°\[\]()]{0,40}"), re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 _NAMED_CELL = re.compile(_CELL + r"(?:[,;|\t ]|$)")
@@ -29,10 +36,11 @@ def take_apart(lines: Sequence[str]) -> Lines:
     """Move the stamps of a serial monitor behind its lines, and the names of cells before all of them."""
     delimiter = ""
     begin = [line for line in lines[: 2 * _LOOKED_AT] if line.strip()][:_LOOKED_AT]
-    stamped = _mostly(begin, [bool(_STAMP.match(line)) for line in begin])
-    if stamped:
-        delimiter = _delimiter([match[2] for match in map(_STAMP.match, begin) if match])
-        lines = [_stamp_last(line, delimiter) for line in lines]
+    stamp = next((one for one in _STAMPS if _mostly(begin, [bool(one.match(line)) for line in begin])), None)
+    stamped = stamp is not None
+    if stamp is not None:
+        delimiter = _delimiter([match[2] for match in map(stamp.match, begin) if match])
+        lines = [_stamp_last(line, stamp, delimiter) for line in lines]
         begin = [line.rpartition(delimiter)[0] for line in lines[:_LOOKED_AT] if line.strip()]
     pairs = _Pairs.find(begin) if not stamped else None
     if pairs is not None:
@@ -82,14 +90,14 @@ def _delimiter(lines: Sequence[str]) -> str:
     return next((sign for sign in "\t;,|" if sum(sign in line for line in lines) >= MOSTLY * len(lines)), " ")
 
 
-def _stamp_last(line: str, delimiter: str) -> str:
-    match = _STAMP.match(line)
+def _stamp_last(line: str, stamp: re.Pattern[str], delimiter: str) -> str:
+    match = stamp.match(line)
     if match is None:
         return line
     rest = match[2].rstrip()
     if not any(sign.isdigit() for sign in rest):
         return f"{rest}{delimiter}{RECEIVED.replace(' ', '_')}"  # column names
-    return f"{rest}{delimiter}{match[1].replace(',', '.')}"
+    return f"{rest}{delimiter}{match[1].replace(',', '.').replace(' ', 'T')}"
 
 
 def _named_cells(line: str) -> dict[str, str]:
@@ -100,7 +108,10 @@ def _named_cells(line: str) -> dict[str, str]:
         match = _NAMED_CELL.match(line, place)
         if match is None or match["name"] in found:
             return {}
-        found[match["name"]] = match["value"]
+        unit = UNIT_BY_SPELLING.get((match["unit"] or "").lower())
+        if match["unit"] and unit is None:
+            return {}
+        found[f"{match['name']} [{unit}]" if unit else match["name"]] = match["value"]
         place = match.end()
     return found
 

@@ -58,10 +58,25 @@ def table_of(path: Path, text: Sequence[str], notes: list[str], wanted: Sequence
     if end < len(lines):
         notes.append(f"Left out: the lines from {end + 1} on, which have fewer than half of the cells of those before.")
         lines = lines[:end]
+    notes += _say_rows_above(lines, dialect)
     numbers, columns = _columns(path, lines, dialect, notes)
     if len(numbers) < 2:
         raise RecordingError(f"{path} has {len(numbers)} rows below its column names: at least 2 samples are needed.")
     return Table(path, numbers, columns, dialect.decimal_comma, tuple(notes))
+
+
+def _say_rows_above(lines: Sequence[str], dialect: Dialect) -> list[str]:
+    """Say which lines above the rows have as many numbers, but not their number of cells."""
+    found = []
+    for place, line in enumerate(lines[: dialect.first_row], start=1):
+        cells = split_line(line, dialect.delimiter)
+        if (
+            not COMMENT.match(line)
+            and len(cells) > 1
+            and all(is_number(cell, dialect.decimal_comma) for cell in cells[:2])
+        ):
+            found.append(place)
+    return [f"Left out: {_lines(found)} above the rows, with other cells than they have."] if found else []
 
 
 def _end_of_table(lines: Sequence[str], dialect: Dialect) -> int:

@@ -54,3 +54,15 @@ def test_a_time_beyond_292_years_is_none(tmp_path: Path) -> None:
 def test_a_table_that_does_not_do(tmp_path: Path, text: str, complaint: str) -> None:
     with pytest.raises(RecordingError, match=complaint):
         table(tmp_path, text)
+
+
+def test_rows_above_the_rows_are_told(tmp_path: Path) -> None:
+    """As where notes stand beside the first rows; a number in a line of settings is no row."""
+    rows = [f"{k},{k % 3},7" for k in range(20)]
+    for first, said in ((["0,1,7,R,1.6", "1,2,7,L,2"], "2 lines (the first is 2)"), (["0,1"], "line 2")):
+        (tmp_path / "log.csv").write_text("\n".join(["t,u,y", *first, *rows]) + "\n")
+        table = read_table(tmp_path / "log.csv")
+        assert len(table) == 20
+        assert table.notes == (f"Left out: {said} above the rows, with other cells than they have.",)
+    (tmp_path / "log.csv").write_text("\n".join(["gain,5", "# 1,2", "t,u,y", *rows]) + "\n")
+    assert read_table(tmp_path / "log.csv").notes == ()
