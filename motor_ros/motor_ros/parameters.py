@@ -79,7 +79,7 @@ def declare(node: Node, rows: Iterable[Row]) -> dict[str, Value]:
 
 
 def unknown_parameters(node: Node, rows: Iterable[Row]) -> list[str]:
-    """A sentence for every parameter that was given and that the node does not have: ROS passes over it in silence."""
+    """Name, a sentence each, given parameters that the node does not have: ROS passes over them in silence."""
     names = [row.name for row in rows]
     given: Iterable[str] = getattr(node, "_parameter_overrides", ())  # rclpy has no public name for them
     return [

@@ -50,7 +50,7 @@ LEVELS = np.array([A_UP, A_UP | B_HIGH, A_DOWN | B_HIGH, A_DOWN], dtype=np.uint8
 
 
 def edges_at_captures(cycle: NDArray[np.uint64], directions: NDArray[np.int64], two: bool) -> Edges:
-    """Edges of channel A, with B's level there, for a board that stamps A's edges only.
+    """Describe edges of channel A, with B's level there, to a board that stamps A's edges only.
 
     Args:
         cycle: [cycle] ascending, shape (K,).
@@ -64,7 +64,7 @@ def edges_at_captures(cycle: NDArray[np.uint64], directions: NDArray[np.int64], 
 
 
 def edges_at_flanks(cycle: NDArray[np.uint64], directions: NDArray[np.int64], first: int) -> Edges:
-    """Every flank of both lines.
+    """Describe every flank of both lines.
 
     Args:
         cycle: [cycle] ascending, shape (K,).
@@ -77,5 +77,5 @@ def edges_at_flanks(cycle: NDArray[np.uint64], directions: NDArray[np.int64], fi
 
 
 def level_before(first: int) -> Edges:
-    """At power-up, the lines' levels before the flank of that number."""
+    """Set the lines, at power-up, to their levels before the flank of that number."""
     return Edges(np.array([1], dtype=np.uint64), LEVELS[[(first - 1) % 4]])

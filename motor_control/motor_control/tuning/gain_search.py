@@ -27,7 +27,7 @@ def time_constant_of(sight: Sight, plant: Plant, gains: Gains) -> float:
 
 
 def quiet_kp(sight: Sight, bare: Plant, speeds: tuple[float, ...], most: float, largest: float) -> float:
-    """The largest kp up to `largest` whose swings (share, peak to peak) are above `most` at none of the speeds."""
+    """Find the largest kp up to `largest` whose swings (share, peak to peak) exceed `most` at none of the speeds."""
     from scipy.optimize import brentq
 
     def excess(log_kp: float) -> float:

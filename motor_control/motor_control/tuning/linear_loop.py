@@ -75,7 +75,7 @@ class Plant:
 
 
 def plant_of(parameters: Parameters, sample_period: float, sensor_lag: float = 0.0) -> Plant:
-    """The motor of a model file where the loop gain is largest: at cold, at full supply, in the stronger direction.
+    """Linearise a motor where the loop gain is largest: at cold, at full supply, in the stronger direction.
 
     Friction, drag and loads only add damping or an offset, which the integral and the feed-forward carry.
     """
@@ -120,7 +120,7 @@ class Sampled:
 
 
 def sampled(plant: Plant, watched: bool = False) -> Sampled:
-    """The motor from sample to sample, with the dead time in the loop; `watched`: angle and load stand behind ω."""
+    """Sample the motor, with the dead time in the loop; `watched`: angle and load stand behind ω."""
     period, dead = plant.sample_period, 0.0 if plant.predicted else plant.dead_time
     whole = int(dead / period + 1e-9)
     rest = max(dead - whole * period, 0.0)

@@ -41,7 +41,7 @@ class Curves:
 
 
 def make_held_out_curves(held: HeldOut, share: float, number: int, regions: tuple[Region, ...]) -> Curves:
-    """A model on recording `number` of its held-out data; `share` is the irregularity of the slots, of a slot."""
+    """Make a model's curves on recording `number` of its held-out data; `share` is the slots' irregularity."""
     data, angle = held.intervals[number], held.angles[number]
     begin = sum(len(other.first) for other in held.intervals[:number])
     part = slice(begin, begin + len(data.first))

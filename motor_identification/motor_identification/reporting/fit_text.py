@@ -98,7 +98,7 @@ def _next_experiment(fit: Fit) -> Iterator[str]:
 
 
 def residual_follows_voltage(fit: Fit) -> bool:
-    """Whether what is left depends on the voltage: not by chance, visibly, and well above what the encoder leaves."""
+    """Tell whether residuals depend on the voltage: not by chance, visibly, and well above what the encoder leaves."""
     left = fit.whiteness
     related = left.input_p_value < SIGNIFICANT and abs(left.input_correlation) > VISIBLE
     return related and _is_above_floor(fit)

@@ -98,7 +98,7 @@ def is_bent(p: Floats) -> bool:
 
 @compiled
 def drive_of(p: Floats, u: float) -> tuple[float, float]:
-    """The drive's constant part and the back-EMF per speed, for an effective voltage u; the drive is R·current."""
+    """Split the drive, R·current, under an effective voltage u: its constant part, and the back-EMF per speed."""
     share = u / p[U_MAX]
     sag = 1.0 + p[SAG] * share * share
     return u / sag, back_emf_constant(p) * (1.0 - p[COAST] * (1.0 - abs(share))) / sag

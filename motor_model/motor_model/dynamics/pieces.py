@@ -78,7 +78,7 @@ def longest_piece(p: Floats, s: State, acceleration: float, inertia: float) -> f
 
 @compiled
 def lines(p: Floats, c: Coefficients, s: State, t: float, h: float) -> tuple[Coefficients, float]:
-    """A piece's coefficients with friction and loads as the lines through their values at the Gauss nodes; its length.
+    """Replace friction and loads by lines through their values at the Gauss nodes: a piece's coefficients, its length.
 
     c: the linearisation at the start, by which the nodes are found; t: time [s] of the start.
     """

@@ -31,6 +31,6 @@ def at_rest(angle: float) -> State:
 
 @compiled
 def turning(p: Floats, speed: float, u: float) -> State:
-    """A motor that passes angle 0 at a speed [rad/s], not 0, its current settled under an effective voltage u [V]."""
+    """Start a motor that passes angle 0 at a speed [rad/s], not 0, its current settled under u [V], effective."""
     source, back_emf = drive_of(p, u)
     return State(0.0, speed, source - back_emf * speed, 0.0, copysign(1.0, speed), 0.0)

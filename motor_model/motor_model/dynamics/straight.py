@@ -53,7 +53,7 @@ class Lagging(NamedTuple):
 
 @compiled
 def is_straight(p: Floats) -> bool:
-    """Whether the equation is linear while the shaft turns one way at one voltage, its play taken up, at one load."""
+    """Tell if the equation is linear while the shaft turns one way at one voltage, its play taken up, at one load."""
     return not is_bent(p)
 
 

@@ -55,7 +55,7 @@ def make_disc(edges_per_revolution: int, irregularity: float = 0.0, seed: int = 
 def make_lines_disc(
     pulses: int, quadrature: int, irregularity: float, seed: int, gear: float, lines: "Lines | None" = None
 ) -> Disc:
-    """A disc whose flanks of two channels all count, the same flanks both ways: 2 (of A) or 4 (of both) in a period.
+    """Make a disc whose flanks of two channels all count, the same both ways: 2 (of A) or 4 (of both) in a period.
 
     They are off by a Gaussian share of the mean angle between two counts, besides what duty cycle and phase make.
     """
@@ -69,7 +69,7 @@ def make_lines_disc(
 
 @compiled
 def shown_angle(p: Floats, angle: float) -> float:
-    """What an eccentric disc shows of an angle [rad] of the output; `eccentricity` is an angle of the disc itself."""
+    """Turn an angle [rad] of the output into what an eccentric disc shows; `eccentricity` is an angle of the disc."""
     if p[ECCENTRICITY] == 0.0:
         return angle
     return angle + p[ECCENTRICITY] / p[GEAR] * sin(p[GEAR] * angle + p[ECCENTRICITY_PHASE])
