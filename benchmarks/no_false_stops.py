@@ -54,7 +54,9 @@ With `--edge-rate 3000` (discs of few edges; e1b7282) two of 225 runs at 200 Hz 
 without a model (a load of 0.22 of the voltage had helped the last steady motion, and with the breakaway of 0.15 it is
 0.37 the other way, where 0.28 is allowed by what was learnt), and seed 950289 under all conditions at once (edges where
 the observer does not expect them). Seed 950067 is mended. With the usual discs 275 motors at 200 Hz and 50 at 1 kHz
-(seeds 910000, 920000, 930000 and 940000 on, 3.2 h; ddf1adc to 0ef9d87) had none."""
+(seeds 910000, 920000, 930000 and 940000 on, 3.2 h; ddf1adc to 0ef9d87) had none. Nor had fresh ones at db772c2: 200
+motors on the usual discs (seeds 960000 on, 2.0 h), and 125 with `--edge-rate 3000` (seeds 970000 on, 1.2 h), at 200 Hz;
+950182 and 950289 are stopped as before."""
 
 
 @dataclass(frozen=True)

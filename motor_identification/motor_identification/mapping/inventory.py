@@ -11,6 +11,7 @@ from motor_identification.logs.signals import Floats, Integers
 
 DECODED = 3000  # messages of each topic: at 200 Hz a quarter of a minute
 MOST_FIELDS = 40  # of one topic
+LATEST = 2**63 - 1  # [ns] of a time of arrival; a file may say more
 
 
 @dataclass(frozen=True)
@@ -46,10 +47,11 @@ def take_inventory(uri: str | Path) -> list[TopicRow]:
 
 
 def _row(sampled: Sampled) -> TopicRow:
-    steps = np.diff(np.array(sampled.received, np.int64)) * 1e-9
+    instants = [min(at, LATEST) for at in sampled.received]
+    steps = np.diff(np.array(instants, np.int64)) * 1e-9
     period = float(np.median(steps)) if len(steps) else 0.0
     stamped = bool(sampled.stamps) and all(stamp > 0 for stamp in sampled.stamps)
-    received = sampled.received[: len(sampled.messages)]
+    received = instants[: len(sampled.messages)]
     time = np.array(sampled.stamps if stamped else received, np.int64)
     return TopicRow(
         name=sampled.topic.name,

@@ -132,3 +132,12 @@ def test_a_speed_of_no_size_beside_counts_is_a_sentence(tmp_path: Path, size: fl
     (tmp_path / "log.csv").write_text("\n".join([names, *rows]))
     with pytest.raises(MotorError):
         import_log(tmp_path / "log.csv", Said())
+
+
+@pytest.mark.parametrize("delimiter", [" ", "\t", ";", "x"])
+def test_a_line_longer_than_any_cell_may_be_is_a_sentence(tmp_path: Path, delimiter: str) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text(f"time,u,speed\ndata = [{delimiter.join(['0.125'] * 40_000)}]\n0,1,2\n")
+    with pytest.raises(MotorError) as refused:
+        import_log(path, Said())
+    assert "\n" not in str(refused.value) and len(str(refused.value)) < 700

@@ -25,3 +25,14 @@ def test_a_type_without_a_definition_is_told(tmp_path: Path) -> None:
         writer.write(writer.topic("/x", "unknown_msgs/msg/Thing"), 10**18, b"\0\1\0\0" + bytes(8))
     (row,) = take_inventory(tmp_path / "bag")
     assert row.fields == () and "has no definition of unknown_msgs/msg/Thing" in row.trouble
+
+
+def test_times_beyond_all_clocks_are_shown_as_the_latest(tmp_path: Path) -> None:
+    from motor_identification.bag import BagWriter
+
+    with BagWriter(tmp_path / "bag") as writer:
+        topic = writer.topic("/x", "unknown_msgs/msg/Thing")
+        for time in (10**18, 2**63 - 1, 2**63, 2**64 - 1):
+            writer.write(topic, time, b"\0\1\0\0" + bytes(8))
+    (row,) = take_inventory(tmp_path / "bag")
+    assert row.messages == 4 and 0.0 <= row.rate < 1e-9

@@ -191,4 +191,8 @@ def split_line(line: str, delimiter: str) -> list[str]:
     """The cells of one line, without surrounding blanks."""
     if delimiter == SPACES:
         return line.split()
-    return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])]
+    try:
+        cells = next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])
+    except csv.Error:  # longer than any cell may be, as all of a matrix on one line
+        cells = [line]
+    return [cell.strip() for cell in cells]

@@ -177,9 +177,11 @@ def _rows(path: Path, lines: Sequence[str], dialect: Dialect) -> Iterable[tuple[
 def _unique(header: Sequence[str]) -> list[str]:
     """Names that are there twice get their number, those that are empty their place."""
     names: list[str] = []
+    taken: set[str] = set()  # a line may have a hundred thousand
     for place, name in enumerate(header, start=1):
         here = name or f"column {place}"
-        names.append(here if here not in names else f"{here} #{place}")
+        names.append(here if here not in taken else f"{here} #{place}")
+        taken.add(names[-1])
     return names
 
 
