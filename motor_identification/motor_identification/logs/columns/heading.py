@@ -34,6 +34,8 @@ class Heading:
 
 def read_heading(name: str) -> Heading:
     """Read a column's name: `leftSpeedRpm`, `Tiempo (s)`, `duty_pct`, `Battery [mV]`."""
+    if name.strip() == "MV":  # a controller's manipulated variable, and no millivolts
+        return Heading(name, ("mv",), Quantity.DUTY, "", "")
     unit, rest = _unit_in_brackets(name)
     words = split_words(rest)
     if not unit:

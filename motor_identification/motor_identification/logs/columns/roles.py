@@ -12,7 +12,7 @@ from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_motion, miss_drive, miss_motion
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.vocabulary import MEASURED, MOVES, UNITS, Quantity
+from motor_identification.logs.columns.vocabulary import FILTERED, MEASURED, MOVES, UNITS, Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.constant_voltage import CONSTANT
 from motor_model.errors import RecordingError
@@ -132,6 +132,8 @@ def _moving(
     for quantity in sorted(_BEST_FIRST, key=lambda one: one is not told):
         found = [one.name for one in headings if one.quantity is quantity and one.side == side]
         found = found or [one.name for one in headings if one.quantity is quantity]
+        if len(found) > 1:  # what was made of another one comes later, and is smoother than the motor
+            found = [name for name in found if not FILTERED & set(read_heading(name).words)] or found
         if len(found) > 1:
             raise ask_motion(table, headings, quantity, found)
         if found:

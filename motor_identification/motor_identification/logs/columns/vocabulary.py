@@ -30,6 +30,9 @@ _row = words_of
 INPUTS = _row("input entrada eingang entrée entree ingresso")  # of a system: what drives it, or a controller
 OUTPUTS = _row("output saída saida salida ausgang sortie uscita")
 
+FILTERED = _row(
+    "filtered filt filter smooth smoothed avg average averaged mean lpf ema ma kalman est estimate estimated fir"
+)
 MEASURED = _row("meas measured measurement medido medida feedback fb actual ist istwert pv messwert")
 
 # Earlier rows win: a target speed is no speed, a battery's voltage is not the motor's, a speed command is a reference.
@@ -119,7 +122,7 @@ _SPELLINGS = {
     "%": "% pct percent",
     "rad/s": "rad/s рад/с рад_с rad/sec rads rads/s radps rad.s-1 rad_s rad_sec",
     "deg/s": "deg/s град/с град_с deg/sec °/s grad/s grados/s graus/s dps degps degrees/s deg_s deg_sec",
-    "rpm": "rpm об_мин upm rev/min umdr/min об/мин ot/min giri/min u/min tr/min 1/min min-1 r/min rev_min",
+    "rpm": "rpm об_мин obr_min upm rev/min umdr/min об/мин ot/min giri/min u/min tr/min 1/min min-1 r/min rev_min",
     "rev/s": "rps rev/s r/s rotations/s turns/s hz rev_s",
     "count/s": (
         "count/s counts/s tick/s ticks/s step/s steps/s pulse/s pulses/s edges/s cps pps count_s counts_s ticks_s"

@@ -61,6 +61,9 @@ Velocidad (grados/s) | speed       | deg/s |
 Kecepatan (RPM)   | speed          | rpm   |
 waktu (ms)        | time           | ms    |
 pulsos            | count          |       |
+MV                | duty           |       |
+mV                | voltage        | mV    |
+prędkość [obr/min] | speed         | rpm   |
 rpm_left          | speed          | rpm   | left
 rpmR              | speed          | rpm   | right
 l_vel_deg_s_right | speed          | deg/s | left

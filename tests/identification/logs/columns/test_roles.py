@@ -113,6 +113,14 @@ def test_what_is_called_a_supply_and_swings_drives() -> None:
     assert find_roles(table(t="t", Vin="b", pwm="u", speed="y"), Said()).supply == "Vin"
 
 
+def test_a_filtered_motion_comes_after_the_one_it_was_made_of() -> None:
+    assert find_roles(table(t="t", pwm="u", rpm="y", rpm_filtered="y"), Said()).pairs[0].motion == "rpm"
+    assert find_roles(table(t="t", pwm="u", speed_filt="y", speed_raw="y"), Said()).pairs[0].motion == "speed_raw"
+    assert find_roles(table(t="t", pwm="u", speed_filt="y"), Said()).pairs[0].motion == "speed_filt"
+    with pytest.raises(RecordingError, match="speed_a, speed_b"):
+        find_roles(table(t="t", pwm="u", speed_a="y", speed_b="y", speed_avg="y"), Said())
+
+
 def test_what_is_called_measured_is_the_motion() -> None:
     loop = find_roles(table(t="t", ref="r", meas="y", u="u", e="r", P="r", D="y"), Said())
     assert loop.pairs == (Pair("", "u", "meas"),)
