@@ -122,7 +122,9 @@ _SPELLINGS = {
     "%": "% pct percent",
     "rad/s": "rad/s рад/с рад_с rad/sec rads rads/s radps rad.s-1 rad_s rad_sec",
     "deg/s": "deg/s град/с град_с deg/sec °/s grad/s grados/s graus/s dps degps degrees/s deg_s deg_sec",
-    "rpm": "rpm об_мин obr_min upm rev/min umdr/min об/мин ot/min giri/min u/min tr/min 1/min min-1 r/min rev_min",
+    "rpm": (
+        "rpm upm rev/min rev_min u/min tr/min r/min 1/min min-1 umdr/min giri/min ot/min obr/min obr_min об/мин об_мин"
+    ),
     "rev/s": "rps rev/s r/s rotations/s turns/s hz rev_s",
     "count/s": (
         "count/s counts/s tick/s ticks/s step/s steps/s pulse/s pulses/s edges/s cps pps count_s counts_s ticks_s"
