@@ -8,7 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_model.errors import RecordingError
-from motor_model.sample import Info, Measurement, Sample
+from motor_model.sample import RANGES, Info, Measurement, Sample
+
+MOST_VOLTAGE = RANGES["max_voltage"][1]  # [V]
+MOST_SPEED = 1e9  # [rad/s]; what is larger makes squares that mean nothing
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -107,8 +110,8 @@ def check(recording: Recording) -> Recording:
     """Return the recording if identification can use it.
 
     Raises:
-        RecordingError: no samples, voltages or speeds that are not finite, an encoder without edges, a count or a clock
-            that steps back, or no motion.
+        RecordingError: no samples, voltages or speeds that are not finite or that no motor has, an encoder without
+            edges, a count or a clock that steps back, or no motion.
     """
     uri = recording.uri
     if len(recording) < 2:
@@ -121,6 +124,7 @@ def check(recording: Recording) -> Recording:
                 f"{uri} has {bad} {name} values that are not numbers (the first at {first:.3f} s): "
                 "cut them out with --start and --stop, or record again."
             )
+    _check_sizes(recording)
     if np.any(np.diff(recording.sample_time) <= 0):
         at = float(recording.time[int(np.argmax(np.diff(recording.sample_time) <= 0))])
         raise RecordingError(
@@ -133,6 +137,17 @@ def check(recording: Recording) -> Recording:
             f"{uri}: the motor never moves. Check supply, wiring and enable; record with a voltage that turns it."
         )
     return recording
+
+
+def _check_sizes(recording: Recording) -> None:
+    columns = (("voltage", recording.voltage, MOST_VOLTAGE, "V"), ("speed", recording.speed, MOST_SPEED, "rad/s"))
+    for name, values, most, unit in columns:
+        if np.max(np.abs(values)) > most:
+            first = int(np.argmax(np.abs(values) > most))
+            raise RecordingError(
+                f"{recording.uri}: a {name} of {values[first]:.3g} {unit} at {recording.time[first]:.3f} s, which no "
+                "such motor has: cut it out with --start and --stop, or record again."
+            )
 
 
 def _check_encoder(recording: Recording) -> None:

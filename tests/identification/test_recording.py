@@ -49,6 +49,8 @@ BAD = {
     "one sample": GOOD.at_rows(np.arange(len(GOOD)) == 0),
     "a voltage that is no number": changed(voltage=put(GOOD.voltage, 7, np.nan)),
     "a speed that is infinite": changed(speed=put(GOOD.speed, 7, np.inf)),
+    "a voltage that no motor has": changed(voltage=put(GOOD.voltage, 7, -1.01e5)),
+    "a speed that no motor has": changed(speed=put(GOOD.speed, 7, 1e308)),
     "a clock that stands": changed(sample_time=put(GOOD.sample_time, 50, GOOD.sample_time[49])),
     "a clock that steps back": changed(sample_time=put(GOOD.sample_time, 50, GOOD.sample_time[40])),
     "an encoder without edges": changed(info=replace(GOOD.info, edges_per_revolution=0)),
@@ -65,6 +67,11 @@ def test_what_no_fit_can_use_is_refused_in_a_sentence(case: str) -> None:
     with pytest.raises(RecordingError, match="by hand") as refused:
         check(BAD[case])
     assert str(refused.value).endswith(".") and "\n" not in str(refused.value)
+
+
+def test_a_high_voltage_may_be() -> None:
+    high = changed(voltage=put(GOOD.voltage, 7, -9.9e4))
+    assert check(high) is high
 
 
 def test_two_channels_may_count_down() -> None:
