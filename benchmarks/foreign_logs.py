@@ -30,6 +30,7 @@ from motor_model.effects import EFFECT_BY_NAME, normalised
 from motor_model.errors import MotorError
 
 RESULTS = Path(__file__).with_name("results") / "foreign_logs.md"
+LAGS = {"transport_delay", "armature_inductance"}
 KINDS = ("right", "right, not all", "silent", "wrong", "refused")
 
 
@@ -50,10 +51,13 @@ def judge(case: Case, found: Diagnosis) -> str:
     hidden, outside = set(normalised(known)), known != case.hidden
     names = [{one.effect, *one.ambiguous_with} for one in found.findings]
     unexplained = found.verdict.value == "unexplained"
+    if case.logger.memory:  # a lag of the sensor, by whichever name
+        names = [name for name in names if name & hidden or not name & LAGS]
     if any(not name & hidden for name in names):
         return "wrong"
     if outside:
         return "right" if unexplained and len(names) == len(hidden) else "right, not all" if names else "silent"
+    unexplained &= not case.logger.memory
     if not hidden and unexplained:
         return "wrong"
     if all(any(effect in name for name in names) for effect in hidden):

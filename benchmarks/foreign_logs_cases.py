@@ -9,6 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"
 import numpy as np
 from numpy.typing import NDArray
 from plant.motor import move
+from scipy.signal import lfilter
 
 Floats = NDArray[np.float64]
 SUPPLIES = (3.0, 5.0, 6.0, 7.4, 12.0, 24.0, 48.0)
@@ -28,6 +29,30 @@ EFFECTS = {
 
 
 @dataclass(frozen=True)
+class Logger:
+    """How rows come about: clock, stamps, what is written when."""
+
+    loop: float = 0.0  # of a row: standard deviation of the loop's periods
+    late: float = 0.0  # of a row: how late a row is stamped, in the mean
+    whole: bool = False  # stamps in whole milliseconds
+    before: bool = False  # the voltage that held until the row, not the one from there on
+    nominal: bool = False  # counts are divided by the period that the loop should have
+    memory: float = 0.0  # share of the speed shown before that a new one keeps
+
+    def describe(self) -> str:
+        """Say what is special about it; empty where rows are what they say."""
+        parts = (
+            (self.loop > 0.0, f"periods ±{self.loop:.0%}"),
+            (self.late > 0.0, f"stamps {self.late:.0%} late"),
+            (self.whole, "whole ms"),
+            (self.before, "voltage until then"),
+            (self.nominal, "nominal period"),
+            (self.memory > 0.0, f"smoothed {self.memory:g}"),
+        )
+        return ", ".join(text for there, text in parts if there)
+
+
+@dataclass(frozen=True)
 class Case:
     """A motor, what is in it, and how it was logged."""
 
@@ -40,6 +65,7 @@ class Case:
     sensor: str
     supply: float  # [V]
     torque: float  # [V] RMS
+    logger: Logger = Logger()
 
     @property
     def lag(self) -> float:
@@ -52,7 +78,8 @@ class Case:
         counts = "" if self.sensor == SENSORS[2] else f" of {self.counts} counts"
         sensor = f"{self.sensor}{counts} at {self.rate:g} Hz"
         motor = f"{self.supply:g} V, {top:.3g} rad/s, {1e3 * self.lag:.0f} ms"
-        return f"{self.excitation}, {motor}, {sensor}, torque {100 * self.torque / self.supply:.1f} %"
+        text = f"{self.excitation}, {motor}, {sensor}, torque {100 * self.torque / self.supply:.1f} %"
+        return ", ".join(filter(None, (text, self.logger.describe())))
 
 
 def draw(seed: int) -> Case:
@@ -118,13 +145,13 @@ def span_of(case: Case) -> float:
 
 def run(case: Case) -> tuple[Floats, Floats, Floats, Floats]:
     """Time [s], voltage [V], angle [rad] and speed [rad/s] of every row."""
-    span = span_of(case)
-    time = np.arange(int(span * case.rate)) / case.rate
+    time = _draw_instants(case)
     if case.excitation != "speed loop":
         volts = case.supply * np.clip(command(case, time), -1.0, 1.0)
         return time, volts, *_move(case, time, volts)
     volts = np.zeros(len(time))
-    wanted = np.array([0.5, 0.2, 0.7, 0.4, -0.3, -0.6, 0.3, 0.5, 0.0])[(time / span * 8).astype(int)]
+    part = np.minimum(time / span_of(case) * 8, 8).astype(int)
+    wanted = np.array([0.5, 0.2, 0.7, 0.4, -0.3, -0.6, 0.3, 0.5, 0.0])[part]
     for _ in range(3):  # a loop without a model: the command of a run answers the speed of the run before
         _, speed = _move(case, time, volts)
         error = wanted * case.supply / case.values["kv"] - speed
@@ -137,21 +164,42 @@ def _move(case: Case, time: Floats, volts: Floats) -> tuple[Floats, Floats]:
     return np.asarray(motion.angle[motion.at]), np.asarray(motion.speed[motion.at])
 
 
+def _draw_instants(case: Case) -> Floats:
+    """The instants of the rows [s]; a loop that takes its time is never faster than twice its rate."""
+    count = int(span_of(case) * case.rate)
+    if case.logger.loop == 0.0:
+        return np.arange(count) / case.rate
+    periods = 1.0 + case.logger.loop * np.random.default_rng([20, case.seed]).standard_normal(count - 1)
+    return np.append(0.0, np.cumsum(np.maximum(periods, 0.5))) / case.rate
+
+
+def _stamp(case: Case, time: Floats) -> Floats:
+    """The stamps of rows [s] at these instants."""
+    logger, random = case.logger, np.random.default_rng([21, case.seed])
+    stamps = time + logger.late / case.rate * random.exponential(size=len(time)) if logger.late else time
+    stamps = np.maximum.accumulate(stamps)
+    return np.floor(stamps * 1e3) * 1e-3 if logger.whole else stamps
+
+
 def write(case: Case, path: Path) -> None:
     """Write the log."""
     time, volts, angle, speed = run(case)
-    random = np.random.default_rng(case.seed)
+    random, logger = np.random.default_rng(case.seed), case.logger
     values = case.values
     angle = angle + values.get("eccentricity", 0.0) * np.sin(angle + values.get("eccentricity_phase", 0.0))
     count = np.floor(angle * case.counts / (2.0 * np.pi) + random.random())
     shown = count * 360.0 / case.counts
     if case.sensor == SENSORS[1]:
-        shown = np.append(0.0, np.diff(shown)) * case.rate / 6.0
+        periods = np.diff(time) if logger.loop and not logger.nominal else 1.0 / case.rate
+        shown = np.append(0.0, np.diff(shown) / periods) / 6.0
     elif case.sensor == SENSORS[2]:
         top, noise = case.supply / case.values["kv"], NOISE[0] * (NOISE[1] / NOISE[0]) ** random.random()
         step = top * random.choice(CONVERTER)
         shown = step * np.round((speed + top * noise * random.standard_normal(len(speed))) / step) * 30.0 / np.pi
+    if logger.memory:
+        shown = np.asarray(lfilter([1.0 - logger.memory], [1.0, -logger.memory], shown))
+    written = np.append(0.0, volts[:-1]) if logger.before else volts
     name = "position [deg]" if case.sensor == SENSORS[0] else "speed [rpm]"
-    rows = zip(time, volts, shown, strict=True)
+    rows = zip(_stamp(case, time), written, shown, strict=True)
     text = "\n".join(f"{t:.6f},{u:.4f},{y:.5f}" for t, u, y in rows)
     path.write_text(f"time [s],voltage [V],{name}\n{text}\n", encoding="utf-8")

@@ -77,7 +77,9 @@ class CsvForm:
     speed_lag: float | None = None  # [s] how old the middle of that window is at the row's time
     split: str | None = None  # column; each run of one value is a recording of its own
     rest_until: float | None = None  # [s] by the time column: the motor stood until the first voltage came, then
-    voltage_before: bool = False  # a row's voltage was applied until its time; else from then until the next row
+    voltage_before: bool | None = (
+        None  # a row's voltage was applied until its time; else until the next row; None: find
+    )
     name: str = "motor"
     max_voltage: float | None = None  # [V]
     time_unit: str = "s"  # of `time_unit_size`

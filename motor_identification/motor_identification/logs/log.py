@@ -1,5 +1,6 @@
 """Turns other people's logs into a motor's samples, and says which assumptions that took."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import nan
 from pathlib import Path
@@ -23,11 +24,16 @@ from motor_identification.logs.run import Run
 from motor_identification.logs.signals import Floats, Integers, Signals, read_signals
 from motor_identification.logs.steady import read_steady
 from motor_identification.logs.still_runs import leave_out_still_runs
+from motor_identification.logs.voltage_timing import acts_before
 from motor_model.errors import RecordingError
-from motor_model.sample import RANGES, Info, Sample
+from motor_model.sample import RANGES, Info, Measurement, Sample
 
 FROM_THEN = "Assumed: a row's voltage is applied from its time until the next row (otherwise: --voltage-before)."
 BEFORE = "A row's voltage is applied from the time of the row before until its own."
+ANSWERED = (
+    "A row's motion answers its own voltage: that is applied from the time of the row before until its own (found; "
+    "otherwise: --no-voltage-before)."
+)
 
 
 @dataclass(frozen=True)
@@ -93,9 +99,11 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     info = replace(info, sample_period=float(np.median(signals.steps())) * 1e-9)
     motion = read_motion(form, info, signals)
     signals = motion.signals
-    samples = _samples(motion, _held(form, signals))
+    found = form.voltage_before is None and acts_before(_driven_speeds(motion))
+    before = form.voltage_before or found
+    samples = _samples(motion, _hold(signals, before))
     about = f"{table.path}: {_about_time(signals)}, up to {info.max_voltage:.4g} V."
-    applied = BEFORE if form.voltage_before else FROM_THEN
+    applied = ANSWERED if found else BEFORE if before else FROM_THEN
     rest = () if form.rest_until is None else (_about_rest(form.rest_until, len(signals.runs)),)
     parts = signals.runs.items()
     made = [Run(label, _from_rest(samples[rows], form, signals.voltage[rows.start])) for label, rows in parts]
@@ -119,9 +127,19 @@ def _samples(motion: Motion, held: Floats) -> tuple[Sample, ...]:
     return tuple(map(Sample, *columns))
 
 
-def _held(form: CsvForm, signals: Signals) -> Floats:
-    """[V] what holds from every row's time until the next, shape (K,)."""
-    if not form.voltage_before:
+def _driven_speeds(motion: Motion) -> Iterator[tuple[Floats, Floats]]:
+    """Voltages [V] and speeds of every run, each of shape (K,): those of counts are means from row to row."""
+    signals = motion.signals
+    for rows in signals.runs.values():
+        if motion.info.measurement is Measurement.SPEED:
+            yield signals.voltage[rows], motion.speed[rows]
+        else:
+            yield signals.voltage[rows][1:], np.diff(motion.counts[rows]) / np.diff(signals.time[rows])
+
+
+def _hold(signals: Signals, before: bool) -> Floats:
+    """[V] what holds from every row's time until the next, shape (K,); `before`: what is logged held until the row."""
+    if not before:
         return signals.voltage
     held = np.empty(len(signals))
     for rows in signals.runs.values():

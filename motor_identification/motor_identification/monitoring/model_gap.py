@@ -12,7 +12,7 @@ from motor_identification.estimation.whitened_fit import fit_whitened
 from motor_identification.monitoring.live_motor import Still
 from motor_identification.recording import Floats, Recording
 from motor_identification.reporting.model_comparison import DIFFERENT, Identified, deviations_of
-from motor_identification.timing.speed_timing import list_readings
+from motor_identification.timing.timing import list_readings
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
 from motor_model.parameters import Parameters

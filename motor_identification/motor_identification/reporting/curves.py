@@ -11,7 +11,7 @@ from motor_identification.estimation.residual import compute_residuals
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Bools, Floats, Recording
-from motor_identification.timing.speed_timing import read_again
+from motor_identification.timing.timing import read_again
 from motor_identification.uncertainty.result import Fit
 from motor_identification.validation.held_out import HeldOut
 from motor_model.simulate import simulate

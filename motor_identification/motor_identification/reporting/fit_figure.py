@@ -11,7 +11,7 @@ from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Recording
 from motor_identification.reporting.curves import Curves, make_fit_curves
 from motor_identification.reporting.fit_text import describe_residual, format_fit
-from motor_identification.timing.speed_timing import read_again
+from motor_identification.timing.timing import read_again
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
 from motor_model.parameters import Parameters

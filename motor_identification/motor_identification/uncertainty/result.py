@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from motor_identification.estimation.request import SearchReport
-from motor_identification.timing.speed_timing import Timing
+from motor_identification.timing.timing import Timing
 from motor_model.parameters import Parameters
 from motor_model.physical.result import PhysicalResult
 

@@ -17,14 +17,8 @@ from motor_identification.monitoring.model_gap import Model, measure_gap
 from motor_identification.recording import Recording, check
 from motor_identification.reporting.curves import make_fit_curves
 from motor_identification.reporting.model_comparison import Identified
-from motor_identification.timing.speed_timing import (
-    INSTANT,
-    Timing,
-    _Fitted,
-    _is_likelier,
-    find_timing,
-    list_readings,
-)
+from motor_identification.timing.speed_timing import _is_likelier, find_timing
+from motor_identification.timing.timing import INSTANT, Timing, list_readings
 from motor_identification.validation.hold_out import make_hold_out
 
 
@@ -77,15 +71,8 @@ def test_what_was_said_is_believed() -> None:
     assert identify([early.between(0.0, 0.2)], Request()).timing is None  # and to fit what shapes a motion
 
 
-def test_what_was_said_of_a_recording_to_validate_by_is_believed_too() -> None:
-    said = describe(check(noisy(0.05, 1)), edges_per_revolution=960)
-    open_one, other = Timing(INSTANT, 0.0, "values").set_on([check(noisy(0.05)), said])
-    assert open_one.info.speed_lag == 0.0 and other is said
-    assert Timing(INSTANT, 0.0, "values").set_on([said]) == (said,)
-
-
 def test_another_timing_is_not_likelier_by_no_numbers() -> None:
-    flat, zero, none = (_Fitted(np.full(100, value), 0.0) for value in (1.0, 0.0, np.nan))
+    flat, zero, none = (np.full(100, value) for value in (1.0, 0.0, np.nan))
     assert not _is_likelier(none, flat) and not _is_likelier(flat, none) and not _is_likelier(zero, zero)
     assert not _is_likelier(flat, zero) and not _is_likelier(flat, flat)
 
@@ -103,14 +90,6 @@ def test_a_timing_is_judged_by_what_a_fit_may_see() -> None:
 
     assert find_timing(recordings, estimate, restrict) is not None
     assert 0.6 < max(seen) / len(recordings[0]) < 0.9
-
-
-def test_a_timing_is_set_on_every_recording_and_said_of_the_first() -> None:
-    first, second = Timing(INSTANT, 0.0, "values").set_on([noisy(1.0), noisy(1.0, 1)])
-    assert first.info.speed_window == second.info.speed_window == pytest.approx(0.0004)
-    assert first.info.speed_lag == second.info.speed_lag == 0.0
-    assert second.notes == noisy(1.0, 1).notes and "taken as values" in first.notes[-1]
-    assert "--speed-window 0.0004 --speed-lag 0 " in first.notes[-1]
 
 
 def test_a_fit_and_a_diagnosis_use_what_was_found() -> None:

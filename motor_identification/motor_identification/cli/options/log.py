@@ -101,9 +101,9 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
     add("--supply-voltage", type=positive, metavar="V", help="voltage at full duty")
     add(
         "--voltage-before",
-        action="store_true",
-        help="a row's voltage was applied until its time (default: from its time until the next row), as where a "
-        "controller logs what it did before it reads the encoder",
+        action=argparse.BooleanOptionalAction,
+        help="a row's voltage was applied until its time, as where a controller logs what it did before it reads the "
+        "encoder, or from its time until the next row (default: from then on, unless the row's motion answers it)",
     )
     add("--max-voltage", type=positive, metavar="V", help="voltage at full duty (default: the largest in the log)")
     _add_counts(add)
@@ -167,7 +167,9 @@ def read_log_options(parser: argparse.ArgumentParser, options: argparse.Namespac
         parser.error(f"--unit {options.unit} does not go with --{kind.value}: take one of {', '.join(UNITS[kind])}")
     if kind not in (None, Kind.SPEED) and (options.speed_window or options.speed_lag is not None):
         parser.error("--speed-window and --speed-lag go with --speed only")
-    if options.steady and (kind not in (None, Kind.SPEED) or options.speed_lag is not None or options.voltage_before):
+    if options.steady and (
+        kind not in (None, Kind.SPEED) or options.speed_lag is not None or options.voltage_before is not None
+    ):
         parser.error("--steady goes with --speed, and without --speed-lag and --voltage-before")
     if options.steady and options.rest_until is not None:
         parser.error("--rest-until takes a time of the --time column")

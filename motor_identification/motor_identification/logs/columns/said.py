@@ -43,7 +43,7 @@ class Said:
     increments: bool | None = None  # whether counts are those of one row; None: as name and numbers say
     split: str | None = None
     rest_until: float | None = None
-    voltage_before: bool = False
+    voltage_before: bool | None = None
     steady: bool = False
     max_voltage: float | None = None
     name: str = "motor"

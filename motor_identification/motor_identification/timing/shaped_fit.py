@@ -1,0 +1,60 @@
+"""Fit a motor beside what shapes most motions, to learn how its speeds were made."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import SpeedResiduals, fit_speeds
+from motor_identification.estimation.parameter_space import map_theta
+from motor_identification.estimation.problem import Problem, make_problem
+from motor_identification.recording import Floats, Recording
+from motor_identification.timing.timing import Timing
+from motor_model.effects import SHAPING, SHAPING_BOTH_WAYS, normalised, specs_of
+
+ITERATIONS, TOLERANCE = 30, 1e-7
+BOTH_WAYS = 0.2  # of the largest voltage: what drives a motor both ways
+BEGIN = 0.25  # rows: the dead time that a fit begins with
+
+
+@dataclass(frozen=True)
+class ShapedFit:
+    """A motor beside what shapes most motions, fitted to recordings that were read by a timing."""
+
+    estimate: Estimate
+
+    @cached_property
+    def residuals(self) -> Floats:
+        """The weighted residuals (I,) that it leaves."""
+        return SpeedResiduals(self.estimate.problem).residuals(self.estimate.theta)
+
+    @property
+    def delay(self) -> float:
+        """[s] The dead time that it asks for."""
+        return self.estimate.parameters.value("delay")
+
+
+@dataclass(frozen=True)
+class Shaper:
+    """Fits recordings beside what shapes most motions, from an estimate's kv and ka, by any timing."""
+
+    recordings: Sequence[Recording]
+    estimate: Estimate
+    restrict: Callable[[Problem], Problem] | None  # to what a fit may see; all, without
+
+    def fit(self, timing: Timing, beside: Sequence[str] = ()) -> ShapedFit:
+        """Fit the recordings read by a timing, beside more effects too."""
+        timed = timing.set_on(self.recordings)
+        driven = np.concatenate([recording.voltage for recording in timed])
+        both = min(-driven.min(), driven.max()) >= BOTH_WAYS * np.abs(driven).max()
+        shaping, begin = normalised((*(SHAPING_BOTH_WAYS if both else SHAPING), *beside)), self.estimate
+        problem = make_problem(timed, shaping, begin.problem.workers, begin.problem.stopped)
+        problem = problem if self.restrict is None else self.restrict(problem)
+        row = problem.sample_period
+        starts = {
+            spec.name: np.full(len(timed), BEGIN * row * spec.scale.sample or spec.off) for spec in specs_of(shaping)
+        }
+        theta = map_theta(begin.problem.unknowns, begin.theta, problem.unknowns, starts)
+        return ShapedFit(fit_speeds(Estimate(problem, theta), np.inf, ITERATIONS, TOLERANCE))

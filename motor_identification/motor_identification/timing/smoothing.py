@@ -1,0 +1,113 @@
+"""Find whether speeds were smoothed before they were logged, each keeping a share of the one before.
+
+y_k = m·y_{k−1} + (1 − m)·x_k, the commonest filter of small programs. It lags, as an inductance or a delay does, and
+what it does to the speeds it does to their noise too, which nothing in the motor can. So x is computed for several m,
+and the motor fitted to it beside what shapes most motions; what that leaves is judged as random torque and sensor noise
+(`noise/error_learning.py`). The density of y is that of x divided by (1 − m) for every row, and has to be larger than
+that beside what lags in a motor. Counted speeds lie on a
+lattice for the right m alone.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from math import log
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from motor_identification.noise.error_data import log_likelihood, make_error_data
+from motor_identification.noise.error_learning import learn_error_model
+from motor_identification.recording import Recording
+from motor_identification.sensor.held_samples import find_frames
+from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.timing.shaped_fit import Shaper
+from motor_identification.timing.timing import Timing, is_open, sharpen
+from motor_model.effects import LAGGING
+
+# Tried in turn as long as they are likelier: beyond, the motor's own lag is taken for a filter, and that for the motor.
+CLIMB = (0.3, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.92, 0.94, 0.96, 0.98)
+ROUND = tuple(sorted({k / 20 for k in range(1, 20)} | {k / 16 for k in range(1, 16)} | {0.96, 0.97, 0.98, 0.99}))
+LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02  # of log likelihood, in all and a row, that smoothing has to be worth
+AS_LIKELY = 3.0  # of log likelihood: a round share that is less likely by no more is what was meant
+TOLERANCE = 0.005
+LATTICE_SPEEDS = 40  # that are enough for a lattice to be looked closer at
+
+
+def find_memory(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
+    """Find the share of the speed before that each speed keeps, and of some timings the likeliest with it.
+
+    The first of `timings` as it is where the speeds were not smoothed. Where it was said how they were made, only a
+    lattice is sign enough.
+    """
+    if any(find_frames(recording.time, recording.speed) is not None for recording in shaper.recordings):
+        return timings[0]  # each is shown several times
+    shares = _list_lattices(shaper.recordings)
+    plain = _Likelihood(shaper, timings[0])
+    found = _find_likeliest(plain, shares)
+    least = max(LEAST_GAIN, LEAST_GAIN_OF_ROW * plain.count)
+    if found == 0.0 or min(plain.of(found) - plain.of(0.0), plain.of(found) - plain.of_lag()) <= least:
+        return timings[0]
+    others = [_Likelihood(shaper, timing) for timing in timings[1:]]
+    best = [(plain, found), *((one, _find_likeliest(one, shares)) for one in others)]
+    likelihood, memory = max(best, key=lambda pair: pair[0].of(pair[1]))
+    return replace(likelihood.timing, memory=memory)
+
+
+class _Likelihood:
+    """The likelihood of speeds as they were logged, by the share of the one before that each keeps."""
+
+    def __init__(self, shaper: Shaper, timing: Timing) -> None:
+        self.shaper, self.timing, self.count = shaper, timing, 0
+        self._known: dict[float, float] = {}
+
+    def of(self, memory: float) -> float:
+        """Compute its logarithm, as of as many speeds as were used without smoothing."""
+        if memory not in self._known:
+            self._known[memory] = self._measure(memory)
+        return self.count * self._known[memory]
+
+    def of_lag(self) -> float:
+        """Compute the same without smoothing, beside what lags in a motor."""
+        return self.count * self._measure(0.0, LAGGING)
+
+    def _measure(self, memory: float, beside: Sequence[str] = ()) -> float:
+        """Measure the mean logarithm of the density of a speed."""
+        estimate = self.shaper.fit(replace(self.timing, memory=memory), beside).estimate
+        pairs = zip(estimate.problem.intervals, estimate.increments, strict=True)
+        rows = [make_error_data(intervals, increments) for intervals, increments in pairs]
+        durations = np.concatenate([row.duration for row in rows])
+        self.count = self.count or len(durations)
+        value = log_likelihood(rows, learn_error_model(rows, estimate.lag), estimate.lag)
+        return value / len(durations) + float(np.mean(np.log(durations))) - log(1.0 - memory)
+
+
+def _list_lattices(recordings: Sequence[Recording]) -> list[float]:
+    """List round shares for which what was smoothed lies on a lattice; none where the speeds do as they are."""
+    longest = max(recordings, key=len).speed
+    if find_lattice(longest) > 0.0:
+        return []
+    some = np.linspace(1, len(longest) - 1, min(LATTICE_SPEEDS, len(longest) - 1)).astype(int)
+    return [memory for memory in ROUND if find_lattice(sharpen(longest, memory)[some]) > 0.0]
+
+
+def _find_likeliest(likelihood: _Likelihood, shares: Sequence[float]) -> float:
+    """Find the likeliest share: one that makes a lattice if any of them is likelier than none."""
+    best = max((0.0, *shares), key=likelihood.of)
+    if best == 0.0 and all(map(is_open, likelihood.shaper.recordings)):
+        return _climb(likelihood.of)
+    return best
+
+
+def _climb(value: Callable[[float], float]) -> float:
+    """Find the likeliest share from 0 on, a round one where that is nearly as likely; 0 where it only falls."""
+    tried = [0.0]
+    for memory in CLIMB:
+        tried.append(memory)
+        if value(memory) <= value(tried[-2]):
+            break
+    if max(tried, key=value) == 0.0:
+        return 0.0
+    bounds = (tried[max(len(tried) - 3, 0)], tried[-1])
+    found = minimize_scalar(lambda memory: -value(float(memory)), bounds=bounds, options={"xatol": TOLERANCE})
+    nearest = min(ROUND, key=lambda one: abs(one - found.x))
+    return nearest if value(nearest) >= value(float(found.x)) - AS_LIKELY else float(found.x)

@@ -1,0 +1,91 @@
+"""Hold how a log's speeds were made, and read recordings by it: when, over which time, and how smoothed."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import log
+
+from motor_identification.recording import Floats, Recording
+from motor_identification.sensor.speed_sensor import is_assumed
+from motor_model.sample import Measurement
+
+INSTANT = 0.02  # rows: the window of a value of one instant
+LEAST_DELAY = 0.05  # rows: with a longer dead time nothing comes too early
+
+TAKEN = (
+    "The speeds are taken as {}: as means over the row before they fit the motion much worse "
+    "(--speed-window {:.3g} --speed-lag {:.3g} says so to an import)."
+)
+SMOOTHED = (
+    "The speeds are smoothed: each keeps {:.3g} of the one before, a filter of {:.3g} ms, as noise and motion show. "
+    "What was smoothed is taken."
+)
+OWN, BEFORE = "values of their rows' own instants", "{} of the row after the voltage's"
+
+
+@dataclass(frozen=True)
+class Timing:
+    """When speeds were made, in rows: how long the window of each is, and how old its middle; and how smoothed."""
+
+    window: float
+    lag: float
+    name: str
+    memory: float = 0.0  # share of the speed before that each one keeps
+
+    def set_on(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
+        """Read recordings with this timing, those of which nobody said another; the first one's notes say so."""
+        timed = [self._set(recording) for recording in recordings]
+        if timed:
+            timed[0] = replace(timed[0], notes=(*timed[0].notes, *self._describe(recordings[0])))
+        return tuple(timed)
+
+    def _set(self, recording: Recording) -> Recording:
+        if self.memory and recording.info.measurement is Measurement.SPEED:
+            recording = replace(recording, speed=sharpen(recording.speed, self.memory))
+        if not is_open(recording):
+            return recording
+        info, row = recording.info, recording.info.sample_period
+        return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=self.lag * row))
+
+    def _describe(self, recording: Recording) -> list[str]:
+        """Say how a recording is read otherwise than it says."""
+        row, notes = recording.info.sample_period, []
+        if self.name and is_open(recording):
+            notes.append(TAKEN.format(self.name, self.window * row, self.lag * row))
+        if self.memory and recording.info.measurement is Measurement.SPEED:
+            notes.append(SMOOTHED.format(self.memory, -1e3 * row / log(self.memory)))
+        return notes
+
+
+ASSUMED = Timing(1.0, 0.5, "")
+OTHERS = (
+    Timing(INSTANT, 0.0, OWN),
+    Timing(1.0, -0.5, BEFORE.format("means")),
+    Timing(INSTANT, -1.0, BEFORE.format("values")),
+)
+
+
+def sharpen(speed: Floats, memory: float) -> Floats:
+    """Compute the speeds (K,) that were smoothed to these, of which each keeps a share of the one before."""
+    sharp = speed.copy()
+    sharp[1:] = (speed[1:] - memory * speed[:-1]) / (1.0 - memory)
+    return sharp
+
+
+def read_again(recording: Recording, timing: Timing | None) -> Recording:
+    """Read a recording again with the timing that a fit found for it; None: as was assumed."""
+    return recording if timing is None else timing.set_on([recording])[0]
+
+
+def list_readings(recording: Recording) -> tuple[Recording, ...]:
+    """List how a recording may be read: as it says, and with values of its rows' own instants where it says nothing."""
+    return (recording, *OTHERS[0].set_on([recording])) if is_open(recording) else (recording,)
+
+
+def is_open(recording: Recording) -> bool:
+    """Decide whether a recording is of speeds of which nobody said when they were made, nor that they are counts.
+
+    A window of one row that ends there, said by hand, is what is assumed, and open as that is.
+    """
+    info = recording.info
+    unsaid = info.measurement is Measurement.SPEED and not info.edges_per_revolution and is_assumed(info)
+    return unsaid and abs(info.speed_lag - ASSUMED.lag * info.sample_period) < LEAST_DELAY * info.sample_period

@@ -1,0 +1,93 @@
+"""Whether speeds were smoothed shows in their noise and in the motion, and a lag of the motor is none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from recorded import as_speed, without_count
+from scipy.signal import lfilter
+from swinging import RUBBING, held_late, noisy, recorded
+
+from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.result import Verdict
+from motor_identification.estimation.global_search import search_globally
+from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.request import SearchConfig
+from motor_identification.identify import Request, identify
+from motor_identification.recording import Recording, check
+from motor_identification.timing.smoothing import _climb
+from motor_identification.timing.speed_timing import find_timing
+from motor_identification.timing.timing import INSTANT, Timing
+
+
+def smoothed(recording: Recording, memory: float) -> Recording:
+    """As a small program logs it, with five digits."""
+    speed = lfilter([1.0 - memory], [1.0, -memory], recording.speed)
+    return check(replace(recording, speed=np.round(speed, 5)))
+
+
+def timing_of(recording: Recording) -> Timing | None:
+    """As a first fit of kv and ka has it."""
+    estimate, _ = search_globally(make_problem([recording], ()), SearchConfig())
+    return find_timing([recording], estimate)
+
+
+def memory_of(recording: Recording) -> float:
+    found = timing_of(recording)
+    return found.memory if found else 0.0
+
+
+@pytest.mark.parametrize("memory", [0.5, 0.85])
+def test_speeds_with_noise_show_how_they_were_smoothed(memory: float) -> None:
+    assert memory_of(smoothed(noisy(0.5), memory)) == pytest.approx(memory, abs=0.03)
+
+
+def test_values_of_an_instant_are_told_when_smoothed_too() -> None:
+    found = timing_of(smoothed(noisy(0.5, instant=True), 0.7))
+    assert found is not None and (found.window, found.lag) == (INSTANT, 0.0)
+    assert found.memory == pytest.approx(0.7, abs=0.03)
+
+
+@pytest.mark.parametrize("memory", [0.35, 0.9])
+def test_counted_speeds_lie_on_a_lattice_for_the_right_share(memory: float) -> None:
+    """To the last digit, though nothing but counting is their noise."""
+    counted = without_count(as_speed(recorded(edges=96)))
+    assert memory_of(counted) == 0.0
+    assert memory_of(smoothed(counted, memory)) == memory
+
+
+@pytest.mark.parametrize(
+    "lag", [{}, {"delay": 0.013}, {"electrical_time_constant": 0.02}, {"electrical_time_constant": 0.06}]
+)
+def test_what_lags_in_the_motor_is_no_smoothing(lag: dict[str, float]) -> None:
+    assert memory_of(check(noisy(0.5, **lag))) == 0.0
+
+
+def test_hardly_smoothed_or_held_speeds_are_left_as_they_are() -> None:
+    assert memory_of(smoothed(noisy(0.5), 0.1)) == 0.0  # worth less than the least that is asked for
+    assert memory_of(smoothed(noisy(0.5), 0.35)) == pytest.approx(0.35, abs=0.05)  # and more
+    assert memory_of(check(held_late(smoothed(noisy(0.5), 0.8), 4, 0))) == 0.0  # shown four times each
+
+
+def test_a_climb_ends_at_the_first_top() -> None:
+    """Behind it the motor's own lag is taken for the filter's."""
+    tops = [(0.55, 100.0), (0.95, 200.0)]
+
+    def value(memory: float) -> float:
+        return float(sum(height * np.exp(-(((memory - top) / 0.1) ** 2)) for top, height in tops))
+
+    assert _climb(value) == pytest.approx(0.55, abs=0.01)
+    assert _climb(lambda memory: -memory) == 0.0
+    assert _climb(lambda memory: -100.0 * (memory - 0.555) ** 2) == 0.55  # a round one is nearly as likely
+    assert _climb(lambda memory: -1e6 * (memory - 0.555) ** 2) == pytest.approx(0.555, abs=1e-3)
+
+
+def test_a_fit_and_a_diagnosis_use_what_was_smoothed() -> None:
+    """Read as they are, the motor would be slower by the filter, and a lag missing."""
+    logged = smoothed(noisy(0.5), 0.8)
+    fit = identify([logged], Request(("coulomb_friction",)))
+    for name, value in RUBBING.items():
+        assert fit.parameters.values[name] == pytest.approx(value, rel=0.03)
+    assert any(note.startswith("The speeds are smoothed: each keeps 0.8") for note in fit.notes)
+    found = diagnose([logged])
+    assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED

@@ -1,0 +1,46 @@
+"""A timing reads speeds as they were made, where nobody said otherwise, and says so."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from swinging import noisy, recorded
+
+from motor_identification.recording import Recording, check
+from motor_identification.timing.timing import ASSUMED, INSTANT, Timing, read_again, sharpen
+
+
+def describe(recording: Recording, **info: Any) -> Recording:
+    return replace(recording, info=replace(recording.info, **info))
+
+
+def test_what_was_said_of_a_recording_to_validate_by_is_believed_too() -> None:
+    said = describe(check(noisy(0.05, 1)), edges_per_revolution=960)
+    open_one, other = Timing(INSTANT, 0.0, "values").set_on([check(noisy(0.05)), said])
+    assert open_one.info.speed_lag == 0.0 and other is said
+    assert Timing(INSTANT, 0.0, "values").set_on([said]) == (said,)
+
+
+def test_a_timing_is_set_on_every_recording_and_said_of_the_first() -> None:
+    first, second = Timing(INSTANT, 0.0, "values").set_on([noisy(1.0), noisy(1.0, 1)])
+    assert first.info.speed_window == second.info.speed_window == pytest.approx(0.0004)
+    assert first.info.speed_lag == second.info.speed_lag == 0.0
+    assert second.notes == noisy(1.0, 1).notes and "taken as values" in first.notes[-1]
+    assert "--speed-window 0.0004 --speed-lag 0 " in first.notes[-1]
+
+
+def test_smoothed_speeds_are_read_as_what_was_smoothed() -> None:
+    """The filter y = m·y + (1 − m)·x undone, to the last digit; edges have nothing that was smoothed."""
+    logged = noisy(0.3)
+    smooth = logged.speed.copy()
+    for k in range(1, len(smooth)):
+        smooth[k] = 0.8 * smooth[k - 1] + 0.2 * logged.speed[k]
+    assert sharpen(smooth, 0.8) == pytest.approx(logged.speed, abs=1e-9)
+    timing = replace(ASSUMED, memory=0.8)
+    read = read_again(replace(logged, speed=smooth), timing)
+    assert np.array_equal(read.speed, sharpen(smooth, 0.8)) and read.info == logged.info
+    assert read.notes[-1].startswith("The speeds are smoothed: each keeps 0.8 of the one before, a filter of 89.6 ms")
+    assert read_again(logged, None) is logged
+    stamped = recorded()
+    assert read_again(stamped, timing) == stamped
