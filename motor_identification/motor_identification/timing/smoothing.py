@@ -4,8 +4,7 @@ y_k = m·y_{k−1} + (1 − m)·x_k, the commonest filter of small programs. It 
 what it does to the speeds it does to their noise too, which nothing in the motor can. So x is computed for several m,
 and the motor fitted to it beside what shapes most motions; what that leaves is judged as random torque and sensor noise
 (`noise/error_learning.py`). The density of y is that of x divided by (1 − m) for every row, and has to be larger than
-that beside what lags in a motor. Counted speeds lie on a
-lattice for the right m alone.
+that beside what lags in a motor. Counted speeds lie on a lattice for the right m alone, which nothing does by chance.
 """
 
 from collections.abc import Callable, Sequence
@@ -13,7 +12,6 @@ from dataclasses import replace
 from math import log
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from motor_identification.noise.error_data import log_likelihood, make_error_data
 from motor_identification.noise.error_learning import learn_error_model
@@ -27,9 +25,11 @@ from motor_model.effects import LAGGING
 # Tried in turn as long as they are likelier: beyond, the motor's own lag is taken for a filter, and that for the motor.
 CLIMB = (0.3, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.92, 0.94, 0.96, 0.98)
 ROUND = tuple(sorted({k / 20 for k in range(1, 20)} | {k / 16 for k in range(1, 16)} | {0.96, 0.97, 0.98, 0.99}))
-LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02  # of log likelihood, in all and a row, that smoothing has to be worth
+# Of log likelihood: in all, and as a part of what it would be if nothing but sensor noise made speeds unlike their
+# prediction. Measured: 0.04 to 3 of that where speeds were smoothed, the less the stronger a torque is beside them.
+LEAST_GAIN, LEAST_PART = 20.0, 0.04
 AS_LIKELY = 3.0  # of log likelihood: a round share that is less likely by no more is what was meant
-TOLERANCE = 0.005
+LEAST_SPEEDS = 200
 LATTICE_SPEEDS = 40  # that are enough for a lattice to be looked closer at
 
 
@@ -44,12 +44,13 @@ def find_memory(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
     shares = _list_lattices(shaper.recordings)
     plain = _Likelihood(shaper, timings[0])
     found = _find_likeliest(plain, shares)
-    least = max(LEAST_GAIN, LEAST_GAIN_OF_ROW * plain.count)
-    if found == 0.0 or min(plain.of(found) - plain.of(0.0), plain.of(found) - plain.of_lag()) <= least:
+    if found not in shares and not _is_worth_it(plain, found):
         return timings[0]
-    others = [_Likelihood(shaper, timing) for timing in timings[1:]]
-    best = [(plain, found), *((one, _find_likeliest(one, shares)) for one in others)]
-    likelihood, memory = max(best, key=lambda pair: pair[0].of(pair[1]))
+    best = (plain, found)
+    for other in (_Likelihood(shaper, timing) for timing in timings[1:]):
+        if other.of(found) > plain.of(found):
+            best = (other, _find_likeliest(other, shares))
+    likelihood, memory = best
     return replace(likelihood.timing, memory=memory)
 
 
@@ -87,15 +88,24 @@ def _list_lattices(recordings: Sequence[Recording]) -> list[float]:
     if find_lattice(longest) > 0.0:
         return []
     some = np.linspace(1, len(longest) - 1, min(LATTICE_SPEEDS, len(longest) - 1)).astype(int)
-    return [memory for memory in ROUND if find_lattice(sharpen(longest, memory)[some]) > 0.0]
+    near = [memory for memory in ROUND if find_lattice(sharpen(longest, memory)[some]) > 0.0]
+    return [memory for memory in near if find_lattice(sharpen(longest, memory)) > 0.0]
 
 
 def _find_likeliest(likelihood: _Likelihood, shares: Sequence[float]) -> float:
-    """Find the likeliest share: one that makes a lattice if any of them is likelier than none."""
-    best = max((0.0, *shares), key=likelihood.of)
-    if best == 0.0 and all(map(is_open, likelihood.shaper.recordings)):
-        return _climb(likelihood.of)
-    return best
+    """Find the likeliest share: of those that make a lattice, if there are any."""
+    if shares:
+        return max(shares, key=likelihood.of)
+    return _climb(likelihood.of) if all(map(is_open, likelihood.shaper.recordings)) else 0.0
+
+
+def _is_worth_it(likelihood: _Likelihood, memory: float) -> bool:
+    """Decide whether speeds are so much likelier with a share than without, beside what lags in a motor too."""
+    if memory == 0.0:
+        return False
+    gain = likelihood.of(memory) - max(likelihood.of(0.0), likelihood.of_lag())
+    most = -0.5 * log(1.0 - memory**2) * likelihood.count  # of white noise, over what it is taken for
+    return gain > max(LEAST_GAIN, LEAST_PART * most) and likelihood.count >= LEAST_SPEEDS
 
 
 def _climb(value: Callable[[float], float]) -> float:
@@ -105,9 +115,17 @@ def _climb(value: Callable[[float], float]) -> float:
         tried.append(memory)
         if value(memory) <= value(tried[-2]):
             break
-    if max(tried, key=value) == 0.0:
-        return 0.0
-    bounds = (tried[max(len(tried) - 3, 0)], tried[-1])
-    found = minimize_scalar(lambda memory: -value(float(memory)), bounds=bounds, options={"xatol": TOLERANCE})
-    nearest = min(ROUND, key=lambda one: abs(one - found.x))
-    return nearest if value(nearest) >= value(float(found.x)) - AS_LIKELY else float(found.x)
+    top = max(tried, key=value)
+    if top == 0.0 or top == tried[-1]:
+        return top
+    peak = _find_peak(*((memory, value(memory)) for memory in tried[-3:]))
+    nearest = min(ROUND, key=lambda one: abs(one - peak))
+    best = max((top, peak, nearest), key=value)
+    return next(one for one in (nearest, top, peak) if value(one) >= value(best) - AS_LIKELY)
+
+
+def _find_peak(*points: tuple[float, float]) -> float:
+    """Find where a parabola through three points has its top."""
+    (a, at_a), (b, at_b), (c, at_c) = points
+    left, right = (b - a) * (at_b - at_c), (b - c) * (at_b - at_a)
+    return b - 0.5 * ((b - a) * left - (b - c) * right) / (left - right)

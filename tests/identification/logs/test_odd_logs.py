@@ -15,7 +15,8 @@ from motor_model.gearing.gear import parse_gear_ratio
 ROWS = 400
 MS = 10 * np.arange(ROWS)
 DUTY = np.repeat(np.array([0, 60, 200, -90, 255, -255, 120, 0]), ROWS // 8)
-RPM = np.round(np.convolve(np.concatenate((np.zeros(40), DUTY)), np.exp(-np.arange(41) / 8.0) / 8.0, "valid"), 1)
+BEFORE = np.concatenate((np.zeros(41), DUTY[:-1]))  # a row's duty drives the motor from then on
+RPM = np.round(np.convolve(BEFORE, np.exp(-np.arange(41) / 8.0) / 8.0, "valid"), 1)
 COUNT = np.cumsum(np.rint(RPM)).astype(np.int64)
 SAID = Said(supply_voltage=12.0, unit="rpm")
 COUNTS = Said(supply_voltage=12.0, edges_per_revolution=1440)

@@ -15,6 +15,7 @@ from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
 from motor_identification.identify import Request, identify
 from motor_identification.recording import Recording, check
+from motor_identification.timing import smoothing
 from motor_identification.timing.smoothing import _climb
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import INSTANT, Timing
@@ -69,6 +70,14 @@ def test_hardly_smoothed_or_held_speeds_are_left_as_they_are() -> None:
     assert memory_of(check(held_late(smoothed(noisy(0.5), 0.8), 4, 0))) == 0.0  # shown four times each
 
 
+@pytest.mark.parametrize(("limit", "value"), [("LEAST_GAIN", 1e4), ("LEAST_PART", 10.0), ("LEAST_SPEEDS", 2000)])
+def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    logged = smoothed(noisy(0.5), 0.7)
+    assert memory_of(logged) > 0.0
+    monkeypatch.setattr(smoothing, limit, value)
+    assert memory_of(logged) == 0.0
+
+
 def test_a_climb_ends_at_the_first_top() -> None:
     """Behind it the motor's own lag is taken for the filter's."""
     tops = [(0.55, 100.0), (0.95, 200.0)]
@@ -76,10 +85,12 @@ def test_a_climb_ends_at_the_first_top() -> None:
     def value(memory: float) -> float:
         return float(sum(height * np.exp(-(((memory - top) / 0.1) ** 2)) for top, height in tops))
 
-    assert _climb(value) == pytest.approx(0.55, abs=0.01)
+    assert _climb(value) == 0.55
     assert _climb(lambda memory: -memory) == 0.0
-    assert _climb(lambda memory: -100.0 * (memory - 0.555) ** 2) == 0.55  # a round one is nearly as likely
-    assert _climb(lambda memory: -1e6 * (memory - 0.555) ** 2) == pytest.approx(0.555, abs=1e-3)
+    assert _climb(lambda memory: memory) == 0.98
+    assert _climb(lambda memory: -100.0 * (memory - 0.575) ** 2) in (0.55, 0.5625, 0.6)  # a round one is as likely
+    assert _climb(lambda memory: -1e6 * (memory - 0.575) ** 2) == pytest.approx(0.575, abs=1e-6)
+    assert _climb(lambda memory: 100.0 * (memory == 0.5) - (memory - 0.4) ** 2) == 0.5  # counts are whole there alone
 
 
 def test_a_fit_and_a_diagnosis_use_what_was_smoothed() -> None:
