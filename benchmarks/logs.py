@@ -74,7 +74,7 @@ def main() -> None:
         "",
         "`python benchmarks/logs.py` makes this page: what `import_log` says of every public log in "
         f"[tests/data](../../tests/data/README.md). {plain} of {len(LINES)} need no option to be read; of the others "
-        "the command asks for what is missing, in one sentence. `--voltage-before` it cannot know.",
+        "the command asks for what is missing, in one sentence. `--voltage-before` it finds where voltages jump.",
         *lines(data),
     ]
     (RESULTS / "logs.md").write_text("\n".join(page) + "\n", encoding="utf-8")
