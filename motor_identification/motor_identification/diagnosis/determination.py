@@ -54,9 +54,12 @@ def is_needed(step: SelectionStep, model: Model, without: Model) -> bool:
     """Decide whether a finding is seen in the gap: one block of time tells it, with wide errors.
 
     Such as an instant, a warming-up of which only the product of rise and rate shows, or a friction that one slow step
-    of a staircase tells; not where that is one of several effects, or ended at a limit of the search.
+    of a staircase tells; not where that is one of several effects, or ended at a limit of the search. A line that
+    repeats with the angle makes any gap smaller that it was fitted to.
     """
     effect = EFFECT_BY_NAME[step.found.effect]
+    if model.held.seen and effect.periodic:
+        return False
     told = effect.anywhere or not (
         step.rivals or any(spec.name in find_limits_hit(model) for spec in effect.parameters)
     )
@@ -87,13 +90,18 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
 
 
 def is_chance_size(effect: str, model: Model) -> bool:
-    """Decide whether an effect that begins at an instant has a size of either sign: a place where any would help."""
-    if not needs_instant(effect):
+    """Decide whether an effect has a size by chance: at an instant where any of either sign would help, or of a line.
+
+    A line that repeats with the angle is in doubt where the fits have seen all that it is judged by.
+    """
+    line = model.held.seen and EFFECT_BY_NAME[effect].periodic
+    if not (line or needs_instant(effect)):
         return False
+    sure = thresholds.SURE_LINE if line else thresholds.SURE_SIZE
     specs, fit = EFFECT_BY_NAME[effect].parameters, model.whitened
     errors = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors
     at = fit.problem.unknowns.names.index(specs[0].name)
-    return bool(abs(fit.theta[at] - specs[0].off) < thresholds.SURE_SIZE * errors[at])
+    return bool(abs(fit.theta[at] - specs[0].off) < sure * errors[at])
 
 
 def _find_unknown(model: Model) -> tuple[str, ...]:

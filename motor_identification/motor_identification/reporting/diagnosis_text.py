@@ -12,6 +12,10 @@ from motor_model.text_table import align_columns
 GAP, FITTED_GAP = "validation RMS error (gap)", "RMS error (gap)"
 TOO_SHORT = "The recording is too short to keep a part of it for validation: record more motion."
 OUT_OF_TIME = "The time limit of {:g} s ended the search: what follows is the best so far; allow more with --budget."
+NO_MOTOR = (
+    "But kv ended at the limit of what is searched: no motor moves like this by such a voltage; check the columns of "
+    "voltage and motion, and their units."
+)
 UNDETERMINED = "this recording determines nothing of it."
 SEEN = (
     "The command changes too seldom to hold any of it out: this gap is of the motion that was fitted; --validate BAG "
@@ -165,6 +169,8 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts = [f"Something may be missing that one response does not tell: {_describe_gap(diagnosis)}."]
     else:
         parts = [f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."]
+    if diagnosis.model.on_bound.get("kv", False):
+        parts.append(NO_MOTOR)
     if diagnosis.time_limit:
         parts.insert(0, OUT_OF_TIME.format(diagnosis.time_limit))
     if diagnosis.undetermined:

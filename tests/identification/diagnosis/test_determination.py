@@ -88,6 +88,24 @@ def test_a_step_of_either_sign_is_chance(monkeypatch: pytest.MonkeyPatch, sigma:
     assert not is_chance_size("coulomb_friction", model)
 
 
+@pytest.mark.parametrize(("sigma", "chance"), [(0.99, True), (1.01, False)])
+def test_a_line_that_was_fitted_to_all_there_is_has_to_be_sure(
+    monkeypatch: pytest.MonkeyPatch, sigma: float, chance: bool
+) -> None:
+    estimate, hold_out = fitted()
+    model = validate_model(
+        hold_out, with_effect(estimate, "encoder_eccentricity", {"eccentricity": 0.01, "eccentricity_phase": 0.5})
+    )
+    at = model.whitened.problem.unknowns.names.index("eccentricity")
+    errors = np.full(len(model.whitened.theta), abs(model.whitened.theta[at]) / (sigma * thresholds.SURE_LINE))
+    monkeypatch.setattr(determination, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
+    seen = replace(model, held=replace(model.held, seen=True))
+    assert is_chance_size("encoder_eccentricity", seen) == chance
+    assert not is_chance_size("encoder_eccentricity", model)  # held-out motion has confirmed it
+    step, worse = found_step(seen, seen, "encoder_eccentricity"), stub_model(10.0 * seen.held.gap, 0.0)
+    assert not is_needed(step, seen, worse) and is_needed(step, model, worse)
+
+
 def test_a_step_by_chance_is_not_named(monkeypatch: pytest.MonkeyPatch) -> None:
     estimate, hold_out = fitted()
     before = validate_model(hold_out, estimate)

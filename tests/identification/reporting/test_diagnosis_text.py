@@ -39,6 +39,13 @@ def test_an_undecided_recording_without_findings_says_what_it_hides(variants: di
     assert join_effects(tuple(effect.name for effect in EFFECTS)).endswith(f" and {len(EFFECTS) - 6} others")
 
 
+def test_a_motor_that_no_voltage_moves_like_this_is_said(variants: dict[Verdict, Diagnosis]) -> None:
+    one = replace(variants[Verdict.NOTHING_MISSING], verdict=Verdict.UNDECIDED)
+    assert "But kv ended" not in summarize_diagnosis(one)
+    walled = replace(one, model=replace(one.model, on_bound=one.model.on_bound | {"kv": True}))
+    assert "But kv ended at the limit of what is searched: no motor moves like this" in summarize_diagnosis(walled)
+
+
 def test_where_nothing_was_held_out_the_gap_is_no_validation(variants: dict[Verdict, Diagnosis]) -> None:
     for verdict, one in variants.items():
         said = summarize_diagnosis(replace(one, after=replace(one.after, seen=True)))
