@@ -80,6 +80,7 @@ class CsvForm:
     voltage_before: bool | None = (
         None  # a row's voltage was applied until its time; else until the next row; None: find
     )
+    even_clock: bool | None = None  # rows are put on an even clock, or kept at their stamps; None: as motion shows
     name: str = "motor"
     max_voltage: float | None = None  # [V]
     time_unit: str = "s"  # of `time_unit_size`

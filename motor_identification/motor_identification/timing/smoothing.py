@@ -30,6 +30,7 @@ ROUND = tuple(sorted({k / 20 for k in range(1, 20)} | {k / 16 for k in range(1, 
 LEAST_GAIN, LEAST_PART = 20.0, 0.04
 AS_LIKELY = 3.0  # of log likelihood: a round share that is less likely by no more is what was meant
 LEAST_SPEEDS = 200
+EVEN = 1e-3  # of a row: rows that differ by no more are of one length
 LATTICE_SPEEDS = 40  # that are enough for a lattice to be looked closer at
 
 
@@ -84,12 +85,18 @@ class _Likelihood:
 
 def _list_lattices(recordings: Sequence[Recording]) -> list[float]:
     """List round shares for which what was smoothed lies on a lattice; none where the speeds do as they are."""
-    longest = max(recordings, key=len).speed
-    if find_lattice(longest) > 0.0:
-        return []
+    longest = max(recordings, key=len)
     some = np.linspace(1, len(longest) - 1, min(LATTICE_SPEEDS, len(longest) - 1)).astype(int)
-    near = [memory for memory in ROUND if find_lattice(sharpen(longest, memory)[some]) > 0.0]
-    return [memory for memory in near if find_lattice(sharpen(longest, memory)) > 0.0]
+    rows = np.diff(longest.time, prepend=2.0 * longest.time[0] - longest.time[1])
+    even = np.ptp(rows) < EVEN * float(np.median(rows))
+    for durations in (np.ones(len(rows)),) if even else (np.ones(len(rows)), rows):  # counts of each by its own row
+        if find_lattice(longest.speed * durations) > 0.0:
+            return []
+        near = [one for one in ROUND if find_lattice((sharpen(longest.speed, one) * durations)[some]) > 0.0]
+        sure = [one for one in near if find_lattice(sharpen(longest.speed, one) * durations) > 0.0]
+        if sure:
+            return sure
+    return []
 
 
 def _find_likeliest(likelihood: _Likelihood, shares: Sequence[float]) -> float:

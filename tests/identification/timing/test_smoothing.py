@@ -16,7 +16,7 @@ from motor_identification.estimation.request import SearchConfig
 from motor_identification.identify import Request, identify
 from motor_identification.recording import Recording, check
 from motor_identification.timing import smoothing
-from motor_identification.timing.smoothing import _climb
+from motor_identification.timing.smoothing import _climb, _list_lattices
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import INSTANT, Timing
 
@@ -55,6 +55,17 @@ def test_counted_speeds_lie_on_a_lattice_for_the_right_share(memory: float) -> N
     counted = without_count(as_speed(recorded(edges=96)))
     assert memory_of(counted) == 0.0
     assert memory_of(smoothed(counted, memory)) == memory
+
+
+def test_counts_of_rows_of_any_length_lie_on_a_lattice_by_their_rows() -> None:
+    counted = without_count(as_speed(recorded(edges=96)))
+    random = np.random.default_rng(5)
+    rows = counted.info.sample_period * random.uniform(0.8, 1.2, len(counted))
+    counts = np.rint(counted.speed * counted.info.sample_period * 96 / (2.0 * np.pi))
+    speed, stamps = counts * 2.0 * np.pi / 96 / rows, np.round(1e9 * np.cumsum(rows)).astype(np.int64)
+    uneven = replace(counted, speed=speed, sample_time=stamps)
+    assert _list_lattices([smoothed(uneven, 0.6)]) == [0.6]
+    assert _list_lattices([check(uneven)]) == []
 
 
 @pytest.mark.parametrize(

@@ -105,6 +105,11 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
         help="a row's voltage was applied until its time, as where a controller logs what it did before it reads the "
         "encoder, or from its time until the next row (default: from then on, unless the row's motion answers it)",
     )
+    add(
+        "--even-clock",
+        action=argparse.BooleanOptionalAction,
+        help="rows came by an even clock, whatever their stamps say, or at their stamps (default: as the motion fits)",
+    )
     add("--max-voltage", type=positive, metavar="V", help="voltage at full duty (default: the largest in the log)")
     _add_counts(add)
     add("--speed-window", type=positive, metavar="S", help="[s] what a speed is the mean over (default: sample period)")

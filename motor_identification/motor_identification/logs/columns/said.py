@@ -44,6 +44,7 @@ class Said:
     split: str | None = None
     rest_until: float | None = None
     voltage_before: bool | None = None
+    even_clock: bool | None = None
     steady: bool = False
     max_voltage: float | None = None
     name: str = "motor"
