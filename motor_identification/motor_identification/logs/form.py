@@ -81,6 +81,7 @@ class CsvForm:
         None  # a row's voltage was applied until its time; else until the next row; None: find
     )
     even_clock: bool | None = None  # rows are put on an even clock, or kept at their stamps; None: as motion shows
+    nominal_period: bool | None = None  # speeds were divided by one period, whatever a row took; None: as motion shows
     name: str = "motor"
     max_voltage: float | None = None  # [V]
     time_unit: str = "s"  # of `time_unit_size`

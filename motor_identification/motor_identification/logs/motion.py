@@ -11,6 +11,7 @@ from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID, pr
 from motor_identification.logs.rows.count_rate import count_rates
 from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.resets import split_at_resets
+from motor_identification.logs.rows.row_lengths import divide_by_own_rows
 from motor_identification.logs.rows.speed_sign import give_signs
 from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import unwrap
@@ -56,6 +57,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         raise RecordingError(
             f"{form.motion} is in {form.unit}: say how many there are in a turn (--edges-per-revolution)."
         )
+    signals, lengths = (signals, []) if form.speed_window else divide_by_own_rows(signals, form.nominal_period)
     signals, signs = give_signs(signals)
     signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=True)
     values = signals.motion
@@ -77,6 +79,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",
         f"The middle of that window is {lag * 1e3:.4g} ms before the row's time{placed}.",
         _about_count(form, signals, edges, window),
+        *lengths,
         *signs,
         *turned,
     )

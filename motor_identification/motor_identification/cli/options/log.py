@@ -110,6 +110,12 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
         action=argparse.BooleanOptionalAction,
         help="rows came by an even clock, whatever their stamps say, or at their stamps (default: as the motion fits)",
     )
+    add(
+        "--nominal-period",
+        action=argparse.BooleanOptionalAction,
+        help="speeds were computed with the period that rows should have had, not with their own (default: as the "
+        "motion fits)",
+    )
     add("--max-voltage", type=positive, metavar="V", help="voltage at full duty (default: the largest in the log)")
     _add_counts(add)
     add("--speed-window", type=positive, metavar="S", help="[s] what a speed is the mean over (default: sample period)")

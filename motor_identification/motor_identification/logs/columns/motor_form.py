@@ -86,6 +86,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
         rest_until=_rest(table, stamps, pair, kind, said, notes),
         voltage_before=said.voltage_before,
         even_clock=said.even_clock,
+        nominal_period=said.nominal_period,
         name=said.name if said.name != "motor" or not pair.label else pair.label,
         max_voltage=said.max_voltage or (said.supply_voltage if drive.full and driven else None),
         time_unit=rows.unit,

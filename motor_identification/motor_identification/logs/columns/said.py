@@ -45,6 +45,7 @@ class Said:
     rest_until: float | None = None
     voltage_before: bool | None = None
     even_clock: bool | None = None
+    nominal_period: bool | None = None
     steady: bool = False
     max_voltage: float | None = None
     name: str = "motor"

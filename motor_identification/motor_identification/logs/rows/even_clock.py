@@ -68,17 +68,16 @@ def _lay_clock(stamps: Floats) -> Floats | None:
 def _fits_better(even: Floats, stamps: Floats, motion: Floats) -> bool:
     """Decide whether a motion (K,) follows parabolas over an even clock far better than over its stamps [s]."""
     some = slice(0, MOST_ROWS)
-    by_clock, rate = _measure_scatter(even[some], motion[some])
-    by_stamps, _ = _measure_scatter(stamps[some], motion[some])
+    by_clock, by_stamps = measure_scatter(even[some], motion[some]), measure_scatter(stamps[some], motion[some])
+    rate = np.abs(motion[some][WINDOW - 1 :] - motion[some][: 1 - WINDOW])
     fast = (rate >= np.quantile(rate, FASTEST)) & (rate > 0.0) & (by_stamps > 0.0)
     return bool(fast.any()) and float(np.median(by_clock[fast] / by_stamps[fast])) < BETTER
 
 
-def _measure_scatter(time: Floats, motion: Floats) -> tuple[Floats, Floats]:
-    """Measure what parabolas through windows of rows leave, squared, and how far they go; (K − 6,) each."""
+def measure_scatter(time: Floats, motion: Floats) -> Floats:
+    """Measure what parabolas over time [s] through windows of rows leave of a motion (K,), squared; shape (K − 6,)."""
     times, values = (sliding_window_view(column, WINDOW) for column in (time, motion))
     span = np.ptp(times, axis=1)
     scaled = (times - times.mean(axis=1, keepdims=True)) / np.where(span > 0.0, span, 1.0)[:, None]
     basis = np.linalg.qr(scaled[:, :, None] ** np.arange(3))[0]
-    left = values - np.einsum("wik,wjk,wj->wi", basis, basis, values)
-    return np.sum(left**2, axis=1), np.abs(values[:, -1] - values[:, 0])
+    return np.asarray(np.sum((values - np.einsum("wik,wjk,wj->wi", basis, basis, values)) ** 2, axis=1))

@@ -1,0 +1,59 @@
+"""Divide counted speeds by the lengths that their rows had, where a program divided by the one they should have had.
+
+`rpm = 60 * count / (N * T)` with a constant T is right for a loop that keeps its period. Where it does not, a row that
+took longer has more counts, and its speed is too high by as much. The motion tells: speeds that are divided by their
+own rows follow it more closely. A sensor that counts for a time of its own is made worse by that.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from motor_identification.logs.rows.even_clock import measure_scatter
+from motor_identification.logs.signals import Floats, Signals
+
+LEAST_ROWS = 50
+MOST_ROWS = 20_000  # that the motion is looked at in
+IRREGULAR = 0.01  # of a row: standard deviation of the rows' lengths that matters
+LONGEST = 5.0  # rows: what is longer is a gap, in which nothing may have been counted
+FASTEST = 0.5  # quantile of the speed, above which rows tell of their lengths
+TRUSTED = 0.9  # quantile of the scatter that counts: where the voltage jumps no parabola follows
+BETTER = 0.85  # of the scatter that speeds leave as they are: less is left by those of their own rows
+
+
+def divide_by_own_rows(signals: Signals, wanted: bool | None = None) -> tuple[Signals, list[str]]:
+    """Divide speeds by the lengths of their own rows where they were divided by one for all; and say so.
+
+    wanted: as somebody said; None as the motion shows.
+    """
+    steps = signals.steps() * 1e-9
+    if wanted is False or len(steps) < LEAST_ROWS or not np.std(steps[steps > 0.0]) > IRREGULAR * np.median(steps):
+        return signals, []
+    period, motion, told = float(np.median(steps)), np.array(signals.motion, np.float64), []
+    for run in signals.runs.values():
+        rows = np.diff(signals.time[run]) * 1e-9
+        lengths = np.append(period, np.where((rows > 0.0) & (rows < LONGEST * period), rows, period))
+        motion[run] *= period / lengths
+        stamps = np.asarray(signals.time[run] * 1e-9, np.float64)
+        told.append(_compare(stamps, signals.motion[run], motion[run]))
+    as_they_are, by_rows = np.sum(told, axis=0)
+    if not (wanted or (as_they_are > 0.0 and by_rows < BETTER * as_they_are)):
+        return signals, []
+    said = (
+        f"Speeds were computed as if every row took {1e3 * period:.4g} ms: they are divided by the rows' own lengths, "
+        "which the motion follows (assumed; otherwise: --no-nominal-period)."
+    )
+    return replace(signals, motion=motion), [said]
+
+
+def _compare(time: Floats, *motions: Floats) -> tuple[float, ...]:
+    """Measure how far motions (K,) are beside parabolas over time [s], squared, where the first one is fast."""
+    if len(time) < LEAST_ROWS:
+        return (0.0,) * len(motions)
+    some = slice(0, MOST_ROWS)
+    middles = 0.5 * (time[some] + np.append(time[0], time[some][:-1]))
+    scatters = [measure_scatter(middles, motion[some]) for motion in motions]
+    size = np.abs(motions[0][some])[3:-3]
+    fast = (size >= np.quantile(size, FASTEST)) & (size > 0.0)
+    fast &= scatters[0] <= np.quantile(scatters[0][fast], TRUSTED) if fast.any() else fast
+    return tuple(float(np.sum(scatter[fast])) for scatter in scatters)

@@ -1,0 +1,98 @@
+"""Speeds by a period that rows should have had are divided by the rows' own, and no others."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.log import read_log
+from motor_identification.logs.rows import row_lengths
+from motor_identification.logs.rows.row_lengths import divide_by_own_rows
+from motor_identification.logs.signals import Signals
+
+Floats = NDArray[np.float64]
+
+ROWS, PERIOD = 400, 0.01  # [s]
+FORM = CsvForm("t", "u", "w", Kind.SPEED, "rad/s")
+
+
+def loop(jitter: float = 0.15) -> Floats:
+    """The instants [s] of a loop whose periods are off by a share of the one that it should have."""
+    rows = PERIOD * (1.0 + jitter * np.random.default_rng(2).standard_normal(ROWS - 1)).clip(0.5)
+    return np.append(0.0, np.cumsum(rows))
+
+
+def travel(time: Floats) -> Floats:
+    return 300.0 * time + 40.0 * np.sin(3.0 * time)
+
+
+def by_own_rows(time: Floats) -> Floats:
+    return np.append(300.0, np.diff(travel(time)) / np.diff(time))
+
+
+def by_nominal(time: Floats) -> Floats:
+    return np.append(300.0, np.diff(travel(time)) / PERIOD)
+
+
+def signals(time: Floats, motion: Floats) -> Signals:
+    blank = np.full(len(time), np.nan)
+    stamps = np.round(time * 1e9).astype(np.int64)
+    lines = np.arange(2, len(time) + 2)
+    return Signals(Path("log.csv"), lines, stamps, np.ones(len(time)), motion, blank, blank, {"": slice(0, len(time))})
+
+
+def test_a_row_that_took_longer_had_more_counts() -> None:
+    time = loop()
+    found, said = divide_by_own_rows(signals(time, by_nominal(time)))
+    ratio = found.motion[1:] / by_own_rows(time)[1:]
+    assert np.ptp(ratio) < 1e-6 and ratio[0] == pytest.approx(1.0, rel=0.02)  # but for the median row
+    assert said[0].startswith("Speeds were computed as if every row took 9.987 ms") and "--no-nominal-period" in said[0]
+
+
+@pytest.mark.parametrize("noise", [0.0, 3.0])
+def test_speeds_of_their_own_rows_or_times_are_left(noise: float) -> None:
+    time = loop()
+    random = np.random.default_rng(4)
+    window = 0.5 * PERIOD  # that a sensor counts in, whatever the loop does
+    own_time = (travel(time) - travel(time - window)) / window
+    for motion in (by_own_rows(time), own_time):
+        logged = signals(time, motion + noise * random.standard_normal(ROWS))
+        assert divide_by_own_rows(logged) == (logged, [])
+    even = signals(loop(0.001), by_nominal(loop(0.001)))
+    assert divide_by_own_rows(even) == (even, [])
+
+
+def test_a_gap_is_no_row_and_somebody_may_say_it() -> None:
+    time = loop()
+    later = time + np.where(np.arange(ROWS) >= 200, 2.0, 0.0)
+    logged = signals(later, by_nominal(time))
+    found, said = divide_by_own_rows(logged)
+    assert said and found.motion[200] == logged.motion[200] and found.motion[201] != logged.motion[201]
+    assert divide_by_own_rows(logged, False) == (logged, [])
+    own = signals(time, by_own_rows(time))
+    assert divide_by_own_rows(own, True)[1] and not divide_by_own_rows(own)[1]
+
+
+@pytest.mark.parametrize(("limit", "value"), [("LEAST_ROWS", ROWS + 1), ("IRREGULAR", 0.5), ("BETTER", 0.0)])
+def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    time = loop()
+    logged = signals(time, by_nominal(time))
+    monkeypatch.setattr(row_lengths, limit, value)
+    assert divide_by_own_rows(logged) == (logged, [])
+
+
+def test_an_import_says_it_and_lets_it_be_said(tmp_path: Path) -> None:
+    time = loop()
+    rows = "".join(f"{t:.6f},6,{w:.4f}\n" for t, w in zip(time, by_nominal(time), strict=True))
+    (tmp_path / "log.csv").write_text("t,u,w\n" + rows, encoding="utf-8")
+    speeds = {}
+    for said in (None, False):
+        log = read_log(tmp_path / "log.csv", replace(FORM, nominal_period=said))
+        assert any("--no-nominal-period" in line for line in log.findings) == (said is None)
+        speeds[said] = np.array([one.speed for one in log.runs[0].samples])
+    assert np.std(np.diff(speeds[None])[1:]) < 0.1 * np.std(np.diff(speeds[False])[1:])
+    window = read_log(tmp_path / "log.csv", replace(FORM, speed_window=0.01))  # somebody knows what they are
+    assert not any("--no-nominal-period" in line for line in window.findings)
