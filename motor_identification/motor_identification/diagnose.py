@@ -29,6 +29,7 @@ from motor_identification.progress import ProgressReporter, Stage, Stopped, Time
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
 from motor_identification.timing.speed_timing import find_timing
+from motor_identification.timing.timing import Timing
 from motor_identification.validation.hold_out import HoldOut, make_hold_out
 from motor_model.effects import EFFECT_BY_NAME, normalised
 from motor_model.errors import RecordingError
@@ -74,6 +75,7 @@ def diagnose(
         lambda: perf_counter() - begun,
         selected.undetermined,
     )
+    found = replace(found, model=replace(found.model, timing=start.timing))
     if not selected.finished:
         return replace(found, verdict=Verdict.UNDECIDED, time_limit=limit.seconds)
     if found.verdict is Verdict.UNEXPLAINED and not found.findings and limit.best is not None:
@@ -93,6 +95,7 @@ class _Start:
     validation: Sequence[Recording]
     selection: Selection  # without steps
     search: SearchReport
+    timing: Timing | None = None  # of speeds, where it is not as assumed
 
 
 def _begin(
@@ -121,7 +124,8 @@ def _begin_again(start: _Start, request: Request, stopped: Callable[[], bool]) -
     timing = find_timing(start.recordings, selection.model.estimate, selection.hold_out.restrict)
     if timing is None:
         return start
-    return _begin(timing.set_on(start.recordings), timing.set_on(start.validation), request, stopped)
+    again = _begin(timing.set_on(start.recordings), timing.set_on(start.validation), request, stopped)
+    return replace(again, timing=timing)
 
 
 @dataclass(frozen=True)

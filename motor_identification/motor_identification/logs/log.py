@@ -101,7 +101,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     info = replace(info, sample_period=float(np.median(signals.steps())) * 1e-9)
     motion = read_motion(form, info, signals)
     signals = motion.signals
-    found = form.voltage_before is None and acts_before(_driven_speeds(motion))
+    found = form.voltage_before is None and acts_before(_counted_speeds(motion))
     before = form.voltage_before or found
     samples = _samples(motion, _hold(signals, before))
     about = f"{table.path}: {_about_time(signals)}, up to {info.max_voltage:.4g} V."
@@ -129,13 +129,14 @@ def _samples(motion: Motion, held: Floats) -> tuple[Sample, ...]:
     return tuple(map(Sample, *columns))
 
 
-def _driven_speeds(motion: Motion) -> Iterator[tuple[Floats, Floats]]:
-    """Voltages [V] and speeds of every run, each of shape (K,): those of counts are means from row to row."""
+def _counted_speeds(motion: Motion) -> Iterator[tuple[Floats, Floats]]:
+    """Voltages [V] and means from row to row of every run of counts, each of shape (K,).
+
+    Logged speeds tell nothing by this: they may be made of rows after their own. Fits find when they were made.
+    """
     signals = motion.signals
-    for rows in signals.runs.values():
-        if motion.info.measurement is Measurement.SPEED:
-            yield signals.voltage[rows], motion.speed[rows]
-        else:
+    if motion.info.measurement is Measurement.COUNTS:
+        for rows in signals.runs.values():
             yield signals.voltage[rows][1:], np.diff(motion.counts[rows]) / np.diff(signals.time[rows])
 
 

@@ -7,7 +7,7 @@ from motor_identification.monitoring.live_motor import LiveMotor
 from motor_identification.monitoring.model_gap import Model
 from motor_identification.reporting.model_comparison import Identified
 from motor_model.errors import MotorError
-from motor_model.model_file import load, load_errors, load_residual_rms
+from motor_model.model_file import load, load_errors, load_residual_rms, load_speed_memory
 
 
 def load_watch(model: str, mapping: str, namespace: str, limits: Limits) -> Watch:
@@ -22,4 +22,4 @@ def load_watch(model: str, mapping: str, namespace: str, limits: Limits) -> Watc
         )
     identified = Identified(model, load(model), load_errors(model))
     motor = LiveMotor(load_mapping(mapping) if mapping else None, namespace, identified.parameters.max_voltage)
-    return Watch(motor, Model(identified, load_residual_rms(model)), limits)
+    return Watch(motor, Model(identified, load_residual_rms(model), load_speed_memory(model)), limits)

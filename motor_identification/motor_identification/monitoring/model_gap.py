@@ -25,6 +25,7 @@ class Model:
 
     identified: Identified
     residual_rms: float = nan  # [rad/s] NaN: not known
+    speed_memory: float = 0.0  # share of the one before that each speed kept which it was fitted to
 
     @property
     def parameters(self) -> Parameters:
@@ -64,7 +65,10 @@ def measure_gap(motion: Recording | Still, model: Model) -> Gap:
     """
     if isinstance(motion, Still):
         return _measure_still(motion, model)
-    return min((_measure_moving(reading, model) for reading in list_readings(motion)), key=lambda gap: gap.rms)
+    return min(
+        (_measure_moving(reading, model) for reading in list_readings(motion, model.speed_memory)),
+        key=lambda gap: gap.rms,
+    )
 
 
 def _measure_moving(motion: Recording, model: Model) -> Gap:

@@ -31,6 +31,7 @@ LEAST_GAIN, LEAST_PART = 20.0, 0.04
 AS_LIKELY = 3.0  # of log likelihood: a round share that is less likely by no more is what was meant
 LEAST_SPEEDS = 200
 EVEN = 1e-3  # of a row: rows that differ by no more are of one length
+MOST_SHARES = 4  # that make a lattice: where more do, values are too few to tell
 LATTICE_SPEEDS = 40  # that are enough for a lattice to be looked closer at
 
 
@@ -40,19 +41,22 @@ def find_memory(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
     The first of `timings` as it is where the speeds were not smoothed. Where it was said how they were made, only a
     lattice is sign enough.
     """
-    if any(find_frames(recording.time, recording.speed) is not None for recording in shaper.recordings):
-        return timings[0]  # each is shown several times
-    shares = _list_lattices(shaper.recordings)
-    plain = _Likelihood(shaper, timings[0])
-    found = _find_likeliest(plain, shares)
-    if found not in shares and not _is_worth_it(plain, found):
+    if any(_are_as_measured(recording) for recording in shaper.recordings):
         return timings[0]
-    best = (plain, found)
-    for other in (_Likelihood(shaper, timing) for timing in timings[1:]):
-        if other.of(found) > plain.of(found):
-            best = (other, _find_likeliest(other, shares))
-    likelihood, memory = best
-    return replace(likelihood.timing, memory=memory)
+    shares = _list_lattices(shaper.recordings)
+    each = [_Likelihood(shaper, timing) for timing in timings]
+    best = _find_likeliest(each[0], shares)
+    if best not in shares and not _is_worth_it(each, each[0], best):
+        return timings[0]
+    likelihood = max(each, key=lambda one: one.of(best))
+    if likelihood is not each[0]:
+        best = _find_likeliest(likelihood, shares)
+    return replace(likelihood.timing, memory=best)
+
+
+def _are_as_measured(recording: Recording) -> bool:
+    """Whether speeds were not smoothed for sure: each is shown several times, or they lie on a lattice as they are."""
+    return find_frames(recording.time, recording.speed) is not None or find_lattice(recording.speed) > 0.0
 
 
 class _Likelihood:
@@ -95,7 +99,7 @@ def _list_lattices(recordings: Sequence[Recording]) -> list[float]:
         near = [one for one in ROUND if find_lattice((sharpen(longest.speed, one) * durations)[some]) > 0.0]
         sure = [one for one in near if find_lattice(sharpen(longest.speed, one) * durations) > 0.0]
         if sure:
-            return sure
+            return sure if len(sure) <= MOST_SHARES else []
     return []
 
 
@@ -106,11 +110,12 @@ def _find_likeliest(likelihood: _Likelihood, shares: Sequence[float]) -> float:
     return _climb(likelihood.of) if all(map(is_open, likelihood.shaper.recordings)) else 0.0
 
 
-def _is_worth_it(likelihood: _Likelihood, memory: float) -> bool:
-    """Decide whether speeds are so much likelier with a share than without, beside what lags in a motor too."""
-    if memory == 0.0:
+def _is_worth_it(each: Sequence[_Likelihood], likelihood: _Likelihood, memory: float) -> bool:
+    """Decide whether speeds are so much likelier with a share than without, by any timing, beside what lags too."""
+    if memory == 0.0 or likelihood.of(memory) - likelihood.of(0.0) <= LEAST_GAIN:
         return False
-    gain = likelihood.of(memory) - max(likelihood.of(0.0), likelihood.of_lag())
+    plain = max(value for one in each for value in (one.of(0.0), one.of_lag()))
+    gain = max(one.of(memory) for one in each) - plain
     most = -0.5 * log(1.0 - memory**2) * likelihood.count  # of white noise, over what it is taken for
     return gain > max(LEAST_GAIN, LEAST_PART * most) and likelihood.count >= LEAST_SPEEDS
 

@@ -6,6 +6,7 @@ from math import log
 
 from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.speed_sensor import is_assumed
+from motor_identification.sensor.value_lattice import find_lattice
 from motor_model.sample import Measurement
 
 INSTANT = 0.02  # rows: the window of a value of one instant
@@ -39,19 +40,25 @@ class Timing:
         return tuple(timed)
 
     def _set(self, recording: Recording) -> Recording:
-        if self.memory and recording.info.measurement is Measurement.SPEED:
+        if self._smooths(recording):
             recording = replace(recording, speed=sharpen(recording.speed, self.memory))
         if not is_open(recording):
             return recording
         info, row = recording.info, recording.info.sample_period
         return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=self.lag * row))
 
+    def _smooths(self, recording: Recording) -> bool:
+        """Whether a recording's speeds are smoothed by this: not what is no speed, or lies on a lattice as it is."""
+        if not self.memory or recording.info.measurement is not Measurement.SPEED:
+            return False
+        return find_lattice(recording.speed) == 0.0
+
     def _describe(self, recording: Recording) -> list[str]:
         """Say how a recording is read otherwise than it says."""
         row, notes = recording.info.sample_period, []
         if self.name and is_open(recording):
             notes.append(TAKEN.format(self.name, self.window * row, self.lag * row))
-        if self.memory and recording.info.measurement is Measurement.SPEED:
+        if self._smooths(recording):
             notes.append(SMOOTHED.format(self.memory, -1e3 * row / log(self.memory)))
         return notes
 
@@ -76,9 +83,15 @@ def read_again(recording: Recording, timing: Timing | None) -> Recording:
     return recording if timing is None else timing.set_on([recording])[0]
 
 
-def list_readings(recording: Recording) -> tuple[Recording, ...]:
-    """List how a recording may be read: as it says, and with values of its rows' own instants where it says nothing."""
-    return (recording, *OTHERS[0].set_on([recording])) if is_open(recording) else (recording,)
+def list_readings(recording: Recording, memory: float = 0.0) -> tuple[Recording, ...]:
+    """List how a recording may be read: as it says, and with values of its rows' own instants where it says nothing.
+
+    Each also as smoothed, where speeds of the same motor kept a share of the one before.
+    """
+    timings = (ASSUMED, OTHERS[0]) if is_open(recording) else (ASSUMED,)
+    plain = (recording, *(timing.set_on([recording])[0] for timing in timings[1:]))
+    smoothed = [replace(timing, memory=memory).set_on([recording])[0] for timing in timings if memory > 0.0]
+    return (*plain, *smoothed)
 
 
 def is_open(recording: Recording) -> bool:

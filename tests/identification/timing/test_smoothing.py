@@ -1,6 +1,7 @@
 """Whether speeds were smoothed shows in their noise and in the motion, and a lag of the motor is none."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,11 +15,16 @@ from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
 from motor_identification.identify import Request, identify
+from motor_identification.monitoring.model_gap import Model, find_changes, measure_gap
 from motor_identification.recording import Recording, check
+from motor_identification.reporting.fit_model_file import save_model
+from motor_identification.reporting.model_comparison import Identified
 from motor_identification.timing import smoothing
 from motor_identification.timing.smoothing import _climb, _list_lattices
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import INSTANT, Timing
+from motor_model.errors import ModelError
+from motor_model.model_file import load, load_errors, load_residual_rms, load_speed_memory
 
 
 def smoothed(recording: Recording, memory: float) -> Recording:
@@ -102,6 +108,35 @@ def test_a_climb_ends_at_the_first_top() -> None:
     assert _climb(lambda memory: -100.0 * (memory - 0.575) ** 2) in (0.55, 0.5625, 0.6)  # a round one is as likely
     assert _climb(lambda memory: -1e6 * (memory - 0.575) ** 2) == pytest.approx(0.575, abs=1e-6)
     assert _climb(lambda memory: 100.0 * (memory == 0.5) - (memory - 0.4) ** 2) == 0.5  # counts are whole there alone
+
+
+def test_a_few_values_lie_on_any_lattice() -> None:
+    """Of three levels of counts nothing is learned of a filter."""
+    counted = without_count(as_speed(recorded(edges=96)))
+    few = replace(counted, speed=np.repeat([200.3, 203.3, 206.3, 203.3], len(counted) // 4 + 1)[: len(counted)])
+    assert _list_lattices([few]) == []
+
+
+def test_a_model_is_watched_on_speeds_that_are_smoothed_the_same_way(tmp_path: Path) -> None:
+    """By fit and by diagnosis, through its file: no change is seen where there is none."""
+    fit = identify([smoothed(noisy(0.5), 0.8)], Request(("coulomb_friction",)))
+    found = diagnose([smoothed(noisy(0.5), 0.8)]).model
+    for number, one in enumerate((fit, found)):
+        path = tmp_path / f"model_{number}.yaml"
+        save_model(path, one, "2026-01-01T00:00:00")
+        assert load_speed_memory(path) == pytest.approx(0.8, abs=0.02)
+        model = Model(
+            Identified("model", load(path), load_errors(path)), load_residual_rms(path), load_speed_memory(path)
+        )
+        gap = measure_gap(smoothed(noisy(0.5, 1), 0.8), model)
+        assert gap.rms < 1.3 * gap.expected and find_changes(gap, model) == ()
+        assert measure_gap(smoothed(noisy(0.5, 1), 0.8), replace(model, speed_memory=0.0)).rms > 3.0 * gap.rms
+    save_model(tmp_path / "plain.yaml", identify([check(noisy(0.5))], Request(("coulomb_friction",))), "now")
+    assert load_speed_memory(tmp_path / "plain.yaml") == 0.0
+    text = (tmp_path / "model_0.yaml").read_text().replace("speed_memory: 0.8", "speed_memory: 1.0")
+    (tmp_path / "model_0.yaml").write_text(text)
+    with pytest.raises(ModelError, match=r"speed_memory is 1, and must be from 0 to below 1"):
+        load_speed_memory(tmp_path / "model_0.yaml")
 
 
 def test_a_fit_and_a_diagnosis_use_what_was_smoothed() -> None:
