@@ -1,9 +1,9 @@
 """Find whether a row's voltage held until the row, or holds from there on: no motion answers what has not come yet.
 
-The way to a row's position is predicted from the rows before, their voltages, and its own voltage (ARX; L. Ljung, System
-Identification, 1999, 4.2). A voltage that holds from the row on has no part in it, and a controller's that answers the
-row's own speed has a negative one. Only a voltage that had come before has a positive part. Voltages that never jump
-follow from those before, and tell nothing.
+The way to a row's position is predicted from the rows before, their voltages, and its own voltage (ARX; L. Ljung,
+System Identification, 1999, 4.2). A voltage that holds from the row on has no part in it, and a controller's that
+answers the row's own speed has a negative one. Only a voltage that had come before has a positive part. Voltages that
+never jump follow from those before, and tell nothing.
 """
 
 from collections.abc import Iterable
