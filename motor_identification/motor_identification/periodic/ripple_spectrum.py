@@ -68,8 +68,7 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     around = np.arange(-PEAK_REACH * width, PEAK_REACH * width, min(of_run, width))
     likely: list[tuple[float, float]] = []  # how much each peak explains at best, and where
     for peak in _peaks(spectrum, ROUGH_PEAKS):
-        close = rough[peak] + around
-        close = close[(close >= low) & (close <= high)]
+        close = np.unique(np.clip(rough[peak] + around, low, high))
         closer = _spectrum(runs, close, counted, most, problem.raise_if_stopped)
         likely.append((float(closer.max()), float(close[np.argmax(closer)])))
     found: list[Ripple] = []

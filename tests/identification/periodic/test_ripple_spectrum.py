@@ -12,6 +12,7 @@ from small import TRUE
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
+from motor_identification.periodic import ripple_spectrum
 from motor_identification.periodic.periodic_fit import Tracks, measure_angles
 from motor_identification.periodic.ripple_spectrum import (
     LINE_CHANCE,
@@ -84,6 +85,14 @@ def test_a_motor_that_swings_on_by_a_part_of_a_turn_has_its_line_of_one_cycle() 
     assert np.ptp(tracks[0].angle) > 20.0 * tau
     assert max(run.longest_turns() for run in whiten_runs(estimate, tracks)) < 1.5
     assert find_ripples(estimate, tracks)[0].cycles == pytest.approx(1.0, abs=0.02)
+
+
+def test_where_one_line_alone_could_be_seen_it_is_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The grid's points beside it are beyond what is searched."""
+    monkeypatch.setattr(ripple_spectrum, "find_finest", lambda runs, low, high, most: low)
+    estimate, tracks = lacking(**{**RIPPLE, "ripple_cycles": 1.0})
+    low = SPEC_BY_NAME["ripple_cycles"].box(estimate.problem.unknowns.extent)[0]
+    assert [line.cycles for line in find_ripples(estimate, tracks)] == [low]
 
 
 @pytest.mark.parametrize(("off", "share"), [(0.0, 0.9), (0.5, 0.0)])
