@@ -28,7 +28,8 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None) -> li
 
     judged: what it is judged by. Where the fits have seen that, nothing that comes slowly, which takes up whatever a
     model lacks, and nothing that happens once in each of several recordings; and in a single response nothing that
-    happens once or repeats with the angle: some instants, or some line, are found in any.
+    happens once or repeats with the angle: some instants, or some line, are found in any. Where values have white noise
+    and nothing is counted, as a tachogenerator's, there is no disc for anything to be on.
     """
     return [
         effect.name
@@ -41,6 +42,8 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None) -> li
 
 
 def _can_be_judged(effect: Effect, judged: HeldOut) -> bool:
+    if effect.on_disc and all(data.independent for data in judged.intervals):
+        return False
     if not judged.seen or not (effect.anywhere or effect.periodic):
         return True
     return judged.confirms and (effect.periodic or (needs_instant(effect.name) and len(judged.recordings) == 1))

@@ -44,6 +44,8 @@ def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
     assert set(names) - set(list_candidates((), several)) == once
     for response in (one, several):
         assert set(names) - set(list_candidates((), replace(response, confirms=False))) == once | repeating
+    noisy = replace(one, seen=False, intervals=tuple(replace(data, independent=True) for data in one.intervals))
+    assert set(names) - set(list_candidates((), noisy)) == {"encoder_eccentricity"}  # no disc
     sliding = list_candidates(("coulomb_friction",))
     assert "static_friction" in sliding and "coulomb_friction" not in sliding
 
