@@ -10,10 +10,9 @@ from pathlib import Path
 
 import numpy as np
 from any_motor_cases import GROWTH, USUAL
-from foreign_logs import Outcome, find, page, say
+from foreign_logs import run
 from foreign_logs_cases import EXCITATIONS, SENSORS, Case, draw, span_of
 from hidden import OUTSIDE, SIZES
-from seeded_cases import run_seeds
 
 RESULTS = Path(__file__).with_name("results") / "foreign_effects.md"
 RARE = (
@@ -63,21 +62,9 @@ def _draw_sizes(case: Case, name: str, known: dict[str, float], random: np.rando
     return values
 
 
-def one(seed: int) -> Outcome:
-    """Draw, write, import and diagnose a case."""
-    return find(draw_rare(seed))
-
-
 def main() -> None:
     """Print the cases as they come, and write the page."""
-    run_seeds(
-        one,
-        say,
-        lambda outcomes, first: page(outcomes, first, RESULTS.stem, __doc__ or ""),
-        RESULTS,
-        __doc__ or "",
-        100,
-    )
+    run(draw_rare, RESULTS, __doc__ or "")
 
 
 if __name__ == "__main__":

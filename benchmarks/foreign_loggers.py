@@ -11,9 +11,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from foreign_logs import Outcome, find, page, say
+from foreign_logs import run
 from foreign_logs_cases import EXCITATIONS, SENSORS, Case, Logger, draw
-from seeded_cases import run_seeds
 
 RESULTS = Path(__file__).with_name("results") / "foreign_loggers.md"
 SLOWEST_WHOLE = 200.0  # [Hz] from which on whole milliseconds are no stamps
@@ -35,21 +34,9 @@ def draw_logged(seed: int) -> Case:
     return replace(case, excitation=excitation, logger=logger)
 
 
-def one(seed: int) -> Outcome:
-    """Draw, write, import and diagnose a case."""
-    return find(draw_logged(seed))
-
-
 def main() -> None:
     """Print the cases as they come, and write the page."""
-    run_seeds(
-        one,
-        say,
-        lambda outcomes, first: page(outcomes, first, RESULTS.stem, __doc__ or ""),
-        RESULTS,
-        __doc__ or "",
-        100,
-    )
+    run(draw_logged, RESULTS, __doc__ or "")
 
 
 if __name__ == "__main__":

@@ -10,7 +10,9 @@ independent plant moves; `import_log` is told nothing.
 import os
 import tempfile
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from time import process_time
 
@@ -65,11 +67,6 @@ def judge(case: Case, found: Diagnosis) -> str:
     return "right, not all" if names else "silent"
 
 
-def one(seed: int) -> Outcome:
-    """Draw, write, import and diagnose a case."""
-    return find(draw(seed))
-
-
 def find(case: Case) -> Outcome:
     """Write, import and diagnose a case."""
     begun = process_time()
@@ -96,7 +93,7 @@ def row(title: str, outcomes: list[Outcome]) -> str:
     return f"| {title} | {len(outcomes)} | " + " | ".join(cells) + " |"
 
 
-def page(outcomes: list[Outcome], first: int, name: str = RESULTS.stem, about: str = __doc__ or "") -> str:
+def page(outcomes: list[Outcome], first: int, name: str, about: str) -> str:
     """The whole page of the benchmark of this name."""
     groups = {"all": outcomes}
     groups |= {f"… {name}": [one for one in outcomes if one.case.excitation == name] for name in EXCITATIONS}
@@ -135,9 +132,26 @@ def say(outcome: Outcome) -> str:
     return f"{case.seed} {outcome.kind} | {truth} | {outcome.said} | {case.describe()}"
 
 
+def find_drawn(draw_case: Callable[[int], Case], seed: int) -> Outcome:
+    """Draw, write, import and diagnose a case."""
+    return find(draw_case(seed))
+
+
+def run(draw_case: Callable[[int], Case], results: Path, about: str) -> None:
+    """Print the cases that a benchmark draws as they come, and write its page."""
+    run_seeds(
+        partial(find_drawn, draw_case),
+        say,
+        lambda outcomes, first: page(outcomes, first, results.stem, about),
+        results,
+        about,
+        100,
+    )
+
+
 def main() -> None:
     """Print the cases as they come, and write the page."""
-    run_seeds(one, say, page, RESULTS, __doc__ or "", 100)
+    run(draw, RESULTS, __doc__ or "")
 
 
 if __name__ == "__main__":

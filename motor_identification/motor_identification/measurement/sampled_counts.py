@@ -20,12 +20,12 @@ from numpy.lib.stride_tricks import sliding_window_view
 
 from motor_identification.measurement.edges import Edges, move_reversals_to_slowest, read_directions
 from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter
 from motor_identification.sensor.white_noise import estimate_white_noise
 
 UNIFORM_SIGMA = 1.0 / sqrt(12.0)  # standard deviation of what is uniform over 1
 RATE_NEIGHBOURS = 3  # changes on either side that tell how fast the disc turns
-JITTER_WINDOW = 7  # fixes that a parabola is laid through, to see how far stamps jitter
-CHI2_MEDIAN_SHARE = 0.839  # median over mean of χ² with JITTER_WINDOW − 3 degrees of freedom
+CHI2_MEDIAN_SHARE = 0.839  # median over mean of χ² with WINDOW − 3 degrees of freedom
 # Times the variance that counting leaves in a prediction from 6 counts before: that of a line, carried on by one.
 PREDICTED_RATIO = 1.9
 EVEN_ROWS = 0.05  # of a row: how far they may be from even for that
@@ -182,17 +182,12 @@ def estimate_stamp_jitter(fixes: Fixes) -> float:
 
     0 where that is no more than counting itself leaves. It takes a dozen windows of a motor fast enough to tell.
     """
-    if len(fixes) < 2 * JITTER_WINDOW:
+    if len(fixes) < 2 * WINDOW:
         return 0.0
-    time, place = (sliding_window_view(column, JITTER_WINDOW) for column in (fixes.time, fixes.place))
-    scaled = (time - time.mean(axis=1, keepdims=True)) / np.ptp(time, axis=1)[:, None]
-    powers = scaled[:, :, None] ** np.arange(3)
-    basis = np.linalg.qr(powers)[0]
-    left = place - np.einsum("wik,wjk,wj->wi", basis, basis, place)
-    scatter = np.sum(left**2, axis=1) / (JITTER_WINDOW - 3)
-    middle = slice(JITTER_WINDOW // 2, JITTER_WINDOW // 2 + len(scatter))
+    scatter = measure_scatter(fixes.time, fixes.place) / (WINDOW - 3)
+    middle = slice(WINDOW // 2, WINDOW // 2 + len(scatter))
     rate, counting = fixes.rate[middle], fixes.blur[middle] ** 2
-    run = sliding_window_view(fixes.run, JITTER_WINDOW)
+    run = sliding_window_view(fixes.run, WINDOW)
     fast = (rate >= np.quantile(rate, 0.5)) & (fixes.blur[middle] > 0.99 * UNIFORM_SIGMA)
     told = (run[:, 0] == run[:, -1]) & fast
     if np.count_nonzero(told) < 12:

@@ -40,10 +40,11 @@ def find_timing(
     if few or any(recording.info.measurement is not Measurement.SPEED for recording in recordings):
         return None
     shaper = Shaper(recordings, estimate, restrict)
-    timing, both = _find_instants(shaper), (ASSUMED, OTHERS[0]) if _are_open(recordings) else ()
+    timing = _find_instants(shaper)
     if timing is None:
         return None
-    found = find_memory(shaper, (timing, *(one for one in both if one != timing)))
+    usual = (ASSUMED, OTHERS[0]) if _are_open(recordings) else ()
+    found = find_memory(shaper, (timing, *(one for one in usual if one != timing)))
     if found.memory > 0.0:  # smoothed speeds come late: whether they come early shows in what was smoothed
         sharp = replace(ASSUMED, memory=found.memory).set_on(recordings)
         again = _find_instants(Shaper(sharp, estimate, restrict))

@@ -36,7 +36,7 @@ class Timing:
         """Read recordings with this timing, those of which nobody said another; the first one's notes say so."""
         timed = [self._set(recording) for recording in recordings]
         if timed:
-            timed[0] = replace(timed[0], notes=(*timed[0].notes, *self._describe(recordings[0])))
+            timed[0] = replace(timed[0], notes=(*timed[0].notes, *self._describe(recordings[0], timed[0])))
         return tuple(timed)
 
     def _set(self, recording: Recording) -> Recording:
@@ -53,12 +53,12 @@ class Timing:
             return False
         return find_lattice(recording.speed) == 0.0
 
-    def _describe(self, recording: Recording) -> list[str]:
+    def _describe(self, recording: Recording, timed: Recording) -> list[str]:
         """Say how a recording is read otherwise than it says."""
         row, notes = recording.info.sample_period, []
         if self.name and is_open(recording):
             notes.append(TAKEN.format(self.name, self.window * row, self.lag * row))
-        if self._smooths(recording):
+        if timed.speed is not recording.speed:
             notes.append(SMOOTHED.format(self.memory, -1e3 * row / log(self.memory)))
         return notes
 

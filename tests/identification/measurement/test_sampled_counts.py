@@ -10,7 +10,6 @@ from plant import profiles, record
 from recorded import as_counts
 
 from motor_identification.measurement.sampled_counts import (
-    JITTER_WINDOW,
     UNIFORM_SIGMA,
     estimate_stamp_jitter,
     extract_count_changes,
@@ -19,6 +18,7 @@ from motor_identification.measurement.sampled_counts import (
     part_returns,
 )
 from motor_identification.recording import Floats
+from motor_identification.sensor.parabola_scatter import WINDOW
 from motor_model.parameters import PAPER_KA, PAPER_KV
 from motor_model.sample import Measurement
 
@@ -66,8 +66,8 @@ def test_stamps_that_jitter_blur_every_fix_of_a_fast_motor(jitter: float) -> Non
 
 
 def test_a_dozen_fixes_tell_no_jitter() -> None:
-    _, fixes, _ = fixes_at(9.0, (2 * JITTER_WINDOW - 4) * PERIOD)
-    assert len(fixes) < 2 * JITTER_WINDOW and estimate_stamp_jitter(fixes) == 0.0
+    _, fixes, _ = fixes_at(9.0, (2 * WINDOW - 4) * PERIOD)
+    assert len(fixes) < 2 * WINDOW and estimate_stamp_jitter(fixes) == 0.0
 
 
 def test_a_disc_that_does_not_turn_has_no_fixes() -> None:

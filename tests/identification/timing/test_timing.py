@@ -1,22 +1,18 @@
 """A timing reads speeds as they were made, where nobody said otherwise, and says so."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
 from swinging import noisy, recorded
 
-from motor_identification.recording import Recording, check
+from motor_identification.recording import check
 from motor_identification.timing.timing import ASSUMED, INSTANT, Timing, read_again, sharpen
 
 
-def describe(recording: Recording, **info: Any) -> Recording:
-    return replace(recording, info=replace(recording.info, **info))
-
-
 def test_what_was_said_of_a_recording_to_validate_by_is_believed_too() -> None:
-    said = describe(check(noisy(0.05, 1)), edges_per_revolution=960)
+    plain = check(noisy(0.05, 1))
+    said = replace(plain, info=replace(plain.info, edges_per_revolution=960))
     open_one, other = Timing(INSTANT, 0.0, "values").set_on([check(noisy(0.05)), said])
     assert open_one.info.speed_lag == 0.0 and other is said
     assert Timing(INSTANT, 0.0, "values").set_on([said]) == (said,)

@@ -9,9 +9,9 @@ itself has a motion that fits its stamps.
 from dataclasses import replace
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
 from motor_identification.logs.signals import Floats, Signals
+from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter
 
 LEAST_ROWS = 50
 MOST_ROWS = 20_000  # that the motion is looked at in
@@ -20,7 +20,6 @@ MOST_JITTER = 1.5  # rows that any stamp may lie beside the even clock: beyond, 
 # Variance of the stamps' steps in that of the stamps themselves: 2 where each is late on its own, little where a clock
 # runs away row by row.
 LEAST_STEPS = 0.5
-WINDOW = 7  # rows that a parabola is laid through
 FASTEST = 0.75  # quantile of the speed, above which motion tells of its times
 BETTER = 0.5  # of the scatter that stamps leave, in the median: less is left by a clock that was there
 
@@ -72,12 +71,3 @@ def _fits_better(even: Floats, stamps: Floats, motion: Floats) -> bool:
     rate = np.abs(motion[some][WINDOW - 1 :] - motion[some][: 1 - WINDOW])
     fast = (rate >= np.quantile(rate, FASTEST)) & (rate > 0.0) & (by_stamps > 0.0)
     return bool(fast.any()) and float(np.median(by_clock[fast] / by_stamps[fast])) < BETTER
-
-
-def measure_scatter(time: Floats, motion: Floats) -> Floats:
-    """Measure what parabolas over time [s] through windows of rows leave of a motion (K,), squared; shape (K − 6,)."""
-    times, values = (sliding_window_view(column, WINDOW) for column in (time, motion))
-    span = np.ptp(times, axis=1)
-    scaled = (times - times.mean(axis=1, keepdims=True)) / np.where(span > 0.0, span, 1.0)[:, None]
-    basis = np.linalg.qr(scaled[:, :, None] ** np.arange(3))[0]
-    return np.asarray(np.sum((values - np.einsum("wik,wjk,wj->wi", basis, basis, values)) ** 2, axis=1))

@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from motor_identification.logs.rows.even_clock import measure_scatter
 from motor_identification.logs.signals import Floats, Signals
+from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter
 
 LEAST_ROWS = 50
 MOST_ROWS = 20_000  # that the motion is looked at in
@@ -53,7 +53,7 @@ def _compare(time: Floats, *motions: Floats) -> tuple[float, ...]:
     some = slice(0, MOST_ROWS)
     middles = 0.5 * (time[some] + np.append(time[0], time[some][:-1]))
     scatters = [measure_scatter(middles, motion[some]) for motion in motions]
-    size = np.abs(motions[0][some])[3:-3]
+    size = np.abs(motions[0][some])[WINDOW // 2 : -(WINDOW // 2)]
     fast = (size >= np.quantile(size, FASTEST)) & (size > 0.0)
     fast &= scatters[0] <= np.quantile(scatters[0][fast], TRUSTED) if fast.any() else fast
     return tuple(float(np.sum(scatter[fast])) for scatter in scatters)

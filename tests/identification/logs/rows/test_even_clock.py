@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from position_rows import rows
 
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.log import read_log
@@ -24,19 +25,8 @@ def swing(time: Floats) -> Floats:
     return np.asarray(np.round(5000.0 * np.sin(2.0 * time)))
 
 
-def signals(stamps: Floats, motion: Floats, parts: int = 1) -> Signals:
-    count, blank = len(stamps), np.full(len(stamps), np.nan)
-    edges = np.linspace(0, count, parts + 1).astype(int)
-    return Signals(
-        path=Path("log.csv"),
-        lines=np.arange(2, count + 2),
-        time=np.round(stamps * 1e9).astype(np.int64),
-        voltage=np.ones(count),
-        motion=motion,
-        supply=blank,
-        current=blank,
-        runs={str(k): slice(int(a), int(b)) for k, (a, b) in enumerate(zip(edges[:-1], edges[1:], strict=True))},
-    )
+def signals(stamps: Floats, motion: Floats) -> Signals:
+    return replace(rows(motion), time=np.round(stamps * 1e9).astype(np.int64))
 
 
 def late(scale: float, seed: int = 0) -> Signals:
@@ -104,8 +94,8 @@ def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.Monke
 
 def test_an_import_says_it_and_lets_it_be_said(tmp_path: Path) -> None:
     logged = late(0.2)
-    rows = "".join(f"{1e-9 * t:.6f},6,{c:.0f}\n" for t, c in zip(logged.time, logged.motion, strict=True))
-    (tmp_path / "log.csv").write_text("t,u,c\n" + rows, encoding="utf-8")
+    lines = "".join(f"{1e-9 * t:.6f},6,{c:.0f}\n" for t, c in zip(logged.time, logged.motion, strict=True))
+    (tmp_path / "log.csv").write_text("t,u,c\n" + lines, encoding="utf-8")
     found = read_log(tmp_path / "log.csv", FORM)
     stamps = np.array([one.sample_time for one in found.runs[0].samples])
     assert any("--no-even-clock" in line for line in found.findings) and np.ptp(np.diff(stamps)) <= 1

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from position_rows import rows
 
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.log import read_log
@@ -21,8 +22,8 @@ FORM = CsvForm("t", "u", "w", Kind.SPEED, "rad/s")
 
 def loop(jitter: float = 0.15) -> Floats:
     """The instants [s] of a loop whose periods are off by a share of the one that it should have."""
-    rows = PERIOD * (1.0 + jitter * np.random.default_rng(2).standard_normal(ROWS - 1)).clip(0.5)
-    return np.append(0.0, np.cumsum(rows))
+    lengths = PERIOD * (1.0 + jitter * np.random.default_rng(2).standard_normal(ROWS - 1)).clip(0.5)
+    return np.append(0.0, np.cumsum(lengths))
 
 
 def travel(time: Floats) -> Floats:
@@ -38,10 +39,7 @@ def by_nominal(time: Floats) -> Floats:
 
 
 def signals(time: Floats, motion: Floats) -> Signals:
-    blank = np.full(len(time), np.nan)
-    stamps = np.round(time * 1e9).astype(np.int64)
-    lines = np.arange(2, len(time) + 2)
-    return Signals(Path("log.csv"), lines, stamps, np.ones(len(time)), motion, blank, blank, {"": slice(0, len(time))})
+    return replace(rows(motion), time=np.round(time * 1e9).astype(np.int64))
 
 
 def test_a_row_that_took_longer_had_more_counts() -> None:
@@ -86,8 +84,8 @@ def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.Monke
 
 def test_an_import_says_it_and_lets_it_be_said(tmp_path: Path) -> None:
     time = loop()
-    rows = "".join(f"{t:.6f},6,{w:.4f}\n" for t, w in zip(time, by_nominal(time), strict=True))
-    (tmp_path / "log.csv").write_text("t,u,w\n" + rows, encoding="utf-8")
+    lines = "".join(f"{t:.6f},6,{w:.4f}\n" for t, w in zip(time, by_nominal(time), strict=True))
+    (tmp_path / "log.csv").write_text("t,u,w\n" + lines, encoding="utf-8")
     speeds = {}
     for said in (None, False):
         log = read_log(tmp_path / "log.csv", replace(FORM, nominal_period=said))
