@@ -12,9 +12,11 @@ import argparse
 import os
 import sys
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from math import pi
+from multiprocessing import get_context
 from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
@@ -132,6 +134,20 @@ def run(seed: int, rate: float, seconds: float, edge_rate: float = EDGE_RATES[1]
     return Result(source, single, "", seconds, condition)
 
 
+def run_seed(seed: int, rate: float, seconds: float, edge_rate: float) -> Result:
+    """Run one setup under the condition whose turn it is."""
+    return run(seed, rate, seconds, edge_rate, NAMES[seed % len(NAMES)])
+
+
+def in_order(one: Callable[[int], Result], seeds: range, processes: int) -> Iterator[Result]:
+    """Give the results in the order of their seeds, some processes at once."""
+    if processes == 1:
+        yield from map(one, seeds)
+        return
+    with get_context("spawn").Pool(processes) as pool:
+        yield from pool.imap(one, seeds)
+
+
 def table(results: dict[float, list[Result]], kind: Callable[[Result], str], heads: str) -> list[str]:
     """Count runs, hours and stops by rate and kind; heads: of the kind's columns."""
     lines = [
@@ -169,14 +185,16 @@ def main() -> int:
     parser.add_argument("--first", type=int, default=0, help="seed of the first run (default 0)")
     parser.add_argument("--rate", type=float, choices=RATES, help="[Hz] this rate alone")
     parser.add_argument("--edge-rate", type=float, default=EDGE_RATES[1], help="[1/s] at top speed, at most")
+    parser.add_argument("--processes", type=int, default=1, help="at once (default 1)")
     parser.add_argument("--page", type=Path, default=PAGE, help="where the page is written")
     options = parser.parse_args()
     begun = commit()
     results: dict[float, list[Result]] = {}
     for rate, runs in zip((options.rate,) if options.rate else RATES, options.runs * len(RATES), strict=False):
         results[rate] = []
-        for seed in range(options.first, options.first + runs):
-            result = run(seed, rate, options.seconds, options.edge_rate, NAMES[seed % len(NAMES)])
+        seeds = range(options.first, options.first + runs)
+        one = partial(run_seed, rate=rate, seconds=options.seconds, edge_rate=options.edge_rate)
+        for seed, result in zip(seeds, in_order(one, seeds, options.processes), strict=True):
             results[rate].append(result)
             if result.stop:
                 print(f"seed {seed}, {rate:.0f} Hz, {result.condition}, {result.time:.2f} s: {result.stop}", flush=True)

@@ -15,12 +15,12 @@ from motor_model.gearing.gear import edge_angle, exact_gear
 from motor_model.parameters import Parameters
 from motor_model.sample import Info, Measurement, Sample
 from motor_model.sensing.current_sense import make_current_sense
+from motor_model.sensing.edge_record import LATEST, NO_EDGES, POWER_UP, record_edges
 from motor_model.sensing.encoder import Lines, make_disc, make_lines_disc, turn
 from motor_model.sensing.speed_rule import SpeedState, single_channel_speed, speed_magnitude
 
 DELAY, MISS_RATE = INDEX["delay"], INDEX["miss_rate"]
 MOST_EDGES = 4096  # in one sample; at 200 Hz that is 54,000 rad/s on 96 edges
-POWER_UP = 1_000_000_000  # [ns] the board's clock at the first sample: no edge can be at its 0, which means "none yet"
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,10 +83,7 @@ class SimulatedBoard:
         self._current_sense = make_current_sense(parameters, config.seed)
         self._samples = 0
         self._commands: deque[tuple[float, float]] = deque([(-np.inf, 0.0)])  # [s], [V], as latched
-        self._edge_count, self._edge_time, self._edge_period = 0, 0, 0.0
-        self._speed_state, self._last_edge_direction = SpeedState(), 0
-        self._latest: deque[int] = deque(maxlen=config.quadrature + 1)  # [ns] edges passed one way
-        self._entered, self._undone = 0, False  # two channels: how A's rising edge was passed, 0 while A is low
+        self._edges, self._stamps, self._speed_state = NO_EDGES, np.zeros(LATEST, dtype=np.int64), SpeedState()
         self._times, self._directions = np.empty(MOST_EDGES), np.empty(MOST_EDGES, dtype=np.int64)
 
     @property
@@ -122,9 +119,9 @@ class SimulatedBoard:
             sample_time=now,
             speed=self._speed(voltage, now),
             voltage=voltage,
-            edge_count=self._edge_count,
-            edge_time=self._edge_time,
-            edge_period=self._edge_period,
+            edge_count=self._edges.edges,
+            edge_time=self._edges.time,
+            edge_period=self._edges.period,
             current=self._current_sense.read(current) if self._current_sense is not None else nan,
         )
 
@@ -148,44 +145,17 @@ class SimulatedBoard:
             *(self._p, u, self._state, t, dt, disc.forward, disc.backward, self._offset),
             *(self._times, self._directions, not self._config.single_channel and self._config.quadrature == 1),
         )
-        missing = self._p[MISS_RATE] > 0.0
-        for time, direction in zip(self._times[:count], self._directions[:count], strict=True):
-            if abs(direction) == 2:
-                self._see_fall(float(time), int(np.sign(direction)))
-            elif not (missing and self._random.random() < self._p[MISS_RATE]):
-                self._see_edge(float(time), int(direction), undoes=False)
-                self._entered = int(direction)
-
-    def _see_fall(self, time: float, direction: int) -> None:
-        """Two channels: A falls. Where the shaft comes out of the hole at which it went in, the edge is taken back."""
-        if self._entered == -direction:
-            self._see_edge(time, direction, undoes=True)
-        self._entered = 0
-
-    def _see_edge(self, time: float, direction: int, undoes: bool) -> None:
-        tick = self._config.edge_resolution
-        stamp = POWER_UP + (round(time // tick * tick * 1e9) if tick > 0.0 else round(time * 1e9))
-        known = self._edge_time > 0 and not undoes and not self._undone  # the same flank twice is no travel
-        self._edge_period = (stamp - self._edge_time) * 1e-9 if known else 0.0
-        if self._config.quadrature > 1:
-            self._edge_period = self._mean_period(stamp, direction)
-        self._edge_time, self._undone = stamp, undoes
-        self._edge_count += 1 if self._config.single_channel else direction
-        self._last_edge_direction = direction
-
-    def _mean_period(self, stamp: int, direction: int) -> float:
-        """[s] from edge to edge, over the latest period of channel A if the shaft has gone one way for so long."""
-        if direction != self._last_edge_direction:
-            self._latest.clear()
-        self._latest.append(stamp)
-        span = (
-            1 << (len(self._latest) - 1).bit_length() - 1 if len(self._latest) > 1 else 0
-        )  # 1, 2 or 4, as on the board
-        return (stamp - self._latest[-1 - span]) * 1e-9 / span if span else 0.0
+        times, directions = self._times[:count], self._directions[:count]
+        if self._p[MISS_RATE] > 0.0:
+            rising = np.flatnonzero(np.abs(directions) == 1)
+            missed = rising[self._random.random(len(rising)) < self._p[MISS_RATE]]
+            times, directions = np.delete(times, missed), np.delete(directions, missed)
+        how = (self._config.edge_resolution, self._config.single_channel, self._config.quadrature)
+        self._edges = record_edges(self._edges, self._stamps, times, directions, *how)
 
     def _speed(self, voltage: float, now: int) -> float:
-        magnitude = speed_magnitude(self._slot, now, self._edge_time, self._edge_period, self._config.quadrature)
+        magnitude = speed_magnitude(self._slot, now, self._edges.time, self._edges.period, self._config.quadrature)
         if not self._config.single_channel:
-            return self._last_edge_direction * magnitude
+            return self._edges.direction * magnitude
         speed, self._speed_state = single_channel_speed(self._speed_state, magnitude, voltage, now)
         return speed
