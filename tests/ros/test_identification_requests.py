@@ -1,5 +1,6 @@
 """Requests to the identification node that nobody foresaw: too many at once, too long, out of its directory."""
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from subprocess import Popen
@@ -54,6 +55,18 @@ def test_no_request_names_a_place_outside_and_no_parameter_moves_the_places(
         response = bench.call(Identify, "motor/identify", Identify.Request(bag_uris=[uri]))
         assert not response.success and "is outside of bag_directory" in response.message
     assert victim.read_text() == "mine" and list(tmp_path.iterdir()) == [victim]
+
+
+def test_a_pipe_as_a_bag_is_refused_and_the_node_goes_on(bench: Bench, start: Start, tmp_path: Path) -> None:
+    """It waited for somebody to write, and answered nobody until it was started again."""
+    os.mkfifo(tmp_path / "bag.mcap")
+    (tmp_path / "bag").mkdir()
+    os.mkfifo(tmp_path / "bag" / "metadata.yaml")
+    os.mkfifo(tmp_path / "bag" / "bag_0.mcap")
+    serve(start, tmp_path)
+    for uri, said in (("bag.mcap", "is no regular file"), ("bag", "bag"), ("none", "none")):
+        response = bench.call(Identify, "motor/identify", Identify.Request(bag_uris=[uri]))
+        assert not response.success and said in response.message and "\n" not in response.message
 
 
 def test_a_fit_that_takes_too_long_is_ended_and_one_whose_file_cannot_be_written_is_not_lost(

@@ -4,13 +4,17 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
 from domains import free_domain
 from hostile.inputs import KINDS
 from hostile.live import garbled_messages
+from hostile.named import CASES, LIVE
 
+ROOT = Path(__file__).resolve().parents[2]
 SHARE = 0.07  # of the benchmark's
 SEED = 2
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"}
@@ -32,9 +36,24 @@ def test_nothing_breaks_hangs_floods_or_runs() -> None:
     trials = run_trials()
     assert [(kind, number, words, known) for kind, number, words, _, faults, known in trials if faults] == []
     assert len(trials) >= 300 and {trial[3] for trial in trials} <= {0, 1, 2, 130}
-    assert {trial[0] for trial in trials} == {kind.name for kind in KINDS}
+    named = {f"named: {case.name}" for case in CASES if not case.large}
+    assert {trial[0] for trial in trials} == {kind.name for kind in KINDS} | named
     of_bags = [trial[3] for trial in trials if trial[0].startswith("MCAP file")]
     assert 0.45 < of_bags.count(0) / len(of_bags) < 0.8  # 0.3 where the bag that is changed is refused as it is
+
+
+def test_every_input_has_one_name_and_each_that_needs_more_has_its_test() -> None:
+    names = [case.name for case in CASES]
+    assert len(set(names)) == len(names) >= 90 and not set(names) & set(LIVE)
+    assert all((ROOT / test).is_file() for test in LIVE.values())
+
+
+def test_a_named_input_that_ends_otherwise_is_a_fault(tmp_path: Path) -> None:
+    """The sandbox and the cases can tell: the same refusal, with another status, other words or less time wanted."""
+    (case,) = [case for case in CASES if case.name == "a model with kv of 10⁻³⁰⁰"]
+    asked = (case, replace(case, status=0), replace(case, says="all is well"), replace(case, seconds=0.0))
+    found = [one.run(tmp_path / str(k)).faults for k, one in enumerate(asked)]
+    assert found == [(), ("status 1",), ("not said: all is well",), ("0 s",)]
 
 
 def test_living_nodes_outlive_garbled_messages() -> None:

@@ -129,7 +129,8 @@ def _values(message: bytes, types: Mapping[str, Sequence[Field]]) -> dict[str, A
             position += 4
             if position + length > len(message):
                 raise ValueError("a text ends behind its end")
-            values[field.name] = message[position : position + length].removesuffix(b"\0").decode()
+            text = message[position : position + length].removesuffix(b"\0")
+            values[field.name] = text.decode(errors="backslashreplace")  # a name is shown, whatever it is
             position += length
         else:
             kind = _PRIMITIVES[field.type_name].newbyteorder(endian)

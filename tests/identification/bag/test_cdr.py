@@ -1,7 +1,7 @@
 """The vectorised decoder against the real one, and against definitions of other versions."""
 
 import struct
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -97,6 +97,13 @@ INFO = Info("wheel", "hardware", Measurement.COUNTS, 2800, False, 1e-6, 0.001, 0
 def test_info_comes_back_in_all_its_fields() -> None:
     data = serialize_message(info_message(INFO, time_message(5)))
     assert decode_info(data, INFO_DEFINITION) == INFO
+
+
+def test_a_name_that_is_not_utf_8_is_shown_by_its_bytes() -> None:
+    """All else in the message is sound, and a plant written in C says what it likes."""
+    message = info_message(replace(INFO, name="wheel"), time_message(5))
+    data = serialize_message(message).replace(b"wheel\0", b"r\xe4d\x1b[\0")
+    assert decode_info(data, INFO_DEFINITION) == replace(INFO, name=r"r\xe4d\x1b[")
 
 
 def test_info_that_cannot_be_understood() -> None:

@@ -5,8 +5,11 @@ What is forked from a process with threads, such as that of tests that ran befor
 
 import json
 import sys
+import tempfile
+from pathlib import Path
 
 from hostile.inputs import KINDS
+from hostile.named import CASES
 from hostile.trial import tried, warm_up
 
 share, start = float(sys.argv[1]), int(sys.argv[2])
@@ -17,4 +20,10 @@ for kind in KINDS:
         verdict = trial.verdict
         faults = [str(fault) for fault in verdict.faults]
         row = [kind.name, trial.number, list(trial.words), verdict.status, faults, repr(verdict)]
+        print(json.dumps(row), file=out, flush=True)
+for number, case in enumerate(CASES):
+    if not case.large:
+        with tempfile.TemporaryDirectory() as outer:
+            verdict = case.run(Path(outer) / "place")
+        row = [f"named: {case.name}", number, case.words, verdict.status, list(verdict.faults), repr(verdict)]
         print(json.dumps(row), file=out, flush=True)

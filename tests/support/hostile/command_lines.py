@@ -21,8 +21,26 @@ OPTIONS = {
         "import_csv": "time voltage speed unit split edges-per-revolution speed-lag count-quantum",
         "play": "rate topics remap start-offset",
         "tune": "output nope",
+        "compare": "nope",
+        "explore": "profile rounds known-effects voltage speed seed",
+        "import_log": "time voltage speed unit sheet motor sample-period constant-voltage time-unit",
+        "inspect": "output",
+        "record": "topic-namespace duration mapping",
+        "check": "port max-voltage supply-voltage edges-per-revolution gear-ratio quadrature board-id baud",
+        "flash": "port board bridge board-id",
     }.items()
 }
+FIRST = {
+    "experiment": ["step", "--output", "out/bag", "--model", "input.yaml"],
+    "tune": ["input.yaml"],
+    "compare": ["input.yaml", "input.yaml"],
+    "explore": ["out/all", "--model", "none.yaml"],
+    "import_log": ["input.csv", "--dry-run"],
+    "record": ["out/bag", "--mapping", "none.yaml"],
+    "check": ["--port", "none", "--max-voltage", "12", "--edges-per-revolution", "96"],
+    "flash": ["--port", "none"],
+}
+REFUSED = tuple(word for word in (*WORDS, *NUMBERS) if not word.startswith(("/dev", "/proc")))
 
 
 def arguments(draw: Draw, random: Random, folder: Path) -> list[str]:
@@ -30,16 +48,20 @@ def arguments(draw: Draw, random: Random, folder: Path) -> list[str]:
     name = random.choice(list(OPTIONS))
     shutil.copytree(ROOT / "bags" / "step", folder / "input")
     (folder / "input.yaml").write_text((ROOT / "bags" / "paper.yaml").read_text())
+    (folder / "input.csv").write_text("t,u,w\n" + "".join(f"{0.01 * k:.2f},{6 * (k > 9)},{k % 7}\n" for k in range(50)))
     odd = (*WORDS, *NUMBERS, draw(st.text(max_size=12)).replace("\0", ""))
-    first = {"experiment": ["step", "--output", "out/bag", "--model", "input.yaml"], "tune": ["input.yaml"]}.get(
-        name, ["input"]
-    )
+    first = list(FIRST.get(name, ["input"]))
     if name in ("identify",):
         first += FIT
-    if random.random() < 0.15 or name in ("play", "diagnose"):
+    if name == "compare":
+        first[random.randrange(2)] = random.choice((*odd, "input.yaml"))
+    elif name in ("explore", "record", "check", "flash"):  # those would wait for a motor
+        options = random.sample(OPTIONS[name], 1)
+        return [name, *first, options[0], random.choice(REFUSED)]
+    elif random.random() < 0.15 or name in ("play", "diagnose"):
         first[0] = random.choice(odd).replace("input", "none") or "none"
     words = [name, *first]
-    for option in random.sample(OPTIONS[name], random.choice((1, 1, 2))):
+    for option in random.sample(OPTIONS[name], min(random.choice((1, 1, 2)), len(OPTIONS[name]))):
         value = random.choice(odd)
         if option in ("--output", "--json", "--report") and not value.startswith(("/dev/", "/proc", "out")):
             value = f"out/{value[:100].replace('/', '_').replace('..', 'dots')}"  # what the user names is theirs

@@ -26,19 +26,24 @@ class Kind:
     interrupt: float = 0.0  # [s] after which what runs for ever is told to end
 
 
+MODULES = {  # of what is not in motor_identification/cli
+    "tune": "motor_control.cli.tune",
+    "check": "motor_driver.cli.check",
+    "flash": "motor_board.cli.flash",
+    "ros2": "ros2_stand_in.main",
+    "motor_sim": "motor_sim.node",
+    "motor_control": "motor_control.node",
+    "motor_driver": "motor_driver.node",
+    "motor_identification": "motor_identification.service.node",
+    "monitor": "motor_identification.live.monitor_node",
+    "board_emulator": "motor_board.node",
+    "diff_drive": "motor_examples.diff_drive.node",
+}
+
+
 def command(name: str) -> Main:
-    """The main function of a command, such as `identify`."""
+    """The main function of a command or of a node, such as `identify`."""
     from importlib import import_module
 
-    packages = {"tune": "motor_control.cli.tune", "ros2": "ros2_stand_in.main"}
-    main: Main = import_module(packages.get(name, f"motor_identification.cli.{name}")).main
-    return main
-
-
-def node(name: str) -> Main:
-    from importlib import import_module
-
-    modules = {"motor_identification": "service.node", "monitor": "live.monitor_node"}
-    module = f"motor_identification.{modules[name]}" if name in modules else f"{name}.node"
-    main: Main = import_module(module).main
+    main: Main = import_module(MODULES.get(name, f"motor_identification.cli.{name}")).main
     return main

@@ -10,16 +10,21 @@ from hostile.kind import Draw
 from hostile.odd_values import NUMBERS, VALUES, WORDS
 from hostile.yaml_files import yaml_text
 
+ROWS = {
+    "motor_sim": "name sample_rate edges_per_revolution max_voltage model edge_resolution seed gear_ratio",
+    "motor_control": "kp ki voltage_limit model speed_source sample_timeout reference_rate_limit",
+    "motor_driver": "port baud name sample_rate edges_per_revolution max_voltage",
+    "monitor": "model mapping window tolerance",
+    "motor_identification": "bag_directory model_file report_directory mapping particles queue_length time_limit",
+    "board_emulator": "model gear_ratio quadrature bridge chip edges_per_revolution duty_cycle board_id supply_voltage",
+    "diff_drive": "wheel_radius wheel_separation cmd_vel_timeout left right",
+}
+
 
 def parameters(draw: Draw, random: Random, folder: Path) -> list[str]:
     """A node with odd parameters, on the command line or in a file."""
-    name = random.choice(("motor_sim", "motor_sim", "motor_control", "motor_driver", "monitor"))
-    rows = {
-        "motor_sim": "name sample_rate edges_per_revolution max_voltage model edge_resolution seed gear_ratio",
-        "motor_control": "kp ki voltage_limit model speed_source sample_timeout reference_rate_limit",
-        "motor_driver": "port baud name sample_rate edges_per_revolution max_voltage",
-        "monitor": "model mapping window tolerance",
-    }[name].split()
+    name = random.choice(("motor_sim", *ROWS))
+    rows = ROWS[name].split()
     odd = (*NUMBERS, *WORDS)
     if random.random() < 0.5:
         words = [

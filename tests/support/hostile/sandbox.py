@@ -28,6 +28,7 @@ class Verdict:
     megabytes: float
     faults: tuple[str, ...]
     said: str  # the end of what it said on stderr
+    busy: float = 0.0  # [s] of a processor
 
 
 def prepare(folder: Path) -> None:
@@ -57,7 +58,7 @@ def run(main: Main, words: list[str], folder: Path, interrupt: float = 0.0) -> V
         faults.append("files")
     if (folder / RAN).exists():
         faults.append("code")
-    return Verdict(status, seconds, usage.ru_maxrss / 1024, tuple(faults), said[-400:])
+    return Verdict(status, seconds, usage.ru_maxrss / 1024, tuple(faults), said[-400:], usage.ru_utime + usage.ru_stime)
 
 
 def _child(main: Main, words: list[str], folder: Path) -> None:

@@ -2,7 +2,7 @@
 
 The format is "Office Open XML": a ZIP archive of XML. Only what a table needs is read: the names of the sheets, the
 texts that cells share, which styles show dates, and the cells' values, not their formulas. What the archive says of its
-sizes is not believed: every part is read up to a limit, and a part that declares entities is refused.
+sizes is not believed: `workbook_parts` counts what is read.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import re
 import zipfile
 import zlib
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from datetime import datetime, timedelta
 from io import BytesIO
 from itertools import groupby
@@ -19,10 +19,10 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from motor_identification.logs.csv.cells import is_number
+from motor_identification.logs.formats.workbook_parts import MOST_TEXTS, Workbook, name_of
 from motor_model.errors import RecordingError
 
-MOST_BYTES = 2**28  # unpacked, of one part
-MOST_CELLS, MOST_COLUMNS, MOST_SHEETS = 10_000_000, 256, 100
+MOST_COLUMNS, MOST_SHEETS = 256, 100
 SEPARATOR = "\t"
 _DAMAGES = (
     zipfile.BadZipFile,
@@ -53,17 +53,6 @@ class Sheet:
         return sum(is_number(cell, comma=False) for line in self.lines for cell in line.split(SEPARATOR))
 
 
-@dataclass
-class _Workbook:
-    """An open workbook."""
-
-    path: Path
-    archive: zipfile.ZipFile
-    texts: list[str] = field(default_factory=list)
-    dates: frozenset[int] = frozenset()  # styles
-    cells: int = 0
-
-
 def is_workbook(path: Path) -> bool:
     """Whether a ZIP archive is a workbook of Excel."""
     try:
@@ -85,7 +74,7 @@ def read_workbook(path: Path, wanted: str | None) -> tuple[list[str], str]:
     """
     try:
         with zipfile.ZipFile(BytesIO(path.read_bytes())) as archive:
-            sheets = list(_read_sheets(_Workbook(path, archive), wanted))
+            sheets = list(_read_sheets(Workbook(path, archive), wanted))
     except _DAMAGES as error:
         raise RecordingError(f"{path} is a damaged workbook: save it again, or its sheet as CSV.") from error
     except (EOFError, RuntimeError, MemoryError) as error:  # cut off, encrypted, or too large
@@ -98,7 +87,7 @@ def read_workbook(path: Path, wanted: str | None) -> tuple[list[str], str]:
     return best.lines, f"Sheet: {best.name}{more}."
 
 
-def _read_sheets(book: _Workbook, wanted: str | None) -> Iterator[Sheet]:
+def _read_sheets(book: Workbook, wanted: str | None) -> Iterator[Sheet]:
     """Read the sheets with cells, or the one that is wanted."""
     parts = _sheet_parts(book)
     if wanted is not None and wanted not in parts:
@@ -112,53 +101,55 @@ def _read_sheets(book: _Workbook, wanted: str | None) -> Iterator[Sheet]:
                 yield Sheet(name, lines)
 
 
-def _sheet_parts(book: _Workbook) -> dict[str, str]:
+def _sheet_parts(book: Workbook) -> dict[str, str]:
     """Name the part of the archive that holds each sheet."""
     targets = {}
-    for one in _parse(book, "xl/_rels/workbook.xml.rels"):
+    for one in book.parse("xl/_rels/workbook.xml.rels"):
         target = one.get("Target", "")
         targets[one.get("Id", "")] = target.lstrip("/") if target.startswith("/") else f"xl/{target}"
     found = {}
-    for one in _parse(book, "xl/workbook.xml").iter():
-        if _tag(one) == "sheet":
+    for one in book.parse("xl/workbook.xml").iter():
+        if name_of(one) == "sheet":
             relation = next((value for key, value in one.attrib.items() if key.endswith("}id")), "")
-            if targets.get(relation) in book.archive.namelist():
+            if targets.get(relation, "") in book:
                 found[one.get("name", "")] = targets[relation]
     return found
 
 
-def _shared_texts(book: _Workbook) -> list[str]:
-    if "xl/sharedStrings.xml" not in book.archive.namelist():
+def _shared_texts(book: Workbook) -> list[str]:
+    if "xl/sharedStrings.xml" not in book:
         return []
-    return [_text(one) for one in _parse(book, "xl/sharedStrings.xml") if _tag(one) == "si"]
+    texts: list[str] = []
+    for one in book.elements("xl/sharedStrings.xml", "si"):
+        texts.append(_text(one))
+        book.limit(len(texts), MOST_TEXTS, f"{MOST_TEXTS // 10**6} million texts")
+    return texts
 
 
-def _date_styles(book: _Workbook) -> frozenset[int]:
+def _date_styles(book: Workbook) -> frozenset[int]:
     """Find the styles that show numbers as dates or times of day."""
-    if "xl/styles.xml" not in book.archive.namelist():
+    if "xl/styles.xml" not in book:
         return frozenset()
     own: dict[int, str] = {}
     styles: list[int] = []
-    for one in _parse(book, "xl/styles.xml"):
-        if _tag(one) == "numFmts":
+    for one in book.parse("xl/styles.xml"):
+        if name_of(one) == "numFmts":
             own = {int(form.get("numFmtId", "0")): form.get("formatCode", "") for form in one}
-        elif _tag(one) == "cellXfs":
+        elif name_of(one) == "cellXfs":
             styles = [int(form.get("numFmtId", "0")) for form in one]
     shown = {number for number, code in own.items() if _CLOCK.search(_QUOTED.sub("", code))}
     return frozenset(k for k, number in enumerate(styles) if number in (shown if number in own else _DATES))
 
 
-def _lines(book: _Workbook, part: str) -> list[str]:
+def _lines(book: Workbook, part: str) -> list[str]:
     """Read a sheet's rows as lines; rows that it leaves out are empty."""
     lines: list[str] = []
-    with BytesIO(_read(book, part)) as stream:
-        for _, row in ElementTree.iterparse(stream):
-            if _tag(row) != "row":
-                continue
-            place = int(row.get("r", str(len(lines) + 1)))
-            lines += [""] * min(place - 1 - len(lines), 1000)
-            lines.append(_line(book, row))
-            row.clear()
+    for row in book.elements(part, "row"):
+        place = int(row.get("r", str(len(lines) + 1)))
+        for _ in range(min(place - 1 - len(lines), 1000)):
+            lines.append("")
+            book.count_line(0, 0)
+        lines.append(_line(book, row))
     return lines
 
 
@@ -178,17 +169,16 @@ def _largest_block(lines: list[str]) -> list[str]:
     return [SEPARATOR.join(row[best[0] : best[-1] + 1]) for row in rows]
 
 
-def _line(book: _Workbook, row: ElementTree.Element) -> str:
+def _line(book: Workbook, row: ElementTree.Element) -> str:
     cells: list[str] = []
     for cell in row:
-        book.cells += 1
-        if book.cells > MOST_CELLS:
-            raise RecordingError(f"{book.path} has more than {MOST_CELLS // 10**6} million cells: cut it into parts.")
         column = _column(cell.get("r", ""), len(cells))
         if column < MOST_COLUMNS:
             cells += [""] * (column - len(cells))
             cells.append(_value(book, cell))
-    return SEPARATOR.join(cells)
+    line = SEPARATOR.join(cells)
+    book.count_line(len(line), max(len(cells), len(row)))
+    return line
 
 
 def _column(place: str, following: int) -> int:
@@ -202,12 +192,12 @@ def _column(place: str, following: int) -> int:
     return max(number - 1, following)
 
 
-def _value(book: _Workbook, cell: ElementTree.Element) -> str:
+def _value(book: Workbook, cell: ElementTree.Element) -> str:
     kind = cell.get("t", "n")
     if kind == "inlineStr":
         text = _text(cell)
     else:
-        text = next((one.text or "" for one in cell if _tag(one) == "v"), "")
+        text = next((one.text or "" for one in cell if name_of(one) == "v"), "")
         if kind == "s" and text:
             text = _text_of(book, int(text))
         elif kind == "e":
@@ -219,7 +209,7 @@ def _value(book: _Workbook, cell: ElementTree.Element) -> str:
     return " ".join(text.split())
 
 
-def _text_of(book: _Workbook, place: int) -> str:
+def _text_of(book: Workbook, place: int) -> str:
     if not 0 <= place < len(book.texts):
         raise ValueError(place)
     return book.texts[place]
@@ -235,24 +225,6 @@ def _as_time(days: float) -> str:
 
 def _text(element: ElementTree.Element) -> str:
     """The text of an element, however it is set; without how it is pronounced."""
-    inner = [one for one in element.iter() if _tag(one) == "t"]
-    spoken = {id(one) for ruby in element.iter() if _tag(ruby) == "rPh" for one in ruby}
+    inner = [one for one in element.iter() if name_of(one) == "t"]
+    spoken = {id(one) for ruby in element.iter() if name_of(ruby) == "rPh" for one in ruby}
     return "".join(one.text or "" for one in inner if id(one) not in spoken)
-
-
-def _parse(book: _Workbook, part: str) -> ElementTree.Element:
-    return ElementTree.fromstring(_read(book, part))
-
-
-def _read(book: _Workbook, part: str) -> bytes:
-    with book.archive.open(part) as stream:
-        data = stream.read(MOST_BYTES + 1)
-    if len(data) > MOST_BYTES:
-        raise RecordingError(f"{book.path} has more than {MOST_BYTES >> 20} MiB in {part}: save the sheet as CSV.")
-    if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
-        raise RecordingError(f"{book.path} declares entities, as no workbook does: save its sheet as CSV.")
-    return data
-
-
-def _tag(element: ElementTree.Element) -> str:
-    return element.tag.rpartition("}")[2]

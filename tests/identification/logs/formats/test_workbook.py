@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from motor_identification.logs.columns.said import Said
-from motor_identification.logs.formats import workbook
+from motor_identification.logs.formats import workbook_parts
 from motor_identification.logs.formats.workbook import read_workbook
 from motor_identification.logs.imported import import_log
 from motor_model.errors import RecordingError
@@ -121,13 +121,13 @@ def test_what_cannot_be_read_is_a_sentence(tmp_path: Path, content: str, complai
 
 def test_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = write(tmp_path / "a.xlsx", a=sheet(*numbers(*[(1.0, 2.0)] * 50)))
-    monkeypatch.setattr(workbook, "MOST_CELLS", 100)
+    monkeypatch.setattr(workbook_parts, "MOST_CELLS", 100)
     assert len(read_workbook(path, None)[0]) == 50
-    monkeypatch.setattr(workbook, "MOST_CELLS", 99)
-    with pytest.raises(RecordingError, match="cells: cut it into parts"):
+    monkeypatch.setattr(workbook_parts, "MOST_CELLS", 99)
+    with pytest.raises(RecordingError, match="million cells: save the sheet with the table as CSV"):
         read_workbook(path, None)
-    monkeypatch.setattr(workbook, "MOST_BYTES", 1000)
-    with pytest.raises(RecordingError, match="MiB in xl/worksheets/s0.xml: save the sheet as CSV"):
+    monkeypatch.setattr(workbook_parts, "MOST_BYTES", 1000)
+    with pytest.raises(RecordingError, match="MiB in xl/worksheets/s0.xml: save the sheet with the table as CSV"):
         read_workbook(path, None)
 
 
