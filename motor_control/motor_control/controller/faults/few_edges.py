@@ -3,7 +3,15 @@
 from dataclasses import dataclass
 from math import copysign, exp, inf
 
-from motor_control.controller.faults.evidence import HEAVY, KEPT, Config, Seen, find_allowed_voltage, find_push_time
+from motor_control.controller.faults.evidence import (
+    HEAVY,
+    KEPT,
+    USUAL_TIME_CONSTANT,
+    Config,
+    Seen,
+    find_allowed_voltage,
+    find_push_time,
+)
 from motor_control.controller.motion import FAST
 
 FEW = 0.3  # of the expected speed; a load that slows a motor down to this takes 70 % of its stall torque
@@ -13,6 +21,9 @@ BEHIND = 0.5  # of the reference: a motor that turns as it is told has no fault,
 GROWING = 1.2  # of the average of the last 0.15 s: a heavy disc that is still being spun up
 SILENT = 0.1  # [s] without an edge, and so many slots in which some should have come:
 SILENT_SLOTS = 5.0
+# Slots by which what the voltage has in excess alone moves it: from one edge to the next, and half a slot of play.
+PUSHED_SLOTS = 1.5
+MOST_PUSH = 1e9  # [rad/s] where the top speed is not known: any voltage will do
 SILENT_EXCESS, FEW_EXCESS = 0.07, 0.35  # of stall_time that the whole voltage may be in excess: no edge, too few
 SENTENCE = (
     "Edges do not fit the voltage: {:.3g} V, and {:.1f} rad/s where {:.1f} rad/s are expected. See whether the shaft "
@@ -27,6 +38,8 @@ class State:
     expected: float = 0.0  # [rad/s] signed, of the model without a load
     excess: float = 0.0  # [s] of the whole voltage, while edges were too few
     travel: float = 0.0  # [rad] that is expected since the latest edge
+    pushed: float = 0.0  # [rad/s] from a standstill, by what the voltage has in excess since then
+    moved: float = 0.0  # [rad] likewise
 
 
 def check(config: Config, state: State, seen: Seen, regular: bool) -> tuple[str, State]:
@@ -48,15 +61,34 @@ def check(config: Config, state: State, seen: Seen, regular: bool) -> tuple[str,
     if motion.speed >= FEW * expected or obeys:
         return "", State(foreseen, kept, 0.0)
     if voltage <= allowed:  # for now: a voltage that comes and goes is no other motion
-        return "", State(foreseen, kept, 0.0 if motion.edges else state.travel)
+        return "", State(foreseen, kept) if motion.edges else State(foreseen, kept, state.travel, 0.0, state.moved)
     growing = motion.speed > GROWING * motion.slow_speed and motion.speed > 2.0 * config.slot / FAST
     excess = state.excess + (0.0 if growing or braking else (voltage - allowed) / limit * seen.dt)
-    travel = 0.0 if motion.edges else state.travel + expected * seen.dt
-    silent = travel >= SILENT_SLOTS * config.slot
+    travel, pushed, moved = state.travel + expected * seen.dt, state.pushed, state.moved
+    if not braking:
+        pushed, moved = push_motor(config, seen, voltage - allowed, pushed, moved)
+    if motion.edges:
+        travel = pushed = moved = 0.0
+    silent = travel >= SILENT_SLOTS * config.slot and moved >= PUSHED_SLOTS * config.slot
     silent &= motion.silent >= max(SILENT, find_turn_time(config, seen, voltage - allowed))
     bound = config.stall_time * (SILENT_EXCESS if silent else FEW_EXCESS)
     reason = SENTENCE.format(voltage, motion.speed, expected) if excess >= bound > 0.0 else ""
-    return reason, State(foreseen, excess, travel)
+    return reason, State(foreseen, excess, travel, pushed, moved)
+
+
+def push_motor(config: Config, seen: Seen, voltage: float, speed: float, angle: float) -> tuple[float, float]:
+    """Push a motor, without friction, at a speed [rad/s] and an angle [rad] by a voltage [V] for one more sample.
+
+    A motor that crawls has been without an edge for long when its voltage rises, and only begins to turn.
+    """
+    lag = config.time_constant or USUAL_TIME_CONSTANT
+    faster = min(voltage / seen.voltage_limit * find_top_speed(config, seen) / lag * seen.dt, MOST_PUSH)
+    return speed + faster, angle + (speed + 0.5 * faster) * seen.dt
+
+
+def find_top_speed(config: Config, seen: Seen) -> float:
+    """Find the top speed [rad/s] by the model, or the least one that the motion proves; infinite: not known."""
+    return config.fastest if config.fastest < inf else seen.motion.fastest(seen.voltage_limit)
 
 
 def find_turn_time(config: Config, seen: Seen, voltage: float) -> float:
@@ -64,8 +96,7 @@ def find_turn_time(config: Config, seen: Seen, voltage: float) -> float:
 
     It is what is left beyond a load that is allowed; a heavy motor takes long.
     """
-    top = config.fastest if config.fastest < inf else seen.motion.fastest(seen.voltage_limit)
-    return 2.0 * find_push_time(config, top, voltage / seen.voltage_limit, 1.0)
+    return 2.0 * find_push_time(config, find_top_speed(config, seen), voltage / seen.voltage_limit, 1.0)
 
 
 def extrapolate_speed(config: Config, expected: float, seen: Seen) -> float:

@@ -64,6 +64,19 @@ def test_a_load_that_is_turned_round_shows_no_edge_for_a_while(volts: float) -> 
     assert feed_edges(rows, config) == ""
 
 
+@pytest.mark.parametrize("turns", [True, False])
+def test_a_motor_that_crawled_has_not_been_pushed_for_as_long_as_it_shows_no_edge(turns: bool) -> None:
+    """No edge for 0.7 s under 4 V, most of it held by a load; 7 V bring the next one after 0.12 s, or never."""
+    config = replace(KNOWN, fastest=11.2, kv=1.07, time_constant=0.79, friction=0.9, two_channels=True)
+    rows = [turning(1.0, 1.35)] * 200 + [(0.0, 4.0, 0.0)] * 140 + [(0.0, 7.0, 0.0)] * 24
+    rows += [(0.5, 7.0, 10.0)] * 100 if turns else [(0.0, 7.0, 0.0)] * 100
+    reason, when = feed(rows, config, 1.5)
+    if turns:
+        assert reason == ""
+    else:
+        assert "Edges do not fit the voltage" in reason and 1.83 < when < 2.0
+
+
 def feed_edges(rows: list[tuple[float, float, float]], config: Config) -> str:
     """What is said of a motor whose edges come where its speed is not 0."""
     return feed(rows, config, reference=5.0)[0]
