@@ -38,9 +38,14 @@ class Rhythm:
     at_rest: float = 0.0  # [s] of hum under 0 V
 
     @property
+    def even(self) -> bool:
+        """Whether the edges come more evenly than those of most discs."""
+        return self.edges >= EDGES and self.scatter <= EVEN**2
+
+    @property
     def hums(self) -> bool:
-        """Whether these are the edges of hum, or of a motor that happens to turn like it."""
-        return self.edges >= EDGES and self.scatter <= EVEN**2 and is_mains(1.0 / self.period)
+        """Whether these are the edges of the mains' hum, or of a motor that happens to turn like it."""
+        return self.even and is_mains(1.0 / self.period)
 
 
 def follow_rhythm(before: Rhythm, sample: Sample) -> Rhythm:

@@ -14,7 +14,8 @@ In goes what a sample shows (`evidence`), out comes a sentence, or none (`detect
     plugging         a motion that the voltage against it, all that `plug_limit` leaves, does not slow down
     push_at_rest     voltages that no load needs where the motor shall stand
     insensitive_speed  a speed that no voltage changes: hum on the line
-    mains_hum        edges in the rhythm of the mains, under 0 V or beside more voltage than they need
+    hum              edges in the rhythm of the mains, or that have jumped to another one, under 0 V or beside more
+                     voltage than they need
     dropouts         edges that stop and go on as if nothing had been: a loose contact
     contradiction    a reported speed that is not the one of its own edges: a driver that repeats itself, other counts
     overspeed        faster than full voltage can drive the motor of the model: edges that are none, or a load

@@ -6,9 +6,9 @@ from motor_control.controller.faults import (
     contradiction,
     dropouts,
     few_edges,
+    hum,
     insensitive_speed,
     irregular_edges,
-    mains_hum,
     overspeed,
     plugging,
     push_at_rest,
@@ -36,7 +36,7 @@ class State:
     contradicted: contradiction.State = contradiction.State()
     insensitive: insensitive_speed.State = insensitive_speed.State()
     dropped: dropouts.State = dropouts.State()
-    hum: mains_hum.State = mains_hum.State()
+    hums: hum.State = hum.State()
 
 
 def begin(speed: float, before: State | None = None) -> State:
@@ -65,8 +65,8 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     false, contradicted = contradiction.check(config, state.contradicted, seen)
     same, insensitive = insensitive_speed.check(config, state.insensitive, seen)
     loose, dropped = dropouts.check(config, state.dropped, seen)
-    hums, hum = mains_hum.check(config, state.hum, seen)
-    found = (still, few, irregular, odd, away, fast, wrong, kept, restless, false, hums, same, loose)
+    humming, hums = hum.check(config, state.hums, seen)
+    found = (still, few, irregular, odd, away, fast, wrong, kept, restless, false, humming, same, loose)
     return next((one for one in found if one), ""), State(
         stalled,
         missing,
@@ -80,5 +80,5 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
         contradicted,
         insensitive,
         dropped,
-        hum,
+        hums,
     )

@@ -15,8 +15,9 @@ every fourth period is alike there. So a second mean is taken over periods whose
 it is that of ordinary motion, the jumps are the sensor's. Of random edges both means are the same.
 
 Nor is a motor's speed continuous where edges are so far apart that the loop's voltage and a random torque start and
-stop it between two of them: a motor that crawls, on a disc of many slots. Such edges are a fault only under a voltage
-that no crawl needs.
+stop it between two of them: a motor that crawls, on a disc of many slots. Nor where several edges come between two
+samples, of which one period is told, and the motor is so quick that a loop starts and stops it from sample to sample.
+Such edges are a fault only under a voltage that no crawl needs.
 
 A timer that ticks hardly faster than edges come makes steps of its own: a period is known to one tick, and a step
 counts as far as it is larger than what that makes of it.
@@ -25,7 +26,13 @@ counts as far as it is larger than what that makes of it.
 from dataclasses import dataclass, replace
 from math import copysign, exp, inf, log
 
-from motor_control.controller.faults.evidence import Config, Seen, find_allowed_voltage, find_push_time
+from motor_control.controller.faults.evidence import (
+    USUAL_TIME_CONSTANT,
+    Config,
+    Seen,
+    find_allowed_voltage,
+    find_push_time,
+)
 
 FLANKS = 4
 EDGES = 10.0  # over which the jumps are averaged
@@ -101,9 +108,18 @@ def _follow_edge(config: Config, state: State, seen: Seen) -> State:
 def _crawls(config: Config, state: State, seen: Seen) -> bool:
     """Whether these may be the edges of a motor that starts and stops between them, as far as it is known."""
     top_speed = config.fastest if config.fastest < inf else seen.motion.fastest(seen.voltage_limit)
-    if top_speed == inf or state.mean_period <= find_push_time(config, top_speed, PUSH, 1.0):
+    if top_speed == inf:
+        return False
+    slowly = state.mean_period > find_push_time(config, top_speed, PUSH, 1.0)
+    if not (slowly or _swings_between_samples(config, state, seen.dt, top_speed)):
         return False
     return state.voltage <= find_allowed_voltage(config, seen.motion, seen.voltage_limit)
+
+
+def _swings_between_samples(config: Config, state: State, dt: float, top_speed: float) -> bool:
+    """Whether `PUSH` starts or stops such a motion within dt [s], of whose edges only the latest period is told."""
+    reached = PUSH * top_speed * dt / (config.time_constant or USUAL_TIME_CONSTANT)
+    return dt > state.mean_period > 0.0 and reached >= config.slot / state.mean_period
 
 
 def follow_period(state: State, period: float, backward: bool = False, count: int = 0, tick: float = 0.0) -> State:

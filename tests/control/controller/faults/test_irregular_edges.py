@@ -136,6 +136,23 @@ def test_a_motor_that_crawls_starts_and_stops_between_its_edges(
     assert any(reasons) == stops
 
 
+@pytest.mark.parametrize(
+    ("time_constant", "voltage", "stops"), [(0.02, 3.0, False), (0.02, 4.5, True), (0.2, 3.0, True)]
+)
+def test_a_quick_motor_swings_from_sample_to_sample_and_one_period_of_each_is_told(
+    time_constant: float, voltage: float, stops: bool
+) -> None:
+    """A load held at 0 rad/s by a loop at 200 Hz, 500 to 1,300 of 37,500 edges a second (seed 1100424)."""
+    config, state = Config(slot=SLOT, fastest=37_500.0 * SLOT, time_constant=time_constant, kv=0.001), State()
+    rng, reasons = np.random.default_rng(5), []
+    for count in range(0, 600, 10):
+        sample = Sample(0, 0.3, voltage, count, edge_period=0.0008 * float(rng.exponential()))
+        motion = Motion(edges=10, slow_speed=1300.0 * SLOT, slow_voltage=voltage)
+        reason, state = check(config, state, Seen(sample, 0.3, motion, 0.0, 0.005, 12.0))
+        reasons.append(reason)
+    assert any(reasons) == stops
+
+
 def test_what_a_crawl_was_like_is_not_held_against_the_motion_that_follows() -> None:
     """Half a second after 0 rad/s a motor of 36,000 edges a second at its top speed was stopped (seed 300271)."""
     config, state = Config(slot=SLOT, fastest=36_000.0 * SLOT, time_constant=0.03, kv=0.01), State()

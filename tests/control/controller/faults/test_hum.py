@@ -6,9 +6,9 @@ from math import inf, nan
 import pytest
 from fault_bench import LIMIT, SLOT
 
-from motor_control.controller.faults import mains_hum
+from motor_control.controller.faults import hum
 from motor_control.controller.faults.evidence import Config, Seen
-from motor_control.controller.faults.mains_hum import ELSEWHERE, LOAD
+from motor_control.controller.faults.hum import AT_ONCE, ELSEWHERE, KEPT, LOAD, LOAD_BOTH, LOAD_JUMP
 from motor_control.controller.motion import Motion
 from motor_model.sample import Sample
 from motor_model.sensing.mains_rhythm import Rhythm, follow_rhythm
@@ -30,22 +30,36 @@ def told(
     rate: float = 100.0,
     before: float = 3.0,
     seconds: float = 4.0,
+    braked: int = 0,
+    gap: float = 0.0,
+    drift: float = 0.0,
 ) -> tuple[float, str]:
-    """When [s] hum of a rate [1/s] under a mean voltage [V], after a faster motion, is a fault; what is said."""
-    state, rhythm, edge, count = mains_hum.State(), Rhythm(), 0.0, 0
+    """When [s] hum of a rate [1/s] under a mean voltage [V], after a faster motion, is a fault; what is said.
+
+    It comes at once, or is reached within some edges; after a gap [s]; and drifts by a share a second.
+    """
+    state, rhythm, edge, count = hum.State(), Rhythm(), 0.0, 0
     for k in range(round(seconds * 200.0)):
         now = k / 200.0
-        while edge + 1.0 / (rate if count > 20 else 160.0) <= now:
-            edge, count = edge + 1.0 / (rate if count > 20 else 160.0), count + 1
+        while edge + (period := period_of(count, rate, braked, gap, drift)) <= now:
+            edge, count = edge + period, count + 1
         volts = voltage if count > 20 else before
         sample = Sample(10**9 + round(now * 1e9), SPEED, volts, count, 10**9 + round(edge * 1e9), 1.0 / rate)
         rhythm = follow_rhythm(rhythm, sample)
         motion = replace(known, slow_voltage=volts)
         seen = Seen(sample, SPEED, motion, reference, 0.005, LIMIT, rhythm=rhythm)
-        reason, state = mains_hum.check(config, state, seen)
+        reason, state = hum.check(config, state, seen)
         if reason:
             return now, reason
     return inf, ""
+
+
+def period_of(count: int, rate: float, braked: int, gap: float, drift: float) -> float:
+    """[s] that follow an edge: 160 a second before the twentieth."""
+    if count <= 20:
+        return 1.0 / 160.0 + (gap if count == 20 else 0.0)
+    share = min((count - 20) / (braked + 1), 1.0)
+    return ((1.0 - share) / 160.0 + share / rate) * (1.0 + drift * (count - 20) / rate)
 
 
 @pytest.mark.parametrize("config", [ENCODER, MODEL])
@@ -55,14 +69,38 @@ def test_all_the_voltage_beside_hum_is_told_within_half_a_second(config: Config)
     assert reason.startswith("The encoder's line hums with 100 Hz: 12 V change nothing, and 0.") and "pull-up" in reason
 
 
-@pytest.mark.parametrize("rate", [97.0, 104.0, 70.0, 150.0])
-def test_edges_of_another_rate_are_none(rate: float) -> None:
-    assert told(12.0, rate=rate) == (inf, "")
+@pytest.mark.parametrize("rate", [97.0, 104.0, 70.0, 150.0, 240.0])
+def test_edges_of_another_rate_are_none_where_a_load_may_have_braked_the_motor(rate: float) -> None:
+    """It changes by 2 % and more from edge to edge, until it turns steadily: insensitive_speed lets loads be."""
+    assert told(12.0, rate=rate, braked=20) == (inf, "")
 
 
-@pytest.mark.parametrize(("more", "stops"), [(LOAD - 0.02, False), (LOAD + 0.04, True)])
-def test_the_bound_is_a_load_beyond_what_that_speed_needed(more: float, stops: bool) -> None:
-    assert (told(HOLDING + more * LIMIT)[0] < inf) == stops
+@pytest.mark.parametrize("config", [ENCODER, MODEL])
+@pytest.mark.parametrize("rate", [97.0, 104.0, 70.0, 140.0])
+def test_edges_of_another_rate_from_one_to_the_next_are_hum(rate: float, config: Config) -> None:
+    """It was the top speed for ever, at 0.75 and 0.9 of the edges that are wanted."""
+    when, reason = told(12.0, rate=rate, config=config)
+    assert 0.25 < when < 0.6 and f"hums with {rate:.0f} Hz" in reason
+
+
+def test_a_jump_is_one_if_no_load_had_the_time() -> None:
+    least = AT_ONCE * MODEL.time_constant
+    assert told(12.0, rate=70.0, config=MODEL, gap=0.8 * least)[0] < 0.6
+    assert told(12.0, rate=70.0, config=MODEL, gap=1.5 * least) == (inf, "")
+
+
+@pytest.mark.parametrize(("share", "stops"), [(0.5, True), (8.0, False)])
+def test_a_motor_that_spins_up_has_even_edges_too_but_they_drift(share: float, stops: bool) -> None:
+    assert (told(12.0, rate=70.0, drift=share * KEPT)[0] < inf) == stops
+
+
+@pytest.mark.parametrize(("more", "stops"), [(-0.02, False), (0.04, True)])
+@pytest.mark.parametrize(("load", "rate", "braked"), [(LOAD, 100.0, 20), (LOAD_BOTH, 100.0, 0), (LOAD_JUMP, 70.0, 0)])
+def test_the_bound_is_a_load_beyond_what_that_speed_needed(
+    load: float, rate: float, braked: int, more: float, stops: bool
+) -> None:
+    voltage = HOLDING * rate / 100.0 + (load + more) * LIMIT
+    assert (told(voltage, rate=rate, braked=braked)[0] < inf) == stops
 
 
 @pytest.mark.parametrize(
@@ -97,14 +135,14 @@ def test_a_heavy_flywheel_may_coast_through_the_rate_of_the_mains(
 
 def test_a_voltage_that_comes_soon_changes_nothing_of_what_came_under_none() -> None:
     """Hum was there for 0.2 s when the reference came."""
-    state, rhythm = mains_hum.State(), Rhythm()
+    state, rhythm = hum.State(), Rhythm()
     for k in range(400):
         volts = 12.0 if k >= 65 else 0.0
         count = k // 2
         sample = Sample(10**9 + k * 5_000_000, SPEED, volts, count, 10**9 + count * 10_000_000, 0.01)
         rhythm = follow_rhythm(rhythm, sample)
         seen = Seen(sample, SPEED, Motion(slow_voltage=volts), 50.0, 0.005, LIMIT, rhythm=rhythm)
-        reason, state = mains_hum.check(ENCODER, state, seen)
+        reason, state = hum.check(ENCODER, state, seen)
         if reason:
             break
     assert 0.05 < (k - 65) * 0.005 < 0.2
