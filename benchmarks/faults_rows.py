@@ -8,6 +8,7 @@ from faults_line import CableOff, Hum, LooseContact, NowAndThen, Stuck, not_a_nu
 from faults_loop import Loop
 from faults_motor import Motor
 
+from motor_control.controller import controller
 from motor_model.effects import INDEX
 
 TREMBLE = 0.001  # of a period, 1 σ, of hum
@@ -115,6 +116,11 @@ def be_late(loop: Loop) -> None:
     loop.delay = 0.1
 
 
+def be_always_late(loop: Loop) -> None:
+    """Samples wait for 60 ms before they are answered, and have done so from the start: no clock shows it."""
+    loop.delay, loop.state = 0.06, controller.State()
+
+
 def ask_in_turn(loop: Loop) -> None:
     """Stray edges on a lost line, and two who ask for a speed and an angle in turn."""
     loop.line, loop.alternate = CableOff(50.0), True
@@ -191,6 +197,7 @@ FAULTS = (
     Fault("two channels exchanged at 3 % of the top speed", MOTION, swap, reference=0.03, two_channels=True),
     Fault("two channels exchanged at 2 % of the top speed", MOTION, swap, reference=0.02, two_channels=True),
     Fault("samples 100 ms late", KNOWN, be_late),
+    Fault("samples 60 ms late, from the start", MOTION, be_always_late, at_start=True),
     Fault("no samples reach the controller", KNOWN, fall_silent),
     Fault("controller killed", KNOWN, die),
     Fault("speed is not a number", KNOWN, go_wrong),

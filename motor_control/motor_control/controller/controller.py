@@ -13,7 +13,7 @@ from math import nan
 from motor_control.controller import pi
 from motor_control.controller import speed_law as law
 from motor_control.controller.interruptions import count_interruption
-from motor_control.controller.latency import track_latency
+from motor_control.controller.latency import follow_echo, track_latency
 from motor_control.controller.obstacles import explain_stop, find_mistake, find_obstacle, is_finite
 from motor_control.controller.output import DISABLED, NO_SAMPLES, RUNNING, STOPPED, Output, halt
 from motor_control.controller.plant_watch import watch_plant
@@ -48,6 +48,7 @@ __all__ = [
 ]
 
 REPEAT_SILENCE = 0.2  # [s] how often it is said again that no samples come
+EARLIER = 2.0  # sample periods that an answer takes beside what a sample may: from one latch to the next, and back
 TOLD = 0.5  # [s] for which it is said that a demand was not taken
 
 STALE = "The sample is {:.0f} ms old and latency_limit is {:.0f} ms: give the controller more processor time."
@@ -116,7 +117,12 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
         return replace(halt(name, reason, shown, sample.speed), warning=bool(state.dropped)), replace(state, run=None)
     late = age > config.latency_limit
     wanted = Demand(0.0) if mistake else demand
-    output, run = law.step(config, _continue_run(config, state, sample), sample, wanted, late or bool(mistake))
+    before = _continue_run(config, state, sample)
+    output, run = law.step(config, before, sample, wanted, late or bool(mistake))
+    window = config.latency_limit + EARLIER * config.sample_period
+    answer = before.sample_time, before.asked
+    held_back, echo = follow_echo(before.echo, sample, answer, window, config.voltage_limit)
+    run, output = replace(run, echo=echo), replace(output, fault=output.fault or held_back)
     if output.fault:
         state = replace(state, motion=run.motion)
         return _stop_for_good(state, output.fault, output.reference, output.speed, now)

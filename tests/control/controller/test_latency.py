@@ -6,7 +6,7 @@ from bench_board import DEFAULTS, motor
 
 from motor_control.configuration import config_of
 from motor_control.controller import controller
-from motor_control.controller.latency import DRIFT, LatencyState, track_latency
+from motor_control.controller.latency import DRIFT, MOST, Echo, LatencyState, follow_echo, track_latency
 from motor_model.sample import Sample
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
@@ -71,3 +71,69 @@ def test_a_loop_that_was_held_up_does_not_swing(rate: float) -> None:
         speeds.append(simulated.speed if since >= 0 else 50.0)
     assert sum("ms old" in reason for reason in reasons) == 1
     assert min(speeds) < 30.0 and 50.0 < max(speeds) < 55.0
+
+
+def echoed(applied: list[float], asked: list[float], window: float = 0.03) -> tuple[str, float]:
+    """What is said of voltages [V] applied at 200 Hz, of those asked for a sample before each; and the excess [s]."""
+    echo, reason = Echo(), ""
+    for k, (voltage, answer) in enumerate(zip(applied[1:], asked, strict=False)):
+        sample = Sample((k + 1) * 5_000_000, 0.0, voltage)
+        reason, echo = follow_echo(echo, sample, (k * 5_000_000, answer), window, 12.0)
+        if reason:
+            break
+    return reason, echo.excess
+
+
+SWING = [6.0 + 6.0 * np.sin(0.1 * k) for k in range(400)]  # a period of 0.31 s
+
+
+@pytest.mark.parametrize(("late", "stops"), [(1, False), (6, False), (7, False), (16, True), (30, True)])
+def test_a_voltage_that_was_asked_for_long_ago_shows_a_loop_that_is_late(late: int, stops: bool) -> None:
+    applied = [0.0] * late + SWING
+    reason, excess = echoed(applied, SWING)
+    assert bool(reason) == stops
+    assert "late (a slow link to it), or somebody else" in reason if stops else excess < 0.1 * MOST
+
+
+def test_less_than_asked_for_is_no_sign_and_who_drives_the_other_way_is_one() -> None:
+    """A supply that sags, a limit of the plant, an output that is off; and somebody else."""
+    assert echoed([0.5 * voltage for voltage in SWING], SWING) == ("", 0.0)
+    assert echoed([0.0] * 400, SWING) == ("", 0.0)
+    assert "The plant applies -6 V, and no more than -0 V was asked for" in echoed([-6.0] * 400, SWING)[0]
+    assert echoed([1.09 * voltage + 0.2 for voltage in [0.0, *SWING]], SWING) == ("", 0.0)
+
+
+def test_who_allows_old_samples_is_not_asked_about_old_voltages() -> None:
+    assert echoed([0.0] * 30 + SWING, SWING, window=0.3) == ("", 0.0)
+
+
+def swing(late: float, rate: float, observed: bool) -> tuple[float, str]:
+    """The speeds' range in the last second as a share of the reference, of a loop whose samples come late [s]."""
+    plant = motor()
+    board = BoardConfig(sample_rate=rate, slot_irregularity=0.01)
+    values = DEFAULTS | ({"speed_source": "observer", "feedforward": True} if observed else {})
+    config = config_of(values, board.info(plant), plant if observed else None)  # type: ignore[arg-type]
+    simulated, state, command = SimulatedBoard(plant, board), controller.State(), 0.0
+    waiting, speeds = [], []
+    for k in range(round(4.0 * rate)):
+        waiting.append(simulated.sample(command))
+        speeds.append(simulated.speed)
+        if len(waiting) <= late * rate:
+            continue
+        fresh = 87.0 if k == round(0.5 * rate) else None
+        output, state = controller.update(config, state, waiting.pop(0), fresh, k / rate)
+        command = output.terms.voltage
+    last = speeds[-round(rate) :]
+    return (max(last) - min(last)) / 87.0, state.latched
+
+
+@pytest.mark.parametrize("observed", [False, True])
+@pytest.mark.parametrize("rate", [200.0, 1000.0])
+def test_a_loop_that_has_always_been_late_does_not_swing_for_ever(rate: float, observed: bool) -> None:
+    """It did, from a quarter to three quarters of the top speed, and said that it was running."""
+    for late in (0.0, 0.02):
+        wide, stopped = swing(late, rate, observed)
+        assert wide < 0.06 and stopped == ""
+    for late in (0.06, 0.15):
+        wide, stopped = swing(late, rate, observed)
+        assert wide < 0.01 and stopped.startswith("The plant applies ")
