@@ -47,7 +47,7 @@ class Scenario:
     share: float = 1.0  # of the motors asked for
 
 
-EMULATED = Scenario("sensors alone, emulated board", ("coulomb_friction",), share=0.1)
+EMULATED = Scenario("sensors alone, emulated board", ("coulomb_friction",))
 SCENARIOS = (
     Scenario("sensors alone", ("coulomb_friction",)),
     Scenario(

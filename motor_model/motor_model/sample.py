@@ -33,7 +33,7 @@ class Sample:
 
 # [s] by which a current is older than its sample, by its source: the simulated board reads it at the sample, our board
 # in the middle of a PWM pulse before it (motor_board/firmware/board/sense.h). Of others nobody knows.
-CURRENT_LAG = {"simulation": 0.0, "hardware": 2.7e-4}
+CURRENT_LAG = {"simulation": 0.0, "hardware": 2.8e-4}
 
 
 @dataclass(frozen=True, slots=True)

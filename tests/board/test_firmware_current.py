@@ -8,7 +8,7 @@ from electrical import ELECTRIC, LUMPED
 from emulated_board import MS, TICK, Bench, on_each_chip
 
 from motor_board.build import FirmwareConfig
-from motor_board.emulation.emulator import SENSE_NOISE
+from motor_board.emulation.emulator import SENSE_HELD, SENSE_NOISE
 from motor_board.emulation.wiring import Wiring
 from motor_driver.current_limits import CurrentLimits
 from motor_driver.frames.codes import NOT_MEASURED, Flag
@@ -22,6 +22,7 @@ SENSING = FirmwareConfig(current_sense=True, supply_full_scale=20_000)
 MOTOR = Parameters(LUMPED, ("coulomb_friction",), **ELECTRIC)
 PULSE = 128 * MS // 1000  # [cycle] of a PWM period
 GAIN, ZERO, STEP = 0.185, 2.5, 5.0 / 1024
+SUPPLY = 11_992  # [mV] of 3 V on A0, in whole steps
 
 
 def watch(bench: Bench) -> list[tuple[int, float]]:
@@ -30,7 +31,7 @@ def watch(bench: Bench) -> list[tuple[int, float]]:
     inner = bench.emulator._sense
 
     def sense(cycle: int) -> None:
-        seen.append((cycle, bench.emulator.shaft.current_at(cycle)))
+        seen.append((cycle, bench.emulator.shaft.current_at(cycle + SENSE_HELD)))
         inner(cycle)
 
     bench.emulator._sense = sense  # type: ignore[method-assign]
@@ -49,14 +50,14 @@ def test_every_frame_has_the_current_before_its_tick(make_bench: MakeBench, deca
     bench.drive(-192, 60)
     frames = bench.all(Telemetry)
     assert all(isinstance(frame, Sensed) and frame.current != NOT_MEASURED for frame in frames)
-    assert {frame.supply for frame in frames[5:]} <= set(range(11_960, 12_001))  # the converter serves both
+    assert {frame.supply for frame in frames[5:]} == {SUPPLY}  # the converter serves both
     times = np.array([frame.time for frame in frames]) * TICK + bench.chip.clock_zero
     starts = np.array([cycle for cycle, _ in seen])
     before = times[:, None] - starts[None, :]
     latest = np.argmin(np.where(before > 0, before, 1 << 40), axis=1)
     lead = before[np.arange(len(times)), latest][3:-3]
     assert np.all((lead > 1_600) & (lead < 6_000))  # [cycle] the conversion takes 104 µs, and 375 µs is the most
-    assert abs(np.mean(lead) / 16e6 - 16e-6 - CURRENT_LAG["hardware"]) < 4e-5  # the input is held 12 to 20 µs later
+    assert abs((np.mean(lead) - SENSE_HELD) / 16e6 - CURRENT_LAG["hardware"]) < 8e-6
     true = np.array([current for _, current in seen])[latest]
     read = np.array([frame.current for frame in frames if isinstance(frame, Sensed)]) * STEP - ZERO
     error = (read / GAIN - true)[3:-3]

@@ -180,7 +180,7 @@ def test_the_supply_voltage_is_measured_where_there_is_a_divider(make_bench: Mak
     bench = make_bench(config=FirmwareConfig(supply_full_scale=20_000))
     bench.chip.supply(3.0)
     bench.run(30)
-    assert 11_950 <= bench.last(Telemetry).supply <= 12_050
+    assert bench.last(Telemetry).supply == 11_992  # 614 of 1,024 steps, and 613 would be 11,972
 
 
 def test_the_motor_on_the_pins_is_the_model(make_bench: MakeBench) -> None:
@@ -225,3 +225,27 @@ def test_stray_edges_come_at_their_rate(bench: Bench, connected: bool) -> None:
     turned = bench.emulator.shaft.angle / SLOT if connected else 0.0
     assert 400 < bench.last(Telemetry).edge_count - turned < 600  # Poisson, 22
     assert turned > 500 or not connected
+
+
+@on_each_chip
+@pytest.mark.parametrize(("sensing", "decay"), [(False, 0), (False, 1), (True, 0), (True, 1)])
+def test_a_sample_is_of_the_instant_at_which_the_pins_change(make_bench: MakeBench, sensing: bool, decay: int) -> None:
+    """In ticks of half a microsecond, the interrupt's way to the pins taken off; R and L are identified by it."""
+    bench = make_bench(config=FirmwareConfig(current_sense=sensing))
+    bench.start(10_000, decay=decay)
+    written: list[int] = []
+    inner = bench.emulator._drive
+
+    def drive(cycle: int) -> None:
+        written.append(cycle)
+        inner(cycle)
+
+    bench.emulator._drive = drive  # type: ignore[method-assign]
+    for duty in np.random.default_rng(1).integers(40, 250, 100):  # one way: a reversal lets go first
+        bench.drive(int(duty), 5)
+    times = np.array([frame.time for frame in bench.all(Telemetry)])
+    at = (np.array(written) - bench.chip.clock_zero) / TICK
+    late = at - times[np.argmin(np.abs(at[:, None] - times[None, :]), axis=1)]
+    middle = np.median(late)
+    assert len(late) == 100 and abs(middle) < 1.4
+    assert np.quantile(np.abs(late - middle), 0.8) < 2.0  # an edge at that moment comes first, and takes some 10 µs

@@ -199,3 +199,10 @@ def test_a_mapping_that_is_not_there_is_a_sentence_and_no_bag(
 ) -> None:
     assert main([str(tmp_path / "bag"), "--mapping", str(tmp_path / "none.yaml")]) == 1
     assert capsys.readouterr().err.startswith("There is no mapping") and list(tmp_path.iterdir()) == []
+
+
+def test_an_empty_mapping_is_none_and_does_not_record_for_ever(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main([str(tmp_path / "bag"), "--mapping", ""]) == 1
+    assert capsys.readouterr().err.startswith("There is no mapping") and list(tmp_path.iterdir()) == []

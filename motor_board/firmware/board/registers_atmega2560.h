@@ -14,7 +14,7 @@
 /* Measured in the emulator [tick]. */
 #define CHIP_SEAL_TICKS 254u /* from a pong's time being taken to its first byte going out */
 #define CHIP_B_LATE 5u       /* from a flank of B to its interrupt's reading the clock, at least */
-#define CHIP_LEAD 32u        /* from the compare match to the pins following it */
+#define CHIP_LEAD 36u        /* from the compare match to the pins following it (270 to 300 cycles) */
 
 /* The clock: timer 5, with its capture unit on D48. */
 #define CLOCK_MODE TCCR5A

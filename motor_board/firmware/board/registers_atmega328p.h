@@ -13,7 +13,7 @@
 /* Measured in the emulator [tick]. */
 #define CHIP_SEAL_TICKS 254u /* from a pong's time being taken to its first byte going out */
 #define CHIP_B_LATE 5u       /* from a flank of B to its interrupt's reading the clock, at least */
-#define CHIP_LEAD 32u        /* from the compare match to the pins following it (222 to 274 cycles) */
+#define CHIP_LEAD 34u        /* from the compare match to the pins following it (256 to 290 cycles) */
 
 /* The clock: timer 1, with its capture unit on D8. */
 #define CLOCK_MODE TCCR1A

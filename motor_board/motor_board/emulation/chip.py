@@ -3,6 +3,7 @@
 from ctypes import c_uint8, c_uint64
 from dataclasses import dataclass
 from enum import IntEnum
+from math import ceil, floor
 from pathlib import Path
 
 from motor_board.emulation.edges import Edges
@@ -12,6 +13,7 @@ from motor_board.errors import BoardError
 
 FREQUENCY = 16_000_000  # [Hz]
 MOST_BYTES = 4096  # taken out at once
+CONVERTER_STEPS, CONVERTER_REFERENCE = 1024, 5.0  # [V]
 
 
 class Hang(IntEnum):
@@ -137,7 +139,7 @@ class Chip:
 
     def supply(self, volts_at_a0: float) -> None:
         """The voltage at A0 [V]."""
-        self._library.chip_supply(self._chip, round(volts_at_a0 * 1000))
+        self._library.chip_supply(self._chip, _millivolts(volts_at_a0))
 
     @property
     def sensing(self) -> int:
@@ -146,7 +148,7 @@ class Chip:
 
     def sense(self, volts_at_a1: float) -> None:
         """The voltage at A1 [V]; the chip's clamps keep it from 0 to 5 V."""
-        self._library.chip_sense(self._chip, round(min(max(volts_at_a1, 0.0), 5.0) * 1000))
+        self._library.chip_sense(self._chip, _millivolts(volts_at_a1))
 
     def hang(self, how: Hang) -> None:
         """Let the program fail in a way that only its watchdog ends."""
@@ -160,3 +162,12 @@ class Chip:
         return {
             name: InterruptLoad(row.calls, row.cycles, row.longest, row.waited) for name, row in rows.items()
         }, slept
+
+
+def _millivolts(volts: float) -> int:
+    """What the emulator is to be told, so that its converter reads as a real one.
+
+    A real one has 1,024 steps of 5/1,024 V; simavr makes 1,023 steps of the reference, and takes whole millivolts.
+    """
+    step = min(max(floor(volts * CONVERTER_STEPS / CONVERTER_REFERENCE), 0), CONVERTER_STEPS - 1)
+    return ceil(1000.0 * CONVERTER_REFERENCE * step / (CONVERTER_STEPS - 1))

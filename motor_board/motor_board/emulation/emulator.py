@@ -13,6 +13,7 @@ from motor_model.parameters import Parameters
 
 STEP = FREQUENCY // 1000  # [cycle] the motor is planned ahead by at most
 SENSE_NOISE = 0.005  # [V] RMS on A1, one step of the converter
+SENSE_HELD = 256  # [cycle] from a conversion's start to the converter's holding its input: 12 to 20 µs
 AHEAD = 64  # [cycle] more than the chip can run beyond its goal
 
 
@@ -75,8 +76,8 @@ class Emulator:
         self.chip.supply(volts_at_a0 if self._wiring.powered else 0.0)
 
     def _sense(self, cycle: int) -> None:
-        """Put the current at a cycle on A1, as a sensor between bridge and motor makes a voltage of it."""
-        current = self.shaft.current_at(cycle) * (-1.0 if self._wiring.motor_swapped else 1.0)
+        """Put the current on A1 that a conversion from this cycle on reads, by a sensor between bridge and motor."""
+        current = self.shaft.current_at(cycle + SENSE_HELD) * (-1.0 if self._wiring.motor_swapped else 1.0)
         noise = float(self._random.normal(0.0, SENSE_NOISE))
         self.chip.sense(self.sensor.offset + self.sensor.gain * current + noise)
 

@@ -46,7 +46,7 @@ def main(args: list[str] | None = None) -> int:
     options = parser().parse_args(args)
     if options.all and options.topics:
         parser().error("--all and TOPIC do not go together")
-    if options.mapping and (options.all or options.topics):
+    if options.mapping is not None and (options.all or options.topics):
         parser().error("--mapping names the topics: it goes together neither with TOPIC nor with --all")
     return shell(lambda: _record(options))
 
@@ -56,7 +56,7 @@ def _record(options: argparse.Namespace) -> int:
     from motor_ros.run import Interrupt
 
     known = {absolute_name(options.topic_namespace, topic.name): topic for topic in TOPICS}
-    if options.mapping:
+    if options.mapping is not None:
         from motor_identification.mapping import load_mapping
 
         options.topics = list(load_mapping(options.mapping).topics)

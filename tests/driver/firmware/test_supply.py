@@ -35,7 +35,7 @@ def test_a_supply_below_the_motors_voltage_is_all_there_is(make_rig: MakeRig) ->
 
 
 @pytest.mark.parametrize(
-    ("told", "words"), [(0.0, ""), (24.0, ""), (12.0, "a supply of 23.9 V, and supply_voltage is 12")]
+    ("told", "words"), [(0.0, ""), (24.0, ""), (12.0, "a supply of 24.0 V, and supply_voltage is 12")]
 )
 def test_a_measured_supply_prevails(make_rig: MakeRig, told: float, words: str) -> None:
     """A 12 V motor on 24 V gets 12 V, even where the parameter is wrong."""

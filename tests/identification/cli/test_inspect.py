@@ -65,6 +65,7 @@ def test_a_mapping_that_is_there_stays(bag: Path, tmp_path: Path, capsys: pytest
             "is unknown: give",
         ),
         (["--mapping", "/nowhere.yaml"], "There is no mapping /nowhere.yaml"),
+        (["--mapping", ""], "There is no mapping "),
     ],
 )
 def test_what_cannot_be_read_is_a_sentence(

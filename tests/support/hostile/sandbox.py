@@ -74,6 +74,9 @@ def _child(main: Main, words: list[str], folder: Path) -> None:
         sys.stderr = os.fdopen(2, "w", closefd=False, buffering=1, errors="backslashreplace")  # as Python opens it
         os.environ.update(HOME=str(folder / OUT), ROS_LOG_DIR=str(folder / OUT / "log"))
         sys.path.insert(0, "")  # as an empty entry of PYTHONPATH does
+        begun = sys.modules["__main__"].__dict__  # what a node starts is not to begin as this process did
+        begun.update(__spec__=None)
+        begun.pop("__file__", None)
         signal.signal(signal.SIGINT, signal.default_int_handler)
         size = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
         resource.setrlimit(resource.RLIMIT_AS, (size + MEMORY, size + MEMORY))

@@ -47,9 +47,9 @@ def _reader(options: argparse.Namespace) -> "MappedReader | None":
     from motor_identification.mapping import MappedReader, load_mapping
 
     given = [name for name in ("voltage", "current", *KINDS) if getattr(options, f"{name}_from") is not None]
-    if not options.mapping and not given:
+    if options.mapping is None and not given:
         return None
-    mapping = load_mapping(options.mapping) if options.mapping else None
+    mapping = load_mapping(options.mapping) if options.mapping is not None else None
     return MappedReader(_completed(mapping, options))
 
 
