@@ -47,7 +47,8 @@ def begin(speed: float, before: State | None = None) -> State:
     """
     if before is None:
         return State(missing=few_edges.State(expected=speed), contradicted=contradiction.begin(speed))
-    return replace(before, missing=replace(before.missing, expected=speed), undriven=runaway.State())
+    missing, stalled = replace(before.missing, expected=speed), replace(before.stalled, speed=0.0)
+    return replace(before, missing=missing, undriven=runaway.State(), stalled=stalled)
 
 
 def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
