@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from board_link import EDGES, KHZ, MS, Link, load_rows
 from board_quadrature import TWO, TWO_MEGA, quadrature, quadrature_on_mega
-from machine import machine
+from machine import commit, machine
 
 from motor_board.build import FirmwareConfig, firmware
 from motor_board.emulation.chip import FREQUENCY
@@ -107,7 +107,8 @@ def speed() -> list[str]:
 def main() -> int:
     """Write results/board.md."""
     lines = ["# The board's firmware on the emulated chips (16 MHz)", "", *size()]
-    lines += ["Unless it says otherwise, on the ATmega328P.", "", *full_speed()]
+    lines += [f"`python benchmarks/board.py` at {commit()}. Unless it says otherwise, on the ATmega328P.", ""]
+    lines += full_speed()
     lost, table = edges(20_000)
     lines += ["## 1 kHz, 20,000 edges/s", "", *table, f"Edges lost: {lost} of {EDGES:,}.", ""]
     lines += ["## Highest edge rate without loss", "", f"| edges/s | lost of {EDGES:,} |", "|---:|---:|"]

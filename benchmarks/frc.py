@@ -16,7 +16,7 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
 
 import numpy as np
-from machine import machine
+from machine import commit, machine
 from regression import regress_all
 
 from motor_identification.identify import Request, identify
@@ -93,7 +93,7 @@ def main() -> None:
     rows = study(parser.parse_args().data)
     page = f"""# An FRC drivetrain beside SysId's regression
 
-`python benchmarks/frc.py` ({machine()}). SysId's JSON of a 2025 robot
+`python benchmarks/frc.py` (commit {commit()}; {machine()}). SysId's JSON of a 2025 robot
 ([tests/data](../../tests/data/README.md)), read by
 `import_log drivetrain_sysid.json --output drivetrain`; its regression as in [regression](regression.md), on the log's
 velocities; ours: kv, ka, Coulomb friction and a delay, on its positions.

@@ -11,7 +11,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-from machine import machine
+from machine import commit, machine
 
 sys.path[:] = [folder for folder in sys.path if Path(folder).name != "benchmarks"]  # its control.py is not the library
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"))
@@ -146,6 +146,8 @@ def main() -> int:
     lines = [
         "# A gearmotor with both channels, from the board to the loop",
         "",
+        f"`python benchmarks/geared.py` at {commit()}, {machine()}.",
+        "",
         *(__doc__ or "").splitlines()[2:],
         "",
         "## Identified",
@@ -166,8 +168,6 @@ def main() -> int:
         f"ki = {tuning.gains.ki:.3g}; {HELD:g} s after {SETTLED:g} s.",
         "",
         *held,
-        "",
-        machine(),
     ]
     PAGE.write_text("\n".join(lines) + "\n", encoding="utf-8")
     print("\n".join(lines))

@@ -11,6 +11,8 @@ from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matrices
 
+from machine import commit
+
 from motor_identification.cli.options.log import add_log_options, read_log_options
 from motor_identification.logs.imported import Imported, import_log
 
@@ -72,7 +74,7 @@ def main() -> None:
     page = [
         "# Logs from anywhere, each by one line",
         "",
-        "`python benchmarks/logs.py` makes this page: what `import_log` says of every public log in "
+        f"`python benchmarks/logs.py` at {commit()} makes this page: what `import_log` says of every public log in "
         f"[tests/data](../../tests/data/README.md). {plain} of {len(LINES)} need no option to be read; of the others "
         "the command asks for what is missing, in one sentence. `--voltage-before` it finds where voltages jump.",
         *lines(data),
