@@ -8,6 +8,7 @@ on the true output.
 import sys
 from dataclasses import dataclass
 from fractions import Fraction
+from math import isnan
 from pathlib import Path
 
 import numpy as np
@@ -134,7 +135,8 @@ def tabulate_others() -> list[str]:
         off = [(fit.parameters.values[name] - TRUTH.values[name]) / fit.standard_errors[name] for name in names]
         found = diagnose([recording])
         named = ", ".join(f"`{finding.effect}`" for finding in found.findings) or "nothing"
-        rows.append(f"| {seed} | {' | '.join(f'{one:+.1f}' for one in off)} | {named}; {found.verdict.value} |")
+        errors = " | ".join("not sure" if isnan(one) else f"{one:+.1f}" for one in off)
+        rows.append(f"| {seed} | {errors} | {named}; {found.verdict.value} |")
         print(rows[-1], flush=True)
     return rows
 
