@@ -188,9 +188,8 @@ def tabulate_page_motor() -> list[str]:
             f"{name} {value:.6f} ± {error:.1g} ({PAGE_MOTOR.truth.value(name):g})"
             for name, (value, error) in finding.parameters.items()
         )
-        rows.append(
-            f"| `{finding.effect}` | {finding.gap_before:.3g} | {finding.gap_after:.3g} | {', '.join(values)} |"
-        )
+        gaps = f"{finding.gap_before:.3g} | {finding.gap_after:.3g}"
+        rows.append(f"| `{finding.effect}` | {gaps} | {', '.join(values)} |")
     print("\n".join(rows), flush=True)
     return [*rows, "", f"Verdict: {found.verdict.value}."]
 
