@@ -12,6 +12,7 @@ from motor_model.sample import Sample
 
 FAST, SLOW = 0.05, 0.15  # [s] time constants of the two averages
 STEADY = 0.1  # share of the speed, and of the voltage limit, by which both averages may differ in a steady motion
+TREMBLE = 0.2  # share of the voltage limit, by which the voltage of a sample may; with more it answers something new
 FEW_SLOTS = 10.0  # in the faster average: there a single edge shows in it
 STEADY_TIME = 0.15  # [s] for which they have to
 STANDSTILL = 0.1  # [s] without an edge
@@ -24,7 +25,8 @@ class Motion:
     edge_count: int = 0
     speed: float = 0.0  # by the edges of the last 50 ms
     slow_speed: float = 0.0  # of the last 0.15 s
-    slow_voltage: float = 0.0
+    voltage: float = 0.0  # of the last 50 ms
+    slow_voltage: float = 0.0  # of the last 0.15 s
     silent: float = 0.0  # [s] since the latest edge
     edges: int = 0  # since the sample before
     steady: float = 0.0  # [s] for which the motion has been steady
@@ -60,10 +62,13 @@ def follow_motion(
     slow_voltage = motion.slow_voltage + slow * (voltage - motion.slow_voltage)
     edge = slot / FAST if slow_speed * FAST < FEW_SLOTS * slot else 0.0  # by which one edge moves the average
     calm = abs(speed - slow_speed) <= STEADY * slow_speed + edge
-    calm &= abs(voltage - slow_voltage) <= STEADY * voltage_limit and slow_voltage > 0.0 and slow_speed > 0.0
+    fast_voltage = motion.voltage + fast * (voltage - motion.voltage)
+    calm &= abs(voltage - slow_voltage) <= TREMBLE * voltage_limit  # a loop's trembles with each edge
+    calm &= abs(fast_voltage - slow_voltage) <= STEADY * voltage_limit and slow_voltage > 0.0 and slow_speed > 0.0
     silent = 0.0 if edges or (slot == 0.0 and seen > 0.0) else motion.silent + dt
     calm &= sample.speed * sample.voltage > 0.0 and regular and silent < STANDSTILL
     steady = motion.steady + dt if calm else 0.0
     known = (slow_speed, slow_voltage) if steady >= STEADY_TIME else (motion.steady_speed, motion.steady_voltage)
     most = max(motion.most, min(slow_speed, abs(sample.speed))) if regular else motion.most  # a count may jump
-    return Motion(sample.edge_count, speed, slow_speed, slow_voltage, silent, edges, steady, *known, most)
+    voltages = fast_voltage, slow_voltage
+    return Motion(sample.edge_count, speed, slow_speed, *voltages, silent, edges, steady, *known, most)

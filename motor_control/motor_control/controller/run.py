@@ -87,7 +87,8 @@ def begin(config: Config, sample: Sample, motion: Motion | None = None, faults: 
     """Begin a run at the motor's own speed; motion, faults: what is known from a run before that ended just now."""
     known = motion or Motion()
     motion = replace(known, edge_count=sample.edge_count, speed=abs(sample.speed), slow_speed=abs(sample.speed))
-    motion = replace(motion, steady=0.0, silent=0.0, edges=0, slow_voltage=abs(sample.voltage))
+    volts = abs(sample.voltage)
+    motion = replace(motion, steady=0.0, silent=0.0, edges=0, voltage=volts, slow_voltage=volts)
     watched = config.observer.begin(sample, sample.speed) if config.observer else None
     state = detection.begin(sample.speed, faults)
     return Run(config, sample.sample_time, sample.speed, pi.State(), motion, watched=watched, faults=state, begins=True)

@@ -37,6 +37,20 @@ def test_a_steady_motion_is_remembered(speed: float, voltage: float) -> None:
     assert last.silent == pytest.approx(0.5, abs=0.03)
 
 
+@pytest.mark.parametrize(("spike", "learns"), [(1.6, True), (3.5, False)])
+def test_a_voltage_that_trembles_with_each_edge_is_steady_in_the_mean(spike: float, learns: bool) -> None:
+    """Of 500 rad/s and 1,024 edges a turn nothing was learnt: spikes of an eighth of the limit, every fifth sample."""
+    last = follow([(100.0, 6.2 + (spike if k % 5 == 4 else 0.0)) for k in range(200)])[-1]
+    assert last.steady_speed == (pytest.approx(100.0, rel=0.1) if learns else 0.0)
+    assert last.steady_voltage == (pytest.approx(6.2 + spike / 5.0, rel=0.05) if learns else 0.0)
+
+
+def test_what_a_lost_line_does_first_is_not_taken_for_steady() -> None:
+    """The averages are still close to one another while the law already answers with all the voltage."""
+    last = follow([(100.0, 6.2)] * 200 + [(90.0 * 0.9**k, 12.0) for k in range(20)])[-1]
+    assert last.steady_voltage == pytest.approx(6.2, rel=0.02)
+
+
 def test_coasting_and_braking_are_no_steady_motion() -> None:
     assert follow([(100.0, 0.0)] * 200)[-1].fastest(12.0) == inf
     assert follow([(100.0, -3.0)] * 200)[-1].steady_speed == 0.0

@@ -16,6 +16,9 @@ from motor_control.controller.motion import FAST
 
 FEW = 0.3  # of the expected speed; a load that slows a motor down to this takes 70 % of its stall torque
 SPIN_UP = 0.3  # [s] time constant that a motor may have of which there is no model
+# [s] time constant with which what is expected falls meanwhile: stray edges close together make a loop take its voltage
+# back for a sample or two, and the motor does not stand by that.
+SPIN_DOWN = 0.05
 FORGET = 0.3  # [s] time constant with which that is forgotten while edges fit
 BEHIND = 0.5  # of the reference: a motor that turns as it is told has no fault, whatever its load up to `HEAVY`
 GROWING = 1.2  # of the average of the last 0.15 s: a heavy disc that is still being spun up
@@ -52,7 +55,7 @@ def check(config: Config, state: State, seen: Seen, regular: bool) -> tuple[str,
     if config.kv > 0.0:
         foreseen = predict_speed(config, state.expected, seen)
     else:
-        foreseen = 0.0 if braking else extrapolate_speed(config, state.expected, seen)
+        foreseen = extrapolate_speed(config, state.expected, seen, braking)
     expected = abs(foreseen)
     obeys = regular and min(motion.speed, motion.slow_speed) >= BEHIND * abs(seen.reference)
     if config.kv > 0.0:
@@ -99,11 +102,13 @@ def find_turn_time(config: Config, seen: Seen, voltage: float) -> float:
     return 2.0 * find_push_time(config, find_top_speed(config, seen), voltage / seen.voltage_limit, 1.0)
 
 
-def extrapolate_speed(config: Config, expected: float, seen: Seen) -> float:
+def extrapolate_speed(config: Config, expected: float, seen: Seen, braking: bool) -> float:
     """Extrapolate the last steady speed [rad/s] to a voltage, of which a load takes `spare`, or helped by it."""
     motion, voltage = seen.motion, abs(seen.sample.voltage)
-    if voltage <= KEPT * motion.steady_voltage or motion.steady_voltage == 0.0:
+    if motion.steady_voltage == 0.0:
         return 0.0
+    if braking or voltage <= KEPT * motion.steady_voltage:
+        return expected * exp(-seen.dt / SPIN_DOWN)
     spare = config.spare * seen.voltage_limit
     final = motion.steady_speed * max((voltage - spare) / (motion.steady_voltage + spare), 1.0)
     return min(final, expected + (final - expected) * (1.0 - exp(-seen.dt / SPIN_UP)))

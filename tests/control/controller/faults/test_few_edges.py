@@ -1,7 +1,7 @@
 """Too few edges for the voltage."""
 
 from dataclasses import replace
-from math import exp
+from math import exp, inf
 
 import pytest
 from fault_bench import ENCODER, KNOWN, LOST, SLOT, feed, turning
@@ -46,6 +46,15 @@ def test_a_voltage_that_comes_and_goes_is_judged_as_one_that_stays() -> None:
     rows = [(0.0, 12.0 if k % 2 else 0.0, 0.0) for k in range(400)]
     reason, when = feed(LOST + rows, replace(KNOWN, time_constant=0.02))  # it may have stopped within a slot
     assert "Edges do not fit the voltage" in reason and 1.0 < when < 1.4
+
+
+@pytest.mark.parametrize(("off", "least", "most"), [(0, 1.5, 1.7), (2, 1.6, 1.8), (20, 3.0, inf)])
+def test_a_voltage_that_is_taken_back_for_a_moment_does_not_stop_the_motor(off: int, least: float, most: float) -> None:
+    """Stray edges close together: what was expected began from 0 again each time, and 12 V were on for 1.8 s."""
+    rows = [(0.0, 0.0 if k % 40 >= 40 - off else 12.0, 0.0) for k in range(400)]
+    strays = [(speed, volts, 15.0) for speed, volts, _ in rows]
+    reason, when = feed(LOST + strays, ENCODER)
+    assert least < when <= most and (reason == "") == (when == inf)
 
 
 @pytest.mark.parametrize("volts", [4.2, 4.7, 6.0])
