@@ -11,8 +11,10 @@ from math import exp, inf
 from motor_model.sample import Sample
 
 FAST, SLOW = 0.05, 0.15  # [s] time constants of the two averages
-STEADY = 0.1  # share of the speed, and of the voltage limit, by which both averages may differ in a steady motion
-TREMBLE = 0.2  # share of the voltage limit, by which the voltage of a sample may; with more it answers something new
+STEADY = 0.1  # share of the speed by which both averages may differ in a steady motion
+# Shares of the voltage limit: of its averages, and by how much a sample may differ as a loop's voltage trembles with
+# each edge. With more it answers something new: a line that is lost is not to teach what the motor does.
+EVEN_VOLTAGE, TREMBLE = 0.05, 0.15
 FEW_SLOTS = 10.0  # in the faster average: there a single edge shows in it
 STEADY_TIME = 0.15  # [s] for which they have to
 STANDSTILL = 0.1  # [s] without an edge
@@ -63,8 +65,8 @@ def follow_motion(
     edge = slot / FAST if slow_speed * FAST < FEW_SLOTS * slot else 0.0  # by which one edge moves the average
     calm = abs(speed - slow_speed) <= STEADY * slow_speed + edge
     fast_voltage = motion.voltage + fast * (voltage - motion.voltage)
-    calm &= abs(voltage - slow_voltage) <= TREMBLE * voltage_limit  # a loop's trembles with each edge
-    calm &= abs(fast_voltage - slow_voltage) <= STEADY * voltage_limit and slow_voltage > 0.0 and slow_speed > 0.0
+    calm &= abs(voltage - slow_voltage) <= TREMBLE * voltage_limit
+    calm &= abs(fast_voltage - slow_voltage) <= EVEN_VOLTAGE * voltage_limit and slow_voltage > 0.0 and slow_speed > 0.0
     silent = 0.0 if edges or (slot == 0.0 and seen > 0.0) else motion.silent + dt
     calm &= sample.speed * sample.voltage > 0.0 and regular and silent < STANDSTILL
     steady = motion.steady + dt if calm else 0.0
