@@ -300,8 +300,8 @@ NOTE = """\
 `python benchmarks/faults_knowable.py` at {commit}, {machine}.
 
 Of {count} faults of line and shaft on four motors at 200 Hz (one cell each, those that come while the motor turns)
-{late} take longer than 0.5 s. Of these {ours} could be known in 0.5 s by such an observer if loads are as small as they
-may be ({heavy} if a load that comes may take 0.6), and are late by our doing; {physics} could not, whatever is computed.
+{late} take longer than 0.5 s. Of these {ours} could be known in 0.5 s by such an observer if loads are as small as
+they may be ({heavy} if a load that comes may take 0.6), and are late by our doing; {physics} could not.
 Nothing contradicts a healthy motion: 48 of 4 s (these motors, at 3, 15 and 50 % of the top speed and reversed, one
 channel and two, with a model and without) fit a load of 0.02 all the time.
 
