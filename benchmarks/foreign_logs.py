@@ -53,13 +53,13 @@ def judge(case: Case, found: Diagnosis) -> str:
     hidden, outside = set(normalised(known)), known != case.hidden
     names = [{one.effect, *one.ambiguous_with} for one in found.findings]
     unexplained = found.verdict.value == "unexplained"
-    if case.logger.memory:  # a lag of the sensor, by whichever name
+    if case.logger.is_smoothed:  # a lag of the sensor, by whichever name
         names = [name for name in names if name & hidden or not name & LAGS]
     if any(not name & hidden for name in names):
         return "wrong"
     if outside:
         return "right" if unexplained and len(names) == len(hidden) else "right, not all" if names else "silent"
-    unexplained &= not case.logger.memory
+    unexplained &= not case.logger.is_smoothed
     if not hidden and unexplained:
         return "wrong"
     if all(any(effect in name for name in names) for effect in hidden):

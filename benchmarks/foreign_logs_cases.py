@@ -9,7 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"
 import numpy as np
 from numpy.typing import NDArray
 from plant.motor import move
-from scipy.signal import lfilter
+from scipy.signal import butter, lfilter
 
 Floats = NDArray[np.float64]
 SUPPLIES = (3.0, 5.0, 6.0, 7.4, 12.0, 24.0, 48.0)
@@ -38,6 +38,12 @@ class Logger:
     before: bool = False  # the voltage that held until the row, not the one from there on
     nominal: bool = False  # counts are divided by the period that the loop should have
     memory: float = 0.0  # share of the speed shown before that a new one keeps
+    filter: str = ""  # what else filters the speeds, with its number: see `filter_of`
+
+    @property
+    def is_smoothed(self) -> bool:
+        """Whether speeds come late by a filter."""
+        return self.memory > 0.0 or bool(self.filter)
 
     def describe(self) -> str:
         """Say what is special about it; empty where rows are what they say."""
@@ -48,6 +54,7 @@ class Logger:
             (self.before, "voltage until then"),
             (self.nominal, "nominal period"),
             (self.memory > 0.0, f"smoothed {self.memory:g}"),
+            (bool(self.filter), self.filter),
         )
         return ", ".join(text for there, text in parts if there)
 
@@ -181,6 +188,21 @@ def _stamp(case: Case, time: Floats) -> Floats:
     return np.floor(stamps * 1e3) * 1e-3 if logger.whole else stamps
 
 
+def filter_of(name: str) -> tuple[Floats, Floats]:
+    """Numerator and denominator, powers of 1/z ascending, of a filter with its number."""
+    kind, number = name.split()
+    value = float(number)
+    match kind:
+        case "bilinear":  # of a pole
+            return np.array([1.0, 1.0]) * (1.0 - value) / 2.0, np.array([1.0, -value])
+        case "twice":
+            return np.array([(1.0 - value) ** 2]), np.array([1.0, -2.0 * value, value**2])
+        case "butterworth":  # of a corner, as a share of half the rate
+            return butter(2, value)
+        case _:  # the mean of so many
+            return np.full(int(value), 1.0 / value), np.ones(1)
+
+
 def write(case: Case, path: Path) -> None:
     """Write the log."""
     time, volts, angle, speed = run(case)
@@ -198,6 +220,8 @@ def write(case: Case, path: Path) -> None:
         shown = step * np.round((speed + top * noise * random.standard_normal(len(speed))) / step) * 30.0 / np.pi
     if logger.memory:
         shown = np.asarray(lfilter([1.0 - logger.memory], [1.0, -logger.memory], shown))
+    if logger.filter:
+        shown = np.asarray(lfilter(*filter_of(logger.filter), shown))
     written = np.append(0.0, volts[:-1]) if logger.before else volts
     name = "position [deg]" if case.sensor == SENSORS[0] else "speed [rpm]"
     rows = zip(_stamp(case, time), written, shown, strict=True)

@@ -70,27 +70,24 @@ def load_residual_rms(path: str | Path) -> float:
     Raises:
         ModelError: as `load`.
     """
-    return _load_origin(path, "residual_rms", nan)
+    return _number("residual_rms", _load_origin(path, "residual_rms", nan))
 
 
-def load_speed_memory(path: str | Path) -> float:
-    """Read which share of the one before each speed kept that a motor was identified from; 0 where a file says none.
+def load_speed_filter(path: str | Path) -> str:
+    """Read which filter the speeds had passed that a motor was identified from; empty where a file says none.
 
     Raises:
-        ModelError: as `load`, or it is no share below 1.
+        ModelError: as `load`.
     """
-    memory = _load_origin(path, "speed_memory", 0.0)
-    if not 0.0 <= memory < 1.0:
-        raise ModelError(f"{path}: speed_memory is {memory:g}, and must be from 0 to below 1.")
-    return memory
+    return str(_load_origin(path, "speed_filter", ""))
 
 
-def _load_origin(path: str | Path, name: str, absent: float) -> float:
-    """Read a number of a model file's origin."""
+def _load_origin(path: str | Path, name: str, absent: Any) -> Any:
+    """Read a value of a model file's origin."""
     load(path)
     origin = yaml_file.read(path).get("origin")
     value = origin.get(name) if isinstance(origin, Mapping) else None
-    return absent if value is None else _number(name, value)
+    return absent if value is None else value
 
 
 def _parameters(content: Any, default_name: str) -> Parameters:

@@ -6,8 +6,9 @@ from motor_identification.monitoring.health import Limits
 from motor_identification.monitoring.live_motor import LiveMotor
 from motor_identification.monitoring.model_gap import Model
 from motor_identification.reporting.model_comparison import Identified
-from motor_model.errors import MotorError
-from motor_model.model_file import load, load_errors, load_residual_rms, load_speed_memory
+from motor_identification.timing.speed_filter import SpeedFilter, parse_filter
+from motor_model.errors import ModelError, MotorError
+from motor_model.model_file import load, load_errors, load_residual_rms, load_speed_filter
 
 
 def load_watch(model: str, mapping: str, namespace: str, limits: Limits) -> Watch:
@@ -22,4 +23,12 @@ def load_watch(model: str, mapping: str, namespace: str, limits: Limits) -> Watc
         )
     identified = Identified(model, load(model), load_errors(model))
     motor = LiveMotor(load_mapping(mapping) if mapping else None, namespace, identified.parameters.max_voltage)
-    return Watch(motor, Model(identified, load_residual_rms(model), load_speed_memory(model)), limits)
+    return Watch(motor, Model(identified, load_residual_rms(model), _load_filter(model)), limits)
+
+
+def _load_filter(model: str) -> SpeedFilter | None:
+    """Load the filter that the speeds had passed which a model file's motor was fitted to."""
+    try:
+        return parse_filter(load_speed_filter(model))
+    except ModelError as error:
+        raise ModelError(f"{model}: {error}") from error

@@ -12,6 +12,7 @@ from motor_identification.estimation.whitened_fit import fit_whitened
 from motor_identification.monitoring.live_motor import Still
 from motor_identification.recording import Floats, Recording
 from motor_identification.reporting.model_comparison import DIFFERENT, Identified, deviations_of
+from motor_identification.timing.speed_filter import SpeedFilter
 from motor_identification.timing.timing import list_readings
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_identification.validation.nuisance_fit import fit_nuisance_parameters
@@ -25,7 +26,7 @@ class Model:
 
     identified: Identified
     residual_rms: float = nan  # [rad/s] NaN: not known
-    speed_memory: float = 0.0  # share of the one before that each speed kept which it was fitted to
+    speed_filter: SpeedFilter | None = None  # that the speeds had passed which it was fitted to
 
     @property
     def parameters(self) -> Parameters:
@@ -66,7 +67,7 @@ def measure_gap(motion: Recording | Still, model: Model) -> Gap:
     if isinstance(motion, Still):
         return _measure_still(motion, model)
     return min(
-        (_measure_moving(reading, model) for reading in list_readings(motion, model.speed_memory)),
+        (_measure_moving(reading, model) for reading in list_readings(motion, model.speed_filter)),
         key=lambda gap: gap.rms,
     )
 

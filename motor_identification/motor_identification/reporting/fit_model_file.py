@@ -20,8 +20,8 @@ def save_model(path: str | Path, fit: Fit, created: str) -> None:
         "noise_floor": fit.noise_floor,
         "not_identifiable": list(fit.not_identifiable),
     }
-    if fit.timing is not None and fit.timing.memory > 0.0:
-        origin["speed_memory"] = fit.timing.memory
+    if fit.timing is not None and fit.timing.filter:
+        origin["speed_filter"] = str(fit.timing.filter)
     errors = {name: error for name, error in fit.standard_errors.items() if isfinite(error)}
     found = fit.physical.standard_errors if fit.physical else {}
     physical_errors = {name: error for name, error in found.items() if isfinite(error)}

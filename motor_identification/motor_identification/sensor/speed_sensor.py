@@ -96,7 +96,7 @@ def find_noise(
     """
     if edges:
         return tau / edges / window, 0.0, edges
-    moving = _mark_motion(values)
+    moving = mark_motion(values)
     step, noise = find_lattice(values), estimate_white_noise(values[moving], voltage[moving])
     beyond = NOISE_BEYOND_DIGITS if _is_last_digit(step) or _is_last_bit(step) else NOISE_BEYOND
     if counted and step > 0.0 and noise < beyond * COUNT_NOISE * step:
@@ -121,7 +121,7 @@ def _is_last_bit(step: float) -> bool:
     return any(abs(ratio / one - 1.0) < SAME_RANGE for ratio in ratios for one in (1.0, 10.0))
 
 
-def _mark_motion(values: Floats) -> Bools:
+def mark_motion(values: Floats) -> Bools:
     """Mark values (K,) that do not repeat those before and after: a motor that stands shows no noise."""
     same = np.diff(values, prepend=np.nan) == 0.0
     return np.asarray(~(same & np.append(same[1:], False)))

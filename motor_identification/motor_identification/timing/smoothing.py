@@ -1,15 +1,17 @@
-"""Find whether speeds were smoothed before they were logged, each keeping a share of the one before.
+"""Find whether speeds were filtered before they were logged, and by which of the filters of small programs.
 
-y_k = m·y_{k−1} + (1 − m)·x_k, the commonest filter of small programs. It lags, as an inductance or a delay does, and
-what it does to the speeds it does to their noise too, which nothing in the motor can. So x is computed for several m,
-and the motor fitted to it beside what shapes most motions; what that leaves is judged as random torque and sensor noise
-(`noise/error_learning.py`). The density of y is that of x divided by (1 − m) for every row, and has to be larger than
-that beside what lags in a motor. Counted speeds lie on a lattice for the right m alone, which nothing does by chance.
+The commonest is y_k = m·y_{k−1} + (1 − m)·x_k; what others there are stands in `speed_filter.py`. They lag, as an
+inductance or a delay does, and what they do to the speeds they do to their noise too, which nothing in the motor can.
+So x is computed for several m, and the motor fitted to it beside what shapes most motions; what that leaves is judged
+as random torque and sensor noise (`noise/error_learning.py`). The density of y is that of x divided by the part of y
+that it is in its own row, such as 1 − m, and has to be larger than that beside what lags in a motor. Counted speeds lie
+on a lattice for the right filter alone, which nothing does by chance. Filters with means in them are tried where speeds
+have their zeros (`unit_zeros.py`).
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from math import log
+from functools import partial
 
 import numpy as np
 
@@ -19,76 +21,146 @@ from motor_identification.recording import Recording
 from motor_identification.sensor.held_samples import find_frames
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing.shaped_fit import Shaper
-from motor_identification.timing.timing import Timing, is_open, sharpen
+from motor_identification.timing.speed_filter import BILINEAR, KINDS, LEAST_ROWS, MEAN, MEMORY, SpeedFilter
+from motor_identification.timing.timing import ASSUMED, Timing, is_open
+from motor_identification.timing.unit_zeros import find_means
 from motor_model.effects import LAGGING
 
 # Tried in turn as long as they are likelier: beyond, the motor's own lag is taken for a filter, and that for the motor.
-CLIMB = (0.3, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.92, 0.94, 0.96, 0.98)
-ROUND = tuple(sorted({k / 20 for k in range(1, 20)} | {k / 16 for k in range(1, 16)} | {0.96, 0.97, 0.98, 0.99}))
+CLIMB = (0.0, 0.3, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.92, 0.94, 0.96, 0.98)
+TAUGHT = 0.854  # by a tutorial that many follow: v = 0.854*v + 0.0728*x + 0.0728*x_before
+ROUND = tuple(
+    sorted({k / 20 for k in range(1, 20)} | {k / 16 for k in range(1, 16)} | {TAUGHT, 0.96, 0.97, 0.98, 0.99})
+)
 # Of log likelihood: in all, and as a part of what it would be if nothing but sensor noise made speeds unlike their
 # prediction. Measured: 0.04 to 3 of that where speeds were smoothed, the less the stronger a torque is beside them.
 LEAST_GAIN, LEAST_PART = 20.0, 0.04
-AS_LIKELY = 3.0  # of log likelihood: a round share that is less likely by no more is what was meant
+# Of log likelihood: what is less likely by no more is what was meant, if it is a round share, a simpler filter, or the
+# timing that is assumed.
+AS_LIKELY = 3.0
+# Of log likelihood, from a top to its neighbours: with less between them a parabola finds it. Else half as far from it,
+# so many times at most: counts are whole at one share alone.
+SHARP, HALVINGS = 40.0, 5
 LEAST_SPEEDS = 200
 EVEN = 1e-3  # of a row: rows that differ by no more are of one length
 MOST_SHARES = 4  # that make a lattice: where more do, values are too few to tell
 LATTICE_SPEEDS = 40  # that are enough for a lattice to be looked closer at
 
 
-def find_memory(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
-    """Find the share of the speed before that each speed keeps, and of some timings the likeliest with it.
+def find_filter(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
+    """Find the filter that speeds passed, and of some timings the likeliest with it.
 
-    The first of `timings` as it is where the speeds were not smoothed. Where it was said how they were made, only a
-    lattice is sign enough.
+    The first of `timings` as it is where they passed none. Where it was said how they were made, only a lattice is sign
+    enough.
     """
-    if any(_are_as_measured(recording) for recording in shaper.recordings):
+    recordings = shaper.recordings
+    if any(find_frames(one.time, one.speed) is not None for one in recordings):  # each is shown several times
         return timings[0]
-    shares = _list_lattices(shaper.recordings)
+    are_open = all(map(is_open, recordings))
+    means = find_means(recordings) if are_open else ()
+    if not means and _are_counts(recordings):
+        return timings[0]
     each = [_Likelihood(shaper, timing) for timing in timings]
-    best = _find_likeliest(each[0], shares)
-    if best not in shares and not _is_worth_it(each, each[0], best):
+    best, sure = _choose_filter(each[0], means, are_open)
+    if best is None or not (sure or _is_worth_it(each, each[0], best)):
         return timings[0]
-    likelihood = max(each, key=lambda one: one.of(best))
+    likelihood = max(each, key=lambda one: one.of(best) + AS_LIKELY * (one.timing == ASSUMED))
     if likelihood is not each[0]:
-        best = _find_likeliest(likelihood, shares)
-    return replace(likelihood.timing, memory=best)
+        best = _choose_filter(likelihood, means, are_open)[0] or best
+    return replace(likelihood.timing, filter=best)
 
 
-def _are_as_measured(recording: Recording) -> bool:
-    """Whether speeds were not smoothed for sure: each is shown several times, or they lie on a lattice as they are."""
-    return find_frames(recording.time, recording.speed) is not None or find_lattice(recording.speed) > 0.0
+def _are_counts(recordings: Sequence[Recording]) -> bool:
+    """Whether speeds lie on a lattice as they are: then they passed no poles, but a mean perhaps."""
+    return any(find_lattice(one.speed) > 0.0 for one in recordings)
+
+
+def _choose_filter(likelihood: "_Likelihood", means: Sequence[int], are_open: bool) -> tuple[SpeedFilter | None, bool]:
+    """Choose the likeliest filter with zeros of one of these means, and say whether a lattice makes it sure.
+
+    None without any.
+    """
+    if means and _are_counts(likelihood.shaper.recordings):
+        return max((SpeedFilter(MEAN, rows) for rows in means), key=likelihood.of), False
+    found: list[SpeedFilter | None] = [SpeedFilter(MEAN, rows) for rows in means if rows > LEAST_ROWS]
+    if not means or LEAST_ROWS in means:  # of which the bilinear transform makes one for every pole
+        best, sure = _choose_poles(likelihood, BILINEAR if means else MEMORY, are_open)
+        if sure:
+            return best, True
+        found.append(best)
+    return max(found, key=likelihood.of), False
+
+
+def _choose_poles(likelihood: "_Likelihood", simplest: str, are_open: bool) -> tuple[SpeedFilter | None, bool]:
+    """Choose the likeliest filter with poles, and say whether a lattice makes it sure; None without any.
+
+    The simplest is climbed from none on; others from where they come as late, if that is likelier.
+    """
+    others = [kind for kind in KINDS if kind not in (simplest, MEAN)]
+    shares = _list_lattices(likelihood.shaper.recordings, simplest)
+    if shares:  # what two rows' mean makes of counts lies on a lattice of halves
+        halves = _list_lattices(likelihood.shaper.recordings, BILINEAR, shares) if simplest == MEMORY else []
+        found = [SpeedFilter(simplest, share) for share in shares] + [SpeedFilter(BILINEAR, share) for share in halves]
+        return max(found, key=likelihood.of), True
+    first = _make(simplest, CLIMB[_climb(partial(likelihood.of_kind, simplest))]) if are_open else None
+    if first is None:
+        return None, False
+    tops = {simplest: CLIMB.index(first.number) if first.kind == simplest else 0}
+    for kind in others:
+        begin = _find_as_late(kind, first.delay)
+        if likelihood.of_kind(kind, CLIMB[begin]) > likelihood.of(first):
+            tops[kind] = _climb(partial(likelihood.of_kind, kind), begin)
+    kind = max(tops, key=lambda kind: likelihood.of_kind(kind, CLIMB[tops[kind]]) - AS_LIKELY * (kind != simplest))
+    return _make(kind, _find_peak(partial(likelihood.of_kind, kind), tops[kind])), False
+
+
+def _find_as_late(kind: str, delay: float) -> int:
+    """Find which of the numbers to climb makes a kind of filter most nearly so late [rows]."""
+    return min(range(1, len(CLIMB)), key=lambda k: abs(SpeedFilter(kind, CLIMB[k]).delay - delay))
+
+
+def _make(kind: str, number: float) -> SpeedFilter | None:
+    """Make a filter of a kind: one by the bilinear transform without a pole is a mean of two rows."""
+    if number > 0.0:
+        return SpeedFilter(kind, number)
+    return SpeedFilter(MEAN, 2) if kind == BILINEAR else None
 
 
 class _Likelihood:
-    """The likelihood of speeds as they were logged, by the share of the one before that each keeps."""
+    """The likelihood of speeds as they were logged, by the filter that they passed."""
 
     def __init__(self, shaper: Shaper, timing: Timing) -> None:
         self.shaper, self.timing, self.count = shaper, timing, 0
-        self._known: dict[float, float] = {}
+        self._known: dict[SpeedFilter | None, float] = {}
 
-    def of(self, memory: float) -> float:
-        """Compute its logarithm, as of as many speeds as were used without smoothing."""
-        if memory not in self._known:
-            self._known[memory] = self._measure(memory)
-        return self.count * self._known[memory]
+    def of(self, passed: SpeedFilter | None) -> float:
+        """Compute its logarithm, as of as many speeds as were used without a filter."""
+        if passed not in self._known:
+            self._known[passed] = self._measure(passed)
+        return self.count * self._known[passed]
+
+    def of_kind(self, kind: str, number: float) -> float:
+        """Compute the same, by a kind of filter and its number."""
+        return self.of(_make(kind, number))
 
     def of_lag(self) -> float:
-        """Compute the same without smoothing, beside what lags in a motor."""
-        return self.count * self._measure(0.0, LAGGING)
+        """Compute the same without a filter, beside what lags in a motor."""
+        return self.count * self._measure(None, LAGGING)
 
-    def _measure(self, memory: float, beside: Sequence[str] = ()) -> float:
+    def _measure(self, passed: SpeedFilter | None, beside: Sequence[str] = ()) -> float:
         """Measure the mean logarithm of the density of a speed."""
-        estimate = self.shaper.fit(replace(self.timing, memory=memory), beside).estimate
+        estimate = self.shaper.fit(replace(self.timing, filter=passed), beside).estimate
         pairs = zip(estimate.problem.intervals, estimate.increments, strict=True)
         rows = [make_error_data(intervals, increments) for intervals, increments in pairs]
         durations = np.concatenate([row.duration for row in rows])
         self.count = self.count or len(durations)
         value = log_likelihood(rows, learn_error_model(rows, estimate.lag), estimate.lag)
-        return value / len(durations) + float(np.mean(np.log(durations))) - log(1.0 - memory)
+        first = passed.log_first if passed else 0.0
+        return value / len(durations) + float(np.mean(np.log(durations))) - first
 
 
-def _list_lattices(recordings: Sequence[Recording]) -> list[float]:
-    """List round shares for which what was smoothed lies on a lattice; none where the speeds do as they are."""
+def _list_lattices(recordings: Sequence[Recording], kind: str, shares: Sequence[float] = ROUND) -> list[float]:
+    """List the shares for which what passed a kind of filter lies on a lattice; none where the speeds themselves do."""
     longest = max(recordings, key=len)
     some = np.linspace(1, len(longest) - 1, min(LATTICE_SPEEDS, len(longest) - 1)).astype(int)
     rows = np.diff(longest.time, prepend=2.0 * longest.time[0] - longest.time[1])
@@ -96,47 +168,54 @@ def _list_lattices(recordings: Sequence[Recording]) -> list[float]:
     for durations in (np.ones(len(rows)),) if even else (np.ones(len(rows)), rows):  # counts of each by its own row
         if find_lattice(longest.speed * durations) > 0.0:
             return []
-        near = [one for one in ROUND if find_lattice((sharpen(longest.speed, one) * durations)[some]) > 0.0]
-        sure = [one for one in near if find_lattice(sharpen(longest.speed, one) * durations) > 0.0]
+        counted = {share: SpeedFilter(kind, share).undo(longest.speed) * durations for share in shares}
+        near = [share for share in shares if find_lattice(counted[share][some]) > 0.0]
+        sure = [share for share in near if find_lattice(counted[share]) > 0.0]
         if sure:
             return sure if len(sure) <= MOST_SHARES else []
     return []
 
 
-def _find_likeliest(likelihood: _Likelihood, shares: Sequence[float]) -> float:
-    """Find the likeliest share: of those that make a lattice, if there are any."""
-    if shares:
-        return max(shares, key=likelihood.of)
-    return _climb(likelihood.of) if all(map(is_open, likelihood.shaper.recordings)) else 0.0
-
-
-def _is_worth_it(each: Sequence[_Likelihood], likelihood: _Likelihood, memory: float) -> bool:
-    """Decide whether speeds are so much likelier with a share than without, by any timing, beside what lags too."""
-    if memory == 0.0 or likelihood.of(memory) - likelihood.of(0.0) <= LEAST_GAIN:
+def _is_worth_it(each: Sequence[_Likelihood], likelihood: _Likelihood, passed: SpeedFilter) -> bool:
+    """Decide whether speeds are so much likelier behind a filter than without, by any timing, beside what lags too."""
+    if likelihood.of(passed) - likelihood.of(None) <= LEAST_GAIN:
         return False
-    plain = max(value for one in each for value in (one.of(0.0), one.of_lag()))
-    gain = max(one.of(memory) for one in each) - plain
-    most = -0.5 * log(1.0 - memory**2) * likelihood.count  # of white noise, over what it is taken for
+    plain = max(value for one in each for value in (one.of(None), one.of_lag()))
+    gain = max(one.of(passed) for one in each) - plain
+    most = passed.log_likeness * likelihood.count  # of white noise, over what it is taken for
     return gain > max(LEAST_GAIN, LEAST_PART * most) and likelihood.count >= LEAST_SPEEDS
 
 
-def _climb(value: Callable[[float], float]) -> float:
-    """Find the likeliest share from 0 on, a round one where that is nearly as likely; 0 where it only falls."""
-    tried = [0.0]
-    for memory in CLIMB:
-        tried.append(memory)
-        if value(memory) <= value(tried[-2]):
-            break
-    top = max(tried, key=value)
-    if top == 0.0 or top == tried[-1]:
+def _climb(value: Callable[[float], float], begin: int = 0) -> int:
+    """Climb from one of the shares uphill, and say which is at the top."""
+    k = begin
+    while k > 0 and value(CLIMB[k - 1]) > value(CLIMB[k]):
+        k -= 1
+    while k + 1 < len(CLIMB) and value(CLIMB[k + 1]) > value(CLIMB[k]):
+        k += 1
+    return k
+
+
+def _find_peak(value: Callable[[float], float], k: int) -> float:
+    """Find the likeliest share near one of those to climb, a round one where that is nearly as likely."""
+    top = CLIMB[k]
+    if k in (0, len(CLIMB) - 1):
         return top
-    peak = _find_peak(*((memory, value(memory)) for memory in tried[-3:]))
+    low, high = CLIMB[k - 1], CLIMB[k + 1]
+    for _ in range(HALVINGS):
+        if value(top) - min(value(low), value(high)) <= SHARP:
+            break
+        below, above = 0.5 * (low + top), 0.5 * (top + high)
+        best = max((below, top, above), key=value)
+        low, high = {below: (low, top), top: (below, above), above: (top, high)}[best]
+        top = best
+    peak = _fit_parabola(*((share, value(share)) for share in (low, top, high)))
     nearest = min(ROUND, key=lambda one: abs(one - peak))
     best = max((top, peak, nearest), key=value)
     return next(one for one in (nearest, top, peak) if value(one) >= value(best) - AS_LIKELY)
 
 
-def _find_peak(*points: tuple[float, float]) -> float:
+def _fit_parabola(*points: tuple[float, float]) -> float:
     """Find where a parabola through three points has its top."""
     (a, at_a), (b, at_b), (c, at_c) = points
     left, right = (b - a) * (at_b - at_c), (b - c) * (at_b - at_a)

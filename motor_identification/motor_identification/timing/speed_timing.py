@@ -17,7 +17,7 @@ from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
 from motor_identification.timing.shaped_fit import Shaper
-from motor_identification.timing.smoothing import find_memory
+from motor_identification.timing.smoothing import find_filter
 from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, Timing, is_open
 from motor_model.sample import Measurement
 
@@ -44,11 +44,11 @@ def find_timing(
     if timing is None:
         return None
     usual = (ASSUMED, OTHERS[0]) if _are_open(recordings) else ()
-    found = find_memory(shaper, (timing, *(one for one in usual if one != timing)))
-    if found.memory > 0.0:  # smoothed speeds come late: whether they come early shows in what was smoothed
-        sharp = replace(ASSUMED, memory=found.memory).set_on(recordings)
+    found = find_filter(shaper, (timing, *(one for one in usual if one != timing)))
+    if found.filter:  # smoothed speeds come late: whether they come early shows in what was smoothed
+        sharp = replace(ASSUMED, filter=found.filter).set_on(recordings)
         again = _find_instants(Shaper(sharp, estimate, restrict))
-        found = replace(again, memory=found.memory) if again in OTHERS[1:] else found
+        found = replace(again, filter=found.filter) if again in OTHERS[1:] else found
     return None if found == ASSUMED else found
 
 

@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import log
 
-from motor_identification.recording import Floats, Recording
+from motor_identification.recording import Recording
 from motor_identification.sensor.speed_sensor import is_assumed
 from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.timing.speed_filter import MEAN, SpeedFilter
 from motor_model.sample import Measurement
 
 INSTANT = 0.02  # rows: the window of a value of one instant
@@ -16,10 +16,7 @@ TAKEN = (
     "The speeds are taken as {}: as means over the row before they fit the motion much worse "
     "(--speed-window {:.3g} --speed-lag {:.3g} says so to an import)."
 )
-SMOOTHED = (
-    "The speeds are smoothed: each keeps {:.3g} of the one before, a filter of {:.3g} ms, as noise and motion show. "
-    "What was smoothed is taken."
-)
+SMOOTHED = "The speeds are smoothed: {}, as noise and motion show. What was smoothed is taken."
 OWN, BEFORE = "values of their rows' own instants", "{} of the row after the voltage's"
 
 
@@ -30,7 +27,7 @@ class Timing:
     window: float
     lag: float
     name: str
-    memory: float = 0.0  # share of the speed before that each one keeps
+    filter: SpeedFilter | None = None  # that they passed
 
     def set_on(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
         """Read recordings with this timing, those of which nobody said another; the first one's notes say so."""
@@ -40,26 +37,30 @@ class Timing:
         return tuple(timed)
 
     def _set(self, recording: Recording) -> Recording:
-        if self._smooths(recording):
-            recording = replace(recording, speed=sharpen(recording.speed, self.memory))
+        if self.filter and self._smooths(recording, self.filter):
+            recording = replace(recording, speed=self.filter.undo(recording.speed))
         if not is_open(recording):
             return recording
         info, row = recording.info, recording.info.sample_period
         return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=self.lag * row))
 
-    def _smooths(self, recording: Recording) -> bool:
-        """Whether a recording's speeds are smoothed by this: not what is no speed, or lies on a lattice as it is."""
-        if not self.memory or recording.info.measurement is not Measurement.SPEED:
+    @staticmethod
+    def _smooths(recording: Recording, passed: SpeedFilter) -> bool:
+        """Whether a recording's speeds may have passed a filter: not what is no speed, nor lies on a lattice as it is.
+
+        A mean of counts lies on one.
+        """
+        if recording.info.measurement is not Measurement.SPEED:
             return False
-        return find_lattice(recording.speed) == 0.0
+        return passed.kind == MEAN or find_lattice(recording.speed) == 0.0
 
     def _describe(self, recording: Recording, timed: Recording) -> list[str]:
         """Say how a recording is read otherwise than it says."""
         row, notes = recording.info.sample_period, []
         if self.name and is_open(recording):
             notes.append(TAKEN.format(self.name, self.window * row, self.lag * row))
-        if timed.speed is not recording.speed:
-            notes.append(SMOOTHED.format(self.memory, -1e3 * row / log(self.memory)))
+        if self.filter and timed.speed is not recording.speed:
+            notes.append(SMOOTHED.format(self.filter.describe(row)))
         return notes
 
 
@@ -71,26 +72,19 @@ OTHERS = (
 )
 
 
-def sharpen(speed: Floats, memory: float) -> Floats:
-    """Compute the speeds (K,) that were smoothed to these, of which each keeps a share of the one before."""
-    sharp = speed.copy()
-    sharp[1:] = (speed[1:] - memory * speed[:-1]) / (1.0 - memory)
-    return sharp
-
-
 def read_again(recording: Recording, timing: Timing | None) -> Recording:
     """Read a recording again with the timing that a fit found for it; None: as was assumed."""
     return recording if timing is None else timing.set_on([recording])[0]
 
 
-def list_readings(recording: Recording, memory: float = 0.0) -> tuple[Recording, ...]:
+def list_readings(recording: Recording, passed: SpeedFilter | None = None) -> tuple[Recording, ...]:
     """List how a recording may be read: as it says, and with values of its rows' own instants where it says nothing.
 
-    Each also as smoothed, where speeds of the same motor kept a share of the one before.
+    Each also as smoothed, where speeds of the same motor passed a filter.
     """
     timings = (ASSUMED, OTHERS[0]) if is_open(recording) else (ASSUMED,)
     plain = (recording, *(timing.set_on([recording])[0] for timing in timings[1:]))
-    smoothed = [replace(timing, memory=memory).set_on([recording])[0] for timing in timings if memory > 0.0]
+    smoothed = [replace(timing, filter=passed).set_on([recording])[0] for timing in timings if passed]
     return (*plain, *smoothed)
 
 

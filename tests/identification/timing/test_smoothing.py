@@ -1,36 +1,46 @@
 """Whether speeds were smoothed shows in their noise and in the motion, and a lag of the motor is none."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from recorded import as_speed, without_count
-from scipy.signal import lfilter
+from scipy.signal import butter, lfilter
 from swinging import RUBBING, held_late, noisy, recorded
 
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis.result import Verdict
+from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
 from motor_identification.identify import Request, identify
+from motor_identification.monitoring.health import Limits
+from motor_identification.monitoring.load_watch import load_watch
 from motor_identification.monitoring.model_gap import Model, find_changes, measure_gap
 from motor_identification.recording import Recording, check
 from motor_identification.reporting.fit_model_file import save_model
 from motor_identification.reporting.model_comparison import Identified
 from motor_identification.timing import smoothing
-from motor_identification.timing.smoothing import _climb, _list_lattices
+from motor_identification.timing.smoothing import CLIMB, _climb, _find_peak, _list_lattices
+from motor_identification.timing.speed_filter import MEAN, MEMORY, SpeedFilter, parse_filter
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import INSTANT, Timing
 from motor_model.errors import ModelError
-from motor_model.model_file import load, load_errors, load_residual_rms, load_speed_memory
+from motor_model.model_file import load, load_errors, load_residual_rms, load_speed_filter
+
+Program = tuple[Sequence[float], Sequence[float]]  # numerator and denominator, powers of 1/z ascending
 
 
 def smoothed(recording: Recording, memory: float) -> Recording:
     """As a small program logs it, with five digits."""
-    speed = lfilter([1.0 - memory], [1.0, -memory], recording.speed)
-    return check(replace(recording, speed=np.round(speed, 5)))
+    return filtered(recording, [1.0 - memory], [1.0, -memory])
+
+
+def filtered(recording: Recording, numerator: Sequence[float], denominator: Sequence[float]) -> Recording:
+    """By any filter."""
+    return check(replace(recording, speed=np.round(lfilter(numerator, denominator, recording.speed), 5)))
 
 
 def timing_of(recording: Recording) -> Timing | None:
@@ -40,8 +50,15 @@ def timing_of(recording: Recording) -> Timing | None:
 
 
 def memory_of(recording: Recording) -> float:
+    """The share of the one before; 0 of what was not filtered."""
+    found = filter_of(recording)
+    assert found is None or found.kind == MEMORY
+    return found.number if found else 0.0
+
+
+def filter_of(recording: Recording) -> SpeedFilter | None:
     found = timing_of(recording)
-    return found.memory if found else 0.0
+    return found.filter if found else None
 
 
 @pytest.mark.parametrize("memory", [0.5, 0.85])
@@ -52,7 +69,29 @@ def test_speeds_with_noise_show_how_they_were_smoothed(memory: float) -> None:
 def test_values_of_an_instant_are_told_when_smoothed_too() -> None:
     found = timing_of(smoothed(noisy(0.5, instant=True), 0.7))
     assert found is not None and (found.window, found.lag) == (INSTANT, 0.0)
-    assert found.memory == pytest.approx(0.7, abs=0.03)
+    assert found.filter is not None and found.filter.number == pytest.approx(0.7, abs=0.03)
+
+
+@pytest.mark.parametrize(
+    ("kind", "number", "program"),
+    [
+        ("bilinear", 0.854, ([0.073, 0.073], [1.0, -0.854])),
+        ("twice", 0.6, ([0.16], [1.0, -1.2, 0.36])),
+        ("butterworth", 0.7, butter(2, 0.3)),
+        ("mean", 7, ([1.0 / 7.0] * 7, [1.0])),
+    ],
+)
+def test_every_kind_of_filter_is_told_from_the_others(kind: str, number: float, program: Program) -> None:
+    found = filter_of(filtered(noisy(0.5), *program))
+    assert found is not None and found.kind == kind
+    assert found.number == pytest.approx(number, abs=0.03)
+
+
+def test_filtered_counts_are_told_too() -> None:
+    """Behind a pole by their lattice; a mean of them lies on one itself."""
+    counted = without_count(as_speed(recorded(edges=96)))
+    assert filter_of(filtered(counted, [0.5, 0.5], [1.0])) == SpeedFilter(MEAN, 2)
+    assert filter_of(filtered(counted, [0.0728, 0.0728], [1.0, -0.854])) == SpeedFilter("bilinear", 0.854)
 
 
 @pytest.mark.parametrize("memory", [0.35, 0.9])
@@ -70,8 +109,8 @@ def test_counts_of_rows_of_any_length_lie_on_a_lattice_by_their_rows() -> None:
     counts = np.rint(counted.speed * counted.info.sample_period * 96 / (2.0 * np.pi))
     speed, stamps = counts * 2.0 * np.pi / 96 / rows, np.round(1e9 * np.cumsum(rows)).astype(np.int64)
     uneven = replace(counted, speed=speed, sample_time=stamps)
-    assert _list_lattices([smoothed(uneven, 0.6)]) == [0.6]
-    assert _list_lattices([check(uneven)]) == []
+    assert _list_lattices([smoothed(uneven, 0.6)], MEMORY) == [0.6]
+    assert _list_lattices([check(uneven)], MEMORY) == []
 
 
 @pytest.mark.parametrize(
@@ -102,19 +141,28 @@ def test_a_climb_ends_at_the_first_top() -> None:
     def value(memory: float) -> float:
         return float(sum(height * np.exp(-(((memory - top) / 0.1) ** 2)) for top, height in tops))
 
-    assert _climb(value) == 0.55
-    assert _climb(lambda memory: -memory) == 0.0
-    assert _climb(lambda memory: memory) == 0.98
-    assert _climb(lambda memory: -100.0 * (memory - 0.575) ** 2) in (0.55, 0.5625, 0.6)  # a round one is as likely
-    assert _climb(lambda memory: -1e6 * (memory - 0.575) ** 2) == pytest.approx(0.575, abs=1e-6)
-    assert _climb(lambda memory: 100.0 * (memory == 0.5) - (memory - 0.4) ** 2) == 0.5  # counts are whole there alone
+    assert CLIMB[_climb(value)] in (0.5, 0.6) and CLIMB[_climb(value, CLIMB.index(0.85))] in (0.94, 0.96)
+    assert CLIMB[_climb(lambda memory: -memory)] == 0.0 and CLIMB[_climb(lambda memory: memory)] == 0.98
+
+
+@pytest.mark.parametrize("steep", [1e2, 1e4, 1e6])
+def test_the_top_is_found_however_sharp_it_is(steep: float) -> None:
+    """A round share, where that is as likely."""
+
+    def find(value: Callable[[float], float]) -> float:
+        return _find_peak(value, _climb(value))
+
+    found = find(lambda memory: -steep * abs(memory - 0.577) ** 1.5)
+    assert found == pytest.approx(0.577, abs=(3.0 / steep) ** (2.0 / 3.0) + 1e-3)
+    assert find(lambda memory: -steep * (memory - 0.854) ** 2) == pytest.approx(0.854, abs=(3.0 / steep) ** 0.5 + 1e-9)
+    assert find(lambda memory: 100.0 * (memory == 0.5) - (memory - 0.4) ** 2) == 0.5  # counts are whole there alone
 
 
 def test_a_few_values_lie_on_any_lattice() -> None:
     """Of three levels of counts nothing is learned of a filter."""
     counted = without_count(as_speed(recorded(edges=96)))
     few = replace(counted, speed=np.repeat([200.3, 203.3, 206.3, 203.3], len(counted) // 4 + 1)[: len(counted)])
-    assert _list_lattices([few]) == []
+    assert _list_lattices([few], MEMORY) == []
 
 
 def test_a_model_is_watched_on_speeds_that_are_smoothed_the_same_way(tmp_path: Path) -> None:
@@ -124,19 +172,18 @@ def test_a_model_is_watched_on_speeds_that_are_smoothed_the_same_way(tmp_path: P
     for number, one in enumerate((fit, found)):
         path = tmp_path / f"model_{number}.yaml"
         save_model(path, one, "2026-01-01T00:00:00")
-        assert load_speed_memory(path) == pytest.approx(0.8, abs=0.02)
-        model = Model(
-            Identified("model", load(path), load_errors(path)), load_residual_rms(path), load_speed_memory(path)
-        )
+        passed = parse_filter(load_speed_filter(path))
+        assert passed is not None and passed.number == pytest.approx(0.8, abs=0.02)
+        model = Model(Identified("model", load(path), load_errors(path)), load_residual_rms(path), passed)
         gap = measure_gap(smoothed(noisy(0.5, 1), 0.8), model)
         assert gap.rms < 1.3 * gap.expected and find_changes(gap, model) == ()
-        assert measure_gap(smoothed(noisy(0.5, 1), 0.8), replace(model, speed_memory=0.0)).rms > 3.0 * gap.rms
+        assert measure_gap(smoothed(noisy(0.5, 1), 0.8), replace(model, speed_filter=None)).rms > 3.0 * gap.rms
     save_model(tmp_path / "plain.yaml", identify([check(noisy(0.5))], Request(("coulomb_friction",))), "now")
-    assert load_speed_memory(tmp_path / "plain.yaml") == 0.0
-    text = (tmp_path / "model_0.yaml").read_text().replace("speed_memory: 0.8", "speed_memory: 1.0")
+    assert load_speed_filter(tmp_path / "plain.yaml") == ""
+    text = (tmp_path / "model_0.yaml").read_text().replace("speed_filter: memory 0.8", "speed_filter: memory 1")
     (tmp_path / "model_0.yaml").write_text(text)
-    with pytest.raises(ModelError, match=r"speed_memory is 1, and must be from 0 to below 1"):
-        load_speed_memory(tmp_path / "model_0.yaml")
+    with pytest.raises(ModelError, match=r"model_0.yaml: speed_filter is 'memory 1', and must be"):
+        load_watch(str(tmp_path / "model_0.yaml"), "", "", Limits())
 
 
 def test_a_fit_and_a_diagnosis_use_what_was_smoothed() -> None:
@@ -146,5 +193,13 @@ def test_a_fit_and_a_diagnosis_use_what_was_smoothed() -> None:
     for name, value in RUBBING.items():
         assert fit.parameters.values[name] == pytest.approx(value, rel=0.03)
     assert any(note.startswith("The speeds are smoothed: each keeps 0.8") for note in fit.notes)
-    found = diagnose([logged])
+    assert_only_friction(diagnose([logged]))
+
+
+def test_what_a_tutorial_filters_by_is_no_inductance() -> None:
+    """By v = 0.854*v + 0.0728*x + 0.0728*x_before, as many small robots have it."""
+    assert_only_friction(diagnose([filtered(noisy(0.5), [0.0728, 0.0728], [1.0, -0.854])]))
+
+
+def assert_only_friction(found: Diagnosis) -> None:
     assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED

@@ -2,12 +2,12 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from swinging import noisy, recorded
 
 from motor_identification.recording import check
-from motor_identification.timing.timing import ASSUMED, INSTANT, Timing, read_again, sharpen
+from motor_identification.timing.speed_filter import MEMORY, SpeedFilter
+from motor_identification.timing.timing import ASSUMED, INSTANT, Timing, read_again
 
 
 def test_what_was_said_of_a_recording_to_validate_by_is_believed_too() -> None:
@@ -32,10 +32,9 @@ def test_smoothed_speeds_are_read_as_what_was_smoothed() -> None:
     smooth = logged.speed.copy()
     for k in range(1, len(smooth)):
         smooth[k] = 0.8 * smooth[k - 1] + 0.2 * logged.speed[k]
-    assert sharpen(smooth, 0.8) == pytest.approx(logged.speed, abs=1e-9)
-    timing = replace(ASSUMED, memory=0.8)
+    timing = replace(ASSUMED, filter=SpeedFilter(MEMORY, 0.8))
     read = read_again(replace(logged, speed=smooth), timing)
-    assert np.array_equal(read.speed, sharpen(smooth, 0.8)) and read.info == logged.info
+    assert read.speed == pytest.approx(logged.speed, abs=1e-9) and read.info == logged.info
     assert read.notes[-1].startswith("The speeds are smoothed: each keeps 0.8 of the one before, a filter of 89.6 ms")
     assert read_again(logged, None) is logged
     stamped = recorded()

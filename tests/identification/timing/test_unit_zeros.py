@@ -1,0 +1,53 @@
+"""Running means leave zeros in speeds, which nothing else does."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from recorded import as_speed, without_count
+from scipy.signal import butter, lfilter
+from swinging import noisy, recorded
+
+from motor_identification.recording import Recording, check
+from motor_identification.timing import unit_zeros
+from motor_identification.timing.unit_zeros import find_means
+
+
+def filtered(recording: Recording, numerator: object, denominator: object = (1.0,)) -> Recording:
+    speed = lfilter(numerator, denominator, recording.speed)
+    return check(replace(recording, speed=np.round(speed, 3)))
+
+
+@pytest.mark.parametrize("rows", [2, 3, 5, 10, 20])
+def test_the_rows_of_a_mean_are_found(rows: int) -> None:
+    assert find_means([filtered(noisy(0.5), np.full(rows, 1.0 / rows))]) == (rows,)
+
+
+@pytest.mark.parametrize("rows", [2, 8])
+def test_a_mean_of_counts_is_found_wherever_a_log_begins(rows: int) -> None:
+    counted = filtered(without_count(as_speed(recorded(edges=96))), np.full(rows, 1.0 / rows))
+    assert find_means([counted.at_rows(np.arange(200, len(counted)))])[-1] == rows
+
+
+def test_what_the_bilinear_transform_makes_is_found() -> None:
+    assert find_means([filtered(noisy(0.5), [0.1, 0.1], [1.0, -0.8])]) == (2,)
+    assert find_means([filtered(noisy(0.5), *butter(2, 0.3))]) == (2,)
+
+
+def test_where_there_is_no_mean_none_is_found() -> None:
+    """Neither in noise, counts, a long mean of few rows, nor behind poles."""
+    assert find_means([check(noisy(0.5))]) == ()
+    assert find_means([check(noisy(0.01, instant=True))]) == ()
+    assert find_means([without_count(as_speed(recorded(edges=96)))]) == ()
+    assert find_means([filtered(noisy(0.5), [0.2], [1.0, -0.8])]) == ()
+    assert find_means([filtered(noisy(0.5), [0.16], [1.0, -1.2, 0.36])]) == ()
+    few = filtered(noisy(0.5), np.full(30, 1.0 / 30.0))
+    assert find_means([few]) == (30,) and find_means([few.at_rows(np.arange(280))]) == ()
+
+
+@pytest.mark.parametrize(("limit", "value"), [("LEAST_GAIN", 1e4), ("LEAST_GAIN_OF_ROW", 1.0), ("LEAST_SPEEDS", 2000)])
+def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    logged = filtered(noisy(0.5), [0.5, 0.5])
+    assert find_means([logged]) == (2,)
+    monkeypatch.setattr(unit_zeros, limit, value)
+    assert find_means([logged]) == ()
