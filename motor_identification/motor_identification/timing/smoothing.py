@@ -94,7 +94,7 @@ def _choose_filter(likelihood: "_Likelihood", means: Sequence[int], are_open: bo
 def _choose_poles(likelihood: "_Likelihood", simplest: str, are_open: bool) -> tuple[SpeedFilter | None, bool]:
     """Choose the likeliest filter with poles, and say whether a lattice makes it sure; None without any.
 
-    The simplest is climbed from none on; others from where they come as late, if that is likelier.
+    The simplest is climbed from none on; others from where they come as late.
     """
     others = [kind for kind in KINDS if kind not in (simplest, MEAN)]
     shares = _list_lattices(likelihood.shaper.recordings, simplest)
@@ -107,9 +107,7 @@ def _choose_poles(likelihood: "_Likelihood", simplest: str, are_open: bool) -> t
         return None, False
     tops = {simplest: CLIMB.index(first.number) if first.kind == simplest else 0}
     for kind in others:
-        begin = _find_as_late(kind, first.delay)
-        if likelihood.of_kind(kind, CLIMB[begin]) > likelihood.of(first):
-            tops[kind] = _climb(partial(likelihood.of_kind, kind), begin)
+        tops[kind] = _climb(partial(likelihood.of_kind, kind), _find_as_late(kind, first.delay))
     kind = max(tops, key=lambda kind: likelihood.of_kind(kind, CLIMB[tops[kind]]) - AS_LIKELY * (kind != simplest))
     return _make(kind, _find_peak(partial(likelihood.of_kind, kind), tops[kind])), False
 
