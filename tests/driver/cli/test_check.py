@@ -19,11 +19,12 @@ from motor_driver.cli import check
 from motor_driver.link import open_port
 
 RUN = "from motor_driver.cli.check import main; import sys; sys.exit(main(sys.argv[1:]))"
+DEFAULT = ("env", "--default-signal=INT,HUP")  # whether or not the tests themselves run behind nohup, or with `&`
 TIMES = 5  # a machine that has no time for us is a stop, and a person would check again
 
 
 def start(*arguments: object) -> "subprocess.Popen[str]":
-    words = [sys.executable, "-c", RUN, *map(str, arguments)]
+    words = [*DEFAULT, sys.executable, "-c", RUN, *map(str, arguments)]
     pipe = subprocess.PIPE
     return subprocess.Popen(words, env=workbench.ENVIRONMENT, stdin=pipe, stdout=pipe, stderr=pipe, text=True)
 
