@@ -92,12 +92,12 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
 def is_chance_size(effect: str, model: Model) -> bool:
     """Decide whether an effect has a size by chance: at an instant where any of either sign would help, or of a line.
 
-    A line that repeats with the angle is in doubt where the fits have seen all that it is judged by.
+    A line that repeats with the angle is in doubt more where the fits have seen all that it is judged by.
     """
-    line = model.held.seen and EFFECT_BY_NAME[effect].periodic
+    line = EFFECT_BY_NAME[effect].periodic
     if not (line or needs_instant(effect)):
         return False
-    sure = thresholds.SURE_LINE if line else thresholds.SURE_SIZE
+    sure = thresholds.SURE_LINE if line and model.held.seen else thresholds.SURE_SIZE
     specs, fit = EFFECT_BY_NAME[effect].parameters, model.whitened
     errors = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors
     at = fit.problem.unknowns.names.index(specs[0].name)

@@ -9,7 +9,7 @@ import numpy as np
 
 from motor_identification.logs.csv.reader import read_table
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.form import CsvForm, time_unit_size
+from motor_identification.logs.form import CsvForm, Kind, time_unit_size
 from motor_identification.logs.motion import Motion, read_motion
 from motor_identification.logs.rows.even_clock import restore_even_clock
 from motor_identification.logs.rows.parts import (
@@ -94,7 +94,7 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     signals, stamps = separate_stamps(signals)
     signals, first = drop_first_rows(signals)
     signals, gaps = split_at_gaps(signals)
-    signals, clock = restore_even_clock(signals, form.even_clock)
+    signals, clock = restore_even_clock(signals, form.even_clock, form.kind is Kind.SPEED)
     said += [*full, *stray, *restarts, *stamps, *first, *gaps, *clock]
     check_rest(signals, table, form)
     check_steps(signals)
