@@ -13,7 +13,6 @@ from math import log10, sqrt
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy.linalg import solveh_banded
-from scipy.ndimage import maximum_filter1d
 
 from motor_identification.logs.signals import Floats, Signals
 from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter
@@ -28,7 +27,7 @@ MOST_LATE = 12.0
 MOST_JITTER = 1.0  # rows: standard deviation of what stamps are off a clock; beyond, it is none
 NEIGHBOURS = 10  # rows before and after which a row is lacking between, where all of these are later
 LACKING = 0.6  # of a row: so much later
-PASSES = 10  # in each of which rows that are far apart are found
+MOST_LACKING = 0.02, 300  # of the rows, and rows
 LEAST_RUN_AWAY = 1e-4  # of a row: less is an even clock
 FASTEST = 0.5  # quantile of the travel within a window, above which motion tells of its times
 ODD = 3.0  # times the median of what is left: windows where the voltage jumps, or a position wraps, tell nothing
@@ -114,19 +113,19 @@ def _split_jitter(stamps: Floats, slope: float) -> tuple[float, float]:
 def _count_lacking(off: Floats, slope: float) -> Floats:
     """Count the rows that are lacking before each, shape (K,), by stamps [s] that are off a clock for long."""
     lacking = np.zeros(len(off))
-    for _ in range(PASSES):
+    share, most = MOST_LACKING
+    for _ in range(min(int(share * len(off)), most)):
         rest = off - slope * lacking
         middles = np.median(sliding_window_view(rest, NEIGHBOURS), axis=1)
         jumps = middles[NEIGHBOURS:] - middles[:-NEIGHBOURS]
-        largest = (jumps >= LACKING * slope) & (jumps == maximum_filter1d(jumps, 4 * NEIGHBOURS))
-        if not largest.any():
+        at = int(np.argmax(jumps)) if len(jumps) else 0
+        if not len(jumps) or jumps[at] < LACKING * slope:
             break
-        for at in np.flatnonzero(largest):
-            early, later = (
-                np.square(rest[at : at + 2 * NEIGHBOURS] - middles[place]) for place in (at, at + NEIGHBOURS)
-            )  # from which row on: where early rows are nearer to the one, and later rows to the other
-            begin = at + int(np.argmin(np.cumsum(early - later))) + 1
-            lacking[begin:] += max(round(float(jumps[at]) / slope), 1)
+        early, later = (
+            np.square(rest[at : at + 2 * NEIGHBOURS] - middles[place]) for place in (at, at + NEIGHBOURS)
+        )  # from which row on: where early rows are nearer to the one, and later rows to the other
+        begin = at + int(np.argmin(np.cumsum(early - later))) + 1
+        lacking[begin:] += max(round(float(jumps[at]) / slope), 1)
     return lacking
 
 
