@@ -6,7 +6,7 @@ from math import inf
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.candidate_test import likelihood_threshold
+from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse
 from motor_identification.diagnosis.effect_test import sort_by_table, try_effects
 from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
@@ -44,10 +44,19 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
             continue
         if not (smaller.model.complete and is_chance_size(step.found.effect, selection.model)):
             dropped += [step.found.effect, *step.rivals]
-        selection = eliminate_backward(smaller, reporter) if smaller.steps else smaller
+        selection = _eliminate_unless_seen(smaller, reporter)
         if any(one.found.effect in dropped for one in selection.steps):  # back in the place of another: no circles
             selection = smaller
     return selection, sort_by_table(set(dropped) - set(selection.model.effects))
+
+
+def _eliminate_unless_seen(smaller: Selection, reporter: ProgressReporter) -> Selection:
+    """Eliminate what is not needed any more; not what leaves a far larger gap, in which something can be predicted."""
+    if not smaller.steps:
+        return smaller
+    rest = eliminate_backward(smaller, reporter)
+    seen = predicts_far_worse(rest.model.held.gap, smaller.model.held.gap) and not rest.model.complete
+    return smaller if seen else rest
 
 
 def is_needed(step: SelectionStep, model: Model, without: Model) -> bool:

@@ -102,6 +102,9 @@ def test_a_line_that_was_fitted_to_all_there_is_has_to_be_sure(
     seen = replace(model, held=replace(model.held, seen=True))
     assert is_chance_size("encoder_eccentricity", seen) == chance
     assert not is_chance_size("encoder_eccentricity", model)  # held-out motion has confirmed it
+    errors *= thresholds.SURE_LINE / thresholds.SURE_SIZE  # but nothing confirms what may be none
+    assert is_chance_size("encoder_eccentricity", model) == chance
+    errors /= thresholds.SURE_LINE / thresholds.SURE_SIZE
     step, worse = found_step(seen, seen, "encoder_eccentricity"), stub_model(10.0 * seen.held.gap, 0.0)
     assert not is_needed(step, seen, worse) and is_needed(step, model, worse)
 
@@ -225,6 +228,28 @@ def test_of_two_that_do_each_others_work_the_needless_one_goes(monkeypatch: pyte
         left, names = drop_undetermined(Selection(order, last, hold_out, 1), SILENT)
         assert names == ("load_bias",) and left.model.effects == ("coulomb_friction",)
         assert left.model.estimate.parameters.value("ks") == pytest.approx(0.4, rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("times", "complete", "kept"), [(1.01, False, True), (0.99, False, False), (1.01, True, False), (0.99, True, False)]
+)
+def test_what_is_left_stays_where_without_it_the_gap_has_structure(
+    monkeypatch: pytest.MonkeyPatch, times: float, complete: bool, kept: bool
+) -> None:
+    """A friction beside a sag that nothing is determined of: a torque that is as slow would do as well."""
+    before, after = stub_model(9.0, 0.0), stub_model(1.4, 0.0)
+    bare = SimpleNamespace(held=SimpleNamespace(gap=1.4 * times * thresholds.WORSE_GAP), complete=complete, effects=())
+    smaller = Selection((found_step(before, after, "coulomb_friction"),), after, fitted()[1], 1)
+    rest = replace(smaller, steps=(), model=cast(Model, bare))
+    monkeypatch.setattr(determination, "find_undetermined", lambda model: ("supply_sag",) if model is last else ())
+    monkeypatch.setattr(determination, "drop_step", lambda *_: smaller)
+    monkeypatch.setattr(determination, "eliminate_backward", lambda *_: rest)
+    monkeypatch.setattr(determination, "find_limits_hit", lambda model: ())
+    last = stub_model(1.0, 0.0)
+    begun = replace(smaller, steps=(*smaller.steps, found_step(after, last, "supply_sag")), model=last)
+    monkeypatch.setattr(determination, "is_chance_size", lambda *_: False)
+    left, names = drop_undetermined(begun, SILENT)
+    assert names == ("supply_sag",) and left is (smaller if kept else rest)
 
 
 def test_a_single_step_says_what_may_be_missing_and_no_size() -> None:
