@@ -15,7 +15,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.linalg import solveh_banded
 
 from motor_identification.logs.signals import Floats, Signals
-from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter
+from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter, subtract_parabolas
 from motor_identification.sensor.value_lattice import find_lattice
 
 LEAST_ROWS = 50
@@ -84,7 +84,7 @@ def _lay_clocks(stamps: Floats) -> list[Floats]:
     row = np.arange(len(stamps), dtype=np.float64)
     slope, begin = np.polyfit(row, stamps, 1)
     late, run_away = _split_jitter(stamps, slope)
-    if late < LEAST_JITTER * slope:
+    if slope <= 0.0 or late < LEAST_JITTER * slope:
         return []
     even = begin + slope * row
     lacking = _count_lacking(stamps - even, slope)
@@ -178,11 +178,8 @@ def _goes_by_clock(clock: Floats, stamps: Floats, position: Floats) -> bool:
         sliding_window_view(column, WINDOW)[::WINDOW] for column in (clock, stamps - clock, position)
     )
     centred = times - times.mean(axis=1, keepdims=True)
-    basis = np.linalg.qr((centred / np.ptp(times, axis=1)[:, None])[:, :, None] ** np.arange(3))[0]
     slopes = np.einsum("wi,wi->w", centred, values) / np.einsum("wi,wi->w", centred, centred)
-    expected, left = (
-        rows - np.einsum("wik,wjk,wj->wi", basis, basis, rows) for rows in (slopes[:, None] * offs, values)
-    )
+    expected, left = (subtract_parabolas(times, rows) for rows in (slopes[:, None] * offs, values))
     power = np.einsum("wi,wi->w", expected, expected)
     told = power > 0.0
     if not told.any():
