@@ -29,7 +29,8 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None) -> li
     judged: what it is judged by. Where the fits have seen that, nothing that comes slowly, which takes up whatever a
     model lacks, and nothing that happens once in each of several recordings; and in a single response nothing that
     happens once or repeats with the angle: some instants, or some line, are found in any. Where values have white noise
-    and nothing is counted, as a tachogenerator's, there is no disc for anything to be on.
+    and nothing is counted, as a tachogenerator's, there is no disc for anything to be on; and where rows of speeds are
+    uneven it does not show.
     """
     return [
         effect.name
@@ -42,7 +43,7 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None) -> li
 
 
 def _can_be_judged(effect: Effect, judged: HeldOut) -> bool:
-    if effect.on_disc and all(data.independent for data in judged.intervals):
+    if effect.on_disc and not any(data.tells_of_disc for data in judged.intervals):
         return False
     if not judged.seen or not (effect.anywhere or effect.periodic):
         return True

@@ -13,6 +13,8 @@ import numpy as np
 from motor_identification.recording import Bools, Floats, Integers
 from motor_model.compiled import compiled
 
+UNEVEN_ROWS = 0.05  # of a row: what most of them, all but a fifth, differ by where their lengths are by chance
+
 
 @dataclass(frozen=True)
 class Intervals:
@@ -68,6 +70,20 @@ class Intervals:
     def counts_both_ways(self) -> bool:
         """Whether the angle is known from any interval to any other."""
         return bool(np.isfinite(self.place).any())
+
+    @property
+    def tells_of_disc(self) -> bool:
+        """Whether what is on the encoder's disc would show.
+
+        Not where every value has a white noise, of what may count nothing; nor in speeds of rows whose lengths, or the
+        stamps that tell them, are by chance: that scatters as they do, by a share of the speed.
+        """
+        if self.independent:
+            return False
+        low, middle, high = (
+            np.quantile(np.diff(self.time[self.last]), (0.1, 0.5, 0.9)) if len(self.last) > 1 else (0.0, 1.0, 0.0)
+        )
+        return self.window == 0.0 or bool(high - low < UNEVEN_ROWS * middle)
 
     @property
     def fresh(self) -> Bools:

@@ -46,6 +46,12 @@ def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
         assert set(names) - set(list_candidates((), replace(response, confirms=False))) == once | repeating
     noisy = replace(one, seen=False, intervals=tuple(replace(data, independent=True) for data in one.intervals))
     assert set(names) - set(list_candidates((), noisy)) == {"encoder_eccentricity"}  # no disc
+    for jitter, window, hidden in ((0.1, 0.01, {"encoder_eccentricity"}), (0.02, 0.01, set()), (0.1, 0.0, set())):
+        data = one.intervals[0]
+        row = np.arange(len(data.time), dtype=np.float64)
+        rows = replace(data, time=0.01 * (row + jitter * (row % 2.0)), window=window)
+        uneven = replace(one, seen=False, intervals=(rows,))
+        assert set(names) - set(list_candidates((), uneven)) == hidden  # nor where rows of speeds are uneven
     sliding = list_candidates(("coulomb_friction",))
     assert "static_friction" in sliding and "coulomb_friction" not in sliding
 
