@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from motor_identification.logs.log import read_log
 from motor_identification.logs.rows import even_clock
 from motor_identification.logs.rows.even_clock import restore_even_clock
 from motor_identification.logs.signals import Signals
+from motor_identification.sensor import row_clock
 
 Floats = NDArray[np.float64]
 
@@ -153,12 +155,18 @@ def test_somebody_may_say_it() -> None:
 
 
 @pytest.mark.parametrize(
-    ("limit", "value"),
-    [("LEAST_ROWS", ROWS + 1), ("LEAST_JITTER", 0.5), ("MOST_JITTER", 0.1), ("MOST_LATE", 2.0), ("ITS_OWN", 0.0)],
+    ("module", "limit", "value"),
+    [
+        (row_clock, "LEAST_ROWS", ROWS + 1),
+        (row_clock, "LEAST_JITTER", 0.5),
+        (row_clock, "MOST_JITTER", 0.1),
+        (row_clock, "MOST_LATE", 2.0),
+        (even_clock, "ITS_OWN", 0.0),
+    ],
 )
-def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_limit_decides(module: ModuleType, limit: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
     logged = late(0.2)
-    monkeypatch.setattr(even_clock, limit, value)
+    monkeypatch.setattr(module, limit, value)
     assert restore_even_clock(logged) == (logged, [])
 
 

@@ -1,0 +1,91 @@
+"""Lay clocks through the stamps of rows, each of which is late on its own, of a loop that may run away.
+
+Steps between stamps that are late on their own have a covariance of neighbours of −σ², where those of a loop whose
+periods vary have none: a random walk with white noise, whose best smoother follows (J. Muth, J. Am. Stat. Assoc. 55,
+1960). Which of a few clocks it was, the stamps alone do not tell.
+"""
+
+from math import sqrt
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from scipy.linalg import solveh_banded
+
+from motor_identification.recording import Floats
+
+LEAST_ROWS = 50
+LEAST_JITTER = 0.01  # of a row: standard deviation of lateness that matters
+# Rows that a stamp may lie beside the clock at most, in multiples of its standard deviation: an exponential lateness
+# has 12 once in 80,000 rows; beyond, rows are lacking or stamps are wrong.
+MOST_LATE = 12.0
+MOST_JITTER = 1.0  # rows: standard deviation of what stamps are off a clock; beyond, it is none
+NEIGHBOURS = 10  # rows before and after which a row is lacking between, where all of these are later
+LACKING = 0.6  # of a row: so much later
+MOST_LACKING = 0.02, 300  # of the rows, and rows
+LEAST_RUN_AWAY = 1e-4  # of a row: less is an even clock
+# Of what a clock was estimated to run away, beside none: lateness that is not white looks like running away.
+RUN_AWAY = (0.25, 0.5, 1.0)
+
+
+def lay_clocks(stamps: Floats) -> list[Floats]:
+    """Lay clocks [s] through stamps [s], shape (K,), the most even first; none where they are on one, or late on none.
+
+    The first is even, but for rows that are lacking, where stamps look like that; a loop that runs away does, too.
+    """
+    if len(stamps) < LEAST_ROWS:
+        return []
+    row = np.arange(len(stamps), dtype=np.float64)
+    slope, begin = np.polyfit(row, stamps, 1)
+    late, run_away = _split_jitter(stamps, slope)
+    if slope <= 0.0 or late < LEAST_JITTER * slope:
+        return []
+    even = begin + slope * row
+    lacking = _count_lacking(stamps - even, slope)
+    sizes = [share * run_away for share in RUN_AWAY if run_away > LEAST_RUN_AWAY * slope]
+    clocks = [even, *(even + _smooth(stamps - even, (late / size) ** 2) for size in sizes)]
+    if lacking[-1] > 0.0:
+        clocks.insert(0, np.polyval(np.polyfit(row + lacking, stamps, 1), row + lacking))
+    return [clock for clock in clocks if np.min(np.diff(clock)) > 0.0 and _is_near(clock, stamps, late, slope)]
+
+
+def _is_near(clock: Floats, stamps: Floats, late: float, slope: float) -> bool:
+    """Decide whether stamps [s] (K,) are near a clock [s], for the lateness and the length of a row [s]."""
+    off = stamps - clock
+    jitter = float(np.std(off))
+    return jitter < MOST_JITTER * slope and float(np.max(np.abs(off))) < MOST_LATE * max(late, jitter)
+
+
+def _split_jitter(stamps: Floats, slope: float) -> tuple[float, float]:
+    """Split the jitter of stamps [s] into what each is late on its own and what the clock runs away in a row."""
+    steps = np.clip(np.diff(stamps) - slope, -2.0 * slope, 2.0 * slope)  # a row that is lacking is neither
+    steps -= steps.mean()
+    late = max(-float(np.mean(steps[1:] * steps[:-1])), 0.0)
+    return sqrt(late), sqrt(max(float(np.mean(steps**2)) - 2.0 * late, 0.0))
+
+
+def _count_lacking(off: Floats, slope: float) -> Floats:
+    """Count the rows that are lacking before each, shape (K,), by stamps [s] that are off a clock for long."""
+    lacking = np.zeros(len(off))
+    share, most = MOST_LACKING
+    for _ in range(min(int(share * len(off)), most)):
+        rest = off - slope * lacking
+        middles = np.median(sliding_window_view(rest, NEIGHBOURS), axis=1)
+        jumps = middles[NEIGHBOURS:] - middles[:-NEIGHBOURS]
+        at = int(np.argmax(jumps)) if len(jumps) else 0
+        if not len(jumps) or jumps[at] < LACKING * slope:
+            break
+        early, later = (
+            np.square(rest[at : at + 2 * NEIGHBOURS] - middles[place]) for place in (at, at + NEIGHBOURS)
+        )  # from which row on: where early rows are nearer to the one, and later rows to the other
+        begin = at + int(np.argmin(np.cumsum(early - later))) + 1
+        lacking[begin:] += max(round(float(jumps[at]) / slope), 1)
+    return lacking
+
+
+def _smooth(off: Floats, ratio: float) -> Floats:
+    """Smooth a random walk with white noise (K,), of variances of noise and step in that ratio."""
+    bands = np.zeros((2, len(off)))
+    bands[0, 1:] = -ratio
+    bands[1] = 1.0 + 2.0 * ratio
+    bands[1, [0, -1]] -= ratio
+    return np.asarray(solveh_banded(bands, off))
