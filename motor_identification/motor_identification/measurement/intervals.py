@@ -78,12 +78,10 @@ class Intervals:
         Not where every value has a white noise, of what may count nothing; nor in speeds of rows whose lengths, or the
         stamps that tell them, are by chance: that scatters as they do, by a share of the speed.
         """
-        if self.independent:
-            return False
-        low, middle, high = (
-            np.quantile(np.diff(self.time[self.last]), (0.1, 0.5, 0.9)) if len(self.last) > 1 else (0.0, 1.0, 0.0)
-        )
-        return self.window == 0.0 or bool(high - low < UNEVEN_ROWS * middle)
+        if self.independent or self.window == 0.0 or len(self.last) < 2:
+            return not self.independent
+        low, middle, high = np.quantile(np.diff(self.time[self.last]), (0.1, 0.5, 0.9))
+        return bool(high - low < UNEVEN_ROWS * middle)
 
     @property
     def fresh(self) -> Bools:
