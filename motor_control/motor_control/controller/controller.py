@@ -7,7 +7,6 @@ A reference is obeyed from when it comes until something ends it: a stop, a rese
 `reference/ending.py` lists. Then the motor waits for a fresh one.
 """
 
-from dataclasses import replace
 from math import nan
 
 from motor_control.controller import pi
@@ -31,6 +30,7 @@ from motor_control.controller.state import (
     reset,
     stop,
 )
+from motor_model.frozen_record import replace
 from motor_model.sample import Sample
 from motor_model.sensing.mains_rhythm import follow_rhythm
 

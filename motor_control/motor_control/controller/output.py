@@ -8,7 +8,7 @@ from motor_control.controller.pi import Terms
 RUNNING, DISABLED, NO_SAMPLES, STOPPED = "running", "disabled", "no_samples", "stopped"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Output:
     """The answer to one sample, or to silence."""
 

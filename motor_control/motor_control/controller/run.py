@@ -61,7 +61,7 @@ class Config:
         object.__setattr__(self, "resting", replace(self.gains, ki=0.0))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Run:
     """What is remembered from one sample to the next while running; a run ends with every stop, gap and restart."""
 

@@ -8,7 +8,6 @@ while the motor stands, where no load can be told, the integral does its work un
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import exp, inf, isfinite, isnan, nan
 from typing import TYPE_CHECKING
 
@@ -23,6 +22,7 @@ from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind
 from motor_control.controller.reference.ramp import Target, approach, round_to_rest
 from motor_control.controller.run import Config, Run, begin
+from motor_model.frozen_record import replace
 from motor_model.sample import Sample
 
 if TYPE_CHECKING:  # they compile; who has no model does not wait for that

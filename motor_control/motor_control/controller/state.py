@@ -3,7 +3,7 @@
 One source drives at a time. A stop is latched until `reset`; whoever asks meanwhile is not heard.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from motor_control.controller.faults import detection
 from motor_control.controller.interruptions import Interruptions
@@ -13,6 +13,7 @@ from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.run import Config, Run
+from motor_model.frozen_record import replace
 from motor_model.sensing.mains_rhythm import Rhythm
 from motor_model.sensing.repeated_stops import RepeatedStops
 
@@ -25,7 +26,7 @@ BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, 
 NAMES = "(names)"  # stands for who publishes motor/speed, which may be known a moment later
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class State:
     """What the controller remembers; the times are [s] on the clock of `now`."""
 

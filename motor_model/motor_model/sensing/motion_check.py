@@ -12,9 +12,10 @@ does), a motor that is enabled again within a few stall times, and shows no edge
 `stall_time`; an edge ends that.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import exp, sqrt
 
+from motor_model.frozen_record import replace
 from motor_model.sample import Sample
 
 DRIVEN = 0.25  # of the motor's voltage: turns any motor that is meant for it
@@ -62,7 +63,7 @@ HEATED = (
 AGAINST = "the motor turns against its voltage: swap the motor's two wires, or the encoder's two channels"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class MotionCheck:
     """What was seen so far; every method returns the next state or reads it."""
 

@@ -5,8 +5,10 @@ rise again the other way; so the sign changes where the period has passed its ma
 at a standstill (then the voltage decides which way the next motion goes). The voltage alone never changes it.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import copysign
+
+from motor_model.frozen_record import replace
 
 STANDSTILL = 100_000_000  # [ns] without an edge is a standstill
 DIP = 0.5  # of the speed at which the voltage turned against the motion: below that the motor may have passed zero
@@ -15,7 +17,7 @@ LEAP = 2.0  # over its minimum: a rise that tells even without a dip, when the m
 PATIENCE = 30_000_000  # [ns] after which any rise tells: longer than a bridge still acts on its last command
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SpeedState:
     """What the rule remembers from sample to sample."""
 

@@ -12,10 +12,11 @@ Nor is a light motor that is switched off and on again a loose contact: it may h
 assumed where no model says it. A loop that misses edges drives; so a gap counts where the motor was driven through it.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import exp, inf, sqrt
 
 from motor_control.controller.faults.evidence import USUAL_TIME_CONSTANT, Config, Seen
+from motor_model.frozen_record import replace
 
 GAP = 5.0  # periods without an edge: the speed would be down to a fifth
 AFTER = 3.0  # slots in which the motor is as fast as before: two edges make a period, and one is on the way
@@ -30,7 +31,7 @@ SENTENCE = (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class State:
     """The motion before a gap, and how many gaps there were."""
 

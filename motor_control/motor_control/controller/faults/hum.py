@@ -21,11 +21,12 @@ even than 0.6 % to 50, 60, 100 or 120 edges a second is stopped for hum: it gets
 not reach its speed.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf
 
 from motor_control.controller.faults.evidence import USUAL_TIME_CONSTANT, Config, Seen
 from motor_control.controller.faults.insensitive_speed import SLOWEST
+from motor_model.frozen_record import replace
 from motor_model.sensing.mains_rhythm import EDGES, EVEN, WITHIN
 
 AT_REST = 0.5  # [s] of hum under 0 V; and as long as a flywheel that coasts would take to cross the rate of the mains
@@ -46,7 +47,7 @@ UNDER_NOTHING = "the edges come with the motor at 0 V, and become no fewer"
 UNDER_MORE = "{:.3g} V change nothing, and {:.3g} V are enough for such a speed"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class State:
     """What held the motor before the rhythm began, and what it has had beyond that."""
 

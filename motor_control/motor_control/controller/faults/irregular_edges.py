@@ -23,7 +23,7 @@ A timer that ticks hardly faster than edges come makes steps of its own: a perio
 counts as far as it is larger than what that makes of it.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import copysign, exp, inf, log
 
 from motor_control.controller.faults.evidence import (
@@ -33,6 +33,7 @@ from motor_control.controller.faults.evidence import (
     find_allowed_voltage,
     find_push_time,
 )
+from motor_model.frozen_record import replace
 
 FLANKS = 4
 EDGES = 10.0  # over which the jumps are averaged
@@ -54,7 +55,7 @@ SENTENCE = (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class State:
     """The latest periods."""
 

@@ -16,11 +16,12 @@ known where several flanks a period are counted (`Config.even`): they are off by
 for the sensor's sake; edges are many there, and have periods.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import isfinite
 
 from motor_control.controller.faults.evidence import Config, Seen, find_push_time
 from motor_control.controller.faults.irregular_edges import LEAST_VOLTAGE
+from motor_model.frozen_record import replace
 
 ORDINARY = 0.25  # of a slot: what edges of a motor stay below, also with a model some per cent off
 LARGEST = 1.0  # of a slot: one edge proves little
@@ -34,7 +35,7 @@ SENTENCE = (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class State:
     """What the innovations add up to."""
 

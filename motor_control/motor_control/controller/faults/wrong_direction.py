@@ -7,10 +7,11 @@ made it faster, and not one that made it slower or any motion along with them in
 of a few milliseconds, after which the speed is much what it was, tell nothing.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf
 
 from motor_control.controller.faults.evidence import Config, Seen
+from motor_model.frozen_record import replace
 
 STRONG = 0.5  # of the voltage limit: twice a load that is allowed
 GROWTH, EDGES = 1.4, 30.0  # of the least speed in the pulse, and on top edges a second: a disc's slots are irregular
@@ -23,7 +24,7 @@ SENTENCE = (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class State:
     """What the latest pulses have done."""
 

@@ -1,11 +1,10 @@
 """End a reference that the plant or time has made an old one: restarted, away, switched off, held at 0 V, timed out."""
 
-from dataclasses import replace
-
 from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference.demand import Source
 from motor_control.controller.run import Config
 from motor_control.controller.state import State, drop
+from motor_model.frozen_record import replace
 from motor_model.sensing.mains_rhythm import Rhythm
 
 AWAY = 1.0  # [s] of silence, or of 0 V in doubt, after which the motor is not driven on by an old reference
