@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.clock import row_period
-from motor_identification.logs.columns.drive import drives
+from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading
 from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, Quantity
 from motor_identification.logs.correlation import correlate
@@ -19,6 +19,7 @@ Floats = NDArray[np.float64]
 INTEGRAL = 0.9  # correlation of a position's steps with its speed, both over some rows, as one row is coarse
 PARTS, FEWEST_PARTS = 40, 5  # of a log, over which they are compared
 
+FEWEST_OWN = 10  # changes of a velocity while its drive stays, from which on it is no voltage
 FIRST_ROWS = 6.0  # sample periods after 0, within which a run's clock began with its voltage
 FIRST_VALUES = 3  # of a run, that tell whether the motor turned already
 AGAINST = 0.25  # of a run's largest speed, which noise may seem to turn against the voltage
@@ -58,6 +59,25 @@ def _any_moves(headings: Sequence[Heading]) -> bool:
 
 def _is_present(heading: Heading) -> bool:
     return heading.quantity is Quantity.CURRENT and not heading.unit and "current" in heading.words
+
+
+def speeds_called_v(table: Table, headings: list[Heading]) -> list[Heading]:
+    """`v` beside what drives, where nothing else moves or could, is the velocity: it changes where the drive stays.
+
+    A voltage that was measured changes as the duty does.
+    """
+    called = [one for one in headings if one.quantity is Quantity.VOLTAGE and not one.unit and "v" in one.words]
+    others = [one for one in headings if drives(one) and one not in called]
+    unnamed = any(one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0 for one in headings)
+    if not called or not others or _any_moves(headings) or unnamed:
+        return headings
+    stays = np.all([np.diff(table.numbers(one.name)) == 0.0 for one in others], axis=0)
+    alone = [np.count_nonzero(np.diff(table.numbers(one.name))[stays]) for one in called]
+    if any(is_supply(table.numbers(one.name), table.numbers(others[0].name)) for one in called):
+        return headings
+    if min(alone) < FEWEST_OWN:
+        return headings
+    return [replace(one, quantity=Quantity.SPEED) if one in called else one for one in headings]
 
 
 def numbered_motors(headings: list[Heading]) -> list[Heading]:

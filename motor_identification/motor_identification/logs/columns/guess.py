@@ -32,6 +32,10 @@ def guess_forms(table: Table, said: Said) -> Guess:
     """
     roles = find_roles(table, said)
     notes = Notes([], [])
+    if roles.left_out:
+        notes.findings.append(
+            f"Left out, as no column drives them: {', '.join(roles.left_out)} (otherwise: --motor NAME:DRIVE,MOTION)."
+        )
     rows = _rows(table, roles, said, notes)
     forms = [make_form(table, pair, roles, said, rows, notes) for pair in roles.pairs]
     if notes.questions:

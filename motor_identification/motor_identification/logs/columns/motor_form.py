@@ -23,6 +23,7 @@ from motor_identification.logs.form import LENGTHS, UNITS, CsvForm, Kind, time_u
 Floats = NDArray[np.float64]
 
 STEPS_BETWEEN = 0.8  # of the rows that a steady curve's voltage changes in
+ROUNDED = 0.01  # of full duty, by which rounding may go beyond it
 _KINDS = {Quantity.SPEED: Kind.SPEED, Quantity.POSITION: Kind.POSITION, Quantity.COUNT: Kind.COUNT}
 _ORDER = (Kind.SPEED, Kind.COUNT, Kind.POSITION)  # `count` is a count before it is a position
 
@@ -55,6 +56,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     said = say_turn_counts(table, pair, stamps, said, notes)
     drive, scale, supply = _drive(table, pair, roles, said, notes)
     driven = bool(pair.label or np.any(table.numbers(pair.voltage)))  # of several motors, one may not be
+    _caution_beyond_full(table, pair, drive, notes)
     volts = supply_scale(read_heading(supply), table.numbers(supply)) if supply else (1.0, "")
     beside = f", times {supply} in {volts[1]}" if supply else ""
     notes.findings.append(f"Voltage{whose}: {pair.voltage} {drive.why}{beside}.")
@@ -128,6 +130,18 @@ def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> 
     why = drive.why.replace(" (assumed; otherwise:", " (otherwise")
     notes.questions.append((pair.voltage, f"{why}: say the voltage at full duty (--supply-voltage V)"))
     return drive, 1.0, None
+
+
+def _caution_beyond_full(table: Table, pair: Pair, drive: Drive, notes: Notes) -> None:
+    """Tell of duties beyond the full one that was said: another scale, or a code of a program's own."""
+    values = np.abs(table.numbers(pair.voltage))
+    beyond = values > drive.full * (1.0 + ROUNDED) if drive.full else np.zeros(0, bool)
+    if beyond.any():
+        notes.findings.append(
+            f"Caution: {pair.voltage} goes up to {np.max(values):g}, beyond the full duty of {drive.full:g}, in "
+            f"{np.count_nonzero(beyond)} rows: no bridge gives more than its supply. Check --full-duty, or leave out "
+            "rows whose number is a code."
+        )
 
 
 def _duties(table: Table, pair: Pair, roles: Roles) -> Floats:

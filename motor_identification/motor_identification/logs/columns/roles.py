@@ -6,7 +6,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.behaviour import ends_of_a_loop, find_position, numbered_motors, present_values
+from motor_identification.logs.columns.behaviour import (
+    ends_of_a_loop,
+    find_position,
+    numbered_motors,
+    present_values,
+    speeds_called_v,
+)
 from motor_identification.logs.columns.clock import find_clock, read_clock, runs_forward, since_1970
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
@@ -31,6 +37,7 @@ class Roles:
     pairs: tuple[Pair, ...]
     supply: str | None
     current: str | None
+    left_out: tuple[str, ...] = ()  # motions that nothing drives, beside motors that something does
 
 
 def find_roles(table: Table, said: Said) -> Roles:
@@ -44,12 +51,13 @@ def find_roles(table: Table, said: Said) -> Roles:
     if said.time:
         table.column(said.time)
     free = ends_of_a_loop([heading for heading in headings if heading.name not in (time, said.supply)])
-    free = numbered_motors(present_values(free))
+    free = numbered_motors(speeds_called_v(table, present_values(free)))
+    free, undriven = ([*free], ()) if said.motors or said.motion or said.voltage else _driven_sides(free)
     pairs = said.motors or _pairs(table, free, said, time)
     supply = said.supply or _supply_of(table, free, pairs)
     named = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs} | {supply}
     currents = [one.name for one in free if one.quantity is Quantity.CURRENT and one.name not in named]
-    return Roles(time, pairs, supply, currents[0] if len(currents) == 1 and len(pairs) == 1 else None)
+    return Roles(time, pairs, supply, currents[0] if len(currents) == 1 and len(pairs) == 1 else None, undriven)
 
 
 def _is_numeric(table: Table, name: str) -> bool:
@@ -72,6 +80,17 @@ def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
     if named:
         return named[0]
     return find_clock({heading.name: table.numbers(heading.name) for heading in headings if heading.quantity is None})
+
+
+def _driven_sides(headings: Sequence[Heading]) -> tuple[list[Heading], tuple[str, ...]]:
+    """Leave out a side's motions that nothing drives, where every drive is another side's: they are named."""
+    sides = {one.side for one in headings if drives(one)}
+    if not sides or "" in sides:
+        return list(headings), ()
+    undriven = [one for one in headings if one.quantity in MOVES and one.side and one.side not in sides]
+    if all(one in undriven for one in headings if one.quantity in MOVES and one.side):
+        return list(headings), ()  # pwm_left beside speed 2: no sides of one machine
+    return [one for one in headings if one not in undriven], tuple(one.name for one in undriven)
 
 
 def _pairs(table: Table, headings: Sequence[Heading], said: Said, time: str | None) -> tuple[Pair, ...]:

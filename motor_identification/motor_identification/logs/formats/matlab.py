@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from motor_identification.logs.columns.clock import runs_forward
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.mat_elements import BrokenFileError, TooLargeError, Value, read_variables
 from motor_identification.logs.formats.mat_version_4 import is_version_4, read_matrices
@@ -45,10 +46,27 @@ def read_matlab(path: Path) -> Table:
     fitting = {name: vector for name, vector in vectors.items() if len(vector) == length}
     if len(fitting) < 2:
         raise RecordingError(f"{path} has no two vectors of one length: save time, voltage and motion with one.")
+    fitting = _share_clock(fitting)
     others = [name for name, vector in vectors.items() if name and 2 <= len(vector) != length]
     notes = [f"Left out, as they have other lengths: {', '.join(others[:8])}."] if others else []
     notes += [f"Not read: {OBJECTS}; {SAVE_THEM}, if the motion is in them."] if objects else []
     return Table(path, np.arange(1, length + 1), fitting, notes=tuple(notes))
+
+
+def _share_clock(vectors: dict[str, Any]) -> dict[str, Any]:
+    """Keep the times once where several matrices have the same in their first column, as Simulink's with time do.
+
+    A matrix that has one column beside them keeps its own name.
+    """
+    first = [name for name in vectors if name.endswith(" 1")]
+    if len(first) < 2 or any(not np.array_equal(vectors[name], vectors[first[0]]) for name in first):
+        return vectors
+    if not runs_forward(vectors[first[0]]):
+        return vectors
+    rest = {name: vector for name, vector in vectors.items() if not np.array_equal(vector, vectors[first[0]])}
+    alone = {f"{name[:-2]} 2" for name in first if f"{name[:-2]} 3" not in rest}
+    named = {name[:-2] if name in alone and name[:-2] not in rest else name: vector for name, vector in rest.items()}
+    return {"time": vectors[first[0]], **named}
 
 
 def _collect(name: str, value: Value, vectors: dict[str, Any]) -> None:

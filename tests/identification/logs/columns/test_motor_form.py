@@ -39,6 +39,20 @@ def test_a_duty_becomes_volts(said: Said, scale: float, full: float | None) -> N
     assert (made.voltage_scale, made.max_voltage) == (pytest.approx(scale), full) and notes.questions == []
 
 
+@pytest.mark.parametrize(("full", "told"), [(100.0, "100 rows"), (150.0, "50 rows"), (198.1, ""), (255.0, "")])
+def test_duties_beyond_the_full_one_are_told(full: float, told: str) -> None:
+    """A count too few, or 1000 for "let it coast": 12 V of supply do not become 47."""
+    notes = Notes([], [])
+    time, volts = 0.01 * np.arange(100), np.repeat([110.0, -200.0], 50)
+    table = Table(Path("log.csv"), np.arange(100), {"t": time, "pwm": volts, "rpm": np.cumsum(volts)})
+    pair, roles = Pair("", "pwm", "rpm"), Roles("t", (), None, None)
+    make_form(table, pair, roles, Said(supply_voltage=12.0, full_duty=full), ROWS, notes)
+    cautions = [line for line in notes.findings if line.startswith("Caution")]
+    assert len(cautions) == bool(told)
+    if told:
+        assert f"pwm goes up to 200, beyond the full duty of {full:g}, in {told}" in cautions[0]
+
+
 def test_a_supply_is_no_voltage_where_the_duty_is_0_in_every_row() -> None:
     table = Table(Path("log.csv"), np.arange(9), {"t": np.arange(9.0), "pwm": np.zeros(9), "rpm": np.arange(9.0)})
     pair, roles = Pair("", "pwm", "rpm"), Roles("t", (), None, None)

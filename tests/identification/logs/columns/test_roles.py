@@ -191,3 +191,27 @@ def test_a_log_of_one_step_that_has_no_drive_is_told_of_the_option() -> None:
     for columns in ({"column 1": "a", "column 2": "t"}, {"column 1": "t", "column 2": "a", "column 3": "w"}):
         with pytest.raises(RecordingError, match="no column is the voltage or duty: .* --constant-voltage V for a log"):
             find_roles(table(**columns), Said())
+
+
+def test_v_beside_a_drive_is_the_velocity() -> None:
+    """`vLeft` beside `powerPctLeft`: it changes while the drive stays; a voltage that was measured does not."""
+    both = find_roles(
+        table(t="t", powerPctLeft="u", powerPctRight="r", vLeft="y", vMouse="y", vRight="y"), Said()
+    ).pairs
+    assert both == (Pair("left", "powerPctLeft", "vLeft"), Pair("right", "powerPctRight", "vRight"))
+    assert find_roles(table(t="t", u="u", v="y"), Said()).pairs == (Pair("", "u", "v"),)
+    assert find_roles(table(t="t", pwm="u", v="u", x="y"), Said()).pairs == (Pair("", "v", "x"),)
+    assert find_roles(table(t="t", pwm="u", v="u", omega="y"), Said()).pairs == (Pair("", "v", "omega"),)
+    with pytest.raises(RecordingError, match="which column is the motion"):
+        find_roles(table(t="t", pwm="u", v="r"), Said())
+    with pytest.raises(RecordingError, match="which column is the motion"):
+        find_roles(table(t="t", pwm="u", v="b"), Said())
+
+
+def test_a_side_that_nothing_drives_is_left_out() -> None:
+    roles = find_roles(table(t="t", pwm_left="u", speed_left="y", speed_right="y"), Said())
+    assert (roles.pairs, roles.left_out) == ((Pair("", "pwm_left", "speed_left"),), ("speed_right",))
+    shared = find_roles(table(t="t", pwm="u", speed_left="y", speed_right="y"), Said())
+    assert (len(shared.pairs), shared.left_out) == (2, ())
+    other = find_roles(table(t="t", pwm_left="u", speed_right="y"), Said())
+    assert (other.pairs, other.left_out) == ((Pair("", "pwm_left", "speed_right"),), ())

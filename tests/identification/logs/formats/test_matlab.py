@@ -76,3 +76,23 @@ def test_variables_without_a_name_are_not_listed(tmp_path: Path, monkeypatch: py
     del there["t"], there["x"]
     with pytest.raises(RecordingError, match="log.mat holds objects of MATLAB .*: save their Time and Data as vectors"):
         read_matlab(tmp_path / "log.mat")
+
+
+def test_times_in_the_first_column_of_each_matrix_are_one(tmp_path: Path) -> None:
+    """Simulink's "array with time": every signal brings the times along."""
+    content = {
+        "Vm": np.column_stack([TIME, TIME * 3]),
+        "wl": np.column_stack([TIME, TIME * 5, TIME * 6]),
+        "log": {"time": TIME, "values": TIME * 7},
+    }
+    savemat(tmp_path / "log.mat", content)
+    table = read_matlab(tmp_path / "log.mat")
+    assert sorted(table.names) == ["Vm", "log.values", "time", "wl 2", "wl 3"]
+    assert table.numbers("time") == pytest.approx(TIME) and table.numbers("Vm") == pytest.approx(TIME * 3)
+    savemat(tmp_path / "log.mat", content | {"wl": np.column_stack([TIME * 2, TIME * 5])})
+    assert sorted(read_matlab(tmp_path / "log.mat").names) == [
+        "Vm 1", "Vm 2", "log.time", "log.values", "wl 1", "wl 2",
+    ]  # fmt: skip
+    same = np.cos(20.0 * TIME)
+    savemat(tmp_path / "log.mat", {"a": np.column_stack([same, TIME]), "b": np.column_stack([same, TIME])})
+    assert sorted(read_matlab(tmp_path / "log.mat").names) == ["a 1", "a 2", "b 1", "b 2"]
