@@ -9,9 +9,9 @@ from motor_driver.frames.from_board import Hello, Sensed, Telemetry
 from motor_model.gearing.gear import edge_angle
 from motor_model.sample import Sample
 from motor_model.sensing.speed_rule import SpeedState, single_channel_speed, speed_magnitude
+from motor_model.sensing.supply import find_least_supply
 
 HALF, WRAP = 1 << 31, 1 << 32
-NO_SUPPLY = 3.0  # [V] measured below this, the supply is off
 STEP = 5.0 / 1024  # [V] of the board's converter
 MEMORY = 0.5  # [s] over which a measured supply is smoothed: its converter's step is 20 mV
 # Of `supply_voltage`, where it is said: no supply at work falls lower, and what reads less is a divider that has come
@@ -90,7 +90,7 @@ class Readout:
 
     def _follow_supply(self, millivolts: int) -> None:
         """Take the supply that the board measures for the voltage at full duty."""
-        if millivolts != NOT_MEASURED and millivolts * 1e-3 >= NO_SUPPLY:
+        if millivolts != NOT_MEASURED and millivolts * 1e-3 >= find_least_supply(self._config.full_voltage):
             measured = max(millivolts * 1e-3, LEAST * self._config.supply_voltage)
             share = min(1.0 / (MEMORY * self._config.sample_rate), 1.0)
             known = self._measured and measured <= RISE * self.supply

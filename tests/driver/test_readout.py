@@ -46,6 +46,13 @@ def test_a_measured_supply_prevails() -> None:
     assert off.voltage == 6.0 and off.supply_voltage == 0.2
 
 
+@pytest.mark.parametrize(("measured", "taken"), [(480, 0.48), (310, 0.31), (290, 1.2)])
+def test_a_measured_supply_of_less_than_a_quarter_of_what_is_expected_is_off(measured: int, taken: float) -> None:
+    """1.2 V are expected; it was less than 3 V for any motor, and what was said prevailed."""
+    sample = heard(readout(Config(max_voltage=1.2)), replace(TELEMETRY, duty=256, supply=measured))
+    assert sample.voltage == pytest.approx(taken)
+
+
 @pytest.mark.parametrize(("measured", "taken"), [(13.0, 13.0), (11.0, 12.0), (3.5, 12.0), (30.0, 30.0)])
 def test_no_supply_at_work_is_less_than_half_of_what_was_said(measured: float, taken: float) -> None:
     """The divider of a 6 V motor on 24 V came loose and read 3.5 V: the motor got 24 V."""

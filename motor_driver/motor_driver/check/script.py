@@ -11,8 +11,8 @@ from motor_driver.check.record import UNKNOWN, Record
 from motor_driver.check.rest import ask, watch_rest
 from motor_driver.check.settings import Settings
 from motor_driver.frames.from_board import Hello
+from motor_model.sensing.supply import find_least_supply
 
-LITTLE = 3.0  # [V] of supply: no bridge works with less
 LEAST_SUPPLY, MOST_SUPPLY = 0.8, 1.1  # of the expected one: a battery that is empty, a divider of two 5 % resistors
 SUPPLY_TIME = 0.3  # [s] of which the mean is taken
 MORE, APART = 0.2, 0.12  # of the motor's voltage: the quicker pace above the breakaway, and above the slower one
@@ -49,7 +49,7 @@ def _measure_supply(settings: Settings, record: Record) -> Steps[None]:
     said = {"supply": supply, "expected": settings.supply}
     if isnan(supply):
         record.say("supply", f"not measured by this board; {settings.supply:.3g} V are believed", UNKNOWN)
-    elif supply < LITTLE:
+    elif supply < find_least_supply(settings.supply):
         record.find("supply", "no_supply", **said)
     elif supply > MOST_SUPPLY * settings.supply:
         record.find("supply", "supply_too_high", **said)

@@ -17,12 +17,12 @@ from math import exp, sqrt
 
 from motor_model.frozen_record import replace
 from motor_model.sample import Sample
+from motor_model.sensing.supply import find_least_supply
 
 DRIVEN = 0.25  # of the motor's voltage: turns any motor that is meant for it
 STRONG = 0.5  # of the motor's voltage: twice what any motor needs to break away, so that no slow ramp comes that far
 STILL_STRONG = 0.8  # of that it may fall to and count on: a loop's voltage trembles with the disc's slots
 LONG = 500_000_000  # [ns] of driving one way without what should follow
-LITTLE = 3.0  # [V] of supply: no bridge works with less
 ALL = 0.93  # of a measured supply, which a driver smooths by as much as 5 %: more there is not, however little it is
 # Of the period before: a motor that is braked to a standstill has a last one of at least 1.3 of it, however hard it is
 # braked (slots at the end of a constant deceleration); a disc with slots irregular by 5 % seldom has 1.2.
@@ -92,7 +92,7 @@ class MotionCheck:
     def see(self, sample: Sample) -> "MotionCheck":
         """The next sample of the same board since its start."""
         share, now = sample.voltage / self.max_voltage, sample.sample_time
-        direction, strong = _sign(share, DRIVEN), _sign(share, STRONG) or _sign_of_all(sample)
+        direction, strong = _sign(share, DRIVEN), _sign(share, STRONG) or self._sign_of_all(sample)
         if strong == 0 and share * self.strong >= STILL_STRONG * STRONG:
             strong = self.strong
         fresh, anew = direction != self.direction, strong != self.strong
@@ -158,6 +158,11 @@ class MotionCheck:
         stalled = sample.sample_time - max(self.still, self.strong_since) >= most
         return self._no_edges(sample) if stalled else ""
 
+    def _sign_of_all(self, sample: Sample) -> int:
+        """The direction of all the voltage that a measured supply gives; 0: it is less, off, or not measured."""
+        supply = sample.supply_voltage
+        return _sign(sample.voltage / supply, ALL) if supply >= find_least_supply(self.max_voltage) else 0
+
     def _is_even(self, sample: Sample) -> bool:
         """Whether the period of this edge is hardly longer than that of the one before."""
         return self.latest is not None and 0.0 < sample.edge_period <= SLOWED * self.latest.edge_period
@@ -195,15 +200,10 @@ class MotionCheck:
 
     def _no_edges(self, sample: Sample) -> str:
         text = NEVER if sample.edge_count == 0 else CUT_OFF if self.even else STALLED
-        if sample.supply_voltage < LITTLE:  # false if it is not measured
+        believed = abs(sample.voltage) * ALL  # more than is measured, where a driver takes the supply for off
+        if sample.supply_voltage < max(find_least_supply(self.max_voltage), believed):  # false if not measured
             text = NO_SUPPLY
         return text.format(voltage=sample.voltage, supply=sample.supply_voltage)
-
-
-def _sign_of_all(sample: Sample) -> int:
-    """The direction of all the voltage that a measured supply gives; 0: it is less, or not measured."""
-    supply = sample.supply_voltage
-    return _sign(sample.voltage / supply, ALL) if supply >= LITTLE else 0
 
 
 def _sign(share: float, least: float) -> int:

@@ -1,5 +1,6 @@
 """The state machine by plain calls on the simulated motor: each wiring is named, and the motor is off in time."""
 
+from dataclasses import replace
 from math import nan
 
 import numpy as np
@@ -85,6 +86,12 @@ def test_the_supply_is_judged_where_it_is_measured_and_then_nothing_is_driven(su
     run = SimulatedRun(ALONE, supply=supply)
     assert run.run().record.codes == codes
     assert any(act.voltage for _, act, _ in run.acts) == (codes == [])
+
+
+@pytest.mark.parametrize(("supply", "codes"), [(0.29, ["no_supply"]), (0.31, ["supply_too_low"])])
+def test_a_missing_supply_is_less_than_a_quarter_of_what_is_expected(supply: float, codes: list[str]) -> None:
+    settings = replace(ALONE, max_voltage=1.2, supply_voltage=0.0)
+    assert SimulatedRun(settings, supply=supply).run().record.codes == codes
 
 
 def test_counts_that_cannot_be_true_and_counts_that_nobody_knows() -> None:

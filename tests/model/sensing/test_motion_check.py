@@ -33,6 +33,21 @@ def test_a_missing_supply_is_told_from_a_missing_encoder_where_it_is_measured(su
     assert words in seen(True, *(sample(0.1 * k, 0, 0.0, supply=supply) for k in range(8)))
 
 
+@pytest.mark.parametrize("motor", [1.2, 12.0])
+@pytest.mark.parametrize(("share", "words"), [(0.04, "switch it on"), (0.24, "switch it on"), (0.26, "no edge ever")])
+def test_a_missing_supply_is_one_of_less_than_a_quarter_of_the_motors_voltage(
+    motor: float, share: float, words: str
+) -> None:
+    driven = [sample(0.1 * k, 0, 0.0, 0.26 * motor, share * motor) for k in range(8)]
+    assert words in checked(True, *driven, max_voltage=motor).finding
+
+
+def test_a_supply_below_the_voltage_that_is_believed_is_missing_too() -> None:
+    """A motor of 1.2 V on a supply of 12 V: 0.5 V are more than a quarter of the motor's voltage, and no 12 V."""
+    driven = [sample(0.1 * k, 0, 0.0, 0.6, 0.5) for k in range(8)]
+    assert "supply is at 0.5 V; switch it on" in checked(True, *driven, max_voltage=1.2).finding
+
+
 def test_an_encoder_that_is_unplugged_in_full_motion_is_told_from_a_motor_that_stalls() -> None:
     still = [sample(0.1 * k, 9, 0.0) for k in range(1, 8)]
     for pace in (1.0, 100.0):  # whatever the motor's speed, and its encoder's slots
@@ -64,6 +79,13 @@ def test_all_that_a_low_supply_gives_is_enough_for_a_stop(voltage: float, supply
     """Half of the motor's 12 V never comes from a battery of 5 V."""
     blocked = [sample(0.1 * k, 0, 0.0, voltage, supply) for k in range(7)]
     assert bool(checked(True, *blocked).stop) == stops
+
+
+@pytest.mark.parametrize(("supply", "stops"), [(0.48, True), (0.31, True), (0.29, False)])
+def test_and_of_a_motor_of_little_voltage_all_that_its_little_supply_gives(supply: float, stops: bool) -> None:
+    """Less than a quarter of 1.2 V is a supply that is off, and the voltage that is told is one that nobody has."""
+    blocked = [sample(0.1 * k, 0, 0.0, supply, supply) for k in range(7)]
+    assert bool(checked(True, *blocked, max_voltage=1.2).stop) == stops
 
 
 @pytest.mark.parametrize("limit", [1.2, 12.0, 48.0])
