@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 import workbench
+from rclpy.duration import Duration
 from rclpy.time import Time
 from std_srvs.srv import SetBool
-from workbench import DOMAIN, Bench
+from workbench import DOMAIN, PATIENCE, Bench
 
 from motor_identification.bag import BagWriter, contents, read_recording
 from motor_identification.live import run_plan, speed_probe
@@ -180,6 +181,30 @@ def test_an_interrupt_of_the_ramp_leaves_no_bag(stand: Stand) -> None:
     assert stand.experiment("step", turning, limit=40.0) == 130
     stand.assert_stopped()
     assert not stand.bag.exists()
+
+
+@pytest.mark.parametrize("off", [3600.0, -3600.0])
+def test_a_clock_that_is_not_the_plants_holds_nothing_up(
+    stand: Stand, monkeypatch: pytest.MonkeyPatch, off: float
+) -> None:
+    """With a plant under use_sim_time, or after the clock was set back, it waited for ever, and said nothing."""
+    true = Driver.get_clock
+
+    class Ahead:
+        def __init__(self, driver: Driver) -> None:
+            self._clock = true(driver)
+
+        def now(self) -> Time:
+            return self._clock.now() + Duration(nanoseconds=round(off * 1e9))
+
+        def __getattr__(self, name: str) -> object:
+            return getattr(self._clock, name)
+
+    monkeypatch.setattr(Driver, "get_clock", lambda driver: Ahead(driver))
+    end = stand.bench.node.get_clock().now() + Duration(seconds=PATIENCE)
+    assert stand.experiment("step", lambda driver: stand.bench.node.get_clock().now() > end) == 0
+    stand.assert_stopped()
+    assert 0.8 < stand.recorded() < 2.0  # the step is 1.1 s; half a second of samples from before may stand before it
 
 
 def test_another_plant_and_another_voltage(stand: Stand) -> None:

@@ -7,6 +7,7 @@ from subprocess import Popen
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from plant_user import User
+from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from workbench import PATIENCE, Bench, end
@@ -16,6 +17,7 @@ from motor_model.parameters import PAPER_KV, Parameters
 from motor_model.sensing.motion_check import NEVER
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
+from motor_ros.messages import time_message
 
 Start = Callable[..., "Popen[str]"]
 PATIENT = ("--ros-args", "-p", "command_timeout:=10.0")  # a user who is held up does not interrupt
@@ -146,6 +148,25 @@ def test_simulated_ros_time_stops_nothing(bench: Bench, start: Start, user: User
     user.voltage = 5.0
     user.until(lambda sample: sample.speed > 60.0, "motion")
     assert user.samples[-1].header.stamp.sec == 0
+
+
+@pytest.mark.parametrize("times", [(5000.0, 10.0), (2.0e9, 0.0, 3.0)])
+def test_a_clock_that_jumps_to_and_fro_stops_no_loop(
+    bench: Bench, start: Start, user: User, times: tuple[float, ...]
+) -> None:
+    """Plant and controller under /clock: it jumps by an hour, back, decades ahead, to 0; the speed is held."""
+    user.sending = False  # the controller does
+    start("motor_sim", "motor_sim", "--ros-args", "-p", "use_sim_time:=true")
+    patient = ("-p", "latency_limit:=10.0", "-p", "sample_timeout:=5.0")
+    start("motor_control", "motor_control", "--ros-args", "-p", "use_sim_time:=true", *patient)
+    reference = bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+    clock = bench.publisher(Clock, "/clock", 1)
+    bench.heard(reference, clock)
+    user.until_moving(reference, "motion", enable=False)
+    for time in times:
+        clock.publish(Clock(clock=time_message(round(time * 1e9))))
+        user.until(lambda sample: abs(sample.header.stamp.sec - time) < 2.0, "the time that it is now")  # noqa: B023
+        assert all(50.0 < sample.speed < 70.0 for sample in user.more(60))
 
 
 def of_the_latest_plant(user: User) -> list[MotorSpeed]:

@@ -19,6 +19,7 @@ from motor_ros.messages import info_of, sample_of, voltage_message
 from motor_ros.topics import publishers_of
 
 SILENCE = 1.0  # [s] without samples after which the plant is gone
+QUEUED = 0.5  # [s] after which no sample from before can come out of the queue any more
 LEAST = 0.02  # of max_voltage: a command that any bridge can follow
 ARRIVAL = 0.5  # [s] for the last command to arrive
 JUST_DISCOVERED = "/_NODE_NAME_UNKNOWN"  # begins the name of a node that has not told it yet
@@ -40,6 +41,7 @@ class Driver(Node):
         self.done, self.problem = False, ""
         self._following: Plan | None = None
         self._ready = self.get_clock().now()  # samples from before have waited in the queue
+        self._since = time.monotonic()  # likewise
         self._enough: float | None = None  # [rad/s] that ends a probe
         self.elapsed = 0.0  # [s]
         self.heard: float | None = None  # [s] monotonic time of the latest sample
@@ -57,7 +59,7 @@ class Driver(Node):
         """Do what a plan says from now on; with `enough` it is a probe, kept in `samples`, that ends at that speed."""
         self._following, self._enough, self.samples = plan, enough, []
         self._ready, self._start, self.done, self.elapsed = self.get_clock().now(), None, False, 0.0
-        self.heard = time.monotonic()  # nobody has listened while something else was done
+        self.heard = self._since = time.monotonic()  # nobody has listened while something else was done
 
     def send(self, voltage: float) -> None:
         """Ask the plant for a voltage [V]."""
@@ -92,7 +94,7 @@ class Driver(Node):
 
     def _on_sample(self, message: MotorSpeed) -> None:
         self.heard = time.monotonic()
-        if self._following is None or self.problem or Time.from_msg(message.header.stamp) < self._ready:
+        if self._following is None or self.problem or self._is_old(message):
             return
         if self._enough is not None:
             self.samples.append(sample_of(message))
@@ -107,6 +109,11 @@ class Driver(Node):
             command = self._following.command(self.elapsed)
             self.done = command is None
             self.send(command or 0.0)
+
+    def _is_old(self, message: MotorSpeed) -> bool:
+        """Whether a sample is from before, as far as stamps tell: the plant may have another ROS time."""
+        waited = self._start is None and time.monotonic() - self._since < QUEUED
+        return waited and Time.from_msg(message.header.stamp) < self._ready
 
     def _on_voltage(self, message: MotorVoltage) -> None:
         if self._following and message.header.frame_id != OURS and not self.problem:
