@@ -8,9 +8,11 @@ from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.mending import mend_table, take_off_units
 from motor_identification.logs.csv.sparse import fill_gaps
+from motor_identification.logs.csv.table import Table
 from motor_identification.logs.excitation import describe_excitation, hardly_moves
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
+from motor_identification.logs.motor_rows import separate_motors
 from motor_identification.logs.rows.constant_voltage import CONSTANT, give_voltage
 from motor_identification.logs.rows.row_times import (
     ROW_TIMES,
@@ -55,6 +57,21 @@ def import_source(source: Source, said: Said) -> Imported:
     """
     given = take_off_units(source.table)
     said = said.with_names(given.names)
+    motors: list[Motor] = []
+    findings: list[str] = []
+    for label, table in separate_motors(given, said).items():
+        found, about = _read_motors(table, source.with_said(said))
+        motors += [replace(motor, label="_".join(filter(None, (label, motor.label)))) for motor in found]
+        findings += about
+    motors, still = _without_still(motors)
+    if not any(motor.log.runs for motor in motors):
+        raise RecordingError(f"{given.path} holds no recording: give a log with at least 2 samples.")
+    about_file = f"{given.path}: a {source.format} with the columns {_listed(source.table.names)}."
+    return Imported(tuple(motors), (about_file, *dict.fromkeys(findings), *still))
+
+
+def _read_motors(given: Table, said: Said) -> tuple[list[Motor], list[str]]:
+    """Read the motors whose columns stand side by side, and what was found about all of them."""
     if said.sample_period is None:
         timed = given if said.time_unit else write_times_in_seconds(given)
         table = mend_table(sum_steps(timed) if said.time is None else timed)
@@ -65,17 +82,13 @@ def import_source(source: Source, said: Said) -> Imported:
         table = give_voltage(table, said.constant_voltage)
         said = replace(said, voltage=CONSTANT)
     filled = fill_gaps(table if said.motors else join_two_ways(table, said.voltage))
-    guess = guess_forms(filled.table, source.with_said(said))
+    guess = guess_forms(filled.table, said)
     motors = []
     for form in guess.forms:
         rows = filled.rows_of(form.time, form.motion, form.voltage, form.supply)
         log = read_motor(replace(rows, notes=rows.notes[len(table.notes) :]), form)
         motors.append(Motor(form.label, replace(log, findings=(*log.findings, *describe_excitation(log)))))
-    motors, still = _without_still(motors)
-    if not any(motor.log.runs for motor in motors):
-        raise RecordingError(f"{table.path} holds no recording: give a log with at least 2 samples.")
-    about = f"{table.path}: a {source.format} with the columns {_listed(source.table.names)}."
-    return Imported(tuple(motors), (about, *table.notes, *guess.findings, *still))
+    return motors, [*table.notes, *guess.findings]
 
 
 def _without_still(motors: list[Motor]) -> tuple[list[Motor], list[str]]:
