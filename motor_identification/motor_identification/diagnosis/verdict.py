@@ -144,7 +144,7 @@ def decide(
     findings: Sequence[Finding], last: Model, hidden: tuple[str, ...], undetermined: tuple[str, ...] = ()
 ) -> tuple[Verdict, str]:
     """Decide how it ended, and the profile to record next."""
-    if undetermined:
+    if undetermined and not (findings and last.complete):  # beside what explains everything it is only told
         return Verdict.UNDECIDED, EFFECT_BY_NAME[undetermined[0]].shown_by
     unclear = next((finding.suggested_experiment for finding in findings if finding.ambiguous_with), "")
     if not last.complete and last.held.confirms:

@@ -16,7 +16,6 @@ NO_MOTOR = (
     "But kv ended at the limit of what is searched: no motor moves like this by such a voltage; check the columns of "
     "voltage and motion, and their units."
 )
-UNDETERMINED = "this recording determines nothing of it."
 SEEN = (
     "The command changes too seldom to hold any of it out: this gap is of the motion that was fitted; --validate BAG "
     "tests it on another."
@@ -86,7 +85,8 @@ def format_parameters(finding: Finding) -> str:
 def _explained(diagnosis: Diagnosis) -> str:
     model = "it" if len(diagnosis.findings) == 1 else "them"
     text = f"{_describe_found(diagnosis.findings)}. With {model}, {describe_gap_reduction(diagnosis)}."
-    return " ".join(part for part in (text, describe_disturbance(diagnosis), _describe_untestable(diagnosis)) if part)
+    parts = (text, describe_disturbance(diagnosis), _describe_undetermined(diagnosis), _describe_untestable(diagnosis))
+    return " ".join(part for part in parts if part)
 
 
 def _nothing_missing(diagnosis: Diagnosis) -> str:
@@ -156,6 +156,15 @@ def _describe_findings(diagnosis: Diagnosis) -> str:
     return " ".join(parts)
 
 
+def _describe_undetermined(diagnosis: Diagnosis) -> str:
+    """Say which effects something speaks for that has no size; empty where there is none."""
+    if not diagnosis.undetermined:
+        return ""
+    names = join_effects(diagnosis.undetermined)
+    what = f"{capitalize(names)} may be there, too" if diagnosis.findings else f"It may be {names}"
+    return f"{what}, but this recording does not tell how much."
+
+
 def _undecided(diagnosis: Diagnosis) -> str:
     if diagnosis.findings:
         parts = [_describe_findings(diagnosis), f"{capitalize(describe_gap_reduction(diagnosis))}."]
@@ -174,7 +183,7 @@ def _undecided(diagnosis: Diagnosis) -> str:
     if diagnosis.time_limit:
         parts.insert(0, OUT_OF_TIME.format(diagnosis.time_limit))
     if diagnosis.undetermined:
-        parts.append(f"{capitalize(join_effects(diagnosis.undetermined))} may be missing: {UNDETERMINED}")
+        parts.append(_describe_undetermined(diagnosis))
     if diagnosis.undetectable and not any(one.ambiguous_with for one in diagnosis.findings):
         parts.append(f"This recording could not show {join_effects(diagnosis.undetectable)}.")
     return " ".join(parts)

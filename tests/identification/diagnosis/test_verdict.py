@@ -52,10 +52,14 @@ def test_one_response_explains_nothing(confirms: bool, verdict: Verdict, profile
     assert left == ((Verdict.UNDECIDED, "rich") if not confirms else (Verdict.UNEXPLAINED, ""))
 
 
-@pytest.mark.parametrize("gap", [AT, OVER])
-def test_what_is_not_determined_is_undecided_and_no_finding(gap: float) -> None:
-    verdict, profile = decide((finding(),), stub_model(gap, 0.0), (), ("transport_delay",))
+@pytest.mark.parametrize(("gap", "found"), [(AT, False), (OVER, False), (OVER, True)])
+def test_what_is_not_determined_is_undecided_and_no_finding(gap: float, found: bool) -> None:
+    verdict, profile = decide((finding(),) * found, stub_model(gap, 0.0), (), ("transport_delay",))
     assert verdict is Verdict.UNDECIDED and profile == EFFECT_BY_NAME["transport_delay"].shown_by
+
+
+def test_what_is_not_determined_takes_nothing_from_what_explains_everything() -> None:
+    assert decide((finding(),), stub_model(AT, 0.0), (), ("warm_up",)) == (Verdict.EXPLAINED, "")
 
 
 @pytest.mark.parametrize("count", [thresholds.LEAST_MISSED_EDGES - 1, thresholds.LEAST_MISSED_EDGES])

@@ -46,6 +46,17 @@ def test_a_motor_that_no_voltage_moves_like_this_is_said(variants: dict[Verdict,
     assert "But kv ended at the limit of what is searched: no motor moves like this" in summarize_diagnosis(walled)
 
 
+def test_what_has_no_size_is_told_without_a_contradiction(variants: dict[Verdict, Diagnosis]) -> None:
+    open_ones = ("warm_up", "load_step")
+    nothing = replace(variants[Verdict.UNDECIDED], findings=(), undetermined=open_ones)
+    assert summarize_diagnosis(nothing).startswith("Something is missing that this recording does not determine: the")
+    assert "It may be warm up or load step, but this recording does not tell how much." in summarize_diagnosis(nothing)
+    for verdict in (Verdict.EXPLAINED, Verdict.UNDECIDED):
+        said = summarize_diagnosis(replace(variants[verdict], undetermined=open_ones[:1]))
+        assert "Warm up may be there, too, but this recording does not tell how much." in said
+        assert "does not tell" not in summarize_diagnosis(variants[verdict])
+
+
 def test_where_nothing_was_held_out_the_gap_is_no_validation(variants: dict[Verdict, Diagnosis]) -> None:
     for verdict, one in variants.items():
         said = summarize_diagnosis(replace(one, after=replace(one.after, seen=True)))
