@@ -1,4 +1,4 @@
-"""SysId's own JSON log (WPILib): four tests, of one mechanism or of the two sides of a drivetrain."""
+"""SysId's own JSON log (WPILib), and frc-characterization's before it: four tests of a mechanism or a drivetrain."""
 
 import json
 from pathlib import Path
@@ -22,13 +22,15 @@ def read_sysid(path: Path) -> tuple[Table, float | None]:
 
     Positions stand in the log's unit, velocities in that per second; where that is a length, `m` stands for it and the
     units of a turn say how long.
+    frc-characterization has battery and share of the voltage behind the time, and two sides of any mechanism.
 
     Raises:
         RecordingError: it is no such log.
     """
     log = _load(path)
+    before = not log.get("sysid")  # frc-characterization, whose first logs say no unit
     unit = _UNITS.get(str(log.get("units")), "")
-    if not unit:
+    if not unit and not (before and log.get("units") is None):
         raise RecordingError(
             f"{path}: its units, {str(log.get('units'))[:40]}, are none that SysId has: export it again."
         )
@@ -36,22 +38,42 @@ def read_sysid(path: Path) -> tuple[Table, float | None]:
     if not tests:
         raise RecordingError(f"{path} has none of SysId's tests ({', '.join(TESTS)}): export it again.")
     width = {rows.shape[1] for rows in tests.values()}
-    names = _DRIVETRAIN if width == {9} else _SINGLE
-    if width not in ({9}, {4}):
+    known = {9, 10} if before else {4, 9}
+    if len(width) > 1 or not width <= known:
+        tool = "frc-characterization" if before else "SysId"
         raise RecordingError(
-            f"{path}: its rows have {sorted(width)} numbers, where SysId writes 4 or 9: export it again."
+            f"{path}: its rows have {sorted(width)} numbers, where {tool} writes {min(known)} or {max(known)}: export "
+            "it again."
         )
+    sides = width == {9} if not before else log.get("test", "Drivetrain") == "Drivetrain"
+    names = _DRIVETRAIN if sides else _SINGLE
+    if before:
+        tests = {name: _as_sysid_writes(rows, sides) for name, rows in tests.items()}
     rows = np.concatenate(list(tests.values()))
-    units = {"voltage": "V", "position": unit, "velocity": {"rev": "rev/s"}.get(unit, f"{unit}/s")}
+    speed_unit = {"rev": "rev/s"}.get(unit, f"{unit}/s") if unit else ""
+    units = {"voltage": " [V]", "position": unit and f" [{unit}]", "velocity": speed_unit and f" [{speed_unit}]"}
     cells: dict[str, Any] = {
         "test": np.repeat(list(tests), [len(one) for one in tests.values()]),
         "time [s]": rows[:, 0],
     }
     for k, name in enumerate(names, start=1):
-        cells[f"{name} [{units[name.split()[-1]]}]"] = rows[:, k]
-    note = f"SysId log of {str(log.get('test', 'a mechanism'))[:40]}: {', '.join(tests)}."
+        cells[f"{name}{units[name.split()[-1]]}"] = rows[:, k]
+    tool = "frc-characterization's" if before else "SysId"
+    note = f"{tool} log of {str(log.get('test', 'a mechanism'))[:40]}: {', '.join(tests)}."
     table = Table(path, np.arange(1, len(rows) + 1), cells, notes=(note,))
     return table, _turn(path, log, unit)
+
+
+def _as_sysid_writes(rows: NDArray[np.float64], sides: bool) -> NDArray[np.float64]:
+    """Rows of frc-characterization as SysId's: time, voltages, positions, velocities, of two sides or of the left one.
+
+    Its analyser gave the voltages the sign of the motion, since not every robot logged one; so does this, test by test.
+    """
+    kept = np.column_stack([rows[:, 0], rows[:, 3:9] if sides else rows[:, 3:9:2]])
+    for k in range(1, 3 if sides else 2):
+        volts, speed = kept[:, k], kept[:, k + (4 if sides else 2)]
+        kept[:, k] = -volts if volts @ speed < 0.0 else volts
+    return kept
 
 
 def _load(path: Path) -> dict[str, Any]:
@@ -60,7 +82,7 @@ def _load(path: Path) -> dict[str, Any]:
         log = json.loads(text)
     except (ValueError, RecursionError) as error:
         raise RecordingError(f"{path} is no complete JSON: export it again.") from error
-    if not isinstance(log, dict) or not log.get("sysid"):
+    if not isinstance(log, dict) or not (log.get("sysid") or any(isinstance(log.get(test), list) for test in TESTS)):
         raise RecordingError(f"{path} is JSON, and no log of SysId: export it as CSV.")
     return log
 

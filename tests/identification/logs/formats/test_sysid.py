@@ -46,10 +46,39 @@ def test_a_length_without_its_turn_is_asked_for_later(tmp_path: Path) -> None:
         assert read_sysid(write(tmp_path, units="Meters", unitsPerRotation=turn))[1] is None
 
 
+@pytest.mark.parametrize("width", [9, 10])  # with a gyro's angle, or without
+def test_a_log_of_frc_characterization(tmp_path: Path, width: int) -> None:
+    """Before SysId: battery and share of the voltage behind the time, two sides whatever the mechanism."""
+    row = [0.02, 12.4, 0.25, 3.0, 2.9, 0.5, 0.6, 1.5, 1.6, 0.7][:width]
+    path = write(tmp_path, sysid=False, test="Drivetrain", units="Feet", **{"slow-forward": [row, row]})
+    table, turn = read_sysid(path)
+    assert turn == 1.0 and table.notes == ("frc-characterization's log of Drivetrain: slow-forward.",)
+    assert table.names[2:] == [
+        "left voltage [V]", "right voltage [V]", "left position [m]", "right position [m]",
+        "left velocity [m/s]", "right velocity [m/s]",
+    ]  # fmt: skip
+    assert [table.numbers(name)[0] for name in table.names[1:]] == [0.02, *row[3:9]]
+    path = write(tmp_path, sysid=False, test="Elevator", **{"slow-forward": [row, row]})
+    single = read_sysid(path)[0]
+    assert single.names[2:] == ["voltage [V]", "position [rev]", "velocity [rev/s]"]
+    assert [single.numbers(name)[0] for name in single.names[1:]] == [0.02, 3.0, 0.5, 1.5]
+    path.write_text(json.dumps({"fast-forward": [row, row]}))  # those of 2019 say nothing else
+    first = read_sysid(path)[0]
+    assert first.names[2:6] == ["left voltage [V]", "right voltage [V]", "left position", "right position"]
+    back = [0.02, 12.4, -0.25, 3.0, -2.9, -0.5, -0.6, -1.5, -1.6, 0.7][:width]  # a side that logged no sign
+    path.write_text(json.dumps({"fast-backward": [back, back]}))
+    assert [read_sysid(path)[0].numbers(name)[0] for name in ("left voltage [V]", "right voltage [V]")] == [-3.0, -2.9]
+    path.write_text(json.dumps({"fast-forward": [row[:8]] * 2}))
+    with pytest.raises(
+        RecordingError, match=r"has \[8\] numbers|have \[8\] numbers, where frc-characterization writes 9"
+    ):
+        read_sysid(path)
+
+
 @pytest.mark.parametrize(
     ("changed", "complaint"),
     [
-        ({"sysid": False}, "is JSON, and no log of SysId"),
+        ({"sysid": False, "slow-forward": 7}, "is JSON, and no log of SysId"),
         ({"units": "Furlongs"}, "its units, Furlongs, are none that SysId has"),
         ({"slow-forward": []}, "has none of SysId's tests"),
         ({"slow-forward": [[1, 2], [3, 4]]}, r"its rows have \[2\] numbers, where SysId writes 4 or 9"),
