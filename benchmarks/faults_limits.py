@@ -1,11 +1,11 @@
 """What is kept within bounds without a stop: a higher supply, a second sender, a dithering shaft, a reversal."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
 from faults_board_loop import BoardLoop
-from faults_line import swapped
+from faults_line import Swapped
 from faults_loop import Line, Loop
 from faults_motor import MOTORS
 from faults_rows import block
@@ -109,7 +109,7 @@ def few_edges(rate: float) -> str:
     return _rest(loop)
 
 
-def impatience(line: Line, blocked: bool = False):  # type: ignore[no-untyped-def]
+def impatience(make_line: Callable[[], Line], blocked: bool = False):  # type: ignore[no-untyped-def]
     """A measurement of what a supervisor gets that answers every stop at once: the voltage in the mean of a minute."""
 
     def measure(rate: float) -> str:
@@ -117,7 +117,7 @@ def impatience(line: Line, blocked: bool = False):  # type: ignore[no-untyped-de
         loop.run(0.2)
         loop.goes_on = 0.5 * MOTOR.top
         loop.run(1.0)
-        loop.line = line
+        loop.line = make_line()
         if blocked:
             block(loop)
         begin = loop.time
@@ -157,8 +157,8 @@ CASES = {
     "two channels, four times the gain `kp`, measured, then a reference of 0: 3 s later": large_gain,
     "two channels, 24 edges a turn, 6 rad/s, 4 % of it, then a reference of 0: 3 s later": few_edges,
     "second sender of −6 V beside one of 6 V: change of the voltage": second_sender,
-    "two channels exchanged, every stop answered at once: voltage in the mean of a minute": impatience(swapped),
-    "the same, shaft blocked": impatience(lambda sample: sample, blocked=True),
+    "two channels exchanged, every stop answered at once: voltage in the mean of a minute": impatience(Swapped),
+    "the same, shaft blocked": impatience(lambda: lambda sample: sample, blocked=True),
     "reversal from +86 % to −86 % of the top speed, measured speed": reversal(False),
     "the same with a model": reversal(True),
     "shaft shaken over one flank for 20 s, two channels": dither,

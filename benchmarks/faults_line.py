@@ -125,9 +125,17 @@ class NowAndThen:
         return not_a_number(sample) if self.odd else sample
 
 
-def swapped(sample: Sample) -> Sample:
-    """Two channels, exchanged: everything runs the other way."""
-    return replace(sample, speed=-sample.speed, edge_count=-sample.edge_count)
+@dataclass
+class Swapped:
+    """Two channels, exchanged: everything runs the other way, from the count that there is."""
+
+    count: int | None = None  # when they were exchanged
+
+    def __call__(self, sample: Sample) -> Sample:
+        """What the board says instead."""
+        if self.count is None:
+            self.count = sample.edge_count
+        return replace(sample, speed=-sample.speed, edge_count=2 * self.count - sample.edge_count)
 
 
 def not_a_number(sample: Sample) -> Sample:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import nan, tau
 
-from faults_line import CableOff, Hum, LooseContact, NowAndThen, Stuck, not_a_number, swapped
+from faults_line import CableOff, Hum, LooseContact, NowAndThen, Stuck, Swapped, not_a_number
 from faults_loop import Loop
 from faults_motor import Motor
 
@@ -108,7 +108,7 @@ def block(loop: Loop) -> None:
 
 def swap(loop: Loop) -> None:
     """The encoder's two channels are exchanged."""
-    loop.line = swapped
+    loop.line = Swapped()
 
 
 def be_late(loop: Loop) -> None:

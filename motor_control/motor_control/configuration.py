@@ -8,6 +8,7 @@ from motor_control.controller import pi
 from motor_control.controller.faults.evidence import SPARE, SPARE_SINGLE
 from motor_control.controller.faults.evidence import Config as FaultConfig
 from motor_control.controller.faults.stall import REPORTABLE
+from motor_control.controller.faults.unexpected_edges import FEW_SLOTS
 from motor_control.controller.reference import position_law
 from motor_control.controller.run import Config
 from motor_model.errors import MotorError
@@ -91,6 +92,7 @@ def _make_fault_config(stall_time: float, info: Info | None) -> FaultConfig:
         slot=slot_of(info),
         even=info is None or info.quadrature <= 1,
         tick=info.edge_resolution if info is not None else 0.0,
+        few_slots=info.edges_per_revolution if info is not None and info.edges_per_revolution <= FEW_SLOTS else 0,
         spare=SPARE_SINGLE if single else SPARE,
         two_channels=not single,
     )

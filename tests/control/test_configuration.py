@@ -45,6 +45,11 @@ def test_edges_are_even_where_one_flank_a_period_is_counted(quadrature: int, eve
     assert config_of(DEFAULTS, Info(quadrature=quadrature), None).faults.even == even
 
 
+@pytest.mark.parametrize(("edges", "few"), [(2, 2), (4, 4), (5, 0), (96, 0)])
+def test_slots_that_are_few_are_known_one_by_one(edges: int, few: int) -> None:
+    assert config_of(DEFAULTS, Info(edges_per_revolution=edges)).faults.few_slots == few
+
+
 def test_the_plants_voltage_replaces_the_models() -> None:
     config = config_of({**DEFAULTS, "speed_source": "observer", "feedforward": True}, Info(max_voltage=6.0), motor())
     assert config.voltage_limit == 6.0 and config.observer is not None and config.feedforward is not None

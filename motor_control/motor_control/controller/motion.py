@@ -34,6 +34,7 @@ class Motion:
     steady: float = 0.0  # [s] for which the motion has been steady
     steady_speed: float = 0.0  # of the last steady motion; 0: there was none
     steady_voltage: float = 0.0
+    steady_way: int = 0  # its direction
     most: float = 0.0  # largest average of the last 0.15 s so far
 
     def fastest(self, voltage_limit: float) -> float:
@@ -70,7 +71,8 @@ def follow_motion(
     silent = 0.0 if edges or (slot == 0.0 and seen > 0.0) else motion.silent + dt
     calm &= sample.speed * sample.voltage > 0.0 and regular and silent < STANDSTILL
     steady = motion.steady + dt if calm else 0.0
-    known = (slow_speed, slow_voltage) if steady >= STEADY_TIME else (motion.steady_speed, motion.steady_voltage)
+    known = (motion.steady_speed, motion.steady_voltage) if steady < STEADY_TIME else (slow_speed, slow_voltage)
+    way = motion.steady_way if steady < STEADY_TIME else 1 if sample.voltage > 0.0 else -1
     most = max(motion.most, min(slow_speed, abs(sample.speed))) if regular else motion.most  # a count may jump
     voltages = fast_voltage, slow_voltage
-    return Motion(sample.edge_count, speed, slow_speed, *voltages, silent, edges, steady, *known, most)
+    return Motion(sample.edge_count, speed, slow_speed, *voltages, silent, edges, steady, *known, way, most)

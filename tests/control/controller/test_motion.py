@@ -33,6 +33,7 @@ def test_a_steady_motion_is_remembered(speed: float, voltage: float) -> None:
     last = follow([(speed, voltage)] * 200 + [(0.0, 12.0)] * 100)[-1]
     assert last.steady_speed == pytest.approx(abs(speed), rel=0.1)
     assert last.steady_voltage == pytest.approx(abs(voltage), rel=0.03)
+    assert last.steady_way == (1 if voltage > 0.0 else -1)
     assert last.fastest(12.0) == pytest.approx(12.0 * abs(speed / voltage), rel=0.12)
     assert last.silent == pytest.approx(0.5, abs=0.03)
 

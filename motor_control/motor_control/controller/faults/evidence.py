@@ -37,6 +37,7 @@ class Config:
     fastest: float = inf  # [rad/s] by the model; infinite without one
     slot: float = 0.0  # [rad] between edges; 0: they are not counted
     even: bool = True  # one flank a period is counted; several are as uneven as the sensor
+    few_slots: int = 0  # of the disc, if they are so few that each is known again after a turn; 0: they are many
     tick: float = 0.0  # [s] to which the period between edges is known
     kv: float = 0.0  # [V·s/rad] by the model; 0: there is none
     time_constant: float = 0.0  # [s] ka/kv, and delay
@@ -71,13 +72,18 @@ class Seen:
         return given >= most > 0.0
 
 
-def find_allowed_voltage(config: Config, motion: Motion, voltage_limit: float) -> float:
-    """Find the voltage [V] that a motor of this motion may need without a fault, by the model or by what was learnt."""
+def find_allowed_voltage(config: Config, motion: Motion, voltage_limit: float, voltage: float) -> float:
+    """Find the voltage [V] that a motor of this motion may need without a fault, by the model or by what was learnt.
+
+    voltage [V]: what it gets. The load that may have helped the last steady motion is against one the other way, so
+    that twice as much may be needed there.
+    """
     if config.kv > 0.0:
         load = max(config.friction, motion.steady_voltage - config.kv * motion.steady_speed)
         load = min(MORE * load + config.spare * voltage_limit, config.friction + HEAVY * voltage_limit)
         return load + config.kv * motion.speed
-    return KEPT * motion.steady_voltage + config.spare * voltage_limit
+    loads = 2.0 if voltage * motion.steady_way < 0.0 else 1.0
+    return KEPT * motion.steady_voltage + loads * config.spare * voltage_limit
 
 
 def find_push_time(config: Config, top_speed: float, torque: float, slots: float) -> float:

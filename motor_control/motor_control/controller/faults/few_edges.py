@@ -51,7 +51,7 @@ def check(config: Config, state: State, seen: Seen, regular: bool) -> tuple[str,
     if seen.dt <= 0.0:
         return "", state
     braking = seen.sample.speed * seen.sample.voltage < 0.0
-    allowed = find_allowed_voltage(config, motion, limit)
+    allowed = find_allowed_voltage(config, motion, limit, seen.sample.voltage)
     if config.kv > 0.0:
         foreseen = predict_speed(config, state.expected, seen)
     else:

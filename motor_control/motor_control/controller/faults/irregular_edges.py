@@ -114,7 +114,7 @@ def _crawls(config: Config, state: State, seen: Seen) -> bool:
     slowly = state.mean_period > find_push_time(config, top_speed, PUSH, 1.0)
     if not (slowly or _swings_between_samples(config, state, seen.dt, top_speed)):
         return False
-    return state.voltage <= find_allowed_voltage(config, seen.motion, seen.voltage_limit)
+    return state.voltage <= find_allowed_voltage(config, seen.motion, seen.voltage_limit, seen.sample.voltage)
 
 
 def _swings_between_samples(config: Config, state: State, dt: float, top_speed: float) -> bool:

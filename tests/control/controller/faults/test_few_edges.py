@@ -21,6 +21,13 @@ def test_edges_that_are_too_few_for_the_voltage(config: Config) -> None:
     assert feed(LOST + [(0.0, 0.0, 0.0)] * 200, config)[0] == ""
 
 
+@pytest.mark.parametrize(("volts", "stops"), [(5.5, True), (-5.5, False), (-11.0, True)])
+def test_the_other_way_a_load_may_take_twice_as_much(volts: float, stops: bool) -> None:
+    """A load of 0.22 of the voltage had helped the last motion, and with a breakaway of 0.15 it took 0.37 (950182)."""
+    reason, when = feed([turning(10.0, 1.3)] * 200 + [(0.0, volts, 0.0)] * 400, ENCODER)
+    assert ("Edges do not fit the voltage" in reason) == stops and (not stops or 1.0 < when < 2.5)
+
+
 def test_a_heavy_disc_from_rest_is_no_fault() -> None:
     """Time constants of up to 2 s, where the model knows one of 80 ms."""
     for time_constant in (0.08, 0.5, 2.0):
