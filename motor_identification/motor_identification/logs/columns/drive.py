@@ -12,6 +12,7 @@ Floats = NDArray[np.float64]
 
 # What a duty column shows at full duty: shares, per cent, and the registers of timers.
 FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
+SIGNED_BYTE = 127.0  # full duty where it is reached: of VEX, and of motor controllers on a serial line
 _PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control"})
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
@@ -55,6 +56,8 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
         return Drive(
             None, "as a share, as no value is above 1, whatever its name says (otherwise: --full-duty 100)", 1.0
         )
+    if largest == SIGNED_BYTE:
+        return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest)
     words = set(heading.words)
     for candidate in FULL_DUTIES if not _is_odd_timer(largest) else ():
         per_cent = candidate == 100.0 and np.any(values % 1.0) == 0 and largest < 100.0 and not words & _PER_CENT

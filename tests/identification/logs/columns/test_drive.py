@@ -17,6 +17,9 @@ WAVE = np.sin(np.arange(100) / 5.0)
         ("duty", 80.0, 100.0),
         ("cmd", 100.0, 100.0),
         ("pwm", 60.0, 255.0),  # whole numbers of a PWM that never reach 100
+        ("pwm", 126.0, 255.0),
+        ("pwm", 127.0, 127.0),  # of VEX
+        ("pwm", 128.0, 255.0),
         ("pwm", 255.0, 255.0),
         ("pwm", 256.0, 1000.0),
         ("pwm", 1023.0, 1023.0),
