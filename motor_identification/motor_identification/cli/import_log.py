@@ -53,8 +53,7 @@ def parser() -> argparse.ArgumentParser:
     made = CommandParser(
         "motor_identification",
         "import_log",
-        "Make a bag from a motor's log, for identify and diagnose: CSV and other text, Excel, SysId's JSON, WPILOG, "
-        "MATLAB.",
+        "Make a bag from a motor's log, for identify and diagnose: CSV and other text, Excel, JSON, WPILOG, MATLAB.",
         EXAMPLES,
     )
     add_log_options(made)

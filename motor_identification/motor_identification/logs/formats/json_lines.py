@@ -34,7 +34,7 @@ def read_json_lines(path: Path) -> Table:
         members = _load(line)
         if not isinstance(members, dict):
             raise RecordingError(f"{path}, line {number} is no JSON object: correct or remove that line.")
-        rows.append(_flat(members))
+        rows.append(flatten_members(members))
         numbers.append(number)
         names.update(dict.fromkeys(rows[-1]))
         if len(names) > MOST_NAMES:
@@ -52,8 +52,8 @@ def _load(line: str) -> Any:
         return None
 
 
-def _flat(members: dict[str, Any]) -> dict[str, str]:
-    """Numbers and texts by name; what is a list or lies deeper is left out."""
+def flatten_members(members: dict[str, Any]) -> dict[str, str]:
+    """Flatten an object to numbers and texts by name; what is a list or lies deeper is left out."""
     found: dict[str, str] = {}
     for name, value in members.items():
         inner = value.items() if isinstance(value, dict) else [("", value)]

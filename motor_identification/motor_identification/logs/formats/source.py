@@ -10,9 +10,10 @@ from motor_identification.logs.csv.dialect import check_file
 from motor_identification.logs.csv.reader import read_table, table_of
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.json_lines import are_json_lines, read_json_lines
+from motor_identification.logs.formats.json_table import is_document, may_be_document, read_json_table
 from motor_identification.logs.formats.mat_version_4 import is_version_4
 from motor_identification.logs.formats.matlab import read_matlab
-from motor_identification.logs.formats.sysid import read_sysid
+from motor_identification.logs.formats.sysid import is_sysid, read_sysid
 from motor_identification.logs.formats.workbook import is_workbook, read_workbook
 from motor_identification.logs.formats.wpilog import LETTERS, read_wpilog
 from motor_model.errors import RecordingError
@@ -70,13 +71,20 @@ def _read_other(path: Path, head: bytes) -> Source:
     if head.startswith(LETTERS):
         table, split = read_wpilog(path)
         return Source(table, "WPILOG", Said(split=split))
-    if head.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(b"{"):
-        with path.open(encoding="utf-8-sig", errors="replace") as file:
-            if are_json_lines(file.read(_LONGEST_LINE)):
-                return Source(read_json_lines(path), "JSON file of a line for each sample")
+    if may_be_document(head) and (b"{" in head or is_document(path)):
+        return _read_json(path)
+    return Source(read_table(path), "text table")
+
+
+def _read_json(path: Path) -> Source:
+    """Read a file of JSON: of a line for each sample, SysId's, or a table somewhere in it."""
+    with path.open(encoding="utf-8-sig", errors="replace") as file:
+        if are_json_lines(file.read(_LONGEST_LINE)):
+            return Source(read_json_lines(path), "JSON file of a line for each sample")
+    if is_sysid(path.read_text(encoding="utf-8-sig", errors="replace")):
         table, units_per_revolution = read_sysid(path)
         return Source(table, "SysId JSON", Said(split="test", units_per_revolution=units_per_revolution))
-    return Source(read_table(path), "text table")
+    return Source(read_json_table(path), "JSON file")
 
 
 _REFUSED: tuple[tuple[Callable[[bytes], bool], str], ...] = (

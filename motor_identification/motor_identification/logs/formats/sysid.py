@@ -76,6 +76,11 @@ def _as_sysid_writes(rows: NDArray[np.float64], sides: bool) -> NDArray[np.float
     return kept
 
 
+def is_sysid(head: str) -> bool:
+    """Whether a JSON document, or one that begins so, is such a log."""
+    return any(f'"{name}"' in head for name in ("sysid", *TESTS))
+
+
 def _load(path: Path) -> dict[str, Any]:
     text, _ = read_text(path)
     try:
