@@ -24,8 +24,7 @@ from motor_model.sensing.encoder import Lines
 from motor_ros import qos
 from motor_ros.messages import diagnostic_message
 from motor_ros.parameters import declare
-from motor_ros.plant import steady_timer
-from motor_ros.run import run
+from motor_ros.run import run, steady_timer
 
 HELD_UP = "The emulated board was held up {} times, which is not real time: close other programs."
 SUPPLY_FULL_SCALE = 60_000  # [mV] on A0's divider

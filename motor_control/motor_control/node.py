@@ -4,8 +4,6 @@ import time
 from dataclasses import replace
 
 from rcl_interfaces.msg import SetParametersResult
-from rclpy.clock import Clock
-from rclpy.clock_type import ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import JointState
@@ -24,7 +22,7 @@ from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.messages import info_of, sample_of
 from motor_ros.parameters import declare
-from motor_ros.run import quick_executor, run
+from motor_ros.run import quick_executor, run, steady_timer
 from motor_ros.topics import publishers_of
 
 WATCH_EVERY = 0.02  # [s]
@@ -46,9 +44,8 @@ class MotorControl(Node):
         self.create_subscription(JointState, "motor/joint_command", self._on_joint_command, qos.REFERENCE)
         self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
         self.create_service(Trigger, "motor/release", lambda _, response: self._on_release(response))
-        steady = Clock(clock_type=ClockType.STEADY_TIME)  # goes on under use_sim_time and when the clock is set
-        self.create_timer(WATCH_EVERY, self._on_watch, clock=steady)
-        self.create_timer(1.0, lambda: self._answers.diagnose(self._settings.config), clock=steady)
+        steady_timer(self, WATCH_EVERY, self._on_watch)
+        steady_timer(self, 1.0, lambda: self._answers.diagnose(self._settings.config))
         self.add_on_set_parameters_callback(self._on_parameters)
         self.get_logger().info(describe_start(self._settings.config))
 

@@ -12,8 +12,8 @@ from motor_driver.parameters import PROGRAM, ROWS, config_of
 from motor_ros.gate import Gate
 from motor_ros.messages import time_message
 from motor_ros.parameters import declare
-from motor_ros.plant import Plant, steady_timer
-from motor_ros.run import run
+from motor_ros.plant import Plant
+from motor_ros.run import run, steady_timer
 
 WATCH_EVERY = 0.01  # [s]
 NO_THREAD = "The thread of the serial port has ended, which is a mistake in the driver: start it again, and report it."

@@ -5,7 +5,6 @@ from collections.abc import Callable
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_srvs.srv import SetBool
@@ -17,13 +16,6 @@ from motor_ros import qos
 from motor_ros.gate import OFF, STOPPED, Gate
 from motor_ros.messages import diagnostic_message, info_message, speed_message
 from motor_ros.voltage_input import VoltageInput
-
-STEADY = Clock(clock_type=ClockType.STEADY_TIME)
-
-
-def steady_timer(node: Node, period: float, callback: Callable[[], None]) -> None:
-    """Call back every `period` [s], whatever ROS time does: it may be simulated, or set."""
-    node.create_timer(period, callback, clock=STEADY)
 
 
 class Plant:

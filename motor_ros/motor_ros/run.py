@@ -9,10 +9,12 @@ from pathlib import Path
 from types import FrameType
 
 import rclpy
+from rclpy.clock import Clock, ClockType
 from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.timer import Timer
 
 from motor_model.errors import MotorError
 from motor_model.program.internal_error import report
@@ -21,6 +23,7 @@ from motor_ros.parameters import unknown_parameters
 from motor_ros.program import INVALID_ARGUMENTS, Program, answer, plain_sentence
 
 LOOK_FOR_SIGNALS_EVERY = 0.1  # [s] how long an idle node takes at most to notice Ctrl-C
+STEADY = Clock(clock_type=ClockType.STEADY_TIME)
 CAUSES: dict[int, str] = {
     signal.SIGINT: "Ctrl-C",
     signal.SIGTERM: "it was told to end",
@@ -99,6 +102,11 @@ def quick_executor() -> Executor:
         return SingleThreadedExecutor()
     executor: Executor = EventsExecutor()
     return executor
+
+
+def steady_timer(node: Node, period: float, callback: Callable[[], None]) -> Timer:
+    """Call back every `period` [s], whatever ROS time does: it may be simulated, or set."""
+    return node.create_timer(period, callback, clock=STEADY)
 
 
 def spin(node: Node, until: Callable[[], bool], make_executor: Callable[[], Executor] = SingleThreadedExecutor) -> None:

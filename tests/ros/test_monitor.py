@@ -83,3 +83,12 @@ def test_a_robots_motor_is_watched_and_one_that_is_blocked_is_told(bench: Bench,
     assert [one.node_name for one in senders] == ["bench"], "the monitor commands nothing"
     _, err = end(monitor)
     assert monitor.returncode == 0 and "Traceback" not in err, err
+
+
+def test_a_clock_that_stands_holds_no_health_up(bench: Bench, start: Start, tmp_path: Path) -> None:
+    """Nobody publishes /clock: it said nothing, and looked at nothing, for ever."""
+    save(tmp_path / "model.yaml", Parameters({"kv": KV, "ka": KA}), {"kv": 0.01 * KV, "ka": 0.02 * KA})
+    diagnostics = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    words = ("-p", f"model:={tmp_path / 'model.yaml'}", "-p", "use_sim_time:=true")
+    start("motor_identification", "monitor", "--ros-args", *words)
+    bench.wait(lambda: len(diagnostics) > 1, "diagnostics")

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from bags_over_dds import DEEP, INFO, PERIOD, Start, sample
 from rclpy.duration import Duration
+from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import Float64
@@ -167,6 +168,18 @@ def test_what_has_arrived_when_recording_ends_is_written(bench: Bench, tmp_path:
         recorder.close()
         assert recorder.counts["/motor/speed"] == 50
     assert read_recording(tmp_path / "bag").sample_time.tolist() == [k * PERIOD for k in range(50)]
+
+
+def test_a_clock_that_stands_holds_no_recording_up(bench: Bench, tmp_path: Path) -> None:
+    """As after the system's clock was set back: what came was taken an hour later, but for the latest few hundred."""
+    bench.node.set_parameters([Parameter("use_sim_time", value=True)])
+    speed = bench.publisher(MotorSpeed, "motor/speed")
+    with BagWriter(tmp_path / "bag") as writer:
+        recorder = Recorder(bench.node, writer, ["/motor/speed"])
+        bench.heard(speed)
+        say(speed, range(50))
+        bench.wait(lambda: recorder.counts["/motor/speed"] == 50, "what was said")
+        recorder.close()
 
 
 def test_a_full_disk_ends_recording_and_loses_nothing(bench: Bench, start: Start, tmp_path: Path) -> None:

@@ -21,8 +21,7 @@ from motor_model.errors import MotorError
 from motor_ros import qos
 from motor_ros.interface_types import NotInstalled, load_message
 from motor_ros.parameters import declare
-from motor_ros.plant import steady_timer
-from motor_ros.run import quick_executor, run
+from motor_ros.run import quick_executor, run, steady_timer
 
 NO_TF = "tf2_msgs is not installed here: no transforms on /tf; the pose is on odom."
 

@@ -90,13 +90,13 @@ def _listen(
     import rclpy
 
     from motor_identification.live.recorder import Recorder
-    from motor_ros.run import spin, start_ros
+    from motor_ros.run import spin, start_ros, steady_timer
 
     start_ros([])
     try:
         node = rclpy.create_node("record", enable_rosout=False, start_parameter_services=False)
         recorder = Recorder(node, writer, topics, expected)
-        node.create_timer(1.0, lambda: in_place(_progress(writer, recorder)))
+        steady_timer(node, 1.0, lambda: in_place(_progress(writer, recorder)))
         deadline = time.monotonic() + (duration or float("inf"))
         spin(node, lambda: bool(interrupt or recorder.refusal) or time.monotonic() >= deadline)
         recorder.close()

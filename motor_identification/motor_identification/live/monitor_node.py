@@ -17,7 +17,7 @@ from motor_msgs.msg import MotorHealth
 from motor_ros import qos
 from motor_ros.messages import diagnostic_message
 from motor_ros.parameters import declare
-from motor_ros.run import run
+from motor_ros.run import run, steady_timer
 
 LOOK_EVERY = 0.1  # [s] how long a verdict may wait to be sent
 LEVELS = {
@@ -45,7 +45,7 @@ class Monitor(Node):
         self._publisher = self.create_publisher(MotorHealth, "motor/health", qos.HEALTH)
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         rows = ((0.5 * limits.window, self._begin), (LOOK_EVERY, self._finish), (1.0, self._diagnose))
-        self._timers_kept = [self.create_timer(period, callback) for period, callback in rows]
+        self._timers_kept = [steady_timer(self, period, callback) for period, callback in rows]
         self.get_logger().info(f"watching {', '.join(self._watch.motor.topics)}; commanding nothing")
 
     def _begin(self) -> None:

@@ -18,6 +18,7 @@ from motor_identification.live.qos_profiles import DEPTH, offered, to_hear
 from motor_model.errors import RecordingError
 from motor_model.printable import escape
 from motor_ros.interface_types import NotInstalled, load_message
+from motor_ros.run import steady_timer
 
 LOOK_EVERY = 0.2  # [s] how long a topic that appears later may go unheard
 DRAIN_EVERY = 0.02  # [s] how long a message waits in DDS, which stamps it and has room for a thousand
@@ -80,7 +81,7 @@ class Recorder:
         self._unusable: set[str] = set()
         rows = ((DRAIN_EVERY, self.drain), (LOOK_EVERY, self.look), (FLUSH_EVERY, self._flush))
         self._expected = dict(expected)
-        self._timers = [node.create_timer(period, callback) for period, callback in rows]
+        self._timers = [steady_timer(node, period, callback) for period, callback in rows]
         self.look()
 
     @property
