@@ -1,7 +1,7 @@
 """Drop what is not determined: an effect of which nothing can be said but that something like it is missing."""
 
 from dataclasses import replace
-from math import inf
+from math import inf, isfinite
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward
@@ -12,7 +12,6 @@ from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_identification.uncertainty.summary import find_bounds_hit
-from motor_identification.validation.instants import needs_instant
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 
 
@@ -99,15 +98,15 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
 
 
 def is_chance_size(effect: str, model: Model) -> bool:
-    """Decide whether an effect has a size by chance: at an instant where any of either sign would help, or of a line.
+    """Decide whether an effect has a size that is none as far as its standard error goes.
 
-    A line that repeats with the angle is in doubt more where the fits have seen all that it is judged by.
+    A line that repeats with the angle is in doubt more where the fits have seen all that it is judged by; what has no
+    size, such as a limit, is there or not.
     """
-    line = EFFECT_BY_NAME[effect].periodic
-    if not (line or needs_instant(effect)):
-        return False
-    sure = thresholds.SURE_LINE if line and model.held.seen else thresholds.SURE_SIZE
     specs, fit = EFFECT_BY_NAME[effect].parameters, model.whitened
+    if specs[0].logarithmic or not isfinite(specs[0].off):
+        return False
+    sure = thresholds.SURE_LINE if EFFECT_BY_NAME[effect].periodic and model.held.seen else thresholds.SURE_SIZE
     errors = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors
     at = fit.problem.unknowns.names.index(specs[0].name)
     return bool(abs(fit.theta[at] - specs[0].off) < sure * errors[at])
