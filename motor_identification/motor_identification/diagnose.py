@@ -12,7 +12,12 @@ from time import perf_counter
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import add_rivals_beside_torque, eliminate_backward
-from motor_identification.diagnosis.candidate_test import fits_torque, likelihood_threshold, predicts_far_worse
+from motor_identification.diagnosis.candidate_test import (
+    fits_torque,
+    likelihood_threshold,
+    predicts_far_worse,
+    takes_away_more,
+)
 from motor_identification.diagnosis.determination import drop_undetermined
 from motor_identification.diagnosis.effect_test import count_waves
 from motor_identification.diagnosis.forward_selection import retry_with_another_first, select_forward
@@ -177,8 +182,8 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
     effects = [EFFECT_BY_NAME[step.found.effect] for step in plain.steps]
     lines = [effect.name for effect in effects if effect.periodic and not effect.on_disc]
     line = any(count_waves(plain.model, name) > thresholds.MANY_WAVES for name in lines)
-    lasted = any(step.before.lasts for step, effect in zip(plain.steps, effects, strict=True) if effect.anywhere)
-    disturbed = plain.model.above_floor or lasted or (plain.model.lasts and not line)
+    once = any(effect.anywhere for effect in effects)
+    disturbed = plain.model.above_floor or once or (plain.model.lasts and not line)
     if not (disturbed or plain.refused):
         return None
     for begin in (plain, start) if plain.steps and disturbed else (plain,):
@@ -190,5 +195,5 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
             worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
         if selection.model.complete and not worse:
             more = set(selection.model.effects) > set(plain.model.effects)
-            return selection if disturbed or (more and selection.model.errors.rms_voltage > 0.0) else None
+            return selection if disturbed or (more and takes_away_more(selection.model, plain.model)) else None
     return None

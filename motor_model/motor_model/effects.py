@@ -204,6 +204,7 @@ EFFECTS = (
 SHAPING = ("coulomb_friction", "transport_delay")
 SHAPING_BOTH_WAYS = ("coulomb_friction", "load_bias", "direction_asymmetry", "transport_delay")
 LAGGING = ("armature_inductance",)  # what makes a motion late by the motor's own doing, beside a dead time
+LAGS = ("transport_delay", *LAGGING)  # what a recording may be late by itself
 
 EFFECT_BY_NAME = {effect.name: effect for effect in EFFECTS}
 SPECS = BASE + tuple(spec for effect in EFFECTS for spec in effect.parameters)

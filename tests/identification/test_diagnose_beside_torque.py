@@ -49,16 +49,33 @@ def test_a_gap_that_was_fitted_is_no_prediction(
 
 @pytest.mark.parametrize(
     ("refused", "more", "torque", "believed"),
-    [(True, True, 0.1, True), (True, True, 0.0, False), (True, False, 0.1, False), (False, True, 0.1, False)],
+    [
+        (True, "transport_delay", 0.1, True),
+        (True, "transport_delay", 0.0, False),
+        (True, "load_bias", 0.0, True),
+        (True, "", 0.1, False),
+        (False, "load_bias", 0.1, False),
+    ],
 )
 def test_what_was_refused_is_looked_for_once_more(
-    refused: bool, more: bool, torque: float, believed: bool, monkeypatch: pytest.MonkeyPatch
+    refused: bool, more: str, torque: float, believed: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """At the sensor's floor nothing else is judged again: it is believed if there is more, beside a torque [V]."""
+    """At the sensor's floor nothing else is judged again: more is believed; a lag only beside a torque [V]."""
     monkeypatch.setattr(StubModel, "errors", ErrorModel(0.0, 0.0, torque, 1.0))
     plain = replace(selection_of(stub_model(1.0, 0.0)), refused=refused)
-    ended = selection_of(stub_model(0.9, 0.0))
-    effects: dict[int, Any] = {id(ended.model): ("load_bias",) if more else ()}
+    ended = selection_of(stub_model(0.999, 0.0))
+    effects: dict[int, Any] = {id(ended.model): (more,) if more else ()}
     monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
     assert not plain.model.above_floor and not plain.model.lasts
     assert (selected(monkeypatch, plain, plain, ended) is ended) is believed
+
+
+@pytest.mark.parametrize(("effect", "again"), [("load_step", True), ("warm_up", True), ("dead_zone", False)])
+def test_what_comes_and_goes_in_time_has_to_hold_beside_a_torque(
+    effect: str, again: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """However near to the sensor's floor: a slow torque does in one moment what a load step does."""
+    step = step_of(stub_test(effect, stub_model(1.1, 0.0), 1.0, 100.0))
+    plain, ended = selection_of(stub_model(1.0, 0.0), step), selection_of(stub_model(1.0, 0.0))
+    assert not plain.model.above_floor and not plain.model.lasts
+    assert (selected(monkeypatch, plain, plain, ended) is ended) is again

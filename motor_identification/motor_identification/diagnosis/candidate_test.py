@@ -8,7 +8,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.evidence.torque_evidence import measure_steadiness
 from motor_identification.validation.held_out import HeldOut
-from motor_model.effects import EFFECT_BY_NAME
+from motor_model.effects import EFFECT_BY_NAME, LAGS
 
 
 @dataclass(frozen=True)
@@ -62,8 +62,18 @@ class CandidateTest:
         return several and any(spec.of_recording for spec in EFFECT_BY_NAME[self.effect].parameters)
 
     def is_likely(self, least: float) -> bool:
-        """Decide whether the evidence is beyond a least, beside a random torque without its few best moments too."""
-        return self.evidence > least and (not self.model.beside_torque or self.steadiness > least)
+        """Decide whether the evidence is beyond a least, beside a random torque without its few best moments too.
+
+        Unless most of the gap goes, and so not in a few moments.
+        """
+        return self.evidence > least and (not self.model.beside_torque or self.steadiness > least or self.predicts)
+
+    @property
+    def predicts(self) -> bool:
+        """Whether much of the gap goes; of what is at an instant, or repeats, a fit to a slow torque does, too."""
+        effect = EFFECT_BY_NAME[self.effect]
+        free = effect.anywhere or effect.periodic
+        return not free and self.model.held.gap < thresholds.PREDICTING_GAP * self.held_before.gap
 
     @cached_property
     def relevant(self) -> bool:
@@ -85,7 +95,7 @@ class CandidateTest:
         free = EFFECT_BY_NAME[self.effect].periodic or said > likelihood_threshold()
         shrinks = self.model.held.gap <= self.held_before.gap * (thresholds.GAP_CHANCE if free else 1.0)
         least = thresholds.RELEVANT_WHITE_SHARE * self.model.score.scored
-        return shrinks and said > 0.0 and 2.0 * self.steadiness > least
+        return shrinks and said > 0.0 and (2.0 * self.steadiness > least or self.predicts)
 
 
 def share_explained(before: float, after: float, floor: float) -> float:
@@ -104,6 +114,16 @@ def fits_torque(beside: float, start: float) -> bool:
 def predicts_far_worse(beside: float, plain: float) -> bool:
     """Decide by gaps [rad/s] whether a torque was learned of what a model without it predicts."""
     return beside > thresholds.WORSE_GAP * plain
+
+
+def takes_away_more(model: Model, plain: Model) -> bool:
+    """Decide whether a model beside a random torque has what is there, beyond one that the sensor's floor explains.
+
+    A torque was learned; or there is more than a lag, which may be of the recording; or that takes away of the gap.
+    """
+    more = set(model.effects) - set(plain.effects) - set(LAGS)
+    shrinks = model.held.gap < thresholds.SHRINKING_GAP * plain.held.gap
+    return model.errors.rms_voltage > 0.0 or shrinks or bool(more)
 
 
 def likelihood_threshold() -> float:

@@ -89,20 +89,32 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
     one for every recording, has to be more likely than what needs none.
     """
     tests = drop_chance_harmonics(tests)
-    best = next((test for test in tests if _is_finding(test)), None)
-    if best is None:
+    findings = [test for test in tests if _is_finding(test)]
+    if not findings:
         return None
+    best = _choose_first(findings)
     alike = [
         test
-        for test in tests
+        for test in findings
         if test.evidence > best.evidence - thresholds.RIVAL_MARGIN
         and count_parameters(test.effect) <= count_parameters(best.effect)
-        and _is_finding(test)
     ]
     alike = [test for test in alike if not needs_instant(test.effect)] or alike
     most = max(test.evidence_of_all for test in alike)
     equals = [test for test in alike if test.evidence_of_all >= most - thresholds.COMMON_LIKELIHOOD]
     return min(equals, key=lambda test: EFFECT_ORDER[test.effect])
+
+
+def _choose_first(findings: Sequence[CandidateTest]) -> CandidateTest:
+    """Choose the most likely of findings, best first; what needs an instant only where nothing else does about as well.
+
+    For it is fitted to any slow torque, too, and is still found beside what comes first, where it is there.
+    """
+    best = findings[0]
+    if not needs_instant(best.effect):
+        return best
+    least = thresholds.COMES_FIRST * best.evidence
+    return next((one for one in findings if one.evidence > least and not needs_instant(one.effect)), best)
 
 
 def _is_finding(test: CandidateTest) -> bool:

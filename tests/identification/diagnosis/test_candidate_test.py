@@ -1,14 +1,20 @@
 """Whether what an effect takes away is likely and matters, on models of made-up gaps and likelihoods."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
-from stub_models import FLOOR, LASTING_FLOOR, stub_held, stub_model, stub_test
+from stub_models import FLOOR, LASTING_FLOOR, StubModel, stub_held, stub_model, stub_test
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, Score
-from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, share_explained
+from motor_identification.diagnosis.candidate_test import (
+    CandidateTest,
+    likelihood_threshold,
+    share_explained,
+    takes_away_more,
+)
 from motor_identification.noise.error_model import ErrorModel
 
 
@@ -57,3 +63,45 @@ def test_beside_a_torque_a_gap_may_grow_by_chance_where_held_out_motion_speaks_f
 ) -> None:
     before, model = beside_torque(2.0, -100.0), beside_torque(2.0 * growth, -100.0 + said, 60.0)
     assert CandidateTest(effect, before, model).relevant is relevant
+
+
+@pytest.mark.parametrize(
+    ("effect", "falls", "likely"),
+    [
+        ("coulomb_friction", 0.999, True),
+        ("coulomb_friction", 1.001, False),
+        ("load_step", 0.5, False),  # which are fitted to a slow torque
+        ("torque_ripple", 0.5, False),
+    ],
+)
+def test_what_takes_away_much_of_the_gap_need_not_speak_all_the_time(effect: str, falls: float, likely: bool) -> None:
+    """Beside a torque: a friction between a few steps one way speaks in the few moments in which they change."""
+    before = beside_torque(2.0, -100.0)
+    model = beside_torque(2.0 * thresholds.PREDICTING_GAP * falls, -90.0)
+    few = np.zeros(200)
+    few[:5] = 10.0
+    model = replace(model, score=replace(model.score, likelihood=20.0, moments=few))
+    test = CandidateTest(effect, before, model)
+    assert test.steadiness == 0.0 and test.predicts is likely
+    assert test.is_likely(19.0) is likely and not test.is_likely(21.0) and test.relevant is likely
+
+
+@pytest.mark.parametrize(
+    ("more", "torque", "falls", "taken"),
+    [
+        (("transport_delay",), 0.0, 1.001, False),
+        (("transport_delay",), 0.0, 0.999, True),
+        (("transport_delay",), 0.1, 1.001, True),
+        (("armature_inductance",), 0.0, 1.001, False),
+        (("coulomb_friction",), 0.0, 1.001, True),
+    ],
+)
+def test_a_lag_beside_no_torque_has_to_take_away_of_the_gap(
+    monkeypatch: pytest.MonkeyPatch, more: tuple[str, ...], torque: float, falls: float, taken: bool
+) -> None:
+    """It may be of the recording: a clock, a filter."""
+    plain, model = stub_model(2.0), stub_model(2.0 * thresholds.SHRINKING_GAP * falls)
+    effects: dict[int, Any] = {id(model): more}
+    monkeypatch.setattr(StubModel, "effects", property(lambda self: effects.get(id(self), ())))
+    monkeypatch.setattr(StubModel, "errors", ErrorModel(0.0, 0.0, torque, 1.0))
+    assert takes_away_more(model, plain) is taken

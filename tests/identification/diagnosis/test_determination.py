@@ -77,15 +77,37 @@ def test_what_a_recording_does_not_determine_is_dropped_and_named() -> None:
     assert left.model.held.gap == pytest.approx(before.held.gap, rel=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("effect", "values"),
+    [
+        ("load_step", {"step_voltage": 0.1, "step_time": 0.3}),
+        ("coulomb_friction", {"ks": 0.3}),
+        ("transport_delay", {"delay": 1.5e-3}),
+    ],
+)
 @pytest.mark.parametrize(("sigma", "chance"), [(0.99, True), (1.01, False)])
-def test_a_step_of_either_sign_is_chance(monkeypatch: pytest.MonkeyPatch, sigma: float, chance: bool) -> None:
+def test_a_size_within_its_errors_is_chance(
+    monkeypatch: pytest.MonkeyPatch, effect: str, values: dict[str, float], sigma: float, chance: bool
+) -> None:
     estimate, hold_out = fitted()
-    model = validate_model(hold_out, with_effect(estimate, "load_step", {"step_voltage": 0.1, "step_time": 0.3}))
-    at = model.whitened.problem.unknowns.names.index("step_voltage")
+    model = validate_model(hold_out, with_effect(estimate, effect, values))
+    at = model.whitened.problem.unknowns.names.index(next(iter(values)))
     errors = np.full(len(model.whitened.theta), abs(model.whitened.theta[at]) / (sigma * thresholds.SURE_SIZE))
     monkeypatch.setattr(determination, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
-    assert is_chance_size("load_step", model) == chance
-    assert not is_chance_size("coulomb_friction", model)
+    assert is_chance_size(effect, model) == chance
+
+
+@pytest.mark.parametrize(
+    ("effect", "values"),
+    [("armature_inductance", {"electrical_time_constant": 1e-6}), ("voltage_limit", {"limit_voltage": 11.0})],
+)
+def test_what_has_no_size_is_there_or_not(
+    monkeypatch: pytest.MonkeyPatch, effect: str, values: dict[str, float]
+) -> None:
+    estimate, hold_out = fitted()
+    model = validate_model(hold_out, with_effect(estimate, effect, values))
+    monkeypatch.setattr(determination, "estimate_uncertainty", lambda *_: pytest.fail("its error was asked for"))
+    assert not is_chance_size(effect, model)
 
 
 @pytest.mark.parametrize(("sigma", "chance"), [(0.99, True), (1.01, False)])

@@ -87,6 +87,17 @@ def test_of_equals_more_parameters_are_not_taken() -> None:
     assert find_rivals(load, [load, step]) == () and find_rivals(step, [load, step]) == ("transport_delay",)
 
 
+@pytest.mark.parametrize(("share", "first"), [(1.01, "dead_zone"), (0.99, "load_step")])
+def test_what_needs_an_instant_comes_after_what_does_about_as_well(share: float, first: str) -> None:
+    """A slow torque is worth more to a load that may begin anywhere than what little speaks against a friction."""
+    before = stub_model(5.0)
+    step = stub_test("load_step", before, 1.0, 300.0)
+    zone = stub_test("dead_zone", before, 1.2, share * thresholds.COMES_FIRST * 300.0)
+    chosen = choose_finding([step, zone])
+    assert chosen is not None and chosen.effect == first
+    assert choose_finding([step]) is step
+
+
 def test_rivals_are_likely_themselves() -> None:
     before = stub_model(5.0)
     weak = stub_test("load_bias", before, 1.0, 9.0)
