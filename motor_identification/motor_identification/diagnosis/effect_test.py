@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from itertools import cycle
 from math import inf, sqrt, tau
 
 import numpy as np
@@ -15,7 +16,7 @@ from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.recording import Floats
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
-from motor_identification.validation.instants import list_instant_columns, needs_instant
+from motor_identification.validation.instants import list_first_motions, list_instant_columns, needs_instant
 from motor_model.effect import Effect
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -132,11 +133,15 @@ def count_waves(model: Model, effect: str) -> float:
 
 
 def _is_there_from_the_start(test: CandidateTest) -> bool:
-    """Whether what begins at an instant does so with the recording: then it is constant, or a wrong initial state."""
+    """Whether what begins at an instant does so with the motion: then it is constant, or a wrong initial state."""
     if not needs_instant(test.effect) or test.effect not in test.model.effects:
         return False
-    theta, columns = test.model.estimate.theta, list_instant_columns(test.model.estimate.problem, [test.effect])
-    return all(float(theta[column]) < thresholds.FROM_THE_START * duration for column, duration in columns)
+    estimate = test.model.estimate
+    columns, begins = list_instant_columns(estimate.problem, [test.effect]), list_first_motions(estimate.problem)
+    return all(
+        float(estimate.theta[column]) < begin + thresholds.FROM_THE_START * duration
+        for (column, duration), begin in zip(columns, cycle(begins), strict=False)
+    )
 
 
 def is_supported(test: CandidateTest) -> bool:

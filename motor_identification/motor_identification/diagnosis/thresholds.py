@@ -92,8 +92,9 @@ VERIFICATIONS = 3
 CHANCE_HARMONIC = 5.0
 # Cycles a turn, beside one: a torque so near to it is what such slots do, where they are likelier. Measured: 3e-5.
 ONCE_A_TURN = 0.05
-# Of a recording: what begins within it is there from the start. Measured: 0.0 to 0.003 s for a load that came in
-# with the initial speed of a real motor.
+# Of a recording, from when its motor is first driven or moves: what begins within it is there from the start. Measured:
+# 0.0 to 0.003 s for a load that came in with the initial speed of a real motor; 0.06 of 8 s after the first step for a
+# friction that builds up.
 FROM_THE_START = 0.02
 # Standard errors that the size of an effect is beyond none at least, as the report says of any size. Measured: beside
 # a torque of 0.1 V a load step of 0.04 ± 0.13 V in a motor with backlash, a delay of 1.5 ± 2.1 ms; right ones 5

@@ -1,6 +1,7 @@
 """Place the instants of effects, such as that of a load step, and list them: each recording has its own."""
 
 from collections.abc import Callable, Sequence
+from math import inf
 
 import numpy as np
 
@@ -8,6 +9,8 @@ from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats
 from motor_model.effects import EFFECT_BY_NAME
+
+FIRST_SHARE = 0.05  # of the largest voltage or speed of a recording, from which on its motor is driven, or moves
 
 
 def needs_instant(effect: str) -> bool:
@@ -31,6 +34,21 @@ def list_instant_columns(problem: Problem, effects: Sequence[str]) -> list[tuple
         for name in own
         for recording, column in zip(problem.recordings, unknowns.columns[:, unknowns.names.index(name)], strict=True)
     ]
+
+
+def list_first_motions(problem: Problem) -> tuple[float, ...]:
+    """List when each recording first tells of its motor: when that is driven, or moves [s]; else nothing acts on it."""
+    return tuple(
+        min(_find_first(recording.time, recording.voltage), _find_first(data.time[data.first], data.speed))
+        for recording, data in zip(problem.recordings, problem.intervals, strict=True)
+    )
+
+
+def _find_first(time: Floats, values: Floats) -> float:
+    """Find when values (N,) first are a good part of their largest; infinity where there are none."""
+    size = np.abs(values)
+    large = size > FIRST_SHARE * size.max(initial=0.0)
+    return float(time[np.argmax(large)]) if large.any() else inf
 
 
 def try_instants(

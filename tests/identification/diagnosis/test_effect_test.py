@@ -11,7 +11,7 @@ import pytest
 from diagnosed import fitted
 from stub_models import rescored, stub_model, stub_test
 
-from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import effect_test, thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import (
@@ -179,6 +179,19 @@ def test_what_begins_with_the_recording_is_constant(share: float, found: bool) -
     theta[column] = share * thresholds.FROM_THE_START * fit.problem.recordings[0].duration
     moved = replace(test, model=replace(test.model, estimate=replace(fit, theta=theta)))
     assert (choose_finding([moved]) is moved) is found
+
+
+@pytest.mark.parametrize(("share", "found"), [(0.5, False), (1.5, True)])
+def test_what_begins_with_the_first_motion_is_constant(
+    monkeypatch: pytest.MonkeyPatch, share: float, found: bool
+) -> None:
+    """A motor that was not driven for two seconds tells of no load in them."""
+    test = tried("load_step", ks=0.0, step_voltage=0.6, step_time=2.5)
+    fit = test.model.estimate
+    instant = float(fit.theta[fit.problem.unknowns.names.index("step_time")])
+    begin = instant - share * thresholds.FROM_THE_START * fit.problem.recordings[0].duration
+    monkeypatch.setattr(effect_test, "list_first_motions", lambda problem: (begin,))
+    assert (choose_finding([test]) is test) is found
 
 
 @pytest.mark.parametrize(("waves", "found"), [(0.9, False), (1.1, True)])

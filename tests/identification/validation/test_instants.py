@@ -1,11 +1,19 @@
 """Instants are parameters of a recording, and are tried at many times of it, one after the other."""
 
+from dataclasses import replace
+
 import numpy as np
 from small import THETA, small_recording
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import make_problem
-from motor_identification.validation.instants import list_instant_columns, list_instants, needs_instant, try_instants
+from motor_identification.validation.instants import (
+    list_first_motions,
+    list_instant_columns,
+    list_instants,
+    needs_instant,
+    try_instants,
+)
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -22,6 +30,21 @@ def test_every_recording_has_an_instant_of_its_own() -> None:
     assert list_instant_columns(problem, ["coulomb_friction"]) == []
     assert list_instants(Estimate(problem, np.array([*THETA, 0.5, 0.7, 1.1]))) == ([0.7], [1.1])
     assert list_instants(Estimate(problem.with_effects(("coulomb_friction",)), THETA)) == ([], [])
+
+
+def test_nothing_is_told_before_a_motor_is_driven_or_moves() -> None:
+    late = small_recording()
+    first = float(late.time[len(late.time) // 2])
+    voltage = np.where(late.time < first, 0.0, 6.0)
+    voltage[3] = 0.01  # of what is left of a command, nobody is driven
+    late = replace(late, voltage=voltage)
+    problem = make_problem([late], ())
+    (data,) = problem.intervals
+    moved = replace(data, speed=np.where(data.time[data.first] < 0.5 * first, 0.0, 3.0))
+    still = replace(data, speed=np.zeros_like(data.speed))
+    assert list_first_motions(replace(problem, intervals=(still,))) == (first,)
+    (begun,) = list_first_motions(replace(problem, intervals=(moved,)))
+    assert 0.5 * first <= begun < 0.75 * first
 
 
 def test_the_best_of_the_times_that_are_tried() -> None:
