@@ -1,7 +1,7 @@
 """Drop what is not determined: an effect of which nothing can be said but that something like it is missing."""
 
 from dataclasses import replace
-from math import inf, isfinite
+from math import inf, isfinite, isnan
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward
@@ -103,13 +103,14 @@ def is_chance_size(effect: str, model: Model) -> bool:
     A line that repeats with the angle is in doubt more where the fits have seen all that it is judged by; what has no
     size, such as a limit, is there or not.
     """
-    specs, fit = EFFECT_BY_NAME[effect].parameters, model.whitened
+    specs, fit, line = EFFECT_BY_NAME[effect].parameters, model.whitened, EFFECT_BY_NAME[effect].periodic
     if specs[0].logarithmic or not isfinite(specs[0].off):
         return False
-    sure = thresholds.SURE_LINE if EFFECT_BY_NAME[effect].periodic and model.held.seen else thresholds.SURE_SIZE
-    errors = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors
+    sure = thresholds.SURE_LINE if line and model.held.seen else thresholds.SURE_SIZE
     at = fit.problem.unknowns.names.index(specs[0].name)
-    return bool(abs(fit.theta[at] - specs[0].off) < sure * errors[at])
+    error = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors[at]
+    # A line's cycles are always determined.
+    return bool(abs(fit.theta[at] - specs[0].off) < sure * error or (line and isnan(error)))
 
 
 def _find_unknown(model: Model) -> tuple[str, ...]:

@@ -98,6 +98,24 @@ def test_a_size_within_its_errors_is_chance(
 
 
 @pytest.mark.parametrize(
+    ("effect", "values", "chance"),
+    [
+        ("torque_ripple", {"ripple_voltage": 0.4, "ripple_cycles": 34.5, "ripple_phase": 0.5}, True),
+        ("load_step", {"step_voltage": 0.1, "step_time": 0.3}, False),  # which all that it has is asked of
+    ],
+)
+def test_a_line_of_unknown_size_is_chance(
+    monkeypatch: pytest.MonkeyPatch, effect: str, values: dict[str, float], chance: bool
+) -> None:
+    """How often it comes back is determined of any line."""
+    estimate, hold_out = fitted()
+    model = validate_model(hold_out, with_effect(estimate, effect, values))
+    errors = np.full(len(model.whitened.theta), np.nan)
+    monkeypatch.setattr(determination, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
+    assert is_chance_size(effect, model) == chance
+
+
+@pytest.mark.parametrize(
     ("effect", "values"),
     [("armature_inductance", {"electrical_time_constant": 1e-6}), ("voltage_limit", {"limit_voltage": 11.0})],
 )
