@@ -16,7 +16,7 @@ from motor_identification.logs.rows.speed_sign import give_signs
 from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
-from motor_identification.sensor.running_mean import find_running_mean
+from motor_identification.sensor.running_mean import find_running_mean, take_single_rows
 from motor_identification.sensor.speed_sensor import find_noise
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_model.errors import RecordingError
@@ -60,9 +60,9 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     signals, lengths = (signals, []) if form.speed_window else divide_by_own_rows(signals, form.nominal_period)
     signals, signs = give_signs(signals)
     signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=True)
+    signals, means = (signals, []) if form.speed_window else _undo_running_mean(signals, info.sample_period)
     values = signals.motion
-    mean = 0 if form.speed_window else _running_mean(signals, info.sample_period)
-    window = form.speed_window or max(mean, 1) * info.sample_period
+    window = form.speed_window or info.sample_period
     lag = 0.5 * window if form.speed_lag is None else form.speed_lag
     edges = form.edges_per_revolution or 0
     if form.count_quantum:
@@ -72,8 +72,6 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         _check_steps(form, values, edges, edge_angle(edges, form.gear) / window / unit)
     info = replace(info, measurement=Measurement.SPEED, speed_window=window, speed_lag=lag, edges_per_revolution=edges)
     assumed = "" if form.speed_window else " (assumed: one sample period; otherwise: --speed-window)"
-    if mean:
-        assumed = f", a running mean of {mean} rows, as its counts show (otherwise: --speed-window)"
     placed = "" if form.speed_lag is not None else " (assumed: the window ends there; otherwise: --speed-lag)"
     findings = (
         f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",
@@ -82,18 +80,29 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         *lengths,
         *signs,
         *turned,
+        *means,
     )
     return Motion(signals, values * unit, np.zeros(len(values), np.int64), info, findings)
 
 
-def _running_mean(signals: Signals, period: float) -> int:
-    """Of how many rows the speeds of regular rows are running means, by all runs that tell; 0 where they are none."""
-    found = set()
+def _undo_running_mean(signals: Signals, period: float) -> tuple[Signals, list[str]]:
+    """Take what single regular rows counted, of speeds that are running means of it by all runs; and say so."""
+    found, motion = set(), np.array(signals.motion, np.float64)
     for run in signals.runs.values():
         steps = np.diff(signals.time[run]) * 1e-9
         regular = len(steps) > 0 and float(np.max(np.abs(steps - period))) < 0.5 * period
-        found.add(find_running_mean(signals.motion[run]) if regular else 0)
-    return found.pop() if len(found) == 1 else 0
+        rows = find_running_mean(signals.motion[run]) if regular else 0
+        single = take_single_rows(signals.motion[run], rows) if rows else None
+        found.add(rows if single is not None else 0)
+        motion[run] = signals.motion[run] if single is None else single
+    rows = found.pop() if len(found) == 1 else 0
+    if not rows:
+        return signals, []
+    said = (
+        f"Speeds are running means of {rows} rows, as their counts show: the counts of single rows are taken (assumed; "
+        "otherwise: --speed-window)."
+    )
+    return replace(signals, motion=motion), [said]
 
 
 def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> str:

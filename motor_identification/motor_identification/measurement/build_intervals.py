@@ -143,6 +143,8 @@ def _find_windows(sensor: SpeedSensor) -> tuple[Floats, Floats]:
     """[s] where the window of each speed starts and ends: at the value before, where windows and rows are as long."""
     end = sensor.time - sensor.lag + 0.5 * sensor.window
     start = end - sensor.window
+    if sensor.lengths is not None:
+        return end - sensor.lengths, end
     row = np.diff(end, prepend=-np.inf)
     if abs(float(np.median(row[1:])) - sensor.window) <= SAME_ROW * sensor.window:
         chained = np.abs(row - sensor.window) <= (SAME_ROW if sensor.step > 0.0 else OWN_ROW) * sensor.window

@@ -12,7 +12,8 @@ from motor_model.sample import Measurement
 
 HELD = "The sensor gives a new speed every {} ms; what repeats it in between is left out."
 WRONG = "{} of {} speeds were left out: far beside their neighbours, with no voltage to make them so."
-LATTICE = "Every speed is a multiple of {} rad/s ({} deg/s): {} counts a turn over {} ms are assumed."
+LATTICE = "Every speed{} is a multiple of {} rad/s ({} deg/s): {} counts a turn over {} ms are assumed."
+BY_ROWS = ", by the length of its row beside the usual one,"
 FEW = "There are too few speeds to tell their noise: {} rad/s is assumed."
 ANGLE = "The angle has white noise of {} rad, more than a count: it is taken from sample to sample."
 WHITE = "The speeds lie on no lattice of counts: white noise of {} rad/s, as between neighbours, is assumed."
@@ -43,14 +44,16 @@ def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
     wrong = sum(sensor.wrong for sensor, _ in sensors)
     if wrong:
         parts.append(WRONG.format(wrong, wrong + sum(len(sensor.row) for sensor, _ in sensors)))
-    if counted:
-        numbers = (
-            _span((one.step for one in counted), "{:.4g}"),
-            _span((degrees(one.step) for one in counted), "{:.4g}"),
-            _span((one.edges_per_revolution for one in counted), "{:,}"),
-            _span((one.window * 1e3 for one in counted), "{:.4g}"),
-        )
-        parts.append(LATTICE.format(*numbers))
+    even, by_rows = ([one for one in counted if (one.lengths is None) == is_even] for is_even in (True, False))
+    for some, text in ((even, ""), (by_rows, BY_ROWS)):
+        if some:
+            numbers = (
+                _span((one.step for one in some), "{:.4g}"),
+                _span((degrees(one.step) for one in some), "{:.4g}"),
+                _span((one.edges_per_revolution for one in some), "{:,}"),
+                _span((one.window * 1e3 for one in some), "{:.4g}"),
+            )
+            parts.append(LATTICE.format(text, *numbers))
     for some, text in ((told, WHITE), (few, FEW)):
         if some:
             parts.append(text.format(_span((one.sigma for one in some), "{:.2g}")))

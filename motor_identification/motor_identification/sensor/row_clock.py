@@ -6,6 +6,7 @@ periods vary have none: a random walk with white noise, whose best smoother foll
 """
 
 from math import sqrt
+from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -27,8 +28,15 @@ LEAST_RUN_AWAY = 1e-4  # of a row: less is an even clock
 RUN_AWAY = (0.25, 0.5, 1.0)
 
 
-def lay_clocks(stamps: Floats) -> list[Floats]:
-    """Lay clocks [s] through stamps [s], shape (K,), the most even first; none where they are on one, or late on none.
+class Clock(NamedTuple):
+    """A clock through stamps, and which of them it is."""
+
+    run_away: float  # of what the stamps say that it runs away, this much; 0 of an even one
+    time: Floats  # [s] of the rows, shape (K,)
+
+
+def lay_clocks(stamps: Floats) -> list[Clock]:
+    """Lay clocks through stamps [s], shape (K,), the most even first; none where they are on one, or late on none.
 
     The first is even, but for rows that are lacking, where stamps look like that; a loop that runs away does, too.
     """
@@ -41,11 +49,13 @@ def lay_clocks(stamps: Floats) -> list[Floats]:
         return []
     even = begin + slope * row
     lacking = _count_lacking(stamps - even, slope)
-    sizes = [share * run_away for share in RUN_AWAY if run_away > LEAST_RUN_AWAY * slope]
-    clocks = [even, *(even + _smooth(stamps - even, (late / size) ** 2) for size in sizes)]
+    shares = RUN_AWAY if run_away > LEAST_RUN_AWAY * slope else ()
+    laid = [(0.0, even)]
+    laid += [(share, even + _smooth(stamps - even, (late / (share * run_away)) ** 2)) for share in shares]
     if lacking[-1] > 0.0:
-        clocks.insert(0, np.polyval(np.polyfit(row + lacking, stamps, 1), row + lacking))
-    return [clock for clock in clocks if np.min(np.diff(clock)) > 0.0 and _is_near(clock, stamps, late, slope)]
+        laid.insert(0, (0.0, np.polyval(np.polyfit(row + lacking, stamps, 1), row + lacking)))
+    clocks = [Clock(share, np.asarray(time, np.float64)) for share, time in laid if np.min(np.diff(time)) > 0.0]
+    return [clock for clock in clocks if _is_near(clock.time, stamps, late, slope)]
 
 
 def _is_near(clock: Floats, stamps: Floats, late: float, slope: float) -> bool:

@@ -45,14 +45,37 @@ def find_running_mean(values: Floats) -> int:
     return fitting[-1] if sure else 0
 
 
+def take_single_rows(values: Floats, window: int) -> Floats | None:
+    """Compute what single rows counted, in the values' unit (K,), of running means of whole counts over so many rows.
+
+    What the rows before the first counted is what lies nearest to the means around theirs; nothing, where the motor
+    stood. None where values are no counts, or no such means from the first to the last.
+    """
+    step = find_lattice(values)
+    if step <= 0.0 or len(values) < 2 * window:
+        return None
+    counts = np.rint(values / step).astype(np.int64)
+    single = _single_rows(counts, window)
+    if np.any(counts[:window]):
+        row = np.arange(len(counts))
+        around = np.interp(row + 0.5 * (window - 1), row, counts / window)
+        before = np.bincount(row % window, around - single) / np.bincount(row % window)
+        single = single + np.rint(before).astype(np.int64)[row % window]
+        if int(single[:window].sum()) != counts[window - 1]:
+            return None
+    return np.asarray(single * (step * window)) if _is_near_mean(single, counts, window) else None
+
+
 def _fits(counts: Integers, window: int) -> bool:
     """Whether the counts of single rows, if the window has so many, are what a motor can do."""
     most, least = int(counts.max(initial=0)), int(counts.min(initial=0))
     high, low = (ceil(most / window) + ROOM if most else 0), (-ceil(-least / window) - ROOM if least else 0)
     single = _single_rows(counts, window)
-    if not (low <= single.min() and single.max() <= high):
-        return False
-    # No farther from the mean than windows near by are from each other: many counts in a row leave a walk much room.
+    return bool(low <= single.min() and single.max() <= high) and _is_near_mean(single, counts, window)
+
+
+def _is_near_mean(single: Integers, counts: Integers, window: int) -> bool:
+    """Whether rows are no farther from the mean than windows near by are from each other: a walk has much room."""
     reach, moving = 2 * window + 1, counts != 0
     change = maximum_filter1d(counts, reach) - minimum_filter1d(counts, reach)
     near = np.abs(single - counts / window) <= change + ROOM

@@ -26,6 +26,8 @@ SAME_DIGIT = 1e-3  # of a decade
 RANGES, BITS, SAME_RANGE = (1.0, 2.0, 2.5, 3.3, 5.0), (8, 10, 12, 13, 14, 16), 1e-4
 OTHER_ROWS = 0.1  # relative: rows of one run that are not those of the log's typical one
 LEAST_COUNTED = 0.03  # of the time between values: a mean over less is an instant's value, and no count over it
+SAME_ROW = 1e-3  # relative: rows that differ by no more have one length
+LONGEST_ROW = 5.0  # windows: what is longer is a pause, in which nothing may have been counted
 SAME_PERIOD = 1e-6  # relative: a window that was not said is set to the sample period
 
 
@@ -42,6 +44,7 @@ class SpeedSensor:
     sigma: float  # [rad/s] of white noise, independent in each value; 0 where counting is what is known
     edges_per_revolution: int  # what was said or follows from the step; 0 without
     wrong: int = 0  # values that were left out, since no motor has them
+    lengths: Floats | None = None  # [s] of their own rows, where counts were divided by those
 
     @property
     def count(self) -> float:
@@ -66,6 +69,13 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
     counted = window > LEAST_COUNTED * (frame or recording.info.sample_period)
     said = recording.info.edges_per_revolution
     step, sigma, edges = find_noise(speed[row], recording.voltage[row], said, window, counted)
+    lengths = np.diff(time, prepend=time[0] - window)[row]
+    lengths = np.where(lengths < LONGEST_ROW * window, lengths, window)
+    if sigma > 0.0 and frames is None and is_assumed(recording.info) and np.std(lengths) > SAME_ROW * window:
+        share = lengths / window  # counts of rows that differ lie on a lattice by their own lengths
+        own, sigma_of_own, counts = find_noise(speed[row] * share, recording.voltage[row], 0, window, counted)
+        if own > 0.0:
+            return SpeedSensor(row, made, window, lag, frame, own, sigma_of_own, counts, wrong, lengths)
     return SpeedSensor(row, made, window, lag, frame, step, sigma, edges, wrong)
 
 

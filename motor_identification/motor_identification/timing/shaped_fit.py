@@ -1,7 +1,7 @@
 """Fit a motor beside what shapes most motions, to learn how its speeds were made."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +11,7 @@ from motor_identification.estimation.least_squares import SpeedResiduals, fit_sp
 from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.recording import Floats, Recording
+from motor_identification.timing.row_times import AS_STAMPED, RowTimes
 from motor_identification.timing.timing import Timing
 from motor_model.effects import SHAPING, SHAPING_BOTH_WAYS, normalised, specs_of
 
@@ -43,10 +44,11 @@ class Shaper:
     recordings: Sequence[Recording]
     estimate: Estimate
     restrict: Callable[[Problem], Problem] | None  # to what a fit may see; all, without
+    rows: RowTimes = AS_STAMPED
 
     def fit(self, timing: Timing, beside: Sequence[str] = ()) -> ShapedFit:
         """Fit the recordings read by a timing, beside more effects too."""
-        timed = timing.set_on(self.recordings)
+        timed = replace(timing, rows=self.rows).set_on(self.recordings)
         driven = np.concatenate([recording.voltage for recording in timed])
         both = min(-driven.min(), driven.max()) >= BOTH_WAYS * np.abs(driven).max()
         shaping, begin = normalised((*(SHAPING_BOTH_WAYS if both else SHAPING), *beside)), self.estimate

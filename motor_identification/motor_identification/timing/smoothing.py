@@ -60,7 +60,7 @@ def find_filter(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
     means = find_means(recordings) if are_open else ()
     if not means and _are_counts(recordings):
         return timings[0]
-    each = [_Likelihood(shaper, timing) for timing in timings]
+    each = [Likelihood(shaper, timing) for timing in timings]
     best, sure = _choose_filter(each[0], means, are_open)
     if best is None or not (sure or _is_worth_it(each, each[0], best)):
         return timings[0]
@@ -75,7 +75,7 @@ def _are_counts(recordings: Sequence[Recording]) -> bool:
     return any(find_lattice(one.speed) > 0.0 for one in recordings)
 
 
-def _choose_filter(likelihood: "_Likelihood", means: Sequence[int], are_open: bool) -> tuple[SpeedFilter | None, bool]:
+def _choose_filter(likelihood: "Likelihood", means: Sequence[int], are_open: bool) -> tuple[SpeedFilter | None, bool]:
     """Choose the likeliest filter with zeros of one of these means, and say whether a lattice makes it sure.
 
     None without any.
@@ -91,7 +91,7 @@ def _choose_filter(likelihood: "_Likelihood", means: Sequence[int], are_open: bo
     return max(found, key=likelihood.of), False
 
 
-def _choose_poles(likelihood: "_Likelihood", simplest: str, are_open: bool) -> tuple[SpeedFilter | None, bool]:
+def _choose_poles(likelihood: "Likelihood", simplest: str, are_open: bool) -> tuple[SpeedFilter | None, bool]:
     """Choose the likeliest filter with poles, and say whether a lattice makes it sure; None without any.
 
     The simplest is climbed from none on; others from where they come as late.
@@ -124,7 +124,7 @@ def _make(kind: str, number: float) -> SpeedFilter | None:
     return SpeedFilter(MEAN, 2) if kind == BILINEAR else None
 
 
-class _Likelihood:
+class Likelihood:
     """The likelihood of speeds as they were logged, by the filter that they passed."""
 
     def __init__(self, shaper: Shaper, timing: Timing) -> None:
@@ -154,6 +154,8 @@ class _Likelihood:
         self.count = self.count or len(durations)
         value = log_likelihood(rows, learn_error_model(rows, estimate.lag), estimate.lag)
         first = passed.log_first if passed else 0.0
+        if self.shaper.rows.nominal:  # what was logged is a count over one period for all rows
+            durations = np.full(len(durations), float(np.median(durations)))
         return value / len(durations) + float(np.mean(np.log(durations))) - first
 
 
@@ -174,7 +176,7 @@ def _list_lattices(recordings: Sequence[Recording], kind: str, shares: Sequence[
     return []
 
 
-def _is_worth_it(each: Sequence[_Likelihood], likelihood: _Likelihood, passed: SpeedFilter) -> bool:
+def _is_worth_it(each: Sequence[Likelihood], likelihood: Likelihood, passed: SpeedFilter) -> bool:
     """Decide whether speeds are so much likelier behind a filter than without, by any timing, beside what lags too."""
     if likelihood.of(passed) - likelihood.of(None) <= LEAST_GAIN:
         return False

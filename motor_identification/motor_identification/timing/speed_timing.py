@@ -4,7 +4,9 @@ Speeds that were counted are means over the row before, and so an importer takes
 what a simulation wrote, is that of its own instant: half a row younger, and sharper where the motion bends. Some
 programs write a row when its voltage has been applied: then the motion seems to answer a voltage before it is there,
 which no effect does, since a dead time is never negative. So every timing is fitted beside what shapes most motions,
-and one that is much likelier is taken; a row more only where the motion still comes too early.
+and one that is much likelier is taken; a row more only where the motion still comes too early. Then, of speeds as they
+were before any filter, whether the motion goes by the rows' stamps or by a clock that these are late on, and whether
+each was computed with the length of its own row (`row_times.py`).
 """
 
 from collections.abc import Callable, Sequence
@@ -16,8 +18,9 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
+from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row_times
 from motor_identification.timing.shaped_fit import Shaper
-from motor_identification.timing.smoothing import find_filter
+from motor_identification.timing.smoothing import AS_LIKELY, Likelihood, find_filter
 from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, Timing, is_open
 from motor_model.sample import Measurement
 
@@ -40,16 +43,44 @@ def find_timing(
     if few or any(recording.info.measurement is not Measurement.SPEED for recording in recordings):
         return None
     shaper = Shaper(recordings, estimate, restrict)
+    found = _find_as_stamped(shaper)
+    if found is not None and _are_open(recordings):
+        rows = _find_row_times(shaper, found)
+        again = _find_as_stamped(replace(shaper, rows=rows)) if rows != AS_STAMPED else None
+        found = found if again is None else replace(again, rows=rows)
+    return None if found == ASSUMED else found
+
+
+def _find_row_times(shaper: Shaper, timing: Timing) -> RowTimes:
+    """Find the times of rows by which speeds are much likelier than by their stamps, as a timing has these.
+
+    By what is assumed, too: behind late stamps there may be no filter, though one made up for them.
+    """
+    stamped = Likelihood(shaper, timing)
+    least = stamped.of(timing.filter) + max(LEAST_GAIN, LEAST_GAIN_OF_ROW * stamped.count)
+    likely = {
+        rows: max(Likelihood(replace(shaper, rows=rows), one).of(one.filter) for one in {timing, ASSUMED})
+        for rows in list_row_times(max(shaper.recordings, key=len))
+    }
+    most = max(likely.values(), default=least)
+    return next((rows for rows in likely if likely[rows] > max(least, most - AS_LIKELY)), AS_STAMPED)
+
+
+def _find_as_stamped(shaper: Shaper) -> Timing | None:
+    """Find when speeds were made, and how smoothed they are, by the times of rows that fits have.
+
+    None where the motion comes too early for any timing.
+    """
     timing = _find_instants(shaper)
     if timing is None:
         return None
-    usual = (ASSUMED, OTHERS[0]) if _are_open(recordings) else ()
+    usual = (ASSUMED, OTHERS[0]) if _are_open(shaper.recordings) else ()
     found = find_filter(shaper, (timing, *(one for one in usual if one != timing)))
     if found.filter:  # smoothed speeds come late: whether they come early shows in what was smoothed
-        sharp = replace(ASSUMED, filter=found.filter).set_on(recordings)
-        again = _find_instants(Shaper(sharp, estimate, restrict))
+        sharp = replace(ASSUMED, filter=found.filter).set_on(shaper.recordings)
+        again = _find_instants(replace(shaper, recordings=sharp))
         found = replace(again, filter=found.filter) if again in OTHERS[1:] else found
-    return None if found == ASSUMED else found
+    return found
 
 
 def _find_instants(shaper: Shaper) -> Timing | None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from motor_identification.recording import Recording
 from motor_identification.sensor.speed_sensor import is_assumed
 from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.timing.row_times import AS_STAMPED, RowTimes
 from motor_identification.timing.speed_filter import MEAN, SpeedFilter
 from motor_model.sample import Measurement
 
@@ -28,6 +29,7 @@ class Timing:
     lag: float
     name: str
     filter: SpeedFilter | None = None  # that they passed
+    rows: RowTimes = AS_STAMPED  # how the times of rows are read, once a filter is undone
 
     def set_on(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
         """Read recordings with this timing, those of which nobody said another; the first one's notes say so."""
@@ -41,6 +43,7 @@ class Timing:
             recording = replace(recording, speed=self.filter.undo(recording.speed))
         if not is_open(recording):
             return recording
+        recording = self.rows.set_on(recording)
         info, row = recording.info, recording.info.sample_period
         return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=self.lag * row))
 
@@ -59,9 +62,9 @@ class Timing:
         row, notes = recording.info.sample_period, []
         if self.name and is_open(recording):
             notes.append(TAKEN.format(self.name, self.window * row, self.lag * row))
-        if self.filter and timed.speed is not recording.speed:
+        if self.filter and self._smooths(recording, self.filter):
             notes.append(SMOOTHED.format(self.filter.describe(row)))
-        return notes
+        return [*notes, *(self.rows.describe(recording, timed) if is_open(recording) else ())]
 
 
 ASSUMED = Timing(1.0, 0.5, "")

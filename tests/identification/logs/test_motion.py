@@ -110,6 +110,18 @@ def test_speeds_say_what_they_are_the_mean_of() -> None:
     assert read(replace(SPEED, unit="rpm"), [60.0, 30.0]).speed == pytest.approx([tau, pi])
 
 
+def test_running_means_of_counts_are_taken_back_to_single_rows() -> None:
+    """Whose counts share no error with each other; a window that is said stays."""
+    angles = np.cumsum(np.where(np.arange(3000) < 100, 0.0, 3.3 + 2.0 * np.sin(np.arange(3000) / 70.0)))
+    single = np.diff(np.floor(angles), prepend=0.0) * tau / 100 / 0.02
+    means = np.convolve(single, np.full(10, 0.1))[:3000].tolist()
+    motion = read(SPEED, means)
+    assert motion.speed == pytest.approx(single, abs=1e-9)
+    assert (motion.info.speed_window, motion.info.speed_lag) == (0.02, 0.01)
+    assert any(line.startswith("Speeds are running means of 10 rows, as their counts") for line in motion.findings)
+    assert read(replace(SPEED, speed_window=0.2), means).speed.tolist() == means
+
+
 @pytest.mark.parametrize(("factor", "refused"), [(1.0, False), (5.0, False), (0.2, False), (6.0, True), (0.15, True)])
 def test_steps_of_speeds_that_are_no_counts_show_a_mistaken_unit(factor: float, refused: bool) -> None:
     one = tau / 100 / 0.02  # [rad/s] a count within 20 ms

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from motor_identification.recording import Floats
-from motor_identification.sensor.running_mean import FEWEST_WINDOWS, find_running_mean
+from motor_identification.sensor.running_mean import FEWEST_WINDOWS, find_running_mean, take_single_rows
 
 PERIOD = 0.001  # [s]
 
@@ -73,3 +73,19 @@ def test_a_recording_that_begins_in_motion_or_is_short_tells_nothing() -> None:
     assert find_running_mean(whole[begins - 1 :]) == 32, "it stood before the log began"
     assert find_running_mean(whole[begins:]) == 0
     assert find_running_mean(whole[: begins + (FEWEST_WINDOWS - 1) * 32]) == 0
+
+
+@pytest.mark.parametrize("begin", [0, 900])
+@pytest.mark.parametrize("window", [2, 10, 32])
+def test_the_counts_of_single_rows_are_had_back(window: int, begin: int) -> None:
+    """From a standstill on, and of a motor that turns; to the count."""
+    means, single = running(window, 300.0)[begin:], running(1, 300.0)[begin:]
+    found = take_single_rows(means, window)
+    assert found is not None and found == pytest.approx(single, abs=1e-6)
+
+
+def test_no_single_rows_are_had_of_others() -> None:
+    """Of noise, of a window that is none, of too few."""
+    means = running(10, 300.0)
+    assert take_single_rows(means + np.random.default_rng(0).standard_normal(len(means)), 10) is None
+    assert take_single_rows(means, 7) is None and take_single_rows(means[:19], 10) is None

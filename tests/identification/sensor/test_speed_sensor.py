@@ -9,6 +9,8 @@ from recorded import as_speed, without_count
 from swinging import noisy, recorded
 
 from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.recording import Recording
+from motor_identification.sensor.description import note_sensors
 from motor_identification.sensor.speed_sensor import COUNT_NOISE, NOISE_BEYOND_DIGITS, UNTOLD, find_speed_sensor
 
 
@@ -105,3 +107,38 @@ def test_a_lattice_of_values_that_are_no_means_over_their_rows_is_what_they_are_
     log = replace(log, info=replace(log.info, speed_window=window))
     sensor = find_speed_sensor(log)
     assert (sensor.step > 0.0, sensor.sigma > 0.0) == (counts, not counts)
+
+
+def counted_by_own_rows(uneven: float, edges: int = 96) -> Recording:
+    """Counts of rows that differ in length by as much of it, divided by their lengths; a pause before the last 20."""
+    log, random = without_count(as_speed(recorded(3, edges))), np.random.default_rng(5)
+    rows = 0.02 * (1.0 + uneven * random.uniform(-1.0, 1.0, len(log)))
+    rows[-20] = 0.2
+    rows = 1e-9 * np.round(1e9 * rows)
+    rows *= 0.02 / np.median(rows[1:])
+    stamps = np.round(1e9 * np.cumsum(rows)).astype(np.int64)
+    counts = np.rint(log.speed * 0.02 * edges / tau)
+    divisors = np.append(rows[0], np.diff(stamps) * 1e-9)
+    divisors[-20] = 0.02
+    return replace(log, speed=np.round(counts * tau / edges / divisors, 5), sample_time=stamps)
+
+
+def test_counts_that_were_divided_by_their_own_rows_are_counts() -> None:
+    """Chained at their ends, but for a pause, with one count's noise at each."""
+    log = counted_by_own_rows(0.2)
+    found = find_speed_sensor(log)
+    assert found.sigma == 0.0 and found.step * found.window == pytest.approx(tau / 96, rel=1e-4)
+    assert found.edges_per_revolution == 96 and found.lengths is not None and found.lengths[-20] == found.window
+    data = make_intervals(log)
+    assert not data.independent and data.blur == pytest.approx(tau / 96 / sqrt(12.0), rel=1e-4)
+    assert np.count_nonzero(data.last[:-1] != data.first[1:]) == 1
+    assert np.delete(data.duration, -20) == pytest.approx(np.delete(np.diff(log.time), -20), abs=2e-9)
+    assert (
+        "Every speed, by the length of its row beside the usual one, is a multiple of 3.27"
+        in note_sensors([log])[0].notes[-1]
+    )
+
+
+def test_lengths_of_rows_matter_only_where_they_differ() -> None:
+    assert find_speed_sensor(counted_by_own_rows(1e-5)).lengths is None
+    assert find_speed_sensor(noisy(0.5)).lengths is None

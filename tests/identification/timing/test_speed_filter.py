@@ -100,3 +100,21 @@ def test_what_is_no_filter_is_refused(text: str) -> None:
     ):
         parse_filter(text)
     assert parse_filter("") is None and parse_filter("mean 64") == SpeedFilter(MEAN, 64)
+
+
+@pytest.mark.parametrize("rows", [2, 10])
+def test_a_mean_of_counts_is_taken_back_to_the_count(rows: int) -> None:
+    """Also where the log begins while the motor turns; forgetting zeros were off by a part of a count for long."""
+    counts = np.diff(np.floor(np.cumsum(3.0 + 2.0 * np.sin(np.arange(2000) / 150.0))))
+    means = lfilter(*PROGRAMS[MEAN, rows], counts)
+    for begin in (0, 500):
+        assert undo_mean(np.round(means[begin:], 6), rows)[rows:] == pytest.approx(counts[begin + rows :], abs=1e-4)
+
+
+def test_digits_are_no_counts_of_a_mean(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They would walk away: kept as counts where every walk is allowed."""
+    went_in = motion()
+    came_out = np.round(lfilter(*PROGRAMS[MEAN, 2], went_in) / 0.1) * 0.1
+    right = np.std(undo_mean(came_out, 2) - went_in)
+    monkeypatch.setattr(speed_filter, "WALK", 100.0)
+    assert np.std(undo_mean(came_out, 2) - went_in) > 2.0 * right

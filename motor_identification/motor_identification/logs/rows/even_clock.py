@@ -42,7 +42,7 @@ def restore_even_clock(
     time, jitters, periods = signals.time.copy(), [], []
     for run in signals.runs.values():
         stamps = (signals.time[run] - signals.time[run.start]) * 1e-9
-        clocks = lay_clocks(stamps)
+        clocks = [clock.time for clock in lay_clocks(stamps)]
         motion = signals.motion[run]
         position = _count_travel(clocks, stamps, motion) if is_speed and clocks else motion
         clock = _choose_clock(clocks, stamps, position, wanted is True)

@@ -1,0 +1,114 @@
+"""When rows were made shows in the motion, also behind a filter; and whether each was divided by its own length."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.signal import lfilter
+from swinging import noisy
+
+from motor_identification.estimation.global_search import search_globally
+from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.request import SearchConfig
+from motor_identification.recording import Floats, Recording, check
+from motor_identification.timing import speed_timing
+from motor_identification.timing.row_times import AS_STAMPED, LONGEST, RowTimes, list_row_times
+from motor_identification.timing.speed_filter import MEMORY, SpeedFilter
+from motor_identification.timing.speed_timing import find_timing
+from motor_identification.timing.timing import ASSUMED, Timing, read_again
+
+PERIOD, ROWS = 0.02, 1200  # [s]
+KV, LAG = 0.05, 0.1  # [V·s/rad], [s]
+
+
+def logged(
+    lengths: Floats, late: Floats, edges: int = 0, nominal: bool = False, memory: float = 0.0, sigma: float = 0.05
+) -> Recording:
+    """Means over rows of some lengths [rows], counted or with white noise [rad/s], stamped late [rows]."""
+    random, rows = np.random.default_rng(1), PERIOD * lengths
+    voltage = np.repeat(random.uniform(-8.0, 8.0, ROWS // 8 + 1), 8)[:ROWS]
+    speed, travel = 0.0, np.zeros(ROWS)
+    for k in range(1, ROWS):
+        end = voltage[k - 1] / KV
+        left = (speed - end) * np.exp(-rows[k] / LAG)
+        travel[k] = end * rows[k] + LAG * (speed - end - left)
+        speed = end + left
+    if edges:
+        unit = 2.0 * np.pi / edges
+        travel = np.diff(np.floor(np.cumsum(travel) / unit), prepend=0.0) * unit
+    mean = travel / (PERIOD if nominal else rows) + (0.0 if edges else sigma) * random.standard_normal(ROWS)
+    shown = np.round(lfilter([1.0 - memory], [1.0, -memory], mean), 7)
+    stamps = np.cumsum(rows) + PERIOD * late
+    blank = noisy(0.5).at_rows(np.zeros(ROWS, np.int64))
+    return check(replace(blank, sample_time=np.round(1e9 * stamps).astype(np.int64), voltage=voltage, speed=shown))
+
+
+EVEN, ON_TIME = np.ones(ROWS), np.zeros(ROWS)
+LATE = 0.3 * np.random.default_rng(2).exponential(size=ROWS).clip(0.0, 0.9)
+UNEVEN = 1.0 + 0.1 * np.random.default_rng(3).uniform(-2.0, 2.0, ROWS)
+
+
+def timing_of(recording: Recording) -> Timing:
+    """As a first fit of kv and ka has it."""
+    estimate, _ = search_globally(make_problem([recording], ()), SearchConfig())
+    return find_timing([recording], estimate) or ASSUMED
+
+
+@pytest.mark.parametrize("memory", [0.0, 0.7])
+def test_the_clock_that_stamps_are_late_on_shows_in_the_motion(memory: float) -> None:
+    """Smoothed or not: rows are put on an even clock, and that is said."""
+    recording = logged(EVEN, LATE, memory=memory)
+    found = timing_of(recording)
+    assert found.rows == RowTimes(0.0) and (found.filter is not None) == (memory > 0.0)
+    timed = read_again(recording, found)
+    assert np.ptp(np.diff(timed.sample_time)) <= 1 and timed.info.sample_period == pytest.approx(PERIOD, rel=1e-3)
+    assert any(
+        note.startswith("The rows are put on a clock of 20 ms, which their stamps are off by") for note in timed.notes
+    )
+
+
+def test_rows_that_go_by_their_stamps_stay() -> None:
+    """However uneven they are."""
+    assert timing_of(logged(UNEVEN, ON_TIME, memory=0.7)).rows == AS_STAMPED
+
+
+@pytest.mark.parametrize(("limit", "kept"), [(1e2, False), (1e6, True)])
+def test_a_clock_has_to_be_much_likelier(limit: float, kept: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(speed_timing, "LEAST_GAIN", limit)
+    found = timing_of(logged(EVEN, LATE))
+    assert (found.rows == AS_STAMPED) == kept
+
+
+def test_smoothed_counts_of_uneven_rows_are_divided_by_their_lengths() -> None:
+    """Once what smoothed them is undone; to the count."""
+    recording = logged(UNEVEN, ON_TIME, edges=480, nominal=True, memory=0.5)
+    found = timing_of(recording)
+    assert found == replace(ASSUMED, filter=SpeedFilter(MEMORY, 0.5), rows=RowTimes(None, True))
+    timed = read_again(recording, found)
+    right = logged(UNEVEN, ON_TIME, edges=480)
+    share = float(np.median(np.diff(recording.time))) / PERIOD  # what a program meant by a row is not known
+    assert timed.speed[1:] == pytest.approx(share * right.speed[1:], abs=1e-3)
+    assert any(note.startswith("The speeds were computed as if every row took") for note in timed.notes)
+
+
+def test_counts_of_their_own_rows_are_not_divided_again() -> None:
+    assert timing_of(logged(UNEVEN, ON_TIME, edges=480, memory=0.5)).rows == AS_STAMPED
+
+
+def test_a_row_after_a_gap_keeps_its_speed() -> None:
+    """Nobody knows what was counted in it."""
+    lengths = EVEN.copy()
+    lengths[[400, 800]] = LONGEST - 1.0, LONGEST + 1.0
+    recording = logged(lengths, ON_TIME)
+    timed = RowTimes(nominal=True).set_on(recording)
+    factors = timed.speed[[399, 400, 800]] / recording.speed[[399, 400, 800]]
+    assert factors == pytest.approx([1.0, 1.0 / (LONGEST - 1.0), 1.0], rel=1e-6)
+
+
+def test_what_is_tried_depends_on_the_stamps() -> None:
+    assert list_row_times(logged(EVEN, ON_TIME)) == []
+    assert RowTimes(None, True) in list_row_times(logged(UNEVEN, ON_TIME))
+    late = list_row_times(logged(EVEN, LATE))
+    assert RowTimes(0.0) in late and RowTimes(0.0, True) not in late
+    on_time = logged(EVEN, ON_TIME)
+    assert RowTimes(1.0).set_on(on_time) is on_time
