@@ -17,7 +17,7 @@ LEAST_BLOCK_ROWS = 8  # residuals in a block
 LEAST_WHITE_P_VALUE = 0.01  # chance under which residuals do not pass for white
 MOST_LEVERAGE = 0.95  # largest share of a direction that one block may be credited with
 COLLINEAR_SINE = 1e-4  # sine of the angle between a column of the Jacobian and the others, below which they are one
-MOST_RELATIVE_ERROR = 0.3  # standard error as a share of the value
+MOST_RELATIVE_ERROR = 0.5  # standard error as a share of the value: beyond, two of them reach zero
 COVERED_QUANTILE = 0.975  # quantile up to which an interval of ±1.96 standard errors shall reach
 
 

@@ -111,7 +111,7 @@ WRONG = {  # what the motor has beside friction, how it is driven, which effects
     "lag for play": ({"backlash_angle": 0.2, "load_fraction": 0.4}, STAIRS, ("armature_inductance",)),
     "delay for limit": ({"limit_voltage": 8.5}, profiles.pieces([5.0, 10.0], 0.6), ("transport_delay",)),
     "lag for delay": ({"delay": 0.0073}, profiles.random(12.0, 2.0), ("coulomb_friction", "armature_inductance")),
-    "bias for asymmetry": ({"reverse_gain": 0.93}, STAIRS, ("coulomb_friction", "load_bias")),
+    "bias for asymmetry": ({"reverse_gain": 0.8}, STAIRS, ("coulomb_friction", "load_bias")),
 }
 
 
