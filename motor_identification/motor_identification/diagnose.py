@@ -169,7 +169,26 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
         selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
     else:
         selection = beside
-    return drop_undetermined(selection, reporter)
+    left, undetermined = drop_undetermined(selection, reporter)
+    # With nothing left, a model that fits a slow torque instead of the motion tells less than the one to begin with.
+    nothing = not left.steps and fits_torque(left.model.held.gap, start.model.held.gap)
+    return start if nothing else left, undetermined
+
+
+def _select_both_ways(begun: Selection, reporter: ProgressReporter) -> Selection:
+    """Select forward and eliminate backward beside a random torque, again where that changed what there is.
+
+    What stood in for two effects hides both; what is found in its place may be one of them.
+    """
+    selection = select_forward(begun, reporter)
+    for _ in range(thresholds.ROUNDS):
+        left = eliminate_backward(selection, reporter)
+        if set(left.model.effects) == set(selection.model.effects):
+            return left
+        selection = select_forward(left, reporter)
+        if set(selection.model.effects) == set(left.model.effects):
+            return selection
+    return eliminate_backward(selection, reporter)
 
 
 def _select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
@@ -189,7 +208,7 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
     for begin in (plain, start) if plain.steps and disturbed else (plain,):
         reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
         begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
-        selection = eliminate_backward(select_forward(begun, reporter), reporter)
+        selection = _select_both_ways(begun, reporter)
         worse = predicts_far_worse(selection.model.held.gap, plain.model.held.gap)
         if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
             worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()

@@ -79,3 +79,50 @@ def test_what_comes_and_goes_in_time_has_to_hold_beside_a_torque(
     plain, ended = selection_of(stub_model(1.0, 0.0), step), selection_of(stub_model(1.0, 0.0))
     assert not plain.model.above_floor and not plain.model.lasts
     assert (selected(monkeypatch, plain, plain, ended) is ended) is again
+
+
+@pytest.mark.parametrize("dropped", [False, True])
+def test_what_elimination_changed_is_selected_on_from(monkeypatch: pytest.MonkeyPatch, dropped: bool) -> None:
+    """A limit and a load step stood in for a coasting bridge and a friction: in their place one, then the other."""
+    before = stub_model(4.0)
+    found = [step_of(stub_test(effect, before, 1.0, 100.0)) for effect in ("voltage_limit", "coast_drive", "dead_zone")]
+    limit, coast, both = (
+        selection_of(stub_model(gap), *steps) for gap, steps in ((3.0, found[:1]), (2.0, found[1:2]), (1.0, found[1:]))
+    )
+    effects = {
+        id(limit.model): ("voltage_limit",),
+        id(coast.model): ("coast_drive",),
+        id(both.model): ("coast_drive", "dead_zone"),
+    }
+    monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
+    further = {id(limit): limit, id(coast): both, id(both): both}
+    left = {id(limit): coast if dropped else limit, id(both): both}
+    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: further[id(selection)])
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: left[id(selection)])
+    assert module._select_both_ways(limit, SILENT) is (both if dropped else limit)
+
+
+def test_a_selection_that_swings_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    one, other = selection_of(stub_model(2.0)), selection_of(stub_model(3.0))
+    effects = {id(one.model): ("dead_zone",)}
+    monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
+    rounds = []
+    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: one)
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: rounds.append(0) or other)
+    assert module._select_both_ways(other, SILENT) is other and len(rounds) == thresholds.ROUNDS + 1
+
+
+@pytest.mark.parametrize(("gap", "steps", "begun"), [(1.101, 0, True), (1.099, 0, False), (1.101, 1, False)])
+def test_a_model_of_the_torque_alone_is_not_the_result(
+    monkeypatch: pytest.MonkeyPatch, gap: float, steps: int, begun: bool
+) -> None:
+    """What the diagnosis began with predicts the motion better."""
+    start = selection_of(stub_model(2.0))
+    step = step_of(stub_test("dead_zone", start.model, 1.0, 100.0))
+    ended = selection_of(stub_model(2.0 * gap), *([step] * steps))
+    assert thresholds.GAP_CHANCE == 1.1
+    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: start)
+    monkeypatch.setattr(module, "retry_with_another_first", lambda selection, reporter: start)
+    monkeypatch.setattr(module, "_select_beside_torque", lambda *rest: start)
+    monkeypatch.setattr(module, "drop_undetermined", lambda selection, reporter: (ended, ("coast_drive",)))
+    assert module._select(start, SILENT) == (start if begun else ended, ("coast_drive",))

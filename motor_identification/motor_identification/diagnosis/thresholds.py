@@ -144,6 +144,8 @@ MOST_OF_ONE_RESPONSE = 1
 # Times the floor, of the middle half's scatter: where most intervals are as near, a few miscounted ones may be all that
 # is wrong. A gap of 1.3 is explained, and twice that again is left to the tails of what is half left out.
 MISCOUNTED_GAP = 3.0
+# How often a selection beside a random torque goes on where elimination changed it. Measured: once is enough.
+ROUNDS = 2
 # Effects that are tried together with any other, where none alone is a finding. 3 × 17 fits take half a minute.
 PAIR_PARTNERS = 3
 # Findings from which on no pairs are tried any more: what is not in the table would cost minutes.
