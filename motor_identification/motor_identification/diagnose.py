@@ -19,7 +19,7 @@ from motor_identification.diagnosis.candidate_test import (
     takes_away_more,
 )
 from motor_identification.diagnosis.determination import drop_undetermined
-from motor_identification.diagnosis.effect_test import count_waves
+from motor_identification.diagnosis.evidence.line_evidence import count_waves
 from motor_identification.diagnosis.forward_selection import retry_with_another_first, select_forward
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection import Selection, begin_beside_torque, begin_selection

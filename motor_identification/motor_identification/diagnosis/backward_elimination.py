@@ -13,12 +13,12 @@ from motor_identification.diagnosis.candidate_test import CandidateTest, likelih
 from motor_identification.diagnosis.effect_test import (
     are_alike,
     count_parameters,
-    drop_chance_harmonics,
     find_rivals,
     list_candidates,
     sort_by_table,
     try_effects,
 )
+from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
 from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss, is_better
 from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_beside_torque
 from motor_identification.diagnosis.stand_ins import stands_in_for_curve

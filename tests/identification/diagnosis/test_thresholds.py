@@ -18,8 +18,8 @@ from motor_identification.diagnosis.candidate_test import (
 from motor_identification.diagnosis.effect_test import (
     choose_finding,
     find_rivals,
-    is_beyond_chance,
 )
+from motor_identification.diagnosis.evidence.line_evidence import is_beyond_chance
 from motor_identification.recording import Recording
 from motor_model.effects import EFFECTS
 

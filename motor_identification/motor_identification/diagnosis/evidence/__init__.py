@@ -1,1 +1,1 @@
-"""Judge what speaks for an effect: beside a random torque, at standstills, in missed edges, and in another's place."""
+"""Judge what speaks for an effect: beside a torque, at rest, over the angle, in missed edges, in another's place."""

@@ -1,0 +1,59 @@
+"""Judge a line in a spectrum over the angle: random slots have a first harmonic by chance, slow torques a few waves."""
+
+from collections.abc import Sequence
+from math import inf, sqrt, tau
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_model.effects import EFFECT_BY_NAME
+
+
+def count_waves(model: Model, effect: str) -> float:
+    """Count the waves over the angle that an effect of a model has from one end of its motion to the other.
+
+    Infinitely many of one that has none, or of which no line was found to fit. What is on the disc has one in a turn.
+    """
+    cycles = _find_cycles(model, effect) if effect in model.effects else None
+    return inf if cycles is None else cycles * model.turns
+
+
+def drop_chance_harmonics(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
+    """Drop tests of the first harmonic that random slots have by chance: of the disc, and of a torque less likely."""
+    chance = [test for test in tests if EFFECT_BY_NAME[test.effect].on_disc and _is_by_random_slots(test)]
+    most = max((test.evidence for test in chance), default=-inf)
+    chance += [test for test in tests if test.evidence < most and _is_once_a_turn(test)]
+    return [test for test in tests if not any(test is one for one in chance)]
+
+
+def _is_by_random_slots(test: CandidateTest) -> bool:
+    size = _fitted(test.model, EFFECT_BY_NAME[test.effect].parameters[0].name)
+    slot = max(data.slot * data.gear for data in test.model.estimate.problem.intervals)  # of the encoder's shaft
+    share = test.model.noise.share if test.model.learned is None else test.model.learned.share
+    return size is not None and not is_beyond_chance(size, slot, share)
+
+
+def is_beyond_chance(eccentricity: float, slot: float, share: float) -> bool:
+    """Decide whether an eccentricity [rad] is beyond the first harmonic of slots [rad] that are random by a share.
+
+    Of N = 2π/slot independent offsets of standard deviation σ, sine and cosine of a harmonic have the variance 2σ²/N.
+    """
+    return eccentricity > thresholds.CHANCE_HARMONIC * share * slot * sqrt(2.0 * slot / tau)
+
+
+def _is_once_a_turn(test: CandidateTest) -> bool:
+    """Whether an effect has cycles in a turn of the encoder's shaft, and they are one."""
+    cycles = _find_cycles(test.model, test.effect)
+    return cycles is not None and abs(cycles - 1.0) < thresholds.ONCE_A_TURN
+
+
+def _find_cycles(model: Model, effect: str) -> float | None:
+    """Find the cycles in a turn of the encoder's shaft that an effect has; None if it has none, as `_fitted`."""
+    names = [spec.name for spec in EFFECT_BY_NAME[effect].parameters if spec.of_encoder]
+    return _fitted(model, names[0]) if names else None
+
+
+def _fitted(model: Model, parameter: str) -> float | None:
+    """Look up the value that a model was fitted to have of a parameter; None where no line was found to fit."""
+    names = model.estimate.problem.unknowns.names
+    return float(model.estimate.theta[names.index(parameter)]) if parameter in names else None

@@ -1,0 +1,49 @@
+"""A line over the angle that random slots make is dropped, with the torque that does the same, only worse."""
+
+from dataclasses import replace
+from math import tau
+from types import SimpleNamespace
+from typing import cast
+
+import numpy as np
+import pytest
+from stub_models import stub_model, stub_test
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.noise.likelihood import Noise
+
+
+def line(effect: str, evidence: float, **values: float) -> CandidateTest:
+    """A line in the spectrum, fitted to the last of eight slots that are random by 0.4 %."""
+    problem = SimpleNamespace(
+        unknowns=SimpleNamespace(names=tuple(values)), intervals=(SimpleNamespace(slot=tau / 8.0, gear=1.0),)
+    )
+    estimate = cast(Estimate, SimpleNamespace(problem=problem, theta=np.array(list(values.values()))))
+    before = stub_model(5.0)
+    test = stub_test(effect, before, 1.0, evidence)
+    return replace(test, model=replace(test.model, estimate=estimate, noise=Noise(0.004, 0.0)))
+
+
+@pytest.mark.parametrize(
+    ("eccentricity", "evidence", "cycles", "left"),
+    [
+        (0.0080, 30.0, 1.0, ["encoder_eccentricity", "torque_ripple"]),
+        (0.0002, 30.0, 1.0, []),  # a first harmonic by chance, and a torque in its place
+        (0.0002, 19.0, 1.0, ["torque_ripple"]),
+        (0.0002, 30.0, 0.99 * thresholds.ONCE_A_TURN + 1.0, []),
+        (0.0002, 30.0, 1.01 * thresholds.ONCE_A_TURN + 1.0, ["torque_ripple"]),
+    ],
+)
+def test_what_random_slots_do_by_chance_is_dropped_with_the_torque_that_does_it_worse(
+    eccentricity: float, evidence: float, cycles: float, left: list[str]
+) -> None:
+    disc = line("encoder_eccentricity", evidence, eccentricity=eccentricity, eccentricity_phase=0.0)
+    ripple = line("torque_ripple", 20.0, ripple_voltage=0.1, ripple_cycles=cycles, ripple_phase=0.0)
+    assert [test.effect for test in drop_chance_harmonics([disc, ripple])] == left
+
+
+def test_a_line_that_was_not_found_is_no_chance() -> None:
+    assert len(drop_chance_harmonics([line("encoder_eccentricity", 0.0), line("torque_ripple", 0.0)])) == 2
