@@ -133,9 +133,8 @@ class Model:
     def is_random(self) -> bool:
         """Whether the random torque that was learned leaves about as much as is left: else it does not describe it."""
         time = self.errors.correlation_time + 1.0 / self.lag.rate
-        seen = sum(
-            float(data.duration[marks].sum()) for data, marks in zip(self.held.intervals, self.held.scored, strict=True)
-        )
+        rows = zip(self.held.intervals, self.held.scored, strict=True)
+        seen = sum(_measure_time(data, marks) for data, marks in rows)
         # Chance of the RMS of so many independent samples.
         chance = min(exp(thresholds.RANDOM_SIGMA * sqrt(0.5 * time / seen)), thresholds.MOST_CHANCE)
         low, high = thresholds.RANDOM_GAP
@@ -200,6 +199,11 @@ class Model:
         )
         others = [] if same else [rest(*row) for row in training]
         return find_structure(own, others, self.errors, self.lag)
+
+
+def _measure_time(data: Intervals, marks: Bools) -> float:
+    """Measure the time [s] that marked intervals stand for; speeds of instants have next to none of their own."""
+    return float(data.duration[marks].sum() / data.duration.sum() * (data.time[-1] - data.time[0]))
 
 
 def learn_errors(estimate: Estimate) -> ErrorModel:

@@ -175,7 +175,8 @@ MOST_ODD = 0.5
 
 # Is the rest random?
 # Times the noise floor of sensor and random torque together: a gap beyond is not what that torque leaves. Measured on
-# complete models beside 0.03 and 0.15 V: 0.92 to 1.12; a slewing bridge that an inductance stood in for: 0.29.
+# complete models beside 0.03 and 0.15 V: 0.92 to 1.12; slewing bridges that an inductance
+# stood in for: 0.29 to 0.84.
 RANDOM_GAP = (0.75, 1.33)
 # Standard deviations that it may be larger by chance beyond: a few held-out seconds have few samples of a slow torque.
 RANDOM_SIGMA = 2.0
