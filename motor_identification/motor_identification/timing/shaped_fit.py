@@ -12,6 +12,7 @@ from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.recording import Floats, Recording
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes
+from motor_identification.timing.telling_blocks import Span, choose_blocks
 from motor_identification.timing.timing import Timing
 from motor_model.effects import SHAPING, SHAPING_BOTH_WAYS, normalised, specs_of
 
@@ -45,6 +46,11 @@ class Shaper:
     estimate: Estimate
     restrict: Callable[[Problem], Problem] | None  # to what a fit may see; all, without
     rows: RowTimes = AS_STAMPED
+
+    @cached_property
+    def blocks(self) -> list[list[Span]]:
+        """The spans [s] of every recording that tell how its speeds were made."""
+        return choose_blocks(self.recordings)
 
     def fit(self, timing: Timing, beside: Sequence[str] = ()) -> ShapedFit:
         """Fit the recordings read by a timing, beside more effects too."""

@@ -22,6 +22,7 @@ from motor_identification.sensor.held_samples import find_frames
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.speed_filter import BILINEAR, KINDS, LEAST_ROWS, MEAN, MEMORY, SpeedFilter
+from motor_identification.timing.telling_blocks import take_blocks
 from motor_identification.timing.timing import ASSUMED, Timing, is_open
 from motor_identification.timing.unit_zeros import find_means
 from motor_model.effects import LAGGING
@@ -148,8 +149,12 @@ class Likelihood:
     def _measure(self, passed: SpeedFilter | None, beside: Sequence[str] = ()) -> float:
         """Measure the mean logarithm of the density of a speed."""
         estimate = self.shaper.fit(replace(self.timing, filter=passed), beside).estimate
-        pairs = zip(estimate.problem.intervals, estimate.increments, strict=True)
-        rows = [make_error_data(intervals, increments) for intervals, increments in pairs]
+        columns = estimate.problem.intervals, estimate.increments, self.shaper.blocks
+        rows = [
+            block
+            for intervals, increments, spans in zip(*columns, strict=True)
+            for block in take_blocks(make_error_data(intervals, increments), intervals.time[intervals.last], spans)
+        ]
         durations = np.concatenate([row.duration for row in rows])
         self.count = self.count or len(durations)
         value = log_likelihood(rows, learn_error_model(rows, estimate.lag), estimate.lag)

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from motor_identification.recording import Recording
 from motor_identification.sensor.speed_sensor import is_assumed
 from motor_identification.sensor.value_lattice import find_lattice
@@ -18,12 +20,19 @@ TAKEN = (
     "(--speed-window {:.3g} --speed-lag {:.3g} says so to an import)."
 )
 SMOOTHED = "The speeds are smoothed: {}, as noise and motion show. What was smoothed is taken."
-OWN, BEFORE = "values of their rows' own instants", "{} of the row after the voltage's"
+EARLY = (
+    "The voltages are taken as those that held until their rows: else the motion came before them (--voltage-before "
+    "says so to an import)."
+)
+OWN = "values of their rows' own instants"
 
 
 @dataclass(frozen=True)
 class Timing:
-    """When speeds were made, in rows: how long the window of each is, and how old its middle; and how smoothed."""
+    """When speeds were made, in rows: how long the window of each is, and how old its middle; and how smoothed.
+
+    What is younger than its row was logged with the voltage that held until then: a row more, however long that was.
+    """
 
     window: float
     lag: float
@@ -44,8 +53,16 @@ class Timing:
         if not is_open(recording):
             return recording
         recording = self.rows.set_on(recording)
-        info, row = recording.info, recording.info.sample_period
-        return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=self.lag * row))
+        info, row, lag = recording.info, recording.info.sample_period, self.lag
+        if self.is_early:
+            held, lag = np.append(recording.voltage[1:], recording.voltage[-1]), lag + 1.0
+            recording = replace(recording, voltage=held)
+        return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=lag * row))
+
+    @property
+    def is_early(self) -> bool:
+        """Whether rows hold the voltages until them."""
+        return self.lag < 0.0
 
     @staticmethod
     def _smooths(recording: Recording, passed: SpeedFilter) -> bool:
@@ -61,7 +78,9 @@ class Timing:
         """Say how a recording is read otherwise than it says."""
         row, notes = recording.info.sample_period, []
         if self.name and is_open(recording):
-            notes.append(TAKEN.format(self.name, self.window * row, self.lag * row))
+            notes.append(TAKEN.format(self.name, self.window * row, timed.info.speed_lag))
+        if self.is_early and is_open(recording):
+            notes.append(EARLY)
         if self.filter and self._smooths(recording, self.filter):
             notes.append(SMOOTHED.format(self.filter.describe(row)))
         return [*notes, *(self.rows.describe(recording, timed) if is_open(recording) else ())]
@@ -70,8 +89,8 @@ class Timing:
 ASSUMED = Timing(1.0, 0.5, "")
 OTHERS = (
     Timing(INSTANT, 0.0, OWN),
-    Timing(1.0, -0.5, BEFORE.format("means")),
-    Timing(INSTANT, -1.0, BEFORE.format("values")),
+    Timing(1.0, -0.5, ""),
+    Timing(INSTANT, -1.0, OWN),
 )
 
 

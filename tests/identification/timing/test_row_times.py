@@ -112,3 +112,14 @@ def test_what_is_tried_depends_on_the_stamps() -> None:
     assert RowTimes(0.0) in late and RowTimes(0.0, True) not in late
     on_time = logged(EVEN, ON_TIME)
     assert RowTimes(1.0).set_on(on_time) is on_time
+
+
+def test_uneven_rows_that_hold_the_voltage_until_them_are_read_so() -> None:
+    """A row later is not a time later: nothing was found of such a log."""
+    recording = logged(UNEVEN, ON_TIME)
+    late = check(replace(recording, voltage=np.append(0.0, recording.voltage[:-1])))
+    found = timing_of(late)
+    assert (found.window, found.lag, found.filter, found.rows) == (1.0, -0.5, None, AS_STAMPED)
+    timed = read_again(late, found)
+    assert np.array_equal(timed.voltage[:-1], recording.voltage[:-1]) and timed.info == recording.info
+    assert any("(--voltage-before says so to an import)" in note for note in timed.notes)
