@@ -29,6 +29,7 @@ from motor_model.sample import Measurement
 # (0.03) in logs of others, of which nobody knows.
 LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
 LEAST_SPEEDS = 50
+TOO_EARLY = Timing(1.0, -1.5, "")  # half a row more than any program makes speeds early
 
 
 def find_timing(
@@ -94,8 +95,9 @@ def _find_instants(shaper: Shaper) -> Timing | None:
     best, fitted = ASSUMED, shaper.fit(ASSUMED)
     early = fitted.delay <= least
     others = [(timing, shaper.fit(timing)) for timing in (OTHERS if early else OTHERS[:1])]
-    if early and others[-1][1].delay <= least:  # earlier than any row says: not for its timing
-        return None
+    last = others[-1][1]
+    if early and last.delay <= least and _is_likelier(shaper.fit(TOO_EARLY).residuals, last.residuals):
+        return None  # earlier than any row says: not for its timing
     for timing, other in others:  # each makes the speeds younger than the one before
         if (fitted.delay <= least or timing is OTHERS[0]) and _is_likelier(other.residuals, fitted.residuals):
             best, fitted = timing, other

@@ -51,6 +51,8 @@ def test_a_row_with_the_voltage_until_it_is_told() -> None:
     found = timing_of(check(late))
     assert found is not None and (found.window, found.lag) == (1.0, -0.5)
     assert timing_of(check(with_voltage_of_next_row(late))) is None  # no log is two rows late: for another reason
+    found = timing_of(check(with_voltage_of_next_row(noisy(0.05, instant=True))))
+    assert found is not None and (found.window, found.lag) == (INSTANT, -1.0)  # without any dead time left
 
 
 def test_a_dead_time_is_none_of_the_timing() -> None:
