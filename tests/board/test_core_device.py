@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import firmware_core as core
 import pytest
 from core_board import LEAD, WRAP, CoreBoard
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from motor_driver.frames.codes import Flag
@@ -39,7 +39,6 @@ class Model:
         self.on, self.newest, self.latch = False, 0, (self.latch + 1) % 256
 
 
-@settings(deadline=None)
 @given(steps, st.integers(0, 2**33), st.integers(0, 255))
 def test_the_output_keeps_the_rules(script: list[tuple[str, int, int]], start: int, latch: int) -> None:
     lib, output, model = core.load(), core.Output(top=256, timeout=TIMEOUT, boot=7, latch=latch), Model(latch=latch)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import firmware_core as core
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 TURN = 1 << 16
@@ -55,7 +55,6 @@ edges = st.lists(st.tuples(gaps, late, late, st.booleans()), min_size=1, max_siz
 starts = st.integers(0, 2**33) | st.sampled_from([WRAP - 5, WRAP - TURN, TURN - 1])
 
 
-@settings(deadline=None)
 @given(starts, edges)
 def test_every_edge_has_its_time_whatever_overflows_meanwhile(start: int, steps: Steps) -> None:
     hardware, time, before = Hardware(start), start, None
@@ -68,7 +67,6 @@ def test_every_edge_has_its_time_whatever_overflows_meanwhile(start: int, steps:
         before = time
 
 
-@settings(deadline=None)
 @given(starts, edges, st.integers(0, 2), st.integers(0, 10**6))
 def test_edges_after_the_sample_belong_to_the_next(start: int, steps: Steps, later: int, since: int) -> None:
     """Two channels: the count goes down for every edge passed backward."""
@@ -115,7 +113,6 @@ def test_an_edge_longer_ago_than_times_can_tell_is_forgotten() -> None:
     assert (edge.count, edge.time, edge.period, edge.valid) == (3, again % WRAP, 0, True)
 
 
-@settings(deadline=None)
 @given(st.integers(0, 2**40), late)
 def test_now_is_right_whenever_the_overflow_comes(time: int, since: int) -> None:
     """The counter is read, then the flag: an overflow in between must not count."""
@@ -155,7 +152,6 @@ class Disc:
 places = st.floats(-20.0, 20.0).filter(lambda x: abs(x * 2 - round(x * 2)) > 1e-6)
 
 
-@settings(deadline=None)
 @given(st.lists(places, max_size=30))
 def test_two_channels_count_what_the_shaft_has_turned_whatever_it_did(positions: list[float]) -> None:
     """Never off by more than the slot of a single edge, however often it turns round."""

@@ -3,7 +3,7 @@
 from ctypes import byref
 
 import firmware_core as core
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 ORDER = [0, 1, 3, 2]  # levels (A is bit 0, B bit 1) as a shaft that turns forward shows them
@@ -11,7 +11,6 @@ A, B = 1, 2
 walks = st.lists(st.tuples(st.integers(-1, 2), st.integers(1, 5_000)), min_size=1, max_size=60)
 
 
-@settings(deadline=None)
 @given(st.integers(0, 3), walks)
 def test_counts_every_step_of_any_walk(start: int, walk: list[tuple[int, int]]) -> None:
     """Steps of −1, 0, 1; 2 changes both lines: an error, after which no period reaches back."""

@@ -7,7 +7,7 @@ from typing import Any
 
 import firmware_core as core
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from motor_board.places import share
@@ -42,13 +42,11 @@ def sealed(frame_type: int, seq: int, body: bytes) -> bytes:
     return wire.raw[:length]
 
 
-@settings(deadline=None)
 @given(st.binary(max_size=200))
 def test_crc_is_zlib_s(data: bytes) -> None:
     assert core.load().crc_of(data, len(data)) == zlib.crc32(data)
 
 
-@settings(deadline=None)
 @given(st.binary(max_size=250))
 def test_cobs_is_the_driver_s(data: bytes) -> None:
     out = create_string_buffer(256)
@@ -56,7 +54,6 @@ def test_cobs_is_the_driver_s(data: bytes) -> None:
     assert out.raw[:length] == stuff(data)
 
 
-@settings(deadline=None)
 @given(st.binary(max_size=250) | st.binary(max_size=250).map(stuff))
 def test_cobs_is_undone_and_refused_as_the_driver_does(data: bytes) -> None:
     plain = unstuff(data)
@@ -94,7 +91,6 @@ pieces = st.one_of(
 )
 
 
-@settings(deadline=None)
 @given(st.lists(pieces, max_size=12).map(b"".join))
 def test_firmware_and_driver_read_the_same_from_anything(wire: bytes) -> None:
     reader, decoder = Reader(), Decoder()
