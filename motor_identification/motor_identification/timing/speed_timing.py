@@ -98,9 +98,9 @@ def _find_instants(shaper: Shaper) -> Timing | None:
     last = others[-1][1]
     if early and last.delay <= least and _is_likelier(shaper.fit(TOO_EARLY).residuals, last.residuals):
         return None  # earlier than any row says: not for its timing
-    for timing, other in others:  # each makes the speeds younger than the one before
+    for timing, other in others:  # each makes the speeds younger than the one before, which is taken if as likely
         if (fitted.delay <= least or timing is OTHERS[0]) and _is_likelier(other.residuals, fitted.residuals):
-            best, fitted = timing, other
+            best, fitted = next(one for one in others if not _is_likelier(other.residuals, one[1].residuals))
     return best
 
 

@@ -1,7 +1,8 @@
 """When a log's speeds were made shows in the motion, and only there where nobody said it."""
 
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, replace
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -17,8 +18,9 @@ from motor_identification.monitoring.model_gap import Model, measure_gap
 from motor_identification.recording import Recording, check
 from motor_identification.reporting.curves import make_fit_curves
 from motor_identification.reporting.model_comparison import Identified
-from motor_identification.timing.speed_timing import _is_likelier, find_timing
-from motor_identification.timing.timing import INSTANT, Timing, list_readings
+from motor_identification.timing.shaped_fit import Shaper
+from motor_identification.timing.speed_timing import _find_instants, _is_likelier, find_timing
+from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing, list_readings
 from motor_identification.validation.hold_out import make_hold_out
 
 
@@ -53,6 +55,23 @@ def test_a_row_with_the_voltage_until_it_is_told() -> None:
     assert timing_of(check(with_voltage_of_next_row(late))) is None  # no log is two rows late: for another reason
     found = timing_of(check(with_voltage_of_next_row(noisy(0.05, instant=True))))
     assert found is not None and (found.window, found.lag) == (INSTANT, -1.0)  # without any dead time left
+
+
+@pytest.mark.parametrize(("gains", "lag"), [((10.0, 15.0), 0.5), ((19.0, 21.0), 0.0), ((10.0, 45.0), -0.5)])
+def test_speeds_are_made_no_younger_than_they_have_to_be(gains: tuple[float, float], lag: float) -> None:
+    """A dead time makes up for half a row: of two timings that are as likely the first one is meant."""
+    white = np.random.default_rng(0).standard_normal(400)
+    factors = dict(zip((ASSUMED, *OTHERS), np.exp(-np.array([0.0, *gains, 0.0]) / 400.0), strict=True))
+
+    @dataclass
+    class Stub:
+        recordings: tuple[Recording, ...] = (noisy(0.05),)
+
+        def fit(self, timing: Timing) -> SimpleNamespace:
+            early = timing in (ASSUMED, OTHERS[0])
+            return SimpleNamespace(residuals=factors[timing] * white, delay=0.0 if early else 0.01)
+
+    assert _find_instants(cast(Shaper, Stub())).lag == lag  # type: ignore[union-attr]
 
 
 def test_a_dead_time_is_none_of_the_timing() -> None:
