@@ -95,8 +95,7 @@ def _find_instants(shaper: Shaper) -> Timing | None:
     best, fitted = ASSUMED, shaper.fit(ASSUMED)
     early = fitted.delay <= least
     others = [(timing, shaper.fit(timing)) for timing in (OTHERS if early else OTHERS[:1])]
-    last = others[-1][1]
-    if early and last.delay <= least and _is_likelier(shaper.fit(TOO_EARLY).residuals, last.residuals):
+    if early and others[-1][1].delay <= least and shaper.fit(TOO_EARLY).delay <= least:
         return None  # earlier than any row says: not for its timing
     for timing, other in others:  # each makes the speeds younger than the one before, which is taken if as likely
         if (fitted.delay <= least or timing is OTHERS[0]) and _is_likelier(other.residuals, fitted.residuals):

@@ -19,7 +19,7 @@ from motor_identification.recording import Recording, check
 from motor_identification.reporting.curves import make_fit_curves
 from motor_identification.reporting.model_comparison import Identified
 from motor_identification.timing.shaped_fit import Shaper
-from motor_identification.timing.speed_timing import _find_instants, _is_likelier, find_timing
+from motor_identification.timing.speed_timing import TOO_EARLY, _find_instants, _is_likelier, find_timing
 from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing, list_readings
 from motor_identification.validation.hold_out import make_hold_out
 
@@ -72,6 +72,21 @@ def test_speeds_are_made_no_younger_than_they_have_to_be(gains: tuple[float, flo
             return SimpleNamespace(residuals=factors[timing] * white, delay=0.0 if early else 0.01)
 
     assert _find_instants(cast(Shaper, Stub())).lag == lag  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize(("dead", "told"), [(0.0, False), (0.0005, False), (0.005, True)])
+def test_a_motion_that_comes_earlier_than_any_row_tells_nothing(dead: float, told: bool) -> None:
+    """It asks for no dead time even where speeds are made half a row younger than any program makes them."""
+    white = np.random.default_rng(0).standard_normal(400)
+
+    @dataclass
+    class Stub:
+        recordings: tuple[Recording, ...] = (noisy(0.05),)
+
+        def fit(self, timing: Timing) -> SimpleNamespace:
+            return SimpleNamespace(residuals=white, delay=dead if timing == TOO_EARLY else 0.0)
+
+    assert (_find_instants(cast(Shaper, Stub())) is not None) == told
 
 
 def test_a_dead_time_is_none_of_the_timing() -> None:
