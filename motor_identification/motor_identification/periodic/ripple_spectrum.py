@@ -26,6 +26,10 @@ POINTS_PER_LINE = 4.0  # grid points to the width of a line
 ROUGH_PEAKS, PEAK_REACH = 32, 2.0  # of the rough spectrum, and how many of its grid points around each are searched
 FINE_CANDIDATES = 3  # of those, which are searched in the whole recording
 KNOT_DISTANCE = 16  # grid points
+# Cycles between two knots, at least, and as a share of the cycles: where grid points are further apart than those that
+# lines of a whole turn need, 16 of them are too far. Measured: 2 % off where knots are that far apart.
+KNOT_CYCLES, KNOT_SHARE = 4.0, 0.02
+LEAST_TURNS = 0.01  # of travel: less is no turning
 SPILLED = 2.0  # times the sum of a block's white squares: no more of it is explained, as whitening mixes neighbours
 # Numbers of cycles, from the most on, of which the finest that could be seen is; and what is tried beside each.
 FINEST_TRIED, FINEST_NEAR = 24, np.array([1.0, 0.97, 0.93])
@@ -56,9 +60,9 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
     low, high = SPEC_BY_NAME["ripple_cycles"].box(problem.unknowns.extent)
     most = SPEC_BY_NAME["ripple_voltage"].box(problem.unknowns.extent)[1]
     turns = max(np.ptp(np.concatenate([run.course.start, run.course.end])) for run in runs) / tau
-    width = 1.0 / (POINTS_PER_LINE * min(BLOCK_TURNS, max(turns, 1.0)))
     high = find_finest(runs, low, high, most)
-    rough = np.arange(low, high + width, width)
+    width = measure_line(turns) / POINTS_PER_LINE
+    rough: Floats = np.arange(low, high + width, width, dtype=np.float64)
     blocks = [run.number_blocks() for run in runs]
     spectrum = _spectrum(runs, rough, blocks, most, problem.raise_if_stopped)
     if spectrum.max() - 2.0 * sum(int(block.max()) + 1 for block in blocks) < least:
@@ -80,6 +84,14 @@ def find_ripples(estimate: Estimate, tracks: Sequence[Track], least: float = 0.0
         found.append(max(lines, key=lambda line: line.explained))
     chance = sum(map(_explained_by_chance, runs, problem.intervals)) if least > 0.0 else 0.0
     return sorted((line for line in found if line.explained > max(least, chance)), key=lambda line: -line.explained)
+
+
+def measure_line(turns: float) -> float:
+    """Measure how many cycles a turn a line is wide, in blocks of a motion over so many turns.
+
+    An axis that goes on by a part of a turn has wide lines, and may have a sensor that would show thousands of cycles.
+    """
+    return 1.0 / min(BLOCK_TURNS, max(turns, LEAST_TURNS))
 
 
 def find_finest(runs: Sequence[WhitenedRun], low: float, high: float, most: float) -> float:
@@ -129,13 +141,14 @@ def _powers(run: WhitenedRun, cycles: Floats, block: Integers, most: float, go_o
     has more explained than is there, which products that spill over from the next one would.
     """
     there = SPILLED * np.bincount(block, run.white**2)
-    shapes = np.array([run.sum_products(knot, block) for knot in cycles[::KNOT_DISTANCE]])
+    places = place_knots(cycles)
+    shapes = np.array([run.sum_products(knot, block) for knot in cycles[places]])
     knots = 0.5 * (shapes[:, :, 0] + shapes[:, :, 2])  # sine and cosine are as good as independent in every block
     powers: list[Floats] = []
     done = 0
     for along, across in sum_products(run.course, run.pull_back(), cycles, block):
         go_on()
-        at = (done + np.arange(len(along))) / KNOT_DISTANCE
+        at = np.interp(done + np.arange(len(along)), places, np.arange(len(places)))
         done += len(along)
         low, part = np.divmod(np.minimum(at, len(knots) - 1.0), 1.0)
         first = low.astype(np.int64)
@@ -144,6 +157,18 @@ def _powers(run: WhitenedRun, cycles: Floats, block: Integers, most: float, go_o
         squares = along**2 + across**2
         powers.append(np.minimum(squares / (np.maximum(sizes, 0.0) + 1.0 / most**2), there).sum(axis=1))
     return np.concatenate(powers)
+
+
+def place_knots(cycles: Floats) -> Integers:
+    """Place the knots among numbers of cycles (C,), as indices: every 16th, or closer where the grid is coarse."""
+    places = np.arange(0, len(cycles), KNOT_DISTANCE)
+    if len(cycles) < 2 or KNOT_DISTANCE * (cycles[1] - cycles[0]) <= KNOT_CYCLES:
+        return places
+    chosen = [0]
+    while chosen[-1] < len(cycles) - 1:
+        next_one = cycles[chosen[-1]] + max(KNOT_CYCLES, KNOT_SHARE * cycles[chosen[-1]])
+        chosen.append(min(max(int(np.searchsorted(cycles, next_one)), chosen[-1] + 1), len(cycles) - 1))
+    return np.array(chosen)
 
 
 def fit_ripple(estimate: Estimate, tracks: Sequence[Track], cycles: float) -> Ripple:

@@ -15,6 +15,8 @@ from motor_identification.estimation.problem import make_problem
 from motor_identification.periodic import ripple_spectrum
 from motor_identification.periodic.periodic_fit import Tracks, measure_angles
 from motor_identification.periodic.ripple_spectrum import (
+    KNOT_CYCLES,
+    KNOT_SHARE,
     LINE_CHANCE,
     PHASE_CHANCE,
     SLIP_CHANCE,
@@ -24,6 +26,8 @@ from motor_identification.periodic.ripple_spectrum import (
     find_finest,
     find_ripples,
     fit_ripple,
+    measure_line,
+    place_knots,
 )
 from motor_identification.periodic.whitened_run import whiten_runs
 from motor_identification.recording import check
@@ -156,3 +160,28 @@ def test_phases_of_runs_explain_by_chance() -> None:
     assert _explained_by_chance(run, told) == LINE_CHANCE
     assert _explained_by_chance(run, free) == LINE_CHANCE + PHASE_CHANCE * last
     assert _explained_by_chance(run, data) == SLIP_CHANCE * (last + SLIP_CHANCE_BASE)
+
+
+@pytest.mark.parametrize(("turns", "width"), [(0.0, 100.0), (0.04, 25.0), (1.0, 1.0), (4.0, 0.25), (50.0, 0.125)])
+def test_a_line_is_as_wide_as_the_motion_is_short(turns: float, width: float) -> None:
+    """An axis that goes on by a twenty-fifth of a turn: a sensor that shows 80,000 cycles took ten minutes."""
+    assert measure_line(turns) == pytest.approx(width)
+
+
+def test_knots_are_no_further_apart_than_responses_change() -> None:
+    fine = np.arange(1.0, 100.0, 0.25)
+    assert place_knots(fine).tolist() == list(range(0, len(fine), 16))
+    coarse = np.arange(1.0, 2000.0, 6.25)
+    places = place_knots(coarse)
+    assert places[0] == 0 and places[-1] == len(coarse) - 1 and np.all(np.diff(places) > 0)
+    apart, allowed = np.diff(coarse[places]), np.maximum(KNOT_CYCLES, KNOT_SHARE * coarse[places[:-1]])
+    assert np.all(apart <= allowed + 6.25) and np.max(apart) > 30.0
+    assert place_knots(np.array([1.0])).tolist() == [0]
+
+
+def test_a_motor_that_swings_within_a_turn_has_its_line() -> None:
+    """Where lines are wide, a grid as wide finds them."""
+    estimate, tracks = swinging([6.0, -6.0] * 20, 0.05, **(RIPPLE | {"ripple_cycles": 21.0, "ripple_voltage": 1.0}))
+    assert np.ptp(tracks[0].angle) < 0.5 * tau
+    turns = float(np.ptp(tracks[0].angle)) / tau
+    assert find_ripples(estimate, tracks)[0].cycles == pytest.approx(21.0, abs=0.5 * measure_line(turns))
