@@ -100,13 +100,13 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
 def is_chance_size(effect: str, model: Model) -> bool:
     """Decide whether an effect has a size that is none as far as its standard error goes.
 
-    A line that repeats with the angle is in doubt more where the fits have seen all that it is judged by; what has no
-    size, such as a limit, is there or not.
+    A line that repeats with the angle is in doubt more, and most where the fits have seen all that it is judged by;
+    what has no size, such as a limit, is there or not.
     """
     specs, fit, line = EFFECT_BY_NAME[effect].parameters, model.whitened, EFFECT_BY_NAME[effect].periodic
     if specs[0].logarithmic or not isfinite(specs[0].off):
         return False
-    sure = thresholds.SURE_LINE if line and model.held.seen else thresholds.SURE_SIZE
+    sure = (thresholds.SURE_LINE if model.held.seen else thresholds.LIKELY_LINE) if line else thresholds.SURE_SIZE
     at = fit.problem.unknowns.names.index(specs[0].name)
     error = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors[at]
     # A line's cycles are always determined.

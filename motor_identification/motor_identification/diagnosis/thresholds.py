@@ -100,7 +100,10 @@ FROM_THE_START = 0.02
 # a torque of 0.1 V a load step of 0.04 ± 0.13 V in a motor with backlash, a delay of 1.5 ± 2.1 ms; right ones 5
 # and more.
 SURE_SIZE = 1.96
-# The same of what repeats with the angle, where the fits have seen all that it is judged by. Measured: 3.8 of an
+# The same of what repeats with the angle: there are many lines. Measured: 2.1 of an eccentricity of a tachogenerator,
+# which has no disc.
+LIKELY_LINE = 3.3
+# The same where the fits have seen all that it is judged by. Measured: 3.8 of an
 # eccentricity in six parts of one step of a motor that has none; right ones 6 and more, which their price asks for.
 SURE_LINE = 5.0
 

@@ -142,9 +142,9 @@ def test_a_line_that_was_fitted_to_all_there_is_has_to_be_sure(
     seen = replace(model, held=replace(model.held, seen=True))
     assert is_chance_size("encoder_eccentricity", seen) == chance
     assert not is_chance_size("encoder_eccentricity", model)  # held-out motion has confirmed it
-    errors *= thresholds.SURE_LINE / thresholds.SURE_SIZE  # but nothing confirms what may be none
+    errors *= thresholds.SURE_LINE / thresholds.LIKELY_LINE  # but nothing confirms what may be none
     assert is_chance_size("encoder_eccentricity", model) == chance
-    errors /= thresholds.SURE_LINE / thresholds.SURE_SIZE
+    errors /= thresholds.SURE_LINE / thresholds.LIKELY_LINE
     step, worse = found_step(seen, seen, "encoder_eccentricity"), stub_model(10.0 * seen.held.gap, 0.0)
     assert not is_needed(step, seen, worse) and is_needed(step, model, worse)
 
