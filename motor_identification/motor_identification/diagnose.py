@@ -202,9 +202,7 @@ def _select_beside_torque(start: Selection, plain: Selection, reporter: Progress
     lines = [effect.name for effect in effects if effect.periodic and not effect.on_disc]
     line = any(count_waves(plain.model, name) > thresholds.MANY_WAVES for name in lines)
     once = any(effect.anywhere for effect in effects)
-    # Nearly every motor has friction; of what else was fitted to all there is, a slow torque may be the most.
-    fitted = plain.model.held.seen and any(not effect.holds for effect in effects)
-    disturbed = plain.model.above_floor or once or ((plain.model.lasts or fitted) and not line)
+    disturbed = plain.model.above_floor or once or (plain.model.lasts and not line)
     if not (disturbed or plain.refused):
         return None
     for begin in (plain, start) if plain.steps and disturbed else (plain,):

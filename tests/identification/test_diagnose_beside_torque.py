@@ -81,20 +81,6 @@ def test_what_comes_and_goes_in_time_has_to_hold_beside_a_torque(
     assert (selected(monkeypatch, plain, plain, ended) is ended) is again
 
 
-@pytest.mark.parametrize(
-    ("effect", "by_fit", "again"),
-    [("voltage_limit", True, True), ("voltage_limit", False, False), ("coulomb_friction", True, False)],
-)
-def test_what_no_held_out_motion_confirms_has_to_hold_beside_a_torque(
-    effect: str, by_fit: bool, again: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A limit of the voltage was fitted to a torque of 2.5 % in a few steps with a coarse sensor; not friction."""
-    step = step_of(stub_test(effect, stub_model(1.1, 0.0), 1.0, 31.0))
-    plain, ended = selection_of(seen(stub_model(1.0, 0.0), by_fit), step), selection_of(stub_model(1.0, 0.0))
-    assert not plain.model.above_floor and not plain.model.lasts
-    assert (selected(monkeypatch, plain, plain, ended) is ended) is again
-
-
 @pytest.mark.parametrize("dropped", [False, True])
 def test_what_elimination_changed_is_selected_on_from(monkeypatch: pytest.MonkeyPatch, dropped: bool) -> None:
     """A limit and a load step stood in for a coasting bridge and a friction: in their place one, then the other."""
