@@ -51,8 +51,12 @@ def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, star
     stamps = [sample.header.stamp.sec * 10**9 + sample.header.stamp.nanosec for sample in steady]
     assert stamps[-1] - stamps[0] == pytest.approx(steady[-1].sample_time - steady[0].sample_time, abs=20e6)
     assert joints[-1].name == ["wheel"] and joints[-1].position[0] > joints[-5].position[0]
-    ours = [one for array in status for one in array.status if one.hardware_id == "wheel"]
-    assert ours and ours[-1].level == b"\x00" and ours[-1].message == "driven"
+
+    def say() -> list[tuple[bytes, str]]:
+        return [(one.level, one.message) for array in status for one in array.status if one.hardware_id == "wheel"]
+
+    # On a busy machine the sender of the test before may still be known for a while, which is a warning.
+    bench.wait(lambda: say()[-1:] == [(b"\x00", "driven")], "the plant that is driven, by one node")
     end(process)
     assert process.returncode == 0
 
