@@ -64,7 +64,7 @@ class CandidateTest:
     def is_likely(self, least: float) -> bool:
         """Decide whether the evidence is beyond a least, beside a random torque without its few best moments too.
 
-        Unless most of the gap goes, and so not in a few moments.
+        Unless much of the gap goes, and so not in a few moments.
         """
         return self.evidence > least and (not self.model.beside_torque or self.steadiness > least or self.predicts)
 

@@ -24,12 +24,7 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
     """
     dropped: list[str] = []
     settled: set[tuple[frozenset[str], str]] = set()  # in which company an effect stays, or was exchanged once
-    while weak := [
-        step
-        for step in selection.steps
-        if step.found.effect in find_undetermined(selection.model)
-        and (frozenset(selection.model.effects), step.found.effect) not in settled
-    ]:
+    while weak := _list_weak(selection, settled):
         reporter.report("checking what is determined", 0.95, "", selection.model.held.gap)
         without = {step.found.effect: drop_step(selection, step) for step in weak}
         step = max(weak, key=lambda one: without[one.found.effect].model.likelihood)
@@ -47,6 +42,14 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
         if any(one.found.effect in dropped for one in selection.steps):  # back in the place of another: no circles
             selection = smaller
     return selection, sort_by_table(set(dropped) - set(selection.model.effects))
+
+
+def _list_weak(selection: Selection, settled: set[tuple[frozenset[str], str]]) -> list[SelectionStep]:
+    """List the steps of undetermined effects that are not settled in this company."""
+    undetermined = find_undetermined(selection.model) if selection.steps else ()
+    company = frozenset(selection.model.effects)
+    effects = [effect for effect in undetermined if (company, effect) not in settled]
+    return [step for step in selection.steps if step.found.effect in effects]
 
 
 def _eliminate_unless_seen(smaller: Selection, reporter: ProgressReporter) -> Selection:
