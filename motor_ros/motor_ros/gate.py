@@ -4,6 +4,9 @@
     waiting  on, but the sender began before the plant came up: 0 V until it sends 0 V, or motor/enable
     driven   the newest voltage of one sender; another's are left aside until that one has been silent for HOLD
 
+That there are two is said once the first is heard again after the other: one sender that was held up sends what it has
+missed all at once, more than is kept, and its numbers jump ahead as another's would. Its next numbers go on from there.
+
 Where the motor itself was the reason of a stop, it is let on again later and later: see `RepeatedStops`.
 
 Times are ns on a clock that is never set.
@@ -52,8 +55,9 @@ class Gate:
     command: float = 0.0  # [V]
     received: int | None = None  # [ns]
     sender: Sender | None = None  # of that command
-    rival: str | None = None  # what another sender calls itself
-    rival_at: int = 0  # [ns] its latest command
+    aside: Sender | None = None  # the latest command that seemed another's, until the sender is heard again
+    rival: str | None = None  # what another sender calls itself that sends at the same time
+    rival_at: int = 0  # [ns] when the two had both been heard
     refused: int = 0  # commands that were not numbers
 
     def take(self, voltage: float, now: int, name: str = "", number: int | None = None) -> "Gate":
@@ -66,11 +70,19 @@ class Gate:
         holder = self.sender
         ours = holder is not None and holder.sent(name, number, now)
         if holder is not None and now - holder.at <= HOLD and not ours:
-            return replace(self, rival=name, rival_at=now)
+            return replace(self, aside=Sender(name, number, now))
+        told = self._tell_senders(number, now) if ours else replace(self, aside=None)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
         first = self.first if ours and self.first is not None else sender
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
-        return replace(self, command=voltage, received=now, sender=sender, first=first, begun=begun)
+        return replace(told, command=voltage, received=now, sender=sender, first=first, begun=begun)
+
+    def _tell_senders(self, number: int | None, now: int) -> "Gate":
+        """The sender is heard again: what was left aside was another's, unless it was sent between its two commands."""
+        holder, aside = self.sender, self.aside
+        if holder is None or aside is None or now - aside.at > HOLD or holder.sent_between(aside, number):
+            return replace(self, aside=None)
+        return replace(self, aside=None, rival=aside.name, rival_at=now)
 
     def enable(self, on: bool) -> "Gate":
         """Switch the output, by the user's will; a command from before the switch never acts."""

@@ -28,6 +28,14 @@ class Sender:
         steps = number - self.number
         return steps > 0 and now - self.at >= CLOSEST * (self.period or QUICKEST) * (steps if steps > 1 else 0)
 
+    def sent_between(self, message: "Sender", number: int | None) -> bool:
+        """Whether this sender may have sent a message that seemed another's, before its own one with this number."""
+        if message.name != self.name:
+            return False
+        if self.number is None or message.number is None or number is None:
+            return True
+        return self.number < message.number < number
+
     def after(self, number: int | None, now: int) -> "Sender":
         """This sender after one more message.
 

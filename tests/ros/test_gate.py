@@ -107,9 +107,79 @@ def test_messages_that_were_missed_are_no_second_sender() -> None:
     assert plant.problem(T0 + 650 * MS) == ""
 
 
-def test_a_number_that_runs_ahead_of_the_senders_pace_is_anothers() -> None:
+@pytest.mark.parametrize(("number", "told"), [(101, True), (150, True), (151, False)])
+def test_a_number_that_runs_ahead_is_left_aside_and_anothers_once_the_first_goes_on_behind_it(
+    number: int, told: bool
+) -> None:
     plant = stream(gate(), 2.0, range(0, 500, 5), 1).take(-9.0, T0 + 501 * MS, "", 150)
-    assert plant.voltage(T0 + 501 * MS) == 2.0 and plant.problem(T0 + 501 * MS) != ""
+    assert plant.voltage(T0 + 501 * MS) == 2.0 and plant.problem(T0 + 501 * MS) == ""
+    now = T0 + 750 * MS  # late enough for any of them
+    plant = plant.take(3.0, now, "", number)
+    assert plant.voltage(now) == 3.0 and plant.problem(now).startswith("More than one node") is told
+
+
+@pytest.mark.parametrize("period", [1, 5, 20])
+@pytest.mark.parametrize("held_up", [50, 100, 300])
+def test_one_sender_that_was_held_up_and_answers_all_it_missed_at_once_is_not_two(period: int, held_up: int) -> None:
+    """The plant looks every period and finds the ten latest commands: those before are lost to it."""
+    plant, missed = stream(gate(), 2.0, range(0, 500, period), 1), held_up // period
+    begin, now = 500 // period + 1, T0 + (500 + held_up) * MS
+    for came in (range(begin, begin + missed // 2), range(begin + missed // 2, begin + missed)):
+        for number in came[-10:]:
+            plant = plant.take(2.0, now, "", number)
+            assert plant.problem(now) == ""
+        now += period * MS
+    for number in range(begin + missed, begin + 2 * missed):  # on as before
+        plant = plant.take(4.0, now, "", number)
+        assert plant.problem(now) == ""
+        assert plant.command == 4.0 or number < begin + 1.5 * missed  # it is obeyed again after half the pause
+        now += period * MS
+
+
+@settings(deadline=None, max_examples=300)
+@given(st.lists(st.tuples(st.integers(1, 300), st.integers(0, 700) | st.integers(0, 5)), max_size=60))
+def test_one_sender_is_never_two_however_late_and_lossy(messages: list[tuple[int, int]]) -> None:
+    """So many further on its numbers are, after so many ms."""
+    plant, number, now = gate(), 0, T0
+    for steps, wait in messages:
+        number, now = number + steps, now + wait * MS
+        plant = plant.take(2.0, now, "", number)
+        assert not plant.conflict(now)
+
+
+@settings(deadline=None, max_examples=300)
+@given(st.integers(1, 50), st.integers(1, 50), st.integers(0, 400), st.integers(-300, 300), st.booleans())
+def test_two_senders_are_told_at_once(first: int, second: int, after: int, ahead: int, named: bool) -> None:
+    """Each at its pace [ms], the second later than the first; before either has sent twice more, it is said."""
+    sent = [(T0 + at * MS, 2.0, "", 301 + k) for k, at in enumerate(range(0, 1000, first))]
+    name, begin = "other" if named else "", 301 + max(-300, after // first + ahead)
+    sent += [(T0 + at * MS + 1, -9.0, name, begin + k) for k, at in enumerate(range(after, 1000, second))]
+    plant, heard = gate(), {2.0: 0, -9.0: 0}
+    for now, voltage, who, number in sorted(sent):
+        plant = plant.take(voltage, now, who, number)
+        if heard[-9.0] or voltage == -9.0:
+            heard[voltage] += 1
+        assert plant.conflict(now) or min(heard.values()) < 3
+
+
+@pytest.mark.parametrize(("later", "told"), [(HOLD, True), (HOLD + 1, False)])
+def test_two_that_send_one_after_the_other_are_no_conflict(later: int, told: bool) -> None:
+    """The second has sent once, and the first again so many ns after it."""
+    plant, now = stream(gate(), 2.0, range(0, 500, 5), 1), T0 + 500 * MS
+    plant = plant.take(-9.0, now, "other", 7).take(2.0, now + later, "", 101)
+    assert plant.voltage(now + later) == 2.0 and plant.conflict(now + later) is told
+
+
+@pytest.mark.parametrize("silence", [HOLD, 20 * HOLD])
+def test_who_takes_over_from_one_that_has_ended_is_no_second_sender(silence: int) -> None:
+    plant = stream(gate(), 2.0, range(0, 500, 5), 1)
+    for number, at in enumerate(range(500, 1500, 5), start=7):
+        plant = plant.take(-9.0, T0 + at * MS, "other", number)
+        assert not plant.conflict(T0 + at * MS)
+    assert plant.voltage(T0 + 1495 * MS) == -9.0
+    back = T0 + 1495 * MS + silence
+    plant = plant.take(1.0, back, "", 101).take(-9.0, back + MS, "other", 208)
+    assert plant.conflict(back + MS) is (silence == HOLD)
 
 
 @pytest.mark.parametrize("number", [nan, inf, -inf])

@@ -49,3 +49,19 @@ def test_a_sender_that_was_held_up_is_no_second_one() -> None:
         assert sender.sent("a", number, now), number
         sender = sender.after(number, now)
     assert not sender.sent("a", 140, now + 5 * MS)
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "then", "ours"),
+    [
+        ("a", 150, 151, True),  # it was the one before
+        ("a", 150, 150, False),
+        ("a", 150, 101, False),  # behind it
+        ("a", 100, 101, False),
+        ("a", 7, 101, False),
+        ("b", 150, 151, False),
+        ("a", 150, None, True),
+    ],
+)
+def test_what_may_have_been_sent_between_two_messages(name: str, number: int, then: int | None, ours: bool) -> None:
+    assert steady(100, 1000).sent_between(Sender(name, number, 1001 * MS), then) == ours

@@ -55,8 +55,8 @@ def test_reaches_the_speed_of_its_model_and_stamps_every_edge(bench: Bench, star
     def say() -> list[tuple[bytes, str]]:
         return [(one.level, one.message) for array in status for one in array.status if one.hardware_id == "wheel"]
 
-    # On a busy machine the sender of the test before may still be known for a while, which is a warning.
-    bench.wait(lambda: say()[-1:] == [(b"\x00", "driven")], "the plant that is driven, by one node")
+    bench.wait(lambda: say()[-1:] == [(b"\x00", "driven")], "the plant that is driven")
+    assert not any("More than one node" in message for _, message in say())
     end(process)
     assert process.returncode == 0
 
