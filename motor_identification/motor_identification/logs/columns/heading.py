@@ -4,8 +4,12 @@ import re
 from dataclasses import dataclass
 
 from motor_identification.logs.columns.vocabulary import (
+    FILTERED,
+    MEASURED,
     MOVES,
+    OUTPUTS,
     SIDES,
+    TAILS,
     UNIT_BY_SPELLING,
     UNITS,
     WORDS,
@@ -18,6 +22,10 @@ _CAMEL = re.compile(r"(?<=[^\W\d_A-ZÀ-Þ])(?=[A-ZÀ-Þ])|(?<=[A-Z])(?=[A-Z][a-z
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
 _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
 _AXES, _JOINT_FIELDS = frozenset(["yaw", "pitch", "roll"]), frozenset(["position", "velocity", "effort"])
+_KNOWN = frozenset().union(*WORDS.values(), MEASURED, FILTERED)
+_WRITTEN_TOGETHER = re.compile(  # the longer ones first
+    "|".join(sorted((word for word in _KNOWN if "\u2e80" < word[0] < "\ua4d0"), key=len, reverse=True))
+)
 _PER = {**dict.fromkeys(("s", "sec", "second"), "s"), **dict.fromkeys(("min", "minute"), "min")}
 
 
@@ -58,7 +66,17 @@ def split_words(text: str) -> tuple[str, ...]:
     """The words of a name, in lower case."""
     whole = _MILLI.sub(lambda match: f" m{match[1].lower()} ", text)
     apart = _CAMEL.sub(" ", whole.replace("ω", " ω ").replace("θ", " θ "))
-    return tuple(word.lower() for word in _PARTS.findall(apart))
+    return tuple(part for word in _PARTS.findall(apart) for part in _taken_apart(word.lower()))
+
+
+def _taken_apart(word: str) -> tuple[str, ...]:
+    """The known words in one that are written together, as in Chinese and in German; else the word itself."""
+    if word in _KNOWN:
+        return (word,)
+    if found := tuple(_WRITTEN_TOGETHER.findall(word)):
+        return found
+    tail = next((one for one in TAILS if word.endswith(one)), "")
+    return (word.removesuffix(tail), tail) if tail else (word,)
 
 
 def _unit_at_the_end(words: tuple[str, ...]) -> tuple[str, tuple[str, ...]]:
@@ -96,7 +114,7 @@ def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
     ]
     if _is_joint(words):
         told.remove(Quantity.OTHER)
-    if unit == "rev" and Quantity.DUTY in told:  # pwm_rev: that of the other way
+    if _is_duty_whatever_its_unit(words, unit, told):
         return Quantity.DUTY
     by_unit = UNITS[unit][0] if unit else None
     if Quantity.OTHER in told and "rate" not in words:
@@ -107,13 +125,20 @@ def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
         return Quantity.SUPPLY
     if by_unit is not None:
         return _moves_by_unit(by_unit, told, words)
-    if MOVES & set(told) and _ORDERS & set(words):
+    if MOVES & set(told) and (_ORDERS | {"commande"}) & set(words):
         return Quantity.REFERENCE
     if told[:1] == [Quantity.POSITION] and words[-1] == "dot":  # theta_dot
         return Quantity.SPEED
     if Quantity.VOLTAGE in told and Quantity.DUTY in told:
         return Quantity.VOLTAGE
     return told[0] if told else None
+
+
+def _is_duty_whatever_its_unit(words: tuple[str, ...], unit: str, told: list[Quantity]) -> bool:
+    """Whether a name is one of a duty: `pwm_rev`, that of the other way; `PWM [ticks]`, `Commande [pt]`, of a timer."""
+    if unit == "rev":
+        return Quantity.DUTY in told
+    return unit == "count" and told == [Quantity.DUTY] and not (_ORDERS | OUTPUTS) & set(words)
 
 
 def _is_joint(words: tuple[str, ...]) -> bool:

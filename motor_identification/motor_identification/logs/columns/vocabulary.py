@@ -33,7 +33,15 @@ OUTPUTS = _row("output saída saida salida ausgang sortie uscita")
 FILTERED = _row(
     "filtered filt filter smooth smoothed avg average averaged mean lpf ema ma kalman est estimate estimated fir"
 )
-MEASURED = _row("meas measured measurement medido medida feedback fb actual ist istwert pv messwert")
+MEASURED = _row(
+    "meas measured measurement medido medida feedback fb actual ist istwert pv messwert mesure mesuré mesurée misura "
+    "misurato misurata gemessen ölçülen zmierzona měřená 实际 测量 反馈 当前 実際"
+)
+# Of words that are written together, these come last: Motordrehzahl, Sollspannung.
+TAILS = _row(
+    "drehzahl spannung geschwindigkeit strom winkel zeit sollwert istwert spanning snelheid toerental hastighet "
+    "hastighed spænding spänning"
+)
 
 # Earlier rows win: a target speed is no speed, a battery's voltage is not the motor's, a speed command is a reference.
 WORDS: dict[Quantity, frozenset[str]] = {
@@ -44,24 +52,31 @@ WORDS: dict[Quantity, frozenset[str]] = {
     ),
     Quantity.REFERENCE: _row(
         "target sollwert consigne referencia referência référence referenz riferimento setpoint set sp ref "
-        "reference desired goal soll consigna r wanted demand profile"
+        "reference desired goal soll consigna r wanted demand profile referans hedef zadana žádaná zadaná deseado "
+        "deseada desejado desejada objetivo acuan vorgabe führungsgröße заданная 目标 目標 设定 期望"
     ),
-    Quantity.SUPPLY: _row("supply battery batt bat vbat vbatt vbus bus akku bateria batería batterie vcc vdd vin"),
+    Quantity.SUPPLY: _row(
+        "supply battery batt bat vbat vbatt vbus bus akku bateria batería batterie vcc vdd vin versorgungs "
+        "alimentation alimentación alimentacion alimentação alimentazione zasilanie napájení besleme 供电 电源 電源"
+    ),
     Quantity.TIME: _row(
-        "t time times timp waktu 시간 timestamp stamp tiempo zeit temps tempo tid clock elapsed seconds secs sec "
-        "millis micros nanos milliseconds microseconds ms us ns tijd czas čas cas idő zaman время 时间 時間"
+        "t time times timp waktu 시간 timestamp stamp tiempo zeit temps tps date tempo tid clock elapsed seconds secs "
+        "sec millis micros nanos milliseconds microseconds ms us ns tijd czas čas cas idő zaman время 时间 時間"
     ),
     Quantity.DUTY: OUTPUTS
     | _row(
         "duty pwm esforço esforco esfuerzo mando comando stellgröße stellgroesse шим 占空比 듀티 dutycycle throttle "
-        "power command cmd effort ctrl control"
+        "power command cmd effort ctrl control commande stellwert tastgrad tastverhältnis cyclique sterowanie "
+        "wypełnienie wypelnienie střída strida kontrol kendali doluluk akční akcni umplere управление скважность 控制 "
+        "控制量 制御"
     ),
     Quantity.COUNT: _row(
         "count counts pulsos impulsos impulse cuentas contagem contador tick ticks encoder enc pulses pulse edges qei"
     ),
     Quantity.SPEED: _row(
         "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w wm rpm rps "
-        "dps tacho tachometer velocita snelheid viteza viteză kecepatan 속도 toerental hastighed hastighet "
+        "dps tacho tachometer vit turatie turație putaran devir sebesség velocita "
+        "snelheid viteza viteză kecepatan 속도 toerental hastighed hastighet "
         "prędkość predkosc obroty rychlost otáčky otacky hız hiz скорость обороты 速度 转速 角速度 回転数"
     ),
     Quantity.POSITION: _row(
@@ -123,6 +138,7 @@ _SPELLINGS = {
     "rad/s": "rad/s рад/с рад_с rad/sec rads rads/s radps rad.s-1 rad_s rad_sec",
     "deg/s": "deg/s град/с град_с deg/sec °/s grad/s grados/s graus/s dps degps degrees/s deg_s deg_sec",
     "rpm": (
+        "tr/mn trs/min tours/min d/dk "
         "rpm upm rev/min rev_min u/min tr/min r/min 1/min min-1 umdr/min giri/min ot/min obr/min obr_min об/мин об_мин"
     ),
     "rev/s": "rps rev/s r/s rotations/s turns/s hz rev_s",
@@ -137,10 +153,10 @@ _SPELLINGS = {
     "mm": "mm millimeter millimeters",
     "m/s": "m/s mps m_s meters/s metres/s",
     "rad": "rad рад radian radians",
-    "deg": "deg град grad grados graus gradi degs degree degrees °",
+    "deg": "deg град grad grados graus gradi degs degree degrees degré degrés dégré dégrés degres derece derajat °",
     "rev": "rev revs turn turns rotation rotations revolutions",
     "m": "m meter meters metre metres",
-    "count": "count counts tick ticks pulse pulses edges",
+    "count": "count counts tick ticks pulse pulses edges pt pts points top tops imp impulsions",
 }
 UNIT_BY_SPELLING = {spelling: unit for unit, row in _SPELLINGS.items() for spelling in row.split()}
 

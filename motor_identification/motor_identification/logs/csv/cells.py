@@ -1,8 +1,11 @@
 """What one cell says: a number with a decimal point or comma, or the time of a clock, as many programs write them."""
 
+import csv
 import re
 from datetime import datetime, timezone
 
+SPACES = " "  # stands for any run of blanks
+COMMENT = re.compile(r"^\s*(#|%|//)\s*")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$")
 _THOUSANDS = {  # 1.234,5 and 1,234.5: only with both signs it is sure which of them is the decimal one
     True: re.compile(r"[+-]?\d{1,3}(\.\d{3})+,\d*$"),
@@ -74,3 +77,14 @@ def _offset(zone: str) -> int:
         return 0
     digits = zone[1:].replace(":", "")
     return (-1 if zone[0] == "-" else 1) * (3600 * int(digits[:2]) + 60 * int(digits[2:]))
+
+
+def split_line(line: str, delimiter: str) -> list[str]:
+    """The cells of one line, without surrounding blanks."""
+    if delimiter == SPACES:
+        return line.split()
+    try:
+        cells = next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])
+    except csv.Error:  # longer than any cell may be, as all of a matrix on one line
+        cells = [line]
+    return [cell.strip() for cell in cells]

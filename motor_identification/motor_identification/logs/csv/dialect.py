@@ -1,28 +1,23 @@
 """How a text table is written: encoding, separator, decimal sign, comments, column names, a row of units."""
 
-import csv
 import re
 import stat
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
 from pathlib import Path
 
-from motor_identification.logs.csv.cells import is_number
+from motor_identification.logs.csv.cells import COMMENT, SPACES, is_number, split_line
+from motor_identification.logs.csv.header import find_header
 from motor_model.errors import RecordingError
 
 LARGEST = 2**30  # [bytes] of a text table: 10 hours at 1 kHz; more does not fit an ordinary machine's memory as cells
 LOOKED_AT = 100  # lines at the beginning, in which the rows of numbers have to begin
 FEW_ROWS = 4  # fewer are a short table rather than a block of settings
-SPACES = " "  # stands for any run of blanks
 DELIMITERS = (",", ";", "\t", "|", SPACES)
 _NOTHING = " ,;\t|"  # all that is in a line without cells
-COMMENT = re.compile(r"^\s*(#|%|//)\s*")
 _NO_VALUE = ("", "nan", "NaN", "NAN", "null", "None", "-")
 _QUOTED_COMMA = re.compile(r'"([+-]?\d+,\d+)"')
-_APART = re.compile(r"\s{2,}|\t")  # names of several words
-_UNIT_ROW = re.compile(r"[\[(]?[A-Za-zµμ°%/²\d.^_-]{1,10}[\])]?$")
 
 
 @dataclass(frozen=True)
@@ -103,7 +98,7 @@ def find_dialect(lines: Sequence[str]) -> Dialect | None:
     _, place, delimiter, comma = best
     rows = [split_line(line, delimiter) for _, line in begin[place:]]
     width, most = _width(rows), Counter(map(len, rows)).most_common(1)[0][0]
-    header = _header([line for _, line in begin[:place]], delimiter, comma, width, most)
+    header = find_header([line for _, line in begin[:place]], begin[place][1], delimiter, comma, width, most)
     names = header or tuple(f"column {k + 1}" for k in range(width))
     return Dialect(delimiter, comma, names, begin[place][0], named=bool(header))
 
@@ -157,42 +152,3 @@ def _width(rows: Sequence[Sequence[str]]) -> int:
     """How many cells most rows have, without those behind the last separator where nothing is."""
     widths = Counter(max((place for place, cell in enumerate(row, start=1) if cell), default=0) for row in rows)
     return max(widths, key=lambda width: (widths[width], width))
-
-
-def _header(before: Sequence[str], delimiter: str, comma: bool, width: int, most: int) -> tuple[str, ...]:
-    """Names of columns out of the lines before the first row: the last that has as many cells as the rows."""
-    cells = [_without_empty_end(_names(COMMENT.sub("", line), delimiter, width)) for line in before]
-    fitting = [row for row in cells if width <= len(row) <= most and not any(is_number(one, comma) for one in row)]
-    if not fitting:
-        return ()
-    names = fitting[-1]
-    if len(fitting) > 1 and all(_UNIT_ROW.match(cell) for cell in names) and cells[-1] == names:
-        above = fitting[-2]
-        if cells[-2] == above and any("[" in cell or "/" in cell or cell in ("s", "ms", "V") for cell in names):
-            units = (unit.strip("[]()") for unit in names)
-            names = [f"{name} [{unit}]" for name, unit in zip_longest(above, units, fillvalue="")]
-    return tuple(names)
-
-
-def _names(line: str, delimiter: str, width: int) -> list[str]:
-    """The cells of a line of names; between blanks, names of several words stand apart by two blanks."""
-    names = split_line(line, delimiter)
-    apart = _APART.split(line.strip()) if delimiter == SPACES and len(names) > width else []
-    return apart if len(apart) == width else names
-
-
-def _without_empty_end(cells: list[str]) -> list[str]:
-    while cells and not cells[-1]:
-        cells = cells[:-1]
-    return cells
-
-
-def split_line(line: str, delimiter: str) -> list[str]:
-    """The cells of one line, without surrounding blanks."""
-    if delimiter == SPACES:
-        return line.split()
-    try:
-        cells = next(csv.reader([line], delimiter=delimiter, skipinitialspace=True), [])
-    except csv.Error:  # longer than any cell may be, as all of a matrix on one line
-        cells = [line]
-    return [cell.strip() for cell in cells]

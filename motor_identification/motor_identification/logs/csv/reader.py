@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.csv.cells import is_number
-from motor_identification.logs.csv.dialect import COMMENT, SPACES, Dialect, find_dialect, read_text, split_line
+from motor_identification.logs.csv.cells import COMMENT, SPACES, is_number, split_line
+from motor_identification.logs.csv.dialect import Dialect, find_dialect, read_text
 from motor_identification.logs.csv.matrix import take_off_brackets, turn_lines_into_columns
 from motor_identification.logs.csv.monitor import RECEIVED, Lines, take_apart
 from motor_identification.logs.csv.quotes import unquote_rows

@@ -51,6 +51,28 @@ velocityRadPerSec | speed          | rad/s |
 omega_degPerSec   | speed          | deg/s |
 wheel turns per minute | speed     | rpm   |
 theta_dot         | speed          |       |
+Temps [ms]        | time           | ms    |
+Tps [ms]          | time           | ms    |
+Consigne [pt]     | reference      | count |
+Mesure [pt]       | count          | count |
+Commande [pt]     | duty           | count |
+COMMANDE [Volts]  | voltage        | V     |
+PWM [ticks]       | duty           | count |
+output counts     | count          | count |
+Commande vitesse  | reference      |       |
+POSITION [degrés] | position       | deg   |
+VIT. MOTEUR [rad/sec] | speed      | rad/s |
+rapport cyclique  | duty           |       |
+Motordrehzahl [1/min] | speed      | rpm   |
+Solldrehzahl      | reference      |       |
+Drehzahlsollwert  | reference      |       |
+Winkelgeschwindigkeit | speed      |       |
+Ankerspannung     | voltage        |       |
+Versorgungsspannung | supply voltage |     |
+目标转速          | reference      |       |
+实际转速(rpm)     | speed          | rpm   |
+电机电压          | voltage        |       |
+Hedef hız         | reference      |       |
 Tensão (V)        | voltage        | V     |
 Esforço           | duty           |       |
 Referência        | reference      |       |
