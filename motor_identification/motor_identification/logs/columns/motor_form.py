@@ -1,6 +1,7 @@
 """The form of one motor in a table: how its drive becomes volts, what its motion is, when its runs begin."""
 
 from dataclasses import dataclass, replace
+from math import tau
 
 import numpy as np
 from numpy.typing import NDArray
@@ -61,6 +62,13 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     beside = f", times {supply} in {volts[1]}" if supply else ""
     notes.findings.append(f"Voltage{whose}: {pair.voltage} {drive.why}{beside}.")
     kind, unit = _motion(table, pair, said, rows.period if rows.time else 0.0, stamps, notes)
+    if unit.name in LENGTHS and said.units_per_revolution is None and said.edges_per_revolution is None:
+        length = LENGTHS[unit.name][0]
+        far = f"1 {length} is taken for 1 rad, and V·s/rad are V·s/{length}; otherwise: --units-per-revolution"
+        unit, said = (
+            replace(unit, why="; ".join(filter(None, (unit.why, far)))),
+            replace(said, units_per_revolution=tau),
+        )
     why = f" ({unit.why})" if unit.why else ""
     notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}{beside_it}.")
     if rows.time is None and not said.steady:
@@ -195,7 +203,7 @@ def _ask_about(column: str, values: Floats, kind: Kind, unit: Unit, said: Said, 
     if unit.name in ("count", "count/s") and said.edges_per_revolution is None:
         question = f"in {unit.name}: say how many counts there are in a turn (--edges-per-revolution N)"
         notes.questions.append((column, question))
-    if unit.name in LENGTHS and said.units_per_revolution is None:
+    if unit.name in LENGTHS and said.units_per_revolution is None and said.edges_per_revolution is not None:
         how_far = f"in {unit.name}: say how many {LENGTHS[unit.name][0]} a turn goes (--units-per-revolution U)"
         notes.questions.append((column, how_far))
 

@@ -36,6 +36,8 @@ class Source:
     def with_said(self, said: Said) -> Said:
         """What the user said, and where he did not, what the file says."""
         unsaid = {name: value for name, value in self.said.__dict__.items() if getattr(said, name) in (None, ())}
+        if said.motion or said.voltage or said.constant_voltage is not None:
+            unsaid.pop("motors", None)  # a user who names a column means no other
         return replace(said, **unsaid)
 
 
@@ -69,8 +71,8 @@ def _read_other(path: Path, head: bytes) -> Source:
     if is_version_4(head):
         return Source(read_matlab(path), "MATLAB 4 file")
     if head.startswith(LETTERS):
-        table, split = read_wpilog(path)
-        return Source(table, "WPILOG", Said(split=split))
+        log = read_wpilog(path)
+        return Source(log.table, "WPILOG", Said(split=log.split, motors=log.motors))
     if may_be_document(head) and (b"{" in head or is_document(path)):
         return _read_json(path)
     return Source(read_table(path), "text table")

@@ -6,6 +6,7 @@ Numbers that come only when they change, or some microseconds after one another 
 rows of the entry that came most often.
 """
 
+import re
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from itertools import count
@@ -16,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.said import Pair
 from motor_identification.logs.csv.table import Table
 from motor_model.errors import RecordingError
 
@@ -23,6 +25,8 @@ LETTERS, VERSION = b"WPILOG", 0x0100
 NUMBERS = {"double": "<d", "float": "<f", "int64": "<q"}
 STATE = "sysid-test-state"  # the text that SysId's routines log: which test runs
 NO_TEST = "none"
+TEST_NAMES = frozenset(f"{kind}-{way}" for kind in ("quasistatic", "dynamic") for way in ("forward", "reverse"))
+MOTIONS = ("position", "velocity")  # of a routine's motor, the better one first
 TOGETHER = 0.1  # of a row's time: what one turn of a loop logs comes within that
 SELDOM = 0.05  # of the rows: what has fewer values need not have begun with the first row
 MOST_NAMES, MOST_NUMBERS = 1000, 2**26
@@ -40,8 +44,19 @@ class Entry:
     values: list[Any] = field(default_factory=list)
 
 
-def read_wpilog(path: Path) -> tuple[Table, str | None]:
-    """Read the numbers as columns, with `time [s]` and the tests of SysId as `test`; and the column that splits it.
+@dataclass(frozen=True)
+class RobotLog:
+    """The numbers of a log as columns, and what SysId's routines say of them."""
+
+    table: Table
+    split: str | None  # the column of the tests
+    motors: tuple[Pair, ...]  # that a routine logs by its own names, `voltage-MOTOR-MECHANISM` and so on
+
+
+def read_wpilog(path: Path) -> RobotLog:
+    """Read the numbers as columns, with `time [s]` and the tests of SysId as `test`.
+
+    Where a routine names its motors, the rows are those in which it logs them, whatever else the robot writes.
 
     Raises:
         RecordingError: it is no such log, or has too few numbers in it, or too many.
@@ -53,10 +68,11 @@ def read_wpilog(path: Path) -> tuple[Table, str | None]:
         raise RecordingError(f"{path} has no two series of numbers: log voltage and position or speed as doubles.")
     if len(numbers) > MOST_NAMES:
         raise RecordingError(f"{path} has {len(numbers)} series of numbers, and {MOST_NAMES} is the most: log fewer.")
-    rows = _rows_of(numbers)
+    states = _states_of(entries)
+    routine = _motors_of(numbers, states)
+    rows = _rows_of([entry for entries in routine.values() for entry in entries] or numbers)
     if len(rows) * len(numbers) > MOST_NUMBERS:
         raise RecordingError(f"{path} has {len(rows)} rows of {len(numbers)} numbers: export fewer of them as CSV.")
-    states = [entry for entry in entries if entry.kind == "string" and STATE in entry.name]
     tests = _tests_at(states, rows)
     chosen = tests != ""
     split = "test" if chosen.sum() >= 2 else None
@@ -64,14 +80,53 @@ def read_wpilog(path: Path) -> tuple[Table, str | None]:
         chosen = np.ones(len(rows), np.bool_)
     cells: dict[str, Any] = {"test": tests[chosen]} if split else {}
     cells["time [s]"] = rows[chosen] * 1e-6
+    names: dict[int, str] = {}
     for entry in numbers:
-        cells[_free_name(entry, cells)] = _at(entry, rows, np.nan)[chosen]
-    notes = [f"WPILOG of {len(numbers)} series; rows are those of {max(numbers, key=lambda e: len(e.times)).name}."]
+        names[id(entry)] = _free_name(entry, cells)
+        cells[names[id(entry)]] = _at(entry, rows, np.nan)[chosen]
+    first = next(iter(routine.values()), [max(numbers, key=lambda e: len(e.times))])[0]
+    notes = [f"WPILOG of {len(numbers)} series; rows are those of {first.name}."]
     if split and len(states) > 1:
         notes.append(f"Tests of {len(states)} mechanisms, named before each: choose the columns of one.")
+    if routine:
+        notes.append("Motors are those that SysId's routine names; other series are left out (otherwise: --motor).")
     notes += [f"{path} is damaged or cut off: what follows byte {cut} is not read."] if cut else []
+    motors = tuple(
+        Pair(label if len(routine) > 1 else "", names[id(voltage)], names[id(motion)])
+        for label, (voltage, motion) in routine.items()
+    )
     table = Table(path, np.arange(1, int(chosen.sum()) + 1), cells, notes=tuple(notes))
-    return table, split
+    return RobotLog(table, split, motors)
+
+
+def _states_of(entries: list[Entry]) -> list[Entry]:
+    """The series that say which test runs: by their name, or else one that says nothing but SysId's tests."""
+    texts = [entry for entry in entries if entry.kind == "string" and entry.values]
+    named = [entry for entry in texts if STATE in entry.name]
+    told = [entry for entry in texts if TEST_NAMES & set(entry.values) and set(entry.values) <= {*TEST_NAMES, NO_TEST}]
+    return named or told[:1]
+
+
+def _motors_of(numbers: list[Entry], states: list[Entry]) -> dict[str, list[Entry]]:
+    """Voltage and motion of each motor that a routine logs, by name; none where there is not one mechanism.
+
+    WPILib's SysIdRoutineLog calls them `voltage-MOTOR-MECHANISM`, where the state is `sysid-test-state-MECHANISM`.
+    """
+    if len(states) != 1 or STATE not in states[0].name:
+        return {}
+    mechanism = states[0].name.partition(STATE)[2]
+    series = {entry.name: entry for entry in numbers}
+    found: dict[str, list[Entry]] = {}
+    for name, voltage in series.items():
+        if not (name.startswith("voltage-") and name.endswith(mechanism)):
+            continue
+        motor = name.removeprefix("voltage-").removesuffix(mechanism)
+        motions = [series[f"{what}-{motor}{mechanism}"] for what in MOTIONS if f"{what}-{motor}{mechanism}" in series]
+        moving = [entry for entry in motions if len(set(entry.values)) > 1] or motions
+        label = re.sub(r"[^\w.+]", "_", motor)[:80]
+        if moving and label not in found:
+            found[label] = [voltage, moving[0]]
+    return found
 
 
 def _tests_at(states: list[Entry], rows: NDArray[np.float64]) -> NDArray[Any]:
@@ -153,7 +208,7 @@ def _take(entry: Entry, time: int, payload: bytes) -> None:
     form = NUMBERS.get(entry.kind)
     if form is not None and len(payload) == calcsize(form):
         entry.values.append(float(unpack_from(form, payload)[0]))
-    elif entry.kind == "string" and STATE in entry.name:
+    elif entry.kind == "string":
         entry.values.append(payload[:100].decode("utf-8", "replace"))
     else:
         return

@@ -1,5 +1,6 @@
 """The form of one motor: drive, motion, rest."""
 
+from math import tau
 from pathlib import Path
 
 import numpy as np
@@ -79,7 +80,8 @@ def test_a_duty_without_a_supply_is_asked_about_and_one_beside_a_battery_is_not(
         ("angle", Said(unit="rpm"), Kind.SPEED, "rpm", ""),  # the unit says what it is
         ("ticks", Said(), Kind.COUNT, "count", "--edges-per-revolution"),
         ("ticks", Said(edges_per_revolution=48), Kind.COUNT, "count", ""),
-        ("pos [m]", Said(), Kind.POSITION, "m", "--units-per-revolution"),
+        ("pos [m]", Said(), Kind.POSITION, "m", ""),
+        ("pos [m]", Said(edges_per_revolution=48), Kind.POSITION, "m", "--units-per-revolution"),
         ("pos [m]", Said(units_per_revolution=0.2), Kind.POSITION, "m", ""),
         ("speed", Said(), Kind.SPEED, "rad/s", "--unit"),
         ("speed", Said(motion="speed", kind=Kind.SPEED), Kind.SPEED, "rad/s", ""),  # named: the first unit is assumed
@@ -90,6 +92,16 @@ def test_kind_and_unit_of_the_motion(motion: str, said: Said, kind: Kind, unit: 
     made = form(Said(**{**said.__dict__, "supply_voltage": 12.0}), notes, motion)
     assert (made.kind, made.unit) == (kind, unit)
     assert (asked in notes.questions[0][1]) if asked else notes.questions == []
+
+
+@pytest.mark.parametrize(("unit", "said", "turn"), [("mm/s", None, tau), ("m/s", None, tau), ("m/s", 0.2, 0.2)])
+def test_a_length_without_a_turn_is_one_radian(unit: str, said: float | None, turn: float) -> None:
+    notes = Notes([], [])
+    made = form(Said(units_per_revolution=said, supply_voltage=12.0), notes, f"speed [{unit}]")
+    length = unit.removesuffix("/s")
+    line = f"1 {length} is taken for 1 rad, and V·s/rad are V·s/{length}; otherwise: --units-per-revolution"
+    assert made.units_per_revolution == turn and notes.questions == []
+    assert (line in notes.findings[1]) == (said is None)
 
 
 def test_milliamperes() -> None:

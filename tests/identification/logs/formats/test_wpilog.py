@@ -8,7 +8,7 @@ import pytest
 from wpilib_log import KA, KS, KV, Log, record, write_routine
 
 from motor_identification.identify import Request, identify
-from motor_identification.logs.columns.said import Said
+from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.formats.source import read_source
 from motor_identification.logs.formats.wpilog import read_wpilog
 from motor_identification.logs.imported import import_log
@@ -25,7 +25,9 @@ def routine(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_routine_is_four_runs_of_one_motor(routine: Path) -> None:
     source = read_source(routine)
-    assert source.format == "WPILOG" and source.said == Said(split="test")
+    assert source.format == "WPILOG" and source.said == Said(
+        split="test", motors=(Pair("", "voltage-left-drive [V]", "position-left-drive [rev]"),)
+    )
     names = ["test", "time [s]", "voltage-left-drive [V]", "position-left-drive [rev]", "velocity-left-drive [rev/s]"]
     assert source.table.names == [*names, "/battery"] and len(source.table) == 1000
     assert source.table.numbers("time [s]")[:2] == pytest.approx([1.000007, 1.020007])
@@ -47,9 +49,9 @@ def test_its_motor_is_identified(routine: Path) -> None:
 def test_a_log_that_was_cut_off_is_read_up_to_there(routine: Path, tmp_path: Path) -> None:
     whole, cut = routine.read_bytes(), tmp_path / "cut.wpilog"
     cut.write_bytes(whole[: len(whole) // 2])
-    table, _ = read_wpilog(cut)
-    assert 450 < len(table) < 520 and "is damaged or cut off: what follows byte" in table.notes[1]
-    assert len(read_wpilog(routine)[0].notes) == 1
+    table = read_wpilog(cut).table
+    assert 450 < len(table) < 520 and "is damaged or cut off: what follows byte" in table.notes[-1]
+    assert len(read_wpilog(routine).table.notes) == 2
 
 
 def test_values_that_come_only_when_they_change_are_held(tmp_path: Path) -> None:
@@ -61,8 +63,9 @@ def test_values_that_come_only_when_they_change_are_held(tmp_path: Path) -> None
     log.put(voltage, 5.0, 1040)  # within a tenth of a row's time behind the third
     log.put(voltage, 6.0, 1060)
     path.write_bytes(log.data + record(99, 1100, pack("<d", 1.0)) + record(voltage, 1200, b"abc"))
-    table, split = read_wpilog(path)
-    assert split is None and table.names == ["time [s]", "u", "angle [deg]"]
+    log = read_wpilog(path)
+    table = log.table
+    assert log.split is None and log.motors == () and table.names == ["time [s]", "u", "angle [deg]"]
     assert table.numbers("u") == pytest.approx([5.0, *[6.0] * 6])
     assert np.all(np.diff(table.numbers("angle [deg]")) == -1.0)
 
@@ -93,8 +96,9 @@ def test_two_mechanisms_have_their_tests_both(tmp_path: Path) -> None:
         log.put(voltage, 1.0, 1000 * k)
         log.put(angle, float(k), 1000 * k)
     (tmp_path / "log").write_bytes(log.data)
-    table, split = read_wpilog(tmp_path / "log")
-    assert split == "test" and "Tests of 2 mechanisms" in table.notes[1]
+    read = read_wpilog(tmp_path / "log")
+    table = read.table
+    assert read.split == "test" and read.motors == () and "Tests of 2 mechanisms" in table.notes[1]
     assert list(table.column("test")) == ["drive dynamic-forward"] * 10 + ["arm dynamic-forward"] * 10
     assert table.numbers("angle").tolist() == [*range(10), *range(20, 30)]
 
@@ -108,7 +112,70 @@ def test_columns_of_one_name_are_told_apart(tmp_path: Path) -> None:
         for entry in entries:
             log.put(entry, entry, 1000 * k)
     (tmp_path / "log").write_bytes(log.data)
-    table, _ = read_wpilog(tmp_path / "log")
+    table = read_wpilog(tmp_path / "log").table
     assert table.names == ["test", "time [s]", "test (2)", "time [s] (2)", "u", "u (2)"]
     assert table.numbers("time [s]") == pytest.approx(np.arange(5) * 1e-3)
     assert [table.numbers(name)[0] for name in table.names[2:]] == [2.0, 3.0, 4.0, 5.0]
+
+
+def _robot(path: Path, motors: tuple[str, ...], state: str = "sysid-test-state-arm") -> None:
+    """A robot's log: what SysId's routine writes every 20 ms of its tests, beside a dashboard that writes as often."""
+    log = Log()
+    shown = [log.start(f"NT:/SmartDashboard/Wrist/{name}", "double") for name in ("Position", "Voltage", "angle")]
+    test = log.start(state, "string")
+    entries = [
+        [log.start(f"{what}-{motor}-arm", "double", unit) for what, unit in _ROUTINE.items()] for motor in motors
+    ]
+    for k in range(400):
+        for entry in shown:
+            log.put(entry, 1e-3 * (k % 7), 10_000 * k)
+        if k % 2:
+            log.put(test, "none" if k % 200 > 190 else "dynamic-forward" if k < 200 else "dynamic-reverse", 10_000 * k)
+            for number, one in enumerate(entries, start=1):
+                for entry, value in zip(one, (3.0, number * 0.01 * k, number * 1.0), strict=True):
+                    log.put(entry, value, 10_000 * k + 40)
+    path.write_bytes(log.data)
+
+
+_ROUTINE = {"voltage": "Volt", "position": "Rotation", "velocity": "Rotation per Second"}
+
+
+def test_a_routine_tells_which_of_a_robots_numbers_are_its_motors(tmp_path: Path) -> None:
+    _robot(tmp_path / "log", ("roll",))
+    imported = import_log(tmp_path / "log", Said())
+    assert [motor.label for motor in imported.motors] == [""]
+    assert "Motion: position-roll-arm [rev], a position in rev." in imported.findings
+    assert list(imported.motors[0].log.runs[0].samples[k].voltage for k in (3, 50)) == [3.0, 3.0]
+    assert [run.label for run in imported.motors[0].log.runs] == ["dynamic-forward", "dynamic-reverse"]
+    assert len(imported.motors[0].log.runs[0].samples) == 95  # the routine's rows, not the dashboard's 190
+    dashboard = import_log(
+        tmp_path / "log", Said(voltage="NT:/SmartDashboard/Wrist/Voltage", motion="position-roll-arm [rev]")
+    )
+    assert any("Voltage: NT:/SmartDashboard/Wrist/Voltage" in line for line in dashboard.findings)
+
+
+def test_each_motor_of_a_routine_is_one_with_its_name_fit_for_a_file(tmp_path: Path) -> None:
+    _robot(tmp_path / "log", ("left", "../r ight"))
+    read = read_wpilog(tmp_path / "log")
+    assert [motor.label for motor in read.motors] == ["left", ".._r_ight"]
+    assert read.motors[1].motion == "position-../r ight-arm [rev]"
+    assert len(import_log(tmp_path / "log", Said()).motors) == 2
+
+
+def test_tests_are_known_by_their_words_whatever_the_series_is_called(tmp_path: Path) -> None:
+    _robot(tmp_path / "log", ("roll",), "/RealOutputs/Drive/SysIdState")
+    read = read_wpilog(tmp_path / "log")
+    assert read.split == "test" and read.motors == ()
+    assert set(read.table.column("test")) == {"dynamic-forward", "dynamic-reverse"}
+
+
+def test_where_a_routine_logged_no_position_the_speed_is_its_motion(tmp_path: Path) -> None:
+    log = Log()
+    test = log.start("sysid-test-state-arm", "string")
+    entries = [log.start(f"{what}-roll-arm", "double", unit) for what, unit in _ROUTINE.items()]
+    for k in range(20):
+        log.put(test, "dynamic-forward", 20_000 * k)
+        for entry, value in zip(entries, (3.0, 0.0, 0.1 * k), strict=True):
+            log.put(entry, value, 20_000 * k)
+    (tmp_path / "log").write_bytes(log.data)
+    assert read_wpilog(tmp_path / "log").motors[0].motion == "velocity-roll-arm [rev/s]"
