@@ -145,7 +145,7 @@ def test_a_routine_tells_which_of_a_robots_numbers_are_its_motors(tmp_path: Path
     imported = import_log(tmp_path / "log", Said())
     assert [motor.label for motor in imported.motors] == [""]
     assert "Motion: position-roll-arm [rev], a position in rev." in imported.findings
-    assert list(imported.motors[0].log.runs[0].samples[k].voltage for k in (3, 50)) == [3.0, 3.0]
+    assert [imported.motors[0].log.runs[0].samples[k].voltage for k in (3, 50)] == [3.0, 3.0]
     assert [run.label for run in imported.motors[0].log.runs] == ["dynamic-forward", "dynamic-reverse"]
     assert len(imported.motors[0].log.runs[0].samples) == 95  # the routine's rows, not the dashboard's 190
     dashboard = import_log(
