@@ -13,6 +13,7 @@ STANDING = 0.01  # of the largest speed: below, the motor stands
 ALIKE = 0.02  # of the largest voltage, within which two levels are one
 MOSTLY = 0.5  # of the rows: standing for longer is worth a word
 FULL = 0.98  # of the full voltage, from which on it is at its limit
+SWEPT = 0.1  # of the rows, at voltages that do not last
 FEW = 0.02  # of the rows: what is rarer shows nothing
 
 
@@ -94,11 +95,13 @@ def _column(run: Run, name: str) -> NDArray[np.float64]:
 
 
 def _levels(voltage: NDArray[np.float64], apart: float) -> int:
-    """Different voltages, counted up to 20, of those that last for a share of the rows."""
+    """Different voltages, counted up to 20: those that last for a share of the rows, or all where many do not."""
     bins = np.rint(voltage / max(apart, 1e-12))
     values, counts = np.unique(bins, return_counts=True)
-    lasting = values[counts >= min(FEW * len(voltage), 5)]
-    return int(min(np.count_nonzero(lasting), 20))
+    lasts = counts >= min(FEW * len(voltage), 5)
+    if np.sum(counts[~lasts]) >= SWEPT * len(voltage):  # a ramp, a sweep
+        lasts[:] = True
+    return int(min(np.count_nonzero(values[lasts]), 20))
 
 
 def _voltages(found: Excitation) -> str:

@@ -68,3 +68,13 @@ def test_a_voltage_without_its_sign_promises_nothing() -> None:
     volts, speed = np.repeat([0.0, 3.0, 3.0, 6.0], 25), np.repeat([0.0, 60.0, -60.0, 120.0], 25)
     said = describe_excitation(log(volts, speed))
     assert said[1].startswith("Caution: the voltage has no sign, and the motor runs both ways") and len(said) == 2
+
+
+def test_a_ramp_has_many_levels() -> None:
+    ramp = np.concatenate([np.zeros(100), np.linspace(0.0, 5.0, 200), np.zeros(50)])
+    found = measure_excitation(log(ramp, 20.0 * ramp))
+    assert found.levels == 20
+    lines = describe_excitation(log(ramp, 20.0 * ramp))
+    assert "0 to 5 V in 20 levels and more" in lines[0] and not any("one voltage only" in line for line in lines)
+    steps = np.concatenate([np.zeros(100), np.linspace(0.0, 5.0, 20), np.full(230, 5.0)])  # on the way to one voltage
+    assert measure_excitation(log(steps, 20.0 * steps)).levels == 1

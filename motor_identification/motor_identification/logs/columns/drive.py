@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.heading import Heading
-from motor_identification.logs.columns.vocabulary import UNITS, Quantity
+from motor_identification.logs.columns.vocabulary import UNITS, Quantity, words_of
 
 Floats = NDArray[np.float64]
 
@@ -14,6 +14,14 @@ Floats = NDArray[np.float64]
 FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
 SIGNED_BYTE = 127.0  # full duty where it is reached: of VEX, and of motor controllers on a serial line
 _PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control"})
+# What is written to a timer, or a share by its name; a command of another name may be in volts.
+_TIMERS = words_of(
+    "duty pwm dutycycle throttle power шим 占空比 듀티 cyclique tastgrad tastverhältnis wypełnienie wypelnienie střída "
+    "strida doluluk umplere скважность effort esforço esforco esfuerzo"
+)
+_SUPPLIES = (15.0, 18.0, 24.0, 36.0, 48.0)  # [V] where commands are cut off
+_MOST_VOLTS = 12.0  # of a command that never is larger: a duty of so few per cent, or of 255, moves no motor
+_CUT_OFF = 3  # rows at the largest command
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
 REACHED = 0.5  # of a register of 16 bits, below which a largest duty tells nothing of it: 5,299 is of 5,319 or of 6,000
@@ -58,12 +66,24 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
         )
     if largest == SIGNED_BYTE:
         return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest)
+    if why := _why_in_volts(heading, values, largest):
+        return Drive(1.0, f"in V (assumed, as {why}; otherwise: --full-duty, --voltage-scale)")
     words = set(heading.words)
     for candidate in FULL_DUTIES if not _is_odd_timer(largest) else ():
         per_cent = candidate == 100.0 and np.any(values % 1.0) == 0 and largest < 100.0 and not words & _PER_CENT
         if largest <= candidate and not per_cent:
             return Drive(None, f"as a duty of ±{candidate:g} (assumed; otherwise: --full-duty)", candidate)
     return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest, sure=False)
+
+
+def _why_in_volts(heading: Heading, values: Floats, largest: float) -> str:
+    """Why what is called a command holds volts: they are a few, or are cut off where supplies are; empty where not."""
+    if heading.unit or set(heading.words) & _TIMERS or largest <= 1.0:
+        return ""
+    if largest <= _MOST_VOLTS:
+        return "no duty is so small"
+    cut_off = np.count_nonzero(np.abs(values) == largest) >= _CUT_OFF and bool(np.any(values % 1.0))
+    return f"it is cut off at {largest:g}" if largest in _SUPPLIES and cut_off else ""
 
 
 def _is_odd_timer(largest: float) -> bool:

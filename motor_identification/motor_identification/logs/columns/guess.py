@@ -36,6 +36,11 @@ def guess_forms(table: Table, said: Said) -> Guess:
         notes.findings.append(
             f"Left out, as no column drives them: {', '.join(roles.left_out)} (otherwise: --motor NAME:DRIVE,MOTION)."
         )
+    if roles.of_another:
+        notes.findings.append(
+            f"Left out: {roles.of_another}, which is not the angle of what turns with {roles.pairs[0].motion}, and "
+            f"does not follow {roles.pairs[0].voltage} (otherwise: --position {roles.of_another})."
+        )
     rows = _rows(table, roles, said, notes)
     forms = [make_form(table, pair, roles, said, rows, notes) for pair in roles.pairs]
     if notes.questions:

@@ -1,7 +1,7 @@
 """Which column is which: those that were named by the user, then by their names, then by how their numbers behave."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_motion, miss_drive, miss_motion
 from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.columns.speed_beside import find_driven_speed
 from motor_identification.logs.columns.vocabulary import FILTERED, MEASURED, MOVES, UNITS, Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.constant_voltage import CONSTANT
@@ -38,6 +39,7 @@ class Roles:
     supply: str | None
     current: str | None
     left_out: tuple[str, ...] = ()  # motions that nothing drives, beside motors that something does
+    of_another: str = ""  # a position that is not of the motor whose speed is read
 
 
 def find_roles(table: Table, said: Said) -> Roles:
@@ -54,10 +56,13 @@ def find_roles(table: Table, said: Said) -> Roles:
     free = numbered_motors(speeds_called_v(table, present_values(free)))
     free, undriven = ([*free], ()) if said.motors or said.motion or said.voltage else _driven_sides(free)
     pairs = said.motors or _pairs(table, free, said, time)
+    pairs, of_another = _of_one_shaft(table, pairs, free, said, time)
     supply = said.supply or _supply_of(table, free, pairs)
     named = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs} | {supply}
     currents = [one.name for one in free if one.quantity is Quantity.CURRENT and one.name not in named]
-    return Roles(time, pairs, supply, currents[0] if len(currents) == 1 and len(pairs) == 1 else None, undriven)
+    return Roles(
+        time, pairs, supply, currents[0] if len(currents) == 1 and len(pairs) == 1 else None, undriven, of_another
+    )
 
 
 def _is_numeric(table: Table, name: str) -> bool:
@@ -119,6 +124,17 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
     motion = motion or _moving(table, rest, "", time, said.unit)
     voltage = voltage or _driving(table, [one for one in rest if one.name != motion], "", ("",))
     return Pair("", voltage, motion)
+
+
+def _of_one_shaft(
+    table: Table, pairs: tuple[Pair, ...], headings: Sequence[Heading], said: Said, time: str | None
+) -> tuple[tuple[Pair, ...], str]:
+    """The motor with its speed instead of a position that is not its own, and that position's name."""
+    if said.motion or said.motors or said.unit or len(pairs) != 1:
+        return pairs, ""
+    (pair,) = pairs
+    speed = find_driven_speed(table, pair, headings, time)
+    return ((replace(pair, motion=speed),), pair.motion) if speed else (pairs, "")
 
 
 def _by_behaviour(table: Table, headings: Sequence[Heading], time: str | None) -> Pair:

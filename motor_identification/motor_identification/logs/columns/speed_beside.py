@@ -1,11 +1,12 @@
 """What a position and a speed of the same shaft tell of each other: units, and which column without a name is one."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.clock import read_clock
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.movement import ASKED, Unit, guess_position_unit
 from motor_identification.logs.columns.said import Pair
@@ -19,6 +20,10 @@ Floats = NDArray[np.float64]
 
 PARTS, FEWEST_PARTS = 40, 5  # of a log, over which a way and a speed's integral are compared, as one row is coarse
 TOGETHER = 0.95  # their correlation, from which on they are of one shaft
+OF_ANOTHER = 0.6  # that correlation, below which they are not
+FOLLOWS = 0.8  # a speed's correlation with what drives it, over such parts
+MORE = 0.3  # than the position's way has
+USUAL_SHARE, JUMP = 0.9, 5.0  # of the steps of a position, and times that, from which on it is a jump
 NEAR = 0.07  # by which the ratio of a pair of units may be off; the nearest two pairs are 5 times apart
 
 
@@ -54,6 +59,29 @@ def find_counted_position(table: Table, pair: Pair, taken: frozenset[str], stamp
         if ratio is not None and angle is not None and any(_is_near(ratio * angle / size) for size in sizes):
             return Counted(heading.name, speed.name)
     return None
+
+
+def find_driven_speed(table: Table, pair: Pair, headings: Sequence[Heading], time: str | None) -> str:
+    """Find the speed that follows the drive where the position does not, and is not its integral; empty where none.
+
+    The position is then of something that the motor moves by more than its shaft: the pendulum on a cart, the arm below
+    a propeller. Without a column of times rows are taken for regular.
+    """
+    speeds = [one.name for one in headings if one.quantity is Quantity.SPEED and one.name != pair.motion]
+    if len(speeds) != 1 or read_heading(pair.motion).quantity not in (Quantity.POSITION, Quantity.COUNT):
+        return ""
+    position, drive, speed = (table.numbers(name) for name in (pair.motion, pair.voltage, speeds[0]))
+    stamps = np.arange(len(table), dtype=np.float64) if time is None else read_clock(table, time)
+    ends = _ends(len(position))
+    if len(ends) <= FEWEST_PARTS or len(stamps) != len(position):
+        return ""
+    went = (_without_jumps(position), *(_travel(values, stamps) for values in (speed, drive, position)))
+    way, integral, driven, summed = (np.diff(values[ends]) for values in went)
+    if read_heading(pair.motion).quantity is Quantity.COUNT and correlate(summed, integral) > OF_ANOTHER:
+        return ""  # counts of each row
+    follows, other = correlate(integral, driven), correlate(way, driven)
+    apart = abs(correlate(way, integral)) < OF_ANOTHER
+    return speeds[0] if apart and abs(follows) > max(FOLLOWS, abs(other) + MORE) else ""
 
 
 def tell_position_unit(table: Table, position: Heading, stamps: Floats) -> Unit | None:
@@ -93,13 +121,31 @@ def _ratio(position: Floats, speed: Floats, stamps: Floats) -> float | None:
 
     As much of the position as of the speed is noise: the ratio of their sizes, and not a regression, tells it.
     """
-    steps = np.diff(stamps, append=stamps[-1:])
-    steps[steps < 0.0] = 0.0  # where time begins again
-    travel = np.concatenate(([0.0], np.cumsum(speed[1:] * steps[:-1])))
-    ends = np.unique(np.linspace(0, len(position) - 1, min(PARTS, len(position) // 3) + 1).astype(np.int64))
-    way, integral = np.diff(position[ends]), np.diff(travel[ends])
+    ends = _ends(len(position))
+    way, integral = np.diff(position[ends]), np.diff(_travel(speed, stamps)[ends])
     if len(way) < FEWEST_PARTS or correlate(way, integral) < TOGETHER:
         return None
     with np.errstate(over="ignore"):
         size = np.max(np.abs(integral))
         return float(np.linalg.norm(way / size) / np.linalg.norm(integral / size))
+
+
+def _ends(count: int) -> NDArray[np.int64]:
+    """The rows in which the parts of a log of so many rows begin and end."""
+    return np.unique(np.linspace(0, count - 1, min(PARTS, count // 3) + 1).astype(np.int64))
+
+
+def _without_jumps(position: Floats) -> Floats:
+    """A position, shape (K,), without the steps by which it begins again somewhere else."""
+    steps = np.diff(position, prepend=position[0])
+    sizes = np.abs(steps[steps != 0.0])
+    usual = np.quantile(sizes, USUAL_SHARE) if len(sizes) else 0.0
+    return np.asarray(np.cumsum(np.where(np.abs(steps) > JUMP * usual, 0.0, steps)), dtype=np.float64)
+
+
+def _travel(speed: Floats, stamps: Floats) -> Floats:
+    """The integral of values, shape (K,), over their times, shape (K,), which may begin again."""
+    steps = np.diff(stamps, append=stamps[-1:])
+    steps[steps < 0.0] = 0.0
+    with np.errstate(over="ignore", invalid="ignore"):  # a column of anything
+        return np.concatenate(([0.0], np.cumsum(speed[1:] * steps[:-1])))

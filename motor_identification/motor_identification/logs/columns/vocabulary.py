@@ -53,7 +53,7 @@ WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.REFERENCE: _row(
         "target sollwert consigne referencia referência référence referenz riferimento setpoint set sp ref "
         "reference desired goal soll consigna r wanted demand profile referans hedef zadana žádaná zadaná deseado "
-        "deseada desejado desejada objetivo acuan vorgabe führungsgröße заданная 目标 目標 设定 期望"
+        "deseada yr yref wref uref desejado desejada objetivo acuan vorgabe führungsgröße заданная 目标 目標 设定 期望"
     ),
     Quantity.SUPPLY: _row(
         "supply battery batt bat vbat vbatt vbus bus akku bateria batería batterie vcc vdd vin versorgungs "

@@ -9,6 +9,7 @@ from motor_identification.logs.columns.clock import runs_forward
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.mat_elements import BrokenFileError, TooLargeError, Value, read_variables
 from motor_identification.logs.formats.mat_version_4 import is_version_4, read_matrices
+from motor_identification.logs.rows.row_times import tells_how_often
 from motor_model.errors import RecordingError
 
 SIGNALS = 3  # time, voltage and motion: vectors of one length, of which more tell nothing
@@ -47,6 +48,8 @@ def read_matlab(path: Path) -> Table:
     if len(fitting) < 2:
         raise RecordingError(f"{path} has no two vectors of one length: save time, voltage and motion with one.")
     fitting = _share_clock(fitting)
+    told = {name: vector for name, vector in vectors.items() if len(vector) == 1 and tells_how_often(name)}
+    fitting.update({name: np.full(length, vector[0]) for name, vector in told.items() if name not in fitting})
     others = [name for name, vector in vectors.items() if name and 2 <= len(vector) != length]
     notes = [f"Left out, as they have other lengths: {', '.join(others[:8])}."] if others else []
     notes += [f"Not read: {OBJECTS}; {SAVE_THEM}, if the motion is in them."] if objects else []

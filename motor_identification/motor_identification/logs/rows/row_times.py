@@ -12,6 +12,13 @@ from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import GARBLED, Table
 
 _STEP = frozenset({"dt", "δt", "deltat", "deltatime", "timestep", "timedelta"})
+_RATES = frozenset(
+    {"fs", "fsample", "samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "freqsample"}
+)
+_PERIODS = frozenset(
+    {"ts", "te", "tsample", "tsamp", "sampletime", "samplingtime", "sampleperiod", "samplingperiod", "abtastzeit"}
+)
+_PERIOD = (1e-5, 1.0)  # [s] that rows of a motor's log are apart
 LONGEST = 5.0  # times the shortest of nine in ten steps, which the longest of them are at most
 
 _WORDS = re.compile(r"[^\W_\d]+|\d+")
@@ -107,6 +114,36 @@ def sum_steps(table: Table) -> Table:
         f"No column of times: they are summed from {step.name}, how long after the one before each row was (assumed)."
     )
     return replace(table, cells={f"time{unit}": time, **cells}, notes=(*table.notes, note))
+
+
+def tells_how_often(name: str) -> bool:
+    """Whether a name is that of a sampling rate or period: `Fs`, `Ts`, `sample_rate`, `dt`."""
+    return bool((_RATES | _PERIODS | _STEP) & _joined(read_heading(name)))
+
+
+def space_evenly(table: Table) -> Table:
+    """Add a column of times where there is none, and one, or its first cell alone, says how often rows came: `fs`."""
+    headings = [read_heading(name) for name in table.names]
+    told = [one for one in headings if tells_how_often(one.name) and (period := _period(table, one)) is not None]
+    others = [one for one in headings if one not in told]
+    if len(told) != 1 or any(one.quantity is Quantity.TIME for one in others):
+        return table
+    period = _period(table, told[0]) or 0.0
+    time = np.arange(len(table)) * period
+    note = f"No column of times: rows are {period * 1e3:.6g} ms apart, as {told[0].name} says (assumed)."
+    cells = {"time [s]": time, **{one.name: table.column(one.name) for one in others}}
+    return replace(table, cells=cells, notes=(*table.notes, note))
+
+
+def _period(table: Table, heading: Heading) -> float | None:
+    """The seconds between rows that a column of one value says; None where it has several, or says none."""
+    good = np.flatnonzero(table.readable(heading.name))
+    values = table.rows(good, "").numbers(heading.name) if len(good) else np.zeros(0)
+    if not len(values) or np.ptp(values) > 0.0 or values[0] <= 0.0:
+        return None
+    size = float(values[0])
+    period = 1.0 / size if _RATES & _joined(heading) else size * {"ms": 1e-3, "us": 1e-6}.get(heading.unit, 1.0)
+    return period if _PERIOD[0] <= period <= _PERIOD[1] else None
 
 
 def _is_clock(values: NDArray[np.float64]) -> bool:

@@ -77,3 +77,24 @@ def test_the_unit_of_a_supply() -> None:
 def test_per_cent_that_never_come_to_more_than_one_are_shares(top: float, full: float) -> None:
     assert duty_drive(read_heading("pwm_pct"), top * WAVE / np.max(np.abs(WAVE))).full == full
     assert duty_drive(read_heading("pwm_pct"), np.rint(WAVE)).full == 100.0  # whole ones
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "volts"),
+    [
+        ("cmd_vp", np.repeat([0.0, 6.0], 50), True),
+        ("cmd", 7.3 * WAVE, True),
+        ("control", np.clip(30.0 * WAVE, -24.0, 24.0), True),  # cut off at a supply
+        ("control", 24.0 * WAVE, False),  # comes there once
+        ("control", np.clip(30.0 * WAVE, -25.0, 25.0), False),
+        ("cmd", 0.9 * WAVE, False),
+        ("cmd", 13.0 * WAVE, False),
+        ("pwm", np.repeat([0.0, 6.0], 50), False),
+        ("cmd [%]", 7.3 * WAVE, False),
+    ],
+)
+def test_a_command_of_a_few_is_in_volts(name: str, values: np.ndarray, volts: bool) -> None:
+    drive = duty_drive(read_heading(name), values)
+    assert ("in V (assumed, as" in drive.why) == volts
+    assert (drive.scale == 1.0) == volts and (drive.full is None) == volts
+    assert duty_drive(read_heading(name), values, 100.0).scale is None

@@ -9,7 +9,12 @@ import pytest
 from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.speed_beside import Counted, find_counted_position, tell_position_unit
+from motor_identification.logs.columns.speed_beside import (
+    Counted,
+    find_counted_position,
+    find_driven_speed,
+    tell_position_unit,
+)
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
 from motor_model.errors import RecordingError
@@ -97,3 +102,37 @@ def test_whole_speeds_of_no_unit_may_be_counts_of_each_row() -> None:
         with pytest.raises(RecordingError, match="vel in .* which the numbers do not tell: say --unit") as complaint:
             guess_forms(table({**cells, "vel": speed}), Said())
         assert ("--unit, or --count where they are the counts of each row." in str(complaint.value)) is offered
+
+
+PENDULUM = 3.0 * np.sin(STAMPS * 9.0) + np.cumsum(np.random.default_rng(2).normal(0.0, 0.3, 500))
+
+
+@pytest.mark.parametrize(
+    ("position", "found"),
+    [
+        (PENDULUM, "omega"),  # of an arm that the motor's propeller moves
+        (ANGLE, ""),
+        (-ANGLE, ""),  # counted the other way
+        (np.floor(ANGLE * 40.0) % 4096.0, ""),  # begins again at a register's size
+        (np.floor(ANGLE * 4.0), ""),
+    ],
+)
+def test_a_position_of_something_else_than_what_the_drive_turns(position: np.ndarray, found: str) -> None:
+    cells = {"t": STAMPS, "u": DRIVE, "theta": position, "omega": SPEED}
+    headings = [read_heading(name) for name in ("theta", "omega")]
+    for time in ("t", None):
+        assert find_driven_speed(table(cells), Pair("", "u", "theta"), headings, time) == found
+    assert find_driven_speed(table(cells), Pair("", "u", "theta"), [*headings, read_heading("speed")], "t") == ""
+    steps = table({**cells, "ticks": np.diff(np.floor(ANGLE * 4.0), prepend=0.0)})
+    assert find_driven_speed(steps, Pair("", "u", "ticks"), headings, "t") == ""  # counts of each row
+
+
+def test_the_speed_is_read_and_the_position_said_to_be_left_out() -> None:
+    cells = {"t": STAMPS, "u": DRIVE, "theta": PENDULUM, "omega [rad/s]": SPEED}
+    guess = guess_forms(table(cells), Said())
+    assert (guess.forms[0].motion, guess.forms[0].kind) == ("omega [rad/s]", Kind.SPEED)
+    assert (
+        "Left out: theta, which is not the angle of what turns with omega [rad/s], and does not follow u (otherwise: "
+        "--position theta)." in guess.findings
+    )
+    assert guess_forms(table(cells), Said(motion="theta", kind=Kind.POSITION, unit="deg")).forms[0].motion == "theta"

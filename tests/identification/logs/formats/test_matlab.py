@@ -96,3 +96,9 @@ def test_times_in_the_first_column_of_each_matrix_are_one(tmp_path: Path) -> Non
     same = np.cos(20.0 * TIME)
     savemat(tmp_path / "log.mat", {"a": np.column_stack([same, TIME]), "b": np.column_stack([same, TIME])})
     assert sorted(read_matlab(tmp_path / "log.mat").names) == ["a 1", "a 2", "b 1", "b 2"]
+
+
+def test_a_sampling_period_beside_the_vectors_is_kept(tmp_path: Path) -> None:
+    savemat(tmp_path / "log.mat", {"u": TIME * 3, "y": TIME * 5, "Ts": 0.005, "gain": 3.0})
+    table = read_matlab(tmp_path / "log.mat")
+    assert sorted(table.names) == ["Ts", "u", "y"] and table.numbers("Ts").tolist() == [0.005] * 50

@@ -13,6 +13,7 @@ from motor_identification.logs.rows.row_times import (
     ROW_TIMES,
     give_times,
     number_rows,
+    space_evenly,
     sum_steps,
     write_times_in_seconds,
 )
@@ -162,3 +163,42 @@ def test_seconds_and_nanoseconds_are_one_time(seconds: str, nanoseconds: str, jo
         assert table.nanoseconds(joined, 1).tolist() == [10**9, 15 * 10**8, 2 * 10**9 + 7]
         cells[nanoseconds][1] = 1e9  # none: a second has fewer
         assert write_times_in_seconds(Table(Path("log.csv"), [2, 3, 4], cells)).names == [seconds, nanoseconds, "u"]
+
+
+@pytest.mark.parametrize(
+    ("name", "cells", "period"),
+    [
+        ("fs", ["500", *[""] * 7], 0.002),  # in its first cell alone
+        ("Fs", [10.0] * 8, 0.1),
+        ("sample_rate", [1000.0] * 8, 0.001),
+        ("Ts", [0.005] * 8, 0.005),
+        ("Ts [ms]", [5.0] * 8, 0.005),
+        ("fs", [0.2] * 8, None),  # a row in 5 s
+        ("fs", [500.0, 500.0, *[400.0] * 6], None),
+        ("fs", [-500.0] * 8, None),
+        ("Ts", [5.0] * 8, None),  # of no unit
+        ("gain", [500.0] * 8, None),
+    ],
+)
+def test_a_column_that_says_how_often_rows_came(name: str, cells: list[object], period: float | None) -> None:
+    given = Table(Path("log.csv"), np.arange(2, 10), {"u": np.ones(8), name: cells})
+    spaced = space_evenly(given)
+    if period is None:
+        assert spaced is given
+        return
+    assert spaced.numbers("time [s]") == pytest.approx(np.arange(8) * period) and spaced.names == ["time [s]", "u"]
+    note = f"No column of times: rows are {1e3 * period:g} ms apart, as {name} says (assumed)."
+    assert spaced.notes == (note,)
+    timed = Table(Path("log.csv"), np.arange(2, 10), {"t": np.arange(8.0), name: cells})
+    assert space_evenly(timed) is timed
+
+
+def test_a_log_with_its_sampling_rate_is_read_without_an_option(tmp_path: Path) -> None:
+    rows = [f"{3.0 * (k // 40 % 2)},{5.0 * (k // 40 % 2) + 0.01 * (k % 7)}" for k in range(400)]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["u,y,fs", f"{rows[0]},500", *(f"{row}," for row in rows[1:])]) + "\n")
+    (motor,) = import_log(path, Said(unit="rad/s")).motors
+    assert motor.log.info.sample_period == pytest.approx(0.002)
+    with pytest.raises(RecordingError, match="no column is its times"):
+        path.write_text("\n".join(["u,y", *rows]) + "\n")
+        import_log(path, Said(unit="rad/s"))
