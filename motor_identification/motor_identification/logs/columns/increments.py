@@ -8,6 +8,7 @@ from motor_identification.logs.columns.movement import guess_kind
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.vocabulary import words_of
+from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
 
@@ -19,6 +20,9 @@ FOLLOWS = 0.3  # correlation with the drive, from which on counts are those of o
 BESIDE = 0.9  # of it: what their steps' correlation with the drive stays below
 EXPLAINED = 0.4  # of the steps' variance by a first-order motor: counts that forget may be those of one row
 FEWEST_ROWS = 20  # that show it
+AGAINST = 0.2  # correlation of a position's steps with the drive that holds it
+IDLE, FEWEST_IDLE = 0.1, 5  # of the largest drive, below which nothing drives, and rows of it that tell something
+HELD = 0.5  # of the largest count, where counts that go on may stand then
 _PER_ROW = words_of("delta diff increment increments inc incremental")
 
 
@@ -40,6 +44,8 @@ def _follow_drive(values: Floats, drive: Floats, notes: Notes, name: str) -> boo
     """Whether counts, shape (K,), follow the drive, as those of one row do; those that go on only do by their steps."""
     if len(values) < FEWEST_ROWS or guess_kind(values, drive) is not Kind.SPEED:
         return False
+    if _is_position_in_a_loop(values, drive):
+        return False
     steps = np.diff(values)
     follows = correlation(values, drive)
     if follows > FOLLOWS and correlation(steps, drive[:-1]) < BESIDE * follows:
@@ -50,6 +56,20 @@ def _follow_drive(values: Floats, drive: Floats, notes: Notes, name: str) -> boo
         )
         notes.questions.append((name, question))
     return False
+
+
+def _is_position_in_a_loop(values: Floats, drive: Floats) -> bool:
+    """Whether counts, shape (K,), are held somewhere by a drive that falls as they rise, as by Kp (r - y).
+
+    Counts of one row that fall as the drive rises are those of a motor with its sensor the other way round: they go
+    back with it, and come to 0 where nothing drives.
+    """
+    if correlate(values, drive) >= 0.0:
+        return False
+    if correlate(np.diff(values), drive[:-1]) > AGAINST:
+        return True
+    idle = np.abs(values[np.abs(drive) <= IDLE * np.max(np.abs(drive))])
+    return len(idle) >= FEWEST_IDLE and bool(np.median(idle) > HELD * np.max(np.abs(values)))
 
 
 def _explained(steps: Floats, *by: Floats) -> float:

@@ -47,8 +47,8 @@ TAILS = _row(
 WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.OTHER: _row(
         "error err erro fehler erreur errore galat kp ki kd integral gyro temp temperature accel acceleration "
-        "acc derivative id index loop state mode enabled fault torque heading dir direction drehrichtung "
-        "richtung yaw pitch roll rate"
+        "acc derivative id index loop state mode enabled fault limited saturated lead integrator torque heading dir "
+        "direction drehrichtung richtung yaw pitch roll rate"
     ),
     Quantity.REFERENCE: _row(
         "target sollwert consigne referencia referência référence referenz riferimento setpoint set sp ref "
@@ -151,7 +151,7 @@ _SPELLINGS = {
     "km/h": "km/h km_h kmh kmph kph",
     "cm": "cm centimeter centimeters",
     "mm": "mm millimeter millimeters",
-    "m/s": "m/s mps m_s meters/s metres/s",
+    "m/s": "m/s m/sec mps m_s meters/s metres/s",
     "rad": "rad рад radian radians",
     "deg": "deg град grad grados graus gradi degs degree degrees degré degrés dégré dégrés degres derece derajat °",
     "rev": "rev revs turn turns rotation rotations revolutions",

@@ -12,6 +12,11 @@ _WORDS = re.compile(r"\S+(?: \S+)*")  # those names, where they stand
 _BRACKETS = "[]()<>{}"
 _UNIT_ROW = re.compile(r"[\[(]?[A-Za-zµμ°%/²\d.^_-]{1,10}[\])]?$")
 _SURE = frozenset({"s", "ms", "V"})  # of what may be units: these are none of a column's names
+_OF_COLUMN = re.compile(
+    r"\s*(?:col(?:umn)?\.?\s*)?(?P<places>\d{1,3}(?:\s+\d{1,3})*)\b[:.)=\s]\s*(?P<name>[^\W\d].*|\(.*)$", re.I
+)
+_VALUES = re.compile(r"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?(?![\w.])|\b0x[0-9a-fA-F]+")  # of an example row
+_UNIT = re.compile(r"[\[(][^\])]*[\])]")
 ALIGNED = 2  # characters that a cell may end before or behind its name
 
 
@@ -30,6 +35,8 @@ def find_header(
         width: cells of most rows, without empty ones at their end.
         most: cells of most rows.
     """
+    if numbered := _numbered(before, width):
+        return numbered
     lines = [COMMENT.sub("", line) for line in before]
     cells = [_without_empty_end(_names(line, first, delimiter, width)) for line in lines]
     fit = [width <= len(row) <= most and not any(is_number(one, comma) for one in row) for row in cells]
@@ -38,6 +45,37 @@ def find_header(
         pairs = zip_longest(cells[-2], units, fillvalue="")
         return tuple(f"{name} [{unit}]" if name and unit else name or unit for name, unit in pairs)
     return tuple(next((row for row, fits in zip(cells[::-1], fit[::-1], strict=True) if fits), ()))
+
+
+def _numbered(before: Sequence[str], width: int) -> tuple[str, ...]:
+    """Names from comments that say which column is what, `% 7  Motor voltage (V)`; empty where there are none.
+
+    One of several columns has its first and its last, or all of them: `% 8 9 Motor voltage [V] left, right: 1.2 1.3`.
+    """
+    found = [match for line in before if COMMENT.match(line) and (match := _OF_COLUMN.match(COMMENT.sub("", line)))]
+    places = [[int(place) for place in match["places"].split()] for match in found]
+    first = [one[0] for one in places]
+    if len(found) < 2 or first != sorted(set(first)) or first[0] > 1 or places[-1][-1] > width - 1 + first[0]:
+        return ()
+    names = [f"column {k + 1}" for k in range(width)]
+    for place, match in zip(places, found, strict=True):
+        for k, name in enumerate(_several(match["name"], place[-1] - place[0] + 1)):
+            names[place[0] - first[0] + k] = name
+    return tuple(names)
+
+
+def _several(text: str, count: int) -> list[str]:
+    """The names in a text about so many columns: `Pose x,y,h [m]: 0 0 1` without the values of its example."""
+    text = " ".join(_VALUES.sub("", text).split())
+    if count < 2:
+        return [text.split(",")[0].rstrip(" :")]
+    unit = next(iter(_UNIT.findall(text)), "")
+    base, *others = _UNIT.sub(" ", text).split(":")[0].split(",")
+    words = base.split()
+    if not words:  # (mission 0), state 8: which is whose, is not said
+        return []
+    items = [*words[-1:], *(other.split()[0] for other in others if other.split())][:count]
+    return [" ".join((*words[:-1], item, *(part for part in (unit,) if "," not in part))).strip() for item in items]
 
 
 def _are_units(row: Sequence[str], above: Sequence[str]) -> bool:

@@ -39,3 +39,45 @@ def test_a_french_servo_log_as_a_whole() -> None:
     rows = [SPREAD.replace("        5 ", f"{5 + 10 * k:9d} ") for k in range(6)]
     found = find_dialect([ABOVE, UNITS, *rows])
     assert found is not None and found.named and found.header[3] == "Commande [Volts]" and found.first_row == 2
+
+
+REGBOT = [
+    "%% logfile from a robot of a course",
+    "% Robot 81 (PCB version 6.3, battery 5.0 V)",
+    "%  1    time 3.0440 sec, from it (81)",
+    "%  2  3 (mission 0), state 8",
+    "%  4  5 Motor voltage [V] left, right: 1.26 1.25",
+    "%  6  9 Wheel velocity [m/s] left, right: 0.0702 0.0890 delay 0.0050 0.0049 (sec)",
+    "% 10 11 Pose x,y [m,m]: 0.838524 -3.78631e-05",
+    "% 12    Battery voltage [V]",
+]
+LISTED = ["# Column 1: Time (s)", "# Column 2: PWM", "# Column 3: Speed (rpm)", "# gain = 3"]
+
+
+def test_comments_that_say_which_column_is_what() -> None:
+    assert find_header(REGBOT, "0 " * 12, " ", False, 12, 12) == (
+        "time sec", "column 2", "column 3", "Motor voltage left [V]", "Motor voltage right [V]",
+        "Wheel velocity left [m/s]", "Wheel velocity right [m/s]", "column 8", "column 9", "Pose x", "Pose y",
+        "Battery voltage [V]",
+    )  # fmt: skip
+    assert find_header(LISTED, "0,0,0", ",", False, 3, 3) == ("Time (s)", "PWM", "Speed (rpm)")
+    from_0 = [line.replace("Column 1", "0").replace("Column 2", "1").replace("Column 3", "2") for line in LISTED]
+    assert find_header(from_0, "0,0,0", ",", False, 3, 3) == ("Time (s)", "PWM", "Speed (rpm)")
+    assert find_header(["% 1 Time (sec)", "% 2 \tMotor voltage (V)"], "0,0", ",", False, 2, 2) == (
+        "Time (sec)",
+        "Motor voltage (V)",
+    )
+
+
+@pytest.mark.parametrize(
+    "comments",
+    [
+        ("% 1 run of a motor", "t,u,y"),  # one alone
+        ("% 3 runs", "% 1 motor", "t,u,y"),
+        ("% 1 run", "% 12 volts", "t,u,y"),  # there is no column 12
+        ("1 run", "2 motors", "t,u,y"),  # no comments
+        ("% 5 runs", "% 6 motors", "t,u,y"),
+    ],
+)
+def test_comments_that_begin_with_other_numbers(comments: tuple[str, ...]) -> None:
+    assert find_header(comments, "0,0,0", ",", False, 3, 3) == ("t", "u", "y")
