@@ -24,7 +24,8 @@ from motor_identification.diagnose import Request, diagnose
 from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.logs.imported import import_log
 from motor_identification.recording import Recording, check, recording_of
-from motor_identification.reporting.diagnosis_text import format_diagnosis, summarize_diagnosis
+from motor_identification.reporting.diagnosis_table import format_diagnosis
+from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 from motor_identification.reporting.numbers import format_measured, format_quantity
 
 RESULTS = Path(__file__).with_name("results")

@@ -52,7 +52,8 @@ def diagnosed(job: "DiagnosisJob", files: "Files", interrupted: str) -> "Diagnos
 
 def as_text(diagnosis: "Diagnosis") -> str:
     """Return what a terminal shows."""
-    from motor_identification.reporting.diagnosis_text import format_diagnosis, summarize_diagnosis
+    from motor_identification.reporting.diagnosis_table import format_diagnosis
+    from motor_identification.reporting.diagnosis_text import summarize_diagnosis
     from motor_identification.service.job import notes_of
 
     return "\n".join([format_diagnosis(diagnosis), "", summarize_diagnosis(diagnosis), *notes_of(diagnosis)])

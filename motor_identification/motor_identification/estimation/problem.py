@@ -9,7 +9,8 @@ import numpy as np
 from motor_identification.estimation.parameter_space import Unknowns, make_unknowns
 from motor_identification.estimation.residual import Latest, simulate_residuals
 from motor_identification.measurement.build_intervals import make_intervals
-from motor_identification.measurement.intervals import Intervals, exclude_intervals, join_intervals, share_noise
+from motor_identification.measurement.edit_intervals import exclude_intervals, join_intervals, share_noise
+from motor_identification.measurement.intervals import Intervals
 from motor_identification.measurement.measured_angle import Track, make_track
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.measurement.time_blocks import TimeBlocks

@@ -10,7 +10,8 @@ from math import sqrt
 import numpy as np
 
 from motor_identification.measurement.edges import Edges, extract_edges, mark_one_way
-from motor_identification.measurement.intervals import Intervals, append_standstills, index_intervals
+from motor_identification.measurement.edit_intervals import append_standstills
+from motor_identification.measurement.intervals import Intervals, index_intervals
 from motor_identification.measurement.sampled_counts import Changes, extract_count_changes, locate_fixes
 from motor_identification.measurement.sanity_checks import check_counts
 from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals

@@ -1,17 +1,15 @@
 """Hold intervals: what a recording says of the motion, as mean speeds between instants of known angle.
 
 Comparing angle *increments* keeps an early error from growing through the whole recording, as it does when the angle
-itself is compared. `build_intervals.py` makes them of every kind of recording.
+itself is compared. `build_intervals.py` makes them of every kind of recording, and `edit_intervals.py` others of them.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import sqrt
 
 import numpy as np
 
 from motor_identification.recording import Bools, Floats, Integers
-from motor_model.compiled import compiled
 
 UNEVEN_ROWS = 0.05  # of a row: what most of them, all but a fifth, differ by where their lengths are by chance
 
@@ -96,6 +94,13 @@ class Intervals:
         return np.asarray(~follows)
 
 
+def index_times(start: Floats, end: Floats) -> tuple[Floats, Integers, Integers]:
+    """Index times [s] over one ascending list of them that starts with the recording: that list, starts, ends."""
+    count = len(start)
+    time, index = np.unique(np.concatenate([[0.0], start, end]), return_inverse=True)
+    return time, index[1 : count + 1].astype(np.int64), index[count + 1 :].astype(np.int64)
+
+
 def index_intervals(
     start: Floats,
     end: Floats,
@@ -112,13 +117,13 @@ def index_intervals(
     window: float = 0.0,
     noise: float = 0.0,
 ) -> Intervals:
-    """Index intervals over one ascending list of times that starts with the recording."""
+    """Make intervals from `start` to `end` [s], both of shape (I,), with what is known of them."""
     count = len(start)
-    time, index = np.unique(np.concatenate([[0.0], start, end]), return_inverse=True)
+    time, first, last = index_times(start, end)
     return Intervals(
         time=time,
-        first=index[1 : count + 1].astype(np.int64),
-        last=index[count + 1 :].astype(np.int64),
+        first=first,
+        last=last,
         speed=speed,
         slack=np.zeros(count) if slack is None else slack,
         blur=blur,
@@ -132,97 +137,3 @@ def index_intervals(
         window=window,
         noise=noise,
     )
-
-
-def append_standstills(moving: Intervals, still: tuple[Floats, Floats], slack: float) -> Intervals:
-    """Append times [s] in which the motor moved less than `slack` [rad], at the end of the list."""
-    start, end = still
-    blank = np.zeros(len(start))
-    return index_intervals(
-        np.concatenate([moving.time[moving.first], start]),
-        np.concatenate([moving.time[moving.last], end]),
-        speed=np.concatenate([moving.speed, blank]),
-        slack=np.concatenate([moving.slack, blank + slack]),
-        blur=np.concatenate([moving.blur, blank]),
-        edge=np.concatenate([moving.edge, np.full((len(blank), 2), -1)]),
-        place=np.concatenate([moving.place, np.full((len(blank), 2), np.nan)]),
-        slot=moving.slot,
-        left_out=moving.left_out,
-        gear=moving.gear,
-        unevenness=moving.unevenness,
-    )
-
-
-def exclude_intervals(intervals: Intervals, bad: Bools) -> Intervals:
-    """Exclude marked intervals; shape of `bad`: (I,)."""
-    good = ~bad
-    return replace(
-        intervals,
-        first=intervals.first[good],
-        last=intervals.last[good],
-        speed=intervals.speed[good],
-        slack=intervals.slack[good],
-        blur=intervals.blur[good],
-        edge=intervals.edge[good],
-        place=intervals.place[good],
-        left_out=intervals.left_out + int(bad.sum()),
-    )
-
-
-def share_noise(intervals: Sequence[Intervals]) -> tuple[Intervals, ...]:
-    """Give all recordings of logged speeds one sensor's noise: what is unknown of it is a share of the same unit.
-
-    An angle's where speeds were counted, a speed's where their noise is white, whatever the window.
-    """
-    counts = [data.noise for data in intervals if data.window > 0.0 and not data.independent]
-    speeds = [data.noise / data.window for data in intervals if data.window > 0.0 and data.independent]
-
-    def common(data: Intervals) -> float:
-        return float(np.median(speeds)) * data.window if data.independent else float(np.median(counts))
-
-    return tuple(replace(data, noise=common(data)) if data.window > 0.0 else data for data in intervals)
-
-
-def join_intervals(intervals: Intervals, duration: float) -> Intervals:
-    """Join intervals that follow each other until each is at least `duration` [s] long.
-
-    A mean speed over many slots says as much about the motor as those over its parts, but for what happens within it.
-    """
-    if len(intervals.first) == 0:
-        return intervals
-    group = np.empty(len(intervals.first), dtype=np.int64)
-    _group(intervals.apart, intervals.duration, duration, group)
-    begin = np.flatnonzero(np.diff(group, prepend=-1))
-    end = np.append(begin[1:], len(group)) - 1
-    travel = np.add.reduceat(intervals.speed * intervals.duration, begin)
-    start_time, end_time = intervals.time[intervals.first[begin]], intervals.time[intervals.last[end]]
-    blur = np.maximum.reduceat(intervals.blur, begin)
-    if intervals.independent:  # their errors add up, and do not go from one to the next
-        blur = np.sqrt(np.add.reduceat(intervals.blur**2, begin))
-    return index_intervals(
-        start_time,
-        end_time,
-        speed=travel / (end_time - start_time),
-        blur=blur,
-        slack=intervals.slack[begin],
-        edge=np.column_stack([intervals.edge[begin, 0], intervals.edge[end, 1]]),
-        place=np.column_stack([intervals.place[begin, 0], intervals.place[end, 1]]),
-        slot=intervals.slot,
-        left_out=intervals.left_out,
-        independent=intervals.independent,
-        gear=intervals.gear,
-        unevenness=intervals.unevenness,
-        window=intervals.window,
-        noise=intervals.noise,
-    )
-
-
-@compiled
-def _group(apart: Bools, duration: Floats, least: float, group: Integers) -> None:
-    """Number the intervals by the longer ones they are joined to."""
-    number, length = -1, 0.0
-    for k in range(len(apart)):
-        if apart[k] or length >= least:
-            number, length = number + 1, 0.0
-        group[k] = number
-        length += duration[k]

@@ -1,13 +1,12 @@
-"""A diagnosis in words: one to three sentences, and the table of gaps with the evidence for every effect."""
+"""A diagnosis in words: what was missing, what that explains, what is left, and what to do next."""
 
 from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, LASTING_INTERVAL
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
+from motor_identification.reporting.diagnosis_table import format_parameters
 from motor_identification.reporting.names import capitalize, effect_name, join_effects, join_names
-from motor_identification.reporting.numbers import format_change, format_measured, format_quantity, format_ratio
-from motor_identification.uncertainty.result import Fit
-from motor_model.text_table import align_columns
+from motor_identification.reporting.numbers import format_change, format_measured, format_ratio
 
 GAP, FITTED_GAP = "validation RMS error (gap)", "RMS error (gap)"
 TOO_SHORT = "The recording is too short to keep a part of it for validation: record more motion."
@@ -40,10 +39,10 @@ def summarize_diagnosis(diagnosis: Diagnosis) -> str:
     return " ".join(part for part in (_SUMMARIES[diagnosis.verdict](diagnosis), seen, _next_step(diagnosis)) if part)
 
 
-def describe_gap_reduction(diagnosis: Diagnosis) -> str:
+def _describe_gap_reduction(diagnosis: Diagnosis) -> str:
     """Say by how much the gap falls, beside the noise floor."""
     change = format_change(diagnosis.gap_before, diagnosis.gap_after)
-    text = f"the {_name_gap(diagnosis)} falls from {change} rad/s ({compare_with_floor(diagnosis)})"
+    text = f"the {_name_gap(diagnosis)} falls from {change} rad/s ({_compare_with_floor(diagnosis)})"
     if diagnosis.gap_before > EXPLAINED_GAP * diagnosis.noise_floor:
         return text
     lasting = format_change(*(held.joined(LASTING_INTERVAL).gap for held in (diagnosis.before, diagnosis.after)))
@@ -54,12 +53,12 @@ def _name_gap(diagnosis: Diagnosis) -> str:
     return FITTED_GAP if diagnosis.after.seen else GAP
 
 
-def is_at_floor(diagnosis: Diagnosis) -> bool:
+def _is_at_floor(diagnosis: Diagnosis) -> bool:
     """Decide whether the noise leaves as much as is left."""
     return diagnosis.gap_after <= EXPLAINED_GAP * diagnosis.noise_floor
 
 
-def compare_with_floor(diagnosis: Diagnosis) -> str:
+def _compare_with_floor(diagnosis: Diagnosis) -> str:
     """Write the final gap as a multiple of the noise floor."""
     floor = diagnosis.noise_floor
     if floor <= 0.0:
@@ -68,7 +67,7 @@ def compare_with_floor(diagnosis: Diagnosis) -> str:
 
 
 def _describe_gap(diagnosis: Diagnosis) -> str:
-    return f"the {_name_gap(diagnosis)} is {diagnosis.gap_after:.3g} rad/s, {compare_with_floor(diagnosis)}"
+    return f"the {_name_gap(diagnosis)} is {diagnosis.gap_after:.3g} rad/s, {_compare_with_floor(diagnosis)}"
 
 
 def _describe_found(findings: tuple[Finding, ...], sure: bool = True) -> str:
@@ -77,24 +76,19 @@ def _describe_found(findings: tuple[Finding, ...], sure: bool = True) -> str:
     return capitalize(join_names(each) + (were if sure else " may be missing"))
 
 
-def format_parameters(finding: Finding) -> str:
-    """Write a finding's parameters with their standard errors."""
-    return ", ".join(format_quantity(name, *value) for name, value in finding.parameters.items())
-
-
 def _explained(diagnosis: Diagnosis) -> str:
     model = "it" if len(diagnosis.findings) == 1 else "them"
-    text = f"{_describe_found(diagnosis.findings)}. With {model}, {describe_gap_reduction(diagnosis)}."
-    parts = (text, describe_disturbance(diagnosis), _describe_undetermined(diagnosis), _describe_untestable(diagnosis))
+    text = f"{_describe_found(diagnosis.findings)}. With {model}, {_describe_gap_reduction(diagnosis)}."
+    parts = (text, _describe_disturbance(diagnosis), _describe_undetermined(diagnosis), _describe_untestable(diagnosis))
     return " ".join(part for part in parts if part)
 
 
 def _nothing_missing(diagnosis: Diagnosis) -> str:
     text = f"Nothing is missing: {_describe_gap(diagnosis)}."
-    return " ".join(part for part in (text, describe_disturbance(diagnosis)) if part)
+    return " ".join(part for part in (text, _describe_disturbance(diagnosis)) if part)
 
 
-def describe_disturbance(diagnosis: Diagnosis) -> str:
+def _describe_disturbance(diagnosis: Diagnosis) -> str:
     """Say how strong the random torque is that nothing predicts, with standard errors; empty where there is none."""
     found = diagnosis.disturbance
     if found is None:
@@ -104,7 +98,7 @@ def describe_disturbance(diagnosis: Diagnosis) -> str:
     return f"The rest is random: a torque of {strength}, correlated over {time}."
 
 
-def describe_structure(diagnosis: Diagnosis) -> str:
+def _describe_structure(diagnosis: Diagnosis) -> str:
     """Say which variable predicts most of what is left; empty where none does."""
     certain = [one for one in diagnosis.structure if one.certain]
     if not certain:
@@ -122,15 +116,18 @@ def _describe_untestable(diagnosis: Diagnosis) -> str:
 def _unexplained(diagnosis: Diagnosis) -> str:
     worst = capitalize(describe_error(diagnosis.after, diagnosis.slot_share))
     torque = describe_torque(estimate_missing_torque(diagnosis.after))
-    rest = " ".join(part for part in (describe_structure(diagnosis), f"{worst}.", torque, UNMODELLED) if part)
+    rest = " ".join(part for part in (_describe_structure(diagnosis), f"{worst}.", torque, UNMODELLED) if part)
     if diagnosis.findings:
-        found = f"{_describe_findings(diagnosis)} {capitalize(describe_gap_reduction(diagnosis))}."
+        found = f"{_describe_findings(diagnosis)} {capitalize(_describe_gap_reduction(diagnosis))}."
         return f"{found} Another effect, which is not in the table, is missing. {rest}"
-    parts = [f"An effect that is not in the table is missing: {_describe_gap(diagnosis)}.", describe_nearest(diagnosis)]
+    parts = [
+        f"An effect that is not in the table is missing: {_describe_gap(diagnosis)}.",
+        _describe_nearest(diagnosis),
+    ]
     return " ".join(part for part in (*parts, rest) if part)
 
 
-def describe_nearest(diagnosis: Diagnosis) -> str:
+def _describe_nearest(diagnosis: Diagnosis) -> str:
     """Say which effects come nearest where nothing of the table explains what is missing; empty where none does."""
     nearest = diagnosis.nearest
     if nearest is None:
@@ -167,14 +164,14 @@ def _describe_undetermined(diagnosis: Diagnosis) -> str:
 
 def _undecided(diagnosis: Diagnosis) -> str:
     if diagnosis.findings:
-        parts = [_describe_findings(diagnosis), f"{capitalize(describe_gap_reduction(diagnosis))}."]
+        parts = [_describe_findings(diagnosis), f"{capitalize(_describe_gap_reduction(diagnosis))}."]
     elif not diagnosis.after.counted.any():
         parts = [TOO_SHORT]
     elif diagnosis.time_limit:
         parts = [f"No effect was found until then: {_describe_gap(diagnosis)}."]
     elif diagnosis.undetermined:
         parts = [f"Something is missing that this recording does not determine: {_describe_gap(diagnosis)}."]
-    elif not diagnosis.after.confirms and not is_at_floor(diagnosis):
+    elif not diagnosis.after.confirms and not _is_at_floor(diagnosis):
         parts = [f"Something may be missing that one response does not tell: {_describe_gap(diagnosis)}."]
     else:
         parts = [f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."]
@@ -200,29 +197,3 @@ _SUMMARIES = {
     Verdict.UNEXPLAINED: _unexplained,
     Verdict.UNDECIDED: _undecided,
 }
-
-
-def format_diagnosis(diagnosis: Diagnosis) -> str:
-    """Write the gap effect by effect with parameters, then the evidence for each effect, for a terminal."""
-    rows = [("effect", "gap [rad/s]", "× floor", "parameters")]
-    rows.append((_format_model(diagnosis.baseline), *_format_gap(diagnosis, diagnosis.gap_before), ""))
-    for one in diagnosis.findings:
-        also = "".join(f" or {name}" for name in one.ambiguous_with)
-        rows.append((f"+ {one.effect}{also}", *_format_gap(diagnosis, one.gap_after), format_parameters(one)))
-    rows.append(("noise floor", *_format_gap(diagnosis, diagnosis.noise_floor), ""))
-    return "\n".join((align_columns(rows), *map(describe_evidence, diagnosis.findings)))
-
-
-def describe_evidence(finding: Finding) -> str:
-    """Say where the model without an effect was wrong."""
-    names = [effect_name(effect) for effect in (finding.effect, *finding.ambiguous_with)]
-    return f"Evidence for {join_names(names, 'or')}: {finding.where}"
-
-
-def _format_model(fit: Fit) -> str:
-    return "kv, ka" + "".join(f", {name}" for name in fit.parameters.effects)
-
-
-def _format_gap(diagnosis: Diagnosis, gap: float) -> tuple[str, str]:
-    floor = diagnosis.noise_floor
-    return f"{gap:.4g}", f"{gap / floor:.3g}" if floor > 0.0 else "–"

@@ -8,7 +8,8 @@ from math import log, sqrt
 import numpy as np
 
 from motor_identification.estimation.residual import compute_residuals
-from motor_identification.measurement.intervals import Intervals, exclude_intervals, join_intervals
+from motor_identification.measurement.edit_intervals import exclude_intervals, join_intervals
+from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.likelihood import Noise, log_likelihood
 from motor_identification.recording import Bools, Floats, Recording
 from motor_model.parameters import Parameters

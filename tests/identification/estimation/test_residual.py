@@ -7,7 +7,8 @@ from small import THETA, small_recording
 from motor_identification.estimation import residual
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.residual import Latest, compute_residuals
-from motor_identification.measurement.intervals import append_standstills, index_intervals
+from motor_identification.measurement.edit_intervals import append_standstills
+from motor_identification.measurement.intervals import index_intervals
 
 SLOT = 0.1  # [rad]
 

@@ -10,7 +10,6 @@ from recorded import as_counts
 
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.measurement.build_intervals import make_intervals
-from motor_identification.measurement.intervals import index_intervals, join_intervals, share_noise
 from motor_identification.measurement.sampled_counts import (
     UNIFORM_SIGMA,
     Fixes,
@@ -166,18 +165,3 @@ def test_counts_are_used_to_the_bound_of_what_they_say() -> None:
         off.append([fit.parameters.values[name] / BASE[name] - 1.0 for name in ("kv", "ka")])
     rms = np.sqrt(np.mean(np.square(off), axis=0))
     assert 2e-5 < rms[0] < 2e-4 and 5e-5 < rms[1] < 5e-4
-
-
-def test_noise_beside_counts_adds_up_in_joined_speeds_and_flanks_do_not() -> None:
-    """Of logged speeds each has it; of angles only those at the ends."""
-    time = np.arange(41.0)
-    speeds = index_intervals(time[:-1], time[1:], np.ones(40), np.full(40, 0.1), window=1.0, noise=0.1)
-    joined = join_intervals(speeds, 4.0)
-    assert len(joined.first) == 10 and (joined.window, joined.noise, joined.unit) == (1.0, 0.1, 0.1)
-    assert joined.floor_squared(0.3) == pytest.approx((2.0 * 0.1**2 + 4 * 2.0 * 0.3**2) / 4.0**2)
-    assert [one.noise for one in share_noise([speeds, replace(speeds, noise=0.4), speeds])] == [0.1, 0.1, 0.1]
-    white = [replace(speeds, independent=True, window=window, noise=0.3 * window) for window in (1.0, 1.0, 50.0)]
-    assert [one.noise for one in share_noise(white)] == pytest.approx([0.3, 0.3, 15.0])  # of speeds, not of angles
-    flanks = join_intervals(index_intervals(time[:-1], time[1:], np.ones(40), np.full(40, 0.1), slot=0.5), 4.0)
-    assert flanks.unit == 0.5 and share_noise([flanks])[0] is flanks
-    assert flanks.floor_squared(0.3) == pytest.approx(2.0 * (0.1**2 + 0.3**2) / 4.0**2)

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from motor_identification.measurement.intervals import Intervals, append_standstills, index_intervals
+from motor_identification.measurement.edit_intervals import append_standstills
+from motor_identification.measurement.intervals import Intervals, index_intervals
 from motor_identification.measurement.measured_angle import Track, find_row_step, make_track
 
 SLOT = 0.1  # [rad]

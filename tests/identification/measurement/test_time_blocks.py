@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from motor_identification.measurement.intervals import Intervals, exclude_intervals, index_intervals
+from motor_identification.measurement.edit_intervals import exclude_intervals
+from motor_identification.measurement.intervals import Intervals, index_intervals
 from motor_identification.measurement.time_blocks import LEAST_BLOCKS, USUAL_BLOCK, TimeBlocks
 
 PERIOD = 0.005  # [s]

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from handmade import SLOTS
 
-from motor_identification.measurement.intervals import Intervals, append_standstills, index_intervals
+from motor_identification.measurement.edit_intervals import append_standstills
+from motor_identification.measurement.intervals import Intervals, index_intervals
 from motor_identification.noise.likelihood import OUTLIER_CLIP, Noise, estimate_noise, log_likelihood, make_noise
 from motor_identification.recording import Floats
 

@@ -8,7 +8,7 @@ import pytest
 from diagnosed import fitted, held
 
 from motor_identification.diagnosis.candidate_fit import validate_model
-from motor_identification.measurement.intervals import exclude_intervals
+from motor_identification.measurement.edit_intervals import exclude_intervals
 from motor_identification.noise.likelihood import Noise, log_likelihood
 from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, HeldOut
 

@@ -6,7 +6,8 @@ from motor_identification.discrepancy.region_text import describe_region
 from motor_identification.discrepancy.residual_maps import map_residuals
 from motor_identification.discrepancy.worst_regions import find_worst_regions
 from motor_identification.reporting.curves import find_largest_change, make_held_out_curves
-from motor_identification.reporting.diagnosis_text import format_parameters, summarize_diagnosis
+from motor_identification.reporting.diagnosis_table import format_parameters
+from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 from motor_identification.reporting.html.charts import draw_map, draw_torque
 from motor_identification.reporting.html.limits import list_limits
 from motor_identification.reporting.html.next_steps import Files, list_diagnosis_steps

@@ -12,7 +12,7 @@ from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.estimation.whitened_fit import learn_encoders
 from motor_identification.identify import Request, SearchConfig, identify
-from motor_identification.measurement.intervals import join_intervals
+from motor_identification.measurement.edit_intervals import join_intervals
 from motor_identification.noise.angle_noise import AngleNoise, make_whitening, whiten
 from motor_identification.noise.encoder import Encoder
 from motor_identification.noise.slots.eigenmodes import STIFF

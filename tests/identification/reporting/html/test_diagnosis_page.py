@@ -14,7 +14,8 @@ import pytest
 
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.discrepancy.region_text import describe_error
-from motor_identification.reporting.diagnosis_text import format_diagnosis, summarize_diagnosis
+from motor_identification.reporting.diagnosis_table import format_diagnosis
+from motor_identification.reporting.diagnosis_text import summarize_diagnosis
 from motor_identification.reporting.html import write_report
 from motor_identification.reporting.html.diagnosis_page import render_diagnosis
 from motor_identification.reporting.html.next_steps import NO_FILES, Files
