@@ -9,23 +9,23 @@ that spreads with time and is cut where an edge comes, or none: between edges th
 edge it is at a flank (of which of its two sides, a single channel does not say). Where nothing is left, the likelihood
 of a healthy motor is 0. What such an observer does not know, nobody does; a stop before that would be a guess.
 
-The set is a polygon for each direction of the latest edge; the load is constant over a sample, flanks are within 5 % of
-a slot of where they should be, and of several edges in a sample the latest is looked at.
+The set is a polygon for each direction of the latest edge (`feasible_states.py`); the load is constant over a sample,
+flanks are within 5 % of a slot of where they should be, and of several edges in a sample the latest is looked at.
 
 Written to a page for every row of `faults.py` that is late.
 """
 
 import sys
 from dataclasses import dataclass
-from math import exp, inf
+from math import inf
 from pathlib import Path
 
 import numpy as np
 from faults_loop import Loop, outcome
-from faults_motor import BREAKAWAY, MOTORS, SLIDING, Motor
+from faults_motor import MOTORS, Motor
 from faults_rows import FAULTS, MOTION, Fault
+from feasible_states import Course, Healthy, Told, follow
 from machine import commit, machine
-from numpy.typing import NDArray
 
 from motor_model.sample import Sample
 
@@ -33,140 +33,6 @@ PAGE = Path(__file__).with_name("results") / "faults_knowable.md"
 RATE, AT_REFERENCE, AFTER = 200.0, 1.5, 3.0  # [Hz], [s]
 # Of the stall torque: what a load may take (one channel, two), and what one that comes while the motor turns is let be.
 LOADS = ((0.15, 0.6), (0.25, 0.6))
-OFF = 0.05  # of a slot: five times the disc's irregularity
-EPSILON = 1e-9
-Polygon = NDArray[np.float64]  # corners, of shape (n, 2): angle [slots] and speed [slots/s]; no corner: empty
-
-
-@dataclass(frozen=True)
-class Told:
-    """What a sample says, and what was true at the one before it."""
-
-    sample: Sample
-    dt: float  # [s] since the one before
-    edges: int  # since the one before; negative: backward, two channels
-    voltage: float  # [V] since the one before
-    after: float  # [s] of the latest edge, since the sample before
-
-
-@dataclass(frozen=True)
-class Healthy:
-    """A motor without a fault; speeds [slots/s], voltages as shares of the motor's."""
-
-    top: float
-    lag: float  # [s]
-    load: float  # at most
-    two_channels: bool
-
-    def step(self, polygon: Polygon, voltage: float, dt: float) -> Polygon:
-        """Spread a set of states over a time [s] at a voltage."""
-        if len(polygon) == 0 or dt <= 0.0:
-            return polygon
-        friction = self._friction(polygon)
-        low, high = voltage - friction[1] - self.load, voltage - friction[0] + self.load
-        kept = exp(-dt / self.lag)
-        glide = self.lag * (1.0 - kept)
-        angle, speed = polygon[:, 0], polygon[:, 1]
-        free = np.column_stack((angle + glide * speed, kept * speed))
-        push = np.array([dt - glide, 1.0 - kept]) * self.top
-        return hull(np.vstack((free + low * push, free + high * push)))
-
-    def _friction(self, polygon: Polygon) -> tuple[float, float]:
-        """What friction may take, forward."""
-        if polygon[:, 1].min() > 0.0:
-            return SLIDING, BREAKAWAY
-        return (-BREAKAWAY, -SLIDING) if polygon[:, 1].max() < 0.0 else (-BREAKAWAY, BREAKAWAY)
-
-
-def hull(points: Polygon) -> Polygon:
-    """Corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
-    points = points[np.lexsort((points[:, 1], points[:, 0]))]
-    if len(points) < 3:
-        return points
-    chains = []
-    for ordered in (points.tolist(), points[::-1].tolist()):
-        chain: list[list[float]] = []
-        for x, y in ordered:
-            while len(chain) > 1:
-                (ax, ay), (bx, by) = chain[-2], chain[-1]
-                if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > EPSILON:
-                    break
-                chain.pop()
-            chain.append([x, y])
-        chains += chain[:-1]
-    return np.array(chains)
-
-
-def clip(polygon: Polygon, column: int, bound: float, above: bool) -> Polygon:
-    """Cut off what is below a bound of a column, or above it."""
-    if len(polygon) == 0:
-        return polygon
-    inside = (polygon[:, column] - bound) * (1.0 if above else -1.0)
-    kept = []
-    for k in range(len(polygon)):
-        here, before = inside[k], inside[k - 1]
-        if here * before < 0.0:
-            share = before / (before - here)
-            kept.append(polygon[k - 1] + share * (polygon[k] - polygon[k - 1]))
-        if here >= 0.0:
-            kept.append(polygon[k])
-    return np.array(kept) if kept else np.empty((0, 2))
-
-
-@dataclass(frozen=True)
-class Course:
-    """What is left of motions whose latest edge was passed one way: angles and speeds are counted that way, from it."""
-
-    way: int
-    states: Polygon
-
-
-def stay(course: Course, two_channels: bool) -> Course:
-    """Keep what shows no edge: up to the next flank, or back to where the other polarity's is."""
-    back = 0.0 if two_channels else -0.5
-    return Course(course.way, clip(clip(course.states, 0, back - OFF, True), 0, 1.0 + OFF, False))
-
-
-def cross(courses: list[Course], count: int, two_channels: bool, direction: int) -> list[Course]:
-    """Keep what is at a flank after so many edges [one way]; direction: measured by two channels, else 0."""
-    found: dict[int, list[Polygon]] = {1: [], -1: []}
-    for course in courses:
-        on, turns = course.way, [(0.5, 0.0), (0.0, 0.5)] if two_channels else [(0.5, 0.0), (-0.5, 0.0)]
-        if direction in (0, on):
-            found[on].append(cut(course.states, float(count), True) - np.array([float(count), 0.0]))
-        if direction in (0, -on):
-            for at, then in turns:
-                end = cut(course.states, at - (count - 1), False)
-                end[:, 0] = then + (at - (count - 1)) - end[:, 0]
-                end[:, 1] = -end[:, 1]
-                found[-on].append(end)
-        if count > 1 and len(course.states) and course.states[:, 1].min() < 0.0:  # it may have turned in between
-            for way in (1, -1):
-                fastest = float(np.abs(course.states[:, 1]).max())
-                found[way].append(np.array([[a, v] for a in (-0.5, 1.0) for v in (-fastest, fastest)]))
-    return [Course(way, hull(np.vstack(some))) for way, some in found.items() if any(len(one) for one in some)]
-
-
-def cut(states: Polygon, at: float, onward: bool) -> Polygon:
-    """Cut out what is at an angle, moving onward or back."""
-    end = clip(states, 1, 0.0, onward)
-    return clip(clip(end, 0, at - OFF, True), 0, at + OFF, False).reshape(-1, 2).copy()
-
-
-def move(motor: Healthy, courses: list[Course], voltage: float, dt: float) -> list[Course]:
-    """Let time [s] pass under a voltage."""
-    return [Course(one.way, motor.step(one.states, one.way * voltage, dt)) for one in courses]
-
-
-def follow(motor: Healthy, courses: list[Course], told: Told) -> list[Course]:
-    """Follow one sample: of its edges the latest has a stamp."""
-    time, count = 0.0, abs(told.edges)
-    if count:
-        time = told.after
-        direction = (1 if told.edges > 0 else -1) if motor.two_channels else 0
-        courses = cross(move(motor, courses, told.voltage, time), count, motor.two_channels, direction)
-    after = [stay(one, motor.two_channels) for one in move(motor, courses, told.voltage, told.dt - time)]
-    return [one for one in after if len(one.states)]
 
 
 @dataclass
@@ -202,10 +68,8 @@ def knowable(recorder: Recorder, load: float) -> float:
     courses = [Course(way, np.array([[0.0, known], [1.0, known]]))]  # where in its slot, it does not know
     begin = before.sample_time
     for sample, _ in recorder.told[1:]:
-        dt, after = (
-            (sample.sample_time - before.sample_time) * 1e-9,
-            (sample.edge_time - before.sample_time) * 1e-9,
-        )
+        dt = (sample.sample_time - before.sample_time) * 1e-9
+        after = (sample.edge_time - before.sample_time) * 1e-9
         edges = sample.edge_count - before.edge_count
         share = before.voltage / loop.motor.voltage
         courses = follow(motor, courses, Told(sample, dt, edges, share, min(max(after, 0.0), dt)))

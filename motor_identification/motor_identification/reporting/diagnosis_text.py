@@ -120,11 +120,8 @@ def _unexplained(diagnosis: Diagnosis) -> str:
     if diagnosis.findings:
         found = f"{_describe_findings(diagnosis)} {capitalize(_describe_gap_reduction(diagnosis))}."
         return f"{found} Another effect, which is not in the table, is missing. {rest}"
-    parts = [
-        f"An effect that is not in the table is missing: {_describe_gap(diagnosis)}.",
-        _describe_nearest(diagnosis),
-    ]
-    return " ".join(part for part in (*parts, rest) if part)
+    text = f"An effect that is not in the table is missing: {_describe_gap(diagnosis)}."
+    return " ".join(part for part in (text, _describe_nearest(diagnosis), rest) if part)
 
 
 def _describe_nearest(diagnosis: Diagnosis) -> str:
@@ -182,7 +179,7 @@ def _undecided(diagnosis: Diagnosis) -> str:
     if diagnosis.undetermined:
         parts.append(_describe_undetermined(diagnosis))
     if diagnosis.undetectable and not any(one.ambiguous_with for one in diagnosis.findings):
-        parts.append(f"This recording could not show {join_effects(diagnosis.undetectable)}.")
+        parts.append(_describe_untestable(diagnosis))
     return " ".join(parts)
 
 
