@@ -19,6 +19,8 @@ Floats = NDArray[np.float64]
 INTEGRAL = 0.9  # correlation of a position's steps with its speed, both over some rows, as one row is coarse
 PARTS, FEWEST_PARTS = 40, 5  # of a log, over which they are compared
 
+ANSWERS, UNANSWERED = 0.6, 0.2  # share of what moves that a drive explains, and of a drive that what moves does
+FEWEST_STEPS = 50  # of two columns that tell it
 FEWEST_OWN = 10  # changes of a velocity while its drive stays, from which on it is no voltage
 FIRST_ROWS = 6.0  # sample periods after 0, within which a run's clock began with its voltage
 FIRST_VALUES = 3  # of a run, that tell whether the motor turned already
@@ -35,6 +37,28 @@ def find_position(table: Table, names: Sequence[str], time: str | None) -> str:
     pairs = {(one, other): _agreement(table, one, other, steps) for one, other in permutations(names, 2)}
     best = max(pairs, key=lambda pair: pairs[pair])
     return best[0] if pairs[best] > INTEGRAL else ""
+
+
+def follows(table: Table, motion: str, drive: str) -> bool:
+    """Whether one column moves as another drives it, by a first-order motor, and not the other way round."""
+    moves, drives_it = table.numbers(motion), table.numbers(drive)
+    if len(moves) < FEWEST_STEPS:
+        return False
+    return _explained(moves, drives_it) > ANSWERS and _explained(drives_it, moves) < UNANSWERED
+
+
+def _explained(values: Floats, by: Floats) -> float:
+    """The share of a column's steps that its values and another one's before and after each of them explain."""
+    with np.errstate(over="ignore", invalid="ignore"):  # a column of anything
+        steps = np.diff(values)
+    size = float(np.max(np.abs(steps), initial=0.0))
+    if not 0.0 < size < np.inf:
+        return 0.0
+    scaled = [column / max(float(np.max(np.abs(column))), 1e-300) for column in (values[:-1], by[:-1], by[1:])]
+    known = np.column_stack([*scaled, np.ones(len(steps))])
+    rest = steps / size - known @ np.linalg.lstsq(known, steps / size, rcond=None)[0]
+    variance = float(np.var(steps / size))
+    return 1.0 - float(np.var(rest)) / variance if variance > 0.0 else 0.0
 
 
 def _agreement(table: Table, position: str, speed: str, steps: Floats) -> float:

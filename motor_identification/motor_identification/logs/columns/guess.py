@@ -36,11 +36,7 @@ def guess_forms(table: Table, said: Said) -> Guess:
         notes.findings.append(
             f"Left out, as no column drives them: {', '.join(roles.left_out)} (otherwise: --motor NAME:DRIVE,MOTION)."
         )
-    if roles.of_another:
-        notes.findings.append(
-            f"Left out: {roles.of_another}, which is not the angle of what turns with {roles.pairs[0].motion}, and "
-            f"does not follow {roles.pairs[0].voltage} (otherwise: --position {roles.of_another})."
-        )
+    notes.findings.extend(roles.findings)
     rows = _rows(table, roles, said, notes)
     forms = [make_form(table, pair, roles, said, rows, notes) for pair in roles.pairs]
     if notes.questions:

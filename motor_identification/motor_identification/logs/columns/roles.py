@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.behaviour import (
     ends_of_a_loop,
     find_position,
+    follows,
     numbered_motors,
     present_values,
     speeds_called_v,
@@ -20,12 +21,14 @@ from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_m
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.speed_beside import find_driven_speed
 from motor_identification.logs.columns.vocabulary import FILTERED, MEASURED, MOVES, UNITS, Quantity
+from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.constant_voltage import CONSTANT
 from motor_model.errors import RecordingError
 
 Floats = NDArray[np.float64]
 
+SAME_CLOCK = 0.9999  # correlation of two columns of times
 FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
 _BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
 
@@ -39,7 +42,7 @@ class Roles:
     supply: str | None
     current: str | None
     left_out: tuple[str, ...] = ()  # motions that nothing drives, beside motors that something does
-    of_another: str = ""  # a position that is not of the motor whose speed is read
+    findings: tuple[str, ...] = ()  # what was found of them by their numbers
 
 
 def find_roles(table: Table, said: Said) -> Roles:
@@ -52,16 +55,19 @@ def find_roles(table: Table, said: Said) -> Roles:
     time = said.time or (None if said.steady else _time_of(table, headings))
     if said.time:
         table.column(said.time)
-    free = ends_of_a_loop([heading for heading in headings if heading.name not in (time, said.supply)])
+    others = [heading for heading in headings if heading.name not in (time, said.supply)]
+    free = ends_of_a_loop(
+        [one for one in others if one.quantity is not None or not _is_clock_of(table, one.name, time)]
+    )
     free = numbered_motors(speeds_called_v(table, present_values(free)))
     free, undriven = ([*free], ()) if said.motors or said.motion or said.voltage else _driven_sides(free)
     pairs = said.motors or _pairs(table, free, said, time)
-    pairs, of_another = _of_one_shaft(table, pairs, free, said, time)
+    pairs, findings = _of_one_shaft(table, pairs, free, said, time)
     supply = said.supply or _supply_of(table, free, pairs)
     named = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs} | {supply}
     currents = [one.name for one in free if one.quantity is Quantity.CURRENT and one.name not in named]
     return Roles(
-        time, pairs, supply, currents[0] if len(currents) == 1 and len(pairs) == 1 else None, undriven, of_another
+        time, pairs, supply, currents[0] if len(currents) == 1 and len(pairs) == 1 else None, undriven, findings
     )
 
 
@@ -85,6 +91,16 @@ def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
     if named:
         return named[0]
     return find_clock({heading.name: table.numbers(heading.name) for heading in headings if heading.quantity is None})
+
+
+def _is_clock_of(table: Table, name: str, time: str | None) -> bool:
+    """Whether a column is another clock's times of the same rows, as where each channel has an X of its own."""
+    if time is None:
+        return False
+    values, times = table.numbers(name), read_clock(table, time)
+    if len(times) != len(values) or not runs_forward(values) or np.ptp(times) <= 0.0:
+        return False
+    return correlate(values, times) > SAME_CLOCK and bool(abs(np.ptp(values) / np.ptp(times) - 1.0) < 0.01)
 
 
 def _driven_sides(headings: Sequence[Heading]) -> tuple[list[Heading], tuple[str, ...]]:
@@ -128,13 +144,23 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
 
 def _of_one_shaft(
     table: Table, pairs: tuple[Pair, ...], headings: Sequence[Heading], said: Said, time: str | None
-) -> tuple[tuple[Pair, ...], str]:
-    """The motor with its speed instead of a position that is not its own, and that position's name."""
-    if said.motion or said.motors or said.unit or len(pairs) != 1:
-        return pairs, ""
+) -> tuple[tuple[Pair, ...], tuple[str, ...]]:
+    """The motor with its speed instead of a position that is not its own, and what is said of columns without names."""
+    if said.motion or said.motors or len(pairs) != 1:
+        return pairs, ()
     (pair,) = pairs
-    speed = find_driven_speed(table, pair, headings, time)
-    return ((replace(pair, motion=speed),), pair.motion) if speed else (pairs, "")
+    named = {one.name for one in headings if one.quantity is not None}
+    if not said.voltage and not {pair.voltage, pair.motion} & named and follows(table, pair.motion, pair.voltage):
+        return pairs, (
+            f"{pair.voltage} drives and {pair.motion} moves, as that follows it (assumed; otherwise: --voltage).",
+        )
+    speed = "" if said.unit else find_driven_speed(table, pair, headings, time)
+    if not speed:
+        return pairs, ()
+    return (replace(pair, motion=speed),), (
+        f"Left out: {pair.motion}, which is not the angle of what turns with {speed}, and does not follow "
+        f"{pair.voltage} (otherwise: --position {pair.motion}).",
+    )
 
 
 def _by_behaviour(table: Table, headings: Sequence[Heading], time: str | None) -> Pair:
@@ -145,6 +171,9 @@ def _by_behaviour(table: Table, headings: Sequence[Heading], time: str | None) -
     fewest = min((changes[name] for name in others), default=0)
     position = (find_position(table, others, time) if len(others) == 2 else others[0]) if len(others) in (1, 2) else ""
     if not position or fewest < max(2 * changes[drive] + 1, FEWEST_CHANGES):
+        for one, other in ((drive, *others), (*others, drive)) if len(others) == 1 else ():
+            if follows(table, other, one):
+                return Pair("", one, other)
         still = [one.name for one in headings if one.quantity is None and not np.any(table.numbers(one.name))]
         if still and len(unnamed) == 1:
             raise miss_motion(table, still[0], unnamed[0])

@@ -11,6 +11,8 @@ from motor_identification.logs.csv.reader import read_table, table_of
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.json_lines import are_json_lines, read_json_lines
 from motor_identification.logs.formats.json_table import is_document, may_be_document, read_json_table
+from motor_identification.logs.formats.lvm import LETTERS as LABVIEW
+from motor_identification.logs.formats.lvm import read_lvm
 from motor_identification.logs.formats.mat_version_4 import is_version_4
 from motor_identification.logs.formats.matlab import read_matlab
 from motor_identification.logs.formats.sysid import is_sysid, read_sysid
@@ -70,6 +72,8 @@ def _read_other(path: Path, head: bytes) -> Source:
         return Source(read_matlab(path), "MATLAB 5 file")
     if is_version_4(head):
         return Source(read_matlab(path), "MATLAB 4 file")
+    if head.startswith(LABVIEW):
+        return Source(read_lvm(path), "file of LabVIEW (LVM)")
     if head.startswith(LETTERS):
         log = read_wpilog(path)
         return Source(log.table, "WPILOG", Said(split=log.split, motors=log.motors))
