@@ -14,7 +14,7 @@ def drop_held_counts(recording: Recording) -> Recording:
     Only the first row stays besides, since times count from it. A voltage may change within a frame: for commands take
     the recording as it was.
     """
-    frames = find_frames(recording.time, recording.edge_count.astype(np.float64))
+    frames = find_frames(recording.time, recording.edge_count.astype(np.float64), position=True)
     if frames is None:
         return recording
     later = frames.time > 0.5e-9  # of the first row

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from motor_identification.recording import Floats, Integers
-from motor_identification.sensor.slipping_frames import find_slipping_frames
+from motor_identification.sensor.own_clock import lay_own_clock
+from motor_identification.sensor.slipping_frames import add_standstill, find_slipping_frames
 
 QUANTILES = (0.05, 0.25, 0.5)  # of the times between changes: one of them is a frame, the longer ones skip some
 EARLY = 0.12  # share of changes that may come after less than LEAST_GAP of a frame: rows are late now and then
@@ -31,8 +32,11 @@ class Frames:
     period: float  # [s]
 
 
-def find_frames(time: Floats, values: Floats) -> Frames | None:
-    """Find the frames of held values (K,) at times (K,) [s]; None where every row has a value of its own."""
+def find_frames(time: Floats, values: Floats, position: bool = False) -> Frames | None:
+    """Find the frames of held values (K,) at times (K,) [s]; None where every row has a value of its own.
+
+    position: whether the values are positions.
+    """
     changed = np.flatnonzero(np.diff(values)) + 1
     if len(changed) < 2:
         return None
@@ -41,12 +45,27 @@ def find_frames(time: Floats, values: Floats) -> Frames | None:
     for guess in np.unique(np.quantile(gaps, QUANTILES, method="lower")):
         if guess > LEAST_ROWS * row and np.mean(gaps < LEAST_GAP * guess) <= EARLY:
             grid = _fit_grid(seen, float(np.mean(gaps[np.abs(gaps - guess) < 1.5 * row])), row)
-            if grid is not None:
-                return _make_frames(time, *grid, row)
-            slipping = find_slipping_frames(time, values, changed, float(guess))
-            if slipping is not None:
-                return Frames(*slipping)
+            slipping = None if grid else find_slipping_frames(time, values, changed, float(guess))
+            if grid is None and slipping is None:
+                continue
+            if position and (own := _find_own_clock(time, values, changed, float(guess), grid)):
+                return own
+            return _make_frames(time, *grid, row) if grid else Frames(*slipping) if slipping else None
     return None
+
+
+def _find_own_clock(
+    time: Floats, positions: Floats, changed: Integers, guess: float, grid: tuple[float, float] | None
+) -> Frames | None:
+    """Find frames by the sensor's clock that ways tell; None where they tell none, or the grid is as good."""
+    even = time[:0]
+    if grid is not None:
+        period, begin = grid
+        even = begin + period * np.rint((time[changed] - begin) / period)
+        if np.any(np.diff(even) <= 0.0):
+            even = time[:0]
+    own = lay_own_clock(time, positions, changed, guess, even)
+    return Frames(*add_standstill(time, *own)) if own else None
 
 
 def _fit_grid(seen: Floats, guess: float, row: float) -> tuple[float, float] | None:

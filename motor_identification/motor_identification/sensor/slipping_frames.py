@@ -49,7 +49,7 @@ def find_slipping_frames(
     changed, made, number = changed[forward], made[forward], number[forward]
     kept = ~mark_late_frames(made, values[changed])
     rows, made, number = changed[kept], made[kept], number[kept]
-    return _with_standstill(time, rows, made, number, period)
+    return add_standstill(time, rows, made, number, period)
 
 
 def mark_late_frames(made: Floats, values: Floats) -> Bools:
@@ -69,10 +69,10 @@ def mark_late_frames(made: Floats, values: Floats) -> Bools:
     return late
 
 
-def _with_standstill(
+def add_standstill(
     time: Floats, rows: Integers, made: Floats, number: Floats, period: float
 ) -> tuple[Integers, Floats, float]:
-    """Frames with those of a standing motor between them, before the first and after the last."""
+    """Add the frames of a standing motor to those (F,) with their numbers: between, before and after them."""
     first = number[0] - np.floor((made[0] - time[0]) / period)
     last = number[-1] + np.floor((time[-1] - made[-1]) / period)
     every = np.arange(first, last + 1.0)
