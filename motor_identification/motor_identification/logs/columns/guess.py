@@ -15,6 +15,8 @@ from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import TIME_UNITS, CsvForm, time_unit_size
 from motor_model.errors import RecordingError
 
+SHORTEST = 1e-6  # [s] between rows: what a unit makes shorter is in another one
+
 
 @dataclass(frozen=True)
 class Guess:
@@ -78,6 +80,9 @@ def _time_unit(table: Table, column: str, said: Said) -> tuple[str, str]:
     except RecordingError:  # times of day, or garbage, which is told with its line
         return heading.unit if heading.unit in TIME_UNITS else "s", ""
     if heading.unit in TIME_UNITS:
+        if row_period(values) * TIME_UNITS[heading.unit] < SHORTEST * 1e9:  # as where a program divides by 10⁶
+            unit, why = guess_time_unit(values)
+            return unit, f" (whatever its name says: {why}; otherwise: --time-unit)"
         seconds = heading.unit == "ms" and since_1970(values) == "s" and bool(np.any(values % 1.0))
         return (
             ("s", " (whatever its name says: they count from 1970 in s; otherwise: --time-unit)")

@@ -91,3 +91,19 @@ def test_rows_far_apart_with_a_voltage_each_are_steady_states(tmp_path: Path, pe
     rows = [f"{period * k + 0.001:.4f},{k % 7 + 1},{10 * (k % 7)}" for k in range(40)]
     (tmp_path / "log.csv").write_text("\n".join(["t [s],u,speed [rpm]", *rows]))
     assert (guess_forms(read_table(tmp_path / "log.csv"), Said()).forms[0].time is None) == steady
+
+
+@pytest.mark.parametrize(
+    ("name", "step", "unit"),
+    [("time_us", 5e-4, "s"), ("time_us", 1000.0, "us"), ("t_ms", 9e-4, "s"), ("t_ms", 0.01, "ms")],
+)
+def test_times_called_microseconds_that_are_seconds(name: str, step: float, unit: str, tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    rows = [f"{step * k:.6f},{0 if k < 50 else 160},{max(k - 60, 0) / 7:.5f}" for k in range(200)]
+    path.write_text("\n".join([f"{name},pwm,w", *rows]))
+    made = guess_forms(read_table(path), Said(supply_voltage=8.0, unit="rad/s"))
+    assert made.forms[0].time_unit == unit
+    said = (
+        f"Time: {name} in s (whatever its name says: rows are then {1e3 * step:.4g} ms apart; otherwise: --time-unit)."
+    )
+    assert (said in made.findings) == (unit == "s")
