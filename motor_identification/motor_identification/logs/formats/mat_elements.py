@@ -1,8 +1,8 @@
 """Read the real numbers of a MATLAB 5 to 7 file, as its "MAT-File Format" says: tags, sizes, matrices, structs.
 
 SciPy's reader, compiled, is ended by the operating system where a damaged file names a type of numbers that there is
-not: every type, size and dimension is checked here before anything is read by it. What holds no real numbers (texts,
-cells of several, sparse matrices, objects) is left out.
+not: every type, size and dimension is checked here before anything is read by it. What holds no real numbers (long
+texts, cells of several, sparse matrices, objects) is left out.
 """
 
 from __future__ import annotations
@@ -22,13 +22,14 @@ from motor_model.errors import MotorError
 HEADER = 128  # bytes
 MATRIX, COMPRESSED = 14, 15
 TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8"}
-CELL, STRUCT, NUMERIC = 1, 2, range(6, 16)  # beyond: objects, whose elements are in another order
+CELL, STRUCT, TEXT, NUMERIC = 1, 2, 4, range(6, 16)  # beyond: objects, whose elements are in another order
 COMPLEX = 0x0800  # in the flags
 DEEPEST, MOST_FIELDS, MOST_DIMENSIONS = 6, 1000, 32
+MOST_ALIKE, LONGEST_TEXT = 64, 100  # structs in one variable, and characters of a label
 MOST_BYTES = 2**29  # unpacked, of all
 MOST_NUMBERS = 64_000_000  # of all, since each becomes a float64, though it may be packed as a byte: 512 MB
 MOST_ELEMENTS = 20_000  # variables and fields of all
-Value: TypeAlias = "NDArray[Any] | dict[str, Value]"
+Value: TypeAlias = "NDArray[Any] | str | dict[str, Value]"
 
 
 class BrokenFileError(MotorError):
@@ -69,7 +70,7 @@ class _Tally:
 
 
 def read_variables(data: bytes) -> dict[str, Value]:
-    """Read matrices of shape (rows, columns) by name, and structs of one element as dictionaries of such.
+    """Read matrices of shape (rows, columns) by name, structs as dictionaries of such, several of them by 1, 2, ….
 
     Raises:
         BrokenFileError: a tag, a size, a type or a dimension cannot be.
@@ -132,14 +133,17 @@ def _matrix(data: memoryview, tally: _Tally, depth: int) -> tuple[str, Value | N
         return "", None
     flags = unpack_from(tally.order + "I", head[0].data)[0]
     kind = flags & 0xFF
-    if kind >= NUMERIC.stop:
+    if kind >= NUMERIC.stop or (kind == TEXT and depth == 0):
         return "", None
     shape = _shape(head[1].data, tally.order)
     name = bytes(head[2].data).decode("latin-1")
     if kind in NUMERIC and not flags & COMPLEX and len(shape) == 2:
         return name, _numbers(next(parts, None), shape, tally)
-    if kind == STRUCT and prod(shape) == 1 and depth < DEEPEST:
-        return name, _fields(parts, tally, depth)
+    if kind == STRUCT and 1 <= prod(shape) <= MOST_ALIKE and depth < DEEPEST:
+        alike = _structs(parts, prod(shape), tally, depth)
+        return name, alike[0] if len(alike) == 1 else {str(k): one for k, one in enumerate(alike, start=1)}
+    if kind == TEXT and len(shape) == 2 and shape[0] == 1 and 0 < shape[1] <= LONGEST_TEXT:
+        return name, _text(next(parts, None))
     if kind == CELL and prod(shape) == 1 and depth < DEEPEST:
         inner = next(parts, None)
         return name, _matrix(inner.data, tally, depth + 1)[1] if inner is not None and inner.type == MATRIX else None
@@ -166,17 +170,26 @@ def _numbers(part: Element | None, shape: tuple[int, ...], tally: _Tally) -> NDA
     return np.frombuffer(part.data, kind).reshape(shape, order="F")
 
 
-def _fields(parts: Iterator[Element], tally: _Tally, depth: int) -> dict[str, Value]:
+def _text(part: Element | None) -> str | None:
+    """One line of characters, in whichever code MATLAB wrote them."""
+    codes = {2: "latin-1", 4: "utf-16-le", 16: "utf-8", 17: "utf-16-le"}
+    return None if part is None or part.type not in codes else bytes(part.data).decode(codes[part.type], "replace")
+
+
+def _structs(parts: Iterator[Element], count: int, tally: _Tally, depth: int) -> list[dict[str, Value]]:
     sizes, names = next(parts, None), next(parts, None)
     if sizes is None or names is None or len(sizes.data) < 4:
         raise BrokenFileError("a struct has no fields")
     length = unpack_from(tally.order + "i", sizes.data)[0]
     if not 0 < length <= 256 or len(names.data) // length > MOST_FIELDS:
         raise BrokenFileError("a struct's fields cannot be")
-    found: dict[str, Value] = {}
+    alike: list[dict[str, Value]] = []
     texts = bytes(names.data)
-    for begin, part in zip(range(0, len(texts), length), parts, strict=False):
-        value = _matrix(part.data, tally, depth + 1)[1] if part.type == MATRIX else None
-        if value is not None:
-            found[texts[begin : begin + length].split(b"\0")[0].decode("latin-1")] = value
-    return found
+    for _ in range(count):
+        found: dict[str, Value] = {}
+        for begin, part in zip(range(0, len(texts), length), parts, strict=False):
+            value = _matrix(part.data, tally, depth + 1)[1] if part.type == MATRIX else None
+            if value is not None:
+                found[texts[begin : begin + length].split(b"\0")[0].decode("latin-1")] = value
+        alike.append(found)
+    return alike

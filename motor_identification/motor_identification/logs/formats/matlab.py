@@ -74,7 +74,13 @@ def _share_clock(vectors: dict[str, Any]) -> dict[str, Any]:
 
 def _collect(name: str, value: Value, vectors: dict[str, Any]) -> None:
     """Put the vectors in a value into `vectors`."""
+    if isinstance(value, str):
+        return
     if isinstance(value, dict):
+        label = value.get("label")
+        if isinstance(label, str) and label.strip() and isinstance(one := value.get("values"), np.ndarray):
+            _collect(label.strip() if label.strip() not in vectors else f"{name} {label.strip()}", one, vectors)
+            return
         for inner, one in value.items():
             _collect(f"{name}.{inner}", one, vectors)
     elif 1 in value.shape:

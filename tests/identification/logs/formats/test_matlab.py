@@ -102,3 +102,22 @@ def test_a_sampling_period_beside_the_vectors_is_kept(tmp_path: Path) -> None:
     savemat(tmp_path / "log.mat", {"u": TIME * 3, "y": TIME * 5, "Ts": 0.005, "gain": 3.0})
     table = read_matlab(tmp_path / "log.mat")
     assert sorted(table.names) == ["Ts", "u", "y"] and table.numbers("Ts").tolist() == [0.005] * 50
+
+
+@pytest.mark.parametrize(
+    ("labels", "names"),
+    [
+        (("Voltage", "Motor speed"), ["ScopeData.time", "Voltage", "Motor speed"]),
+        (("", ""), ["ScopeData.time", "ScopeData.signals.1.values", "ScopeData.signals.2.values"]),
+        (("u", "u"), ["ScopeData.time", "u", "ScopeData.signals.2 u"]),
+    ],
+)
+def test_the_signals_of_a_scope(tmp_path: Path, labels: tuple[str, str], names: list[str]) -> None:
+    """As Simulink's scopes and "To Workspace" save "structures with time": a struct for each signal, with its label."""
+    signals = np.zeros((1, 2), dtype=[("values", object), ("dimensions", object), ("label", object)])
+    for k, label in enumerate(labels):
+        signals[0, k] = (TIME[:, None] * (k + 2), 1.0, label)
+    savemat(tmp_path / "log.mat", {"ScopeData": {"time": TIME[:, None], "signals": signals, "blockName": "rig/Scope"}})
+    table = read_matlab(tmp_path / "log.mat")
+    assert table.names == names
+    assert [float(table.numbers(name)[-1] / TIME[-1]) for name in names] == pytest.approx([1.0, 2.0, 3.0])
