@@ -137,9 +137,20 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
     rest = [one for one in headings if one.name not in (motion, voltage)]
     if not voltage and not motion and not any(map(drives, rest)) and not any(one.quantity in MOVES for one in rest):
         return _by_behaviour(table, rest, time)
+    if not voltage and not motion and (channels := _two_channels(table, rest)):
+        return channels
     motion = motion or _moving(table, rest, "", time, said.unit)
     voltage = voltage or _driving(table, [one for one in rest if one.name != motion], "", ("",))
     return Pair("", voltage, motion)
+
+
+def _two_channels(table: Table, headings: Sequence[Heading]) -> Pair | None:
+    """Of two voltages, as an oscilloscope records them, the drive and the tachogenerator's that follows it."""
+    volts = [one.name for one in headings if one.quantity is Quantity.VOLTAGE]
+    others = [one for one in headings if one.quantity in MOVES or one.quantity in (None, Quantity.DUTY)]
+    if len(volts) != 2 or others:
+        return None
+    return next((Pair("", one, other) for one, other in (volts, volts[::-1]) if follows(table, other, one)), None)
 
 
 def _of_one_shaft(
@@ -149,8 +160,9 @@ def _of_one_shaft(
     if said.motion or said.motors or len(pairs) != 1:
         return pairs, ()
     (pair,) = pairs
-    named = {one.name for one in headings if one.quantity is not None}
-    if not said.voltage and not {pair.voltage, pair.motion} & named and follows(table, pair.motion, pair.voltage):
+    kinds = {one.quantity for one in headings if one.name in (pair.voltage, pair.motion)}
+    alike = kinds in ({None}, {Quantity.VOLTAGE})
+    if alike and not said.voltage and follows(table, pair.motion, pair.voltage):
         return pairs, (
             f"{pair.voltage} drives and {pair.motion} moves, as that follows it (assumed; otherwise: --voltage).",
         )
@@ -213,7 +225,8 @@ def _moving(
         raise miss_motion(table, still[0])
     if len(unnamed) > 1:
         raise ask_motion(table, headings, None, unnamed)
-    raise ask_column(table, "motion", "--speed, --position or --count", table.names)
+    names = [name for name in table.names if name != time] or table.names
+    raise ask_column(table, "motion", "--speed, --position or --count", names)
 
 
 def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple[str, ...]) -> str:

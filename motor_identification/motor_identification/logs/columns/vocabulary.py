@@ -60,8 +60,9 @@ WORDS: dict[Quantity, frozenset[str]] = {
         "alimentation alimentación alimentacion alimentação alimentazione zasilanie napájení besleme 供电 电源 電源"
     ),
     Quantity.TIME: _row(
-        "t time times timp waktu 시간 timestamp stamp tiempo zeit temps tps date tempo tid clock elapsed seconds secs "
-        "sec millis micros nanos milliseconds microseconds ms us ns tijd czas čas cas idő zaman время 时间 時間"
+        "t time times timp waktu 시간 timestamp stamp tiempo zeit temps tps date tempo tid clock elapsed second "
+        "seconds secs sec sekunde sekunden segundo segundos seconde secondes secondi saniye detik millis micros nanos "
+        "milliseconds microseconds ms us ns tijd czas čas cas idő zaman время 时间 時間"
     ),
     Quantity.DUTY: OUTPUTS
     | _row(

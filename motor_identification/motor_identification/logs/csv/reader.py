@@ -14,6 +14,7 @@ from motor_identification.logs.csv.cells import COMMENT, SPACES, is_number, spli
 from motor_identification.logs.csv.dialect import Dialect, find_dialect, read_text
 from motor_identification.logs.csv.matrix import take_off_brackets, turn_lines_into_columns
 from motor_identification.logs.csv.monitor import RECEIVED, Lines, take_apart
+from motor_identification.logs.csv.oscilloscope import give_times
 from motor_identification.logs.csv.quotes import unquote_rows
 from motor_identification.logs.csv.table import GARBLED, Table
 from motor_model.errors import RecordingError
@@ -44,8 +45,9 @@ def table_of(path: Path, text: Sequence[str], notes: list[str], wanted: Sequence
     Raises:
         RecordingError: as there.
     """
-    upright, turned = turn_lines_into_columns(take_off_brackets(unquote_rows(text)))
-    notes = [*notes, *turned]
+    timed, said = give_times(unquote_rows(text))
+    upright, turned = turn_lines_into_columns(take_off_brackets(timed))
+    notes = [*notes, *said, *turned]
     taken = take_apart(upright)
     lines = taken.lines
     dialect = find_dialect(lines)

@@ -241,3 +241,12 @@ def test_neither_of_two_that_go_together_is_said_to_follow() -> None:
     cells = {"column 1": TIME, "column 2": wave, "column 3": TIME + 1e-3, "column 4": answer(wave)}
     with pytest.raises(RecordingError, match="one of column 2, column 4"):  # and not of times
         find_roles(Table(Path("log.csv"), np.arange(2, 202), cells), Said())
+
+
+def test_of_two_channels_in_volts_one_follows_the_other() -> None:
+    cells = {"Second": TIME - 1.0, "CH1 [Volt]": answer(DRIVE), "CH2 [Volt]": DRIVE}
+    roles = find_roles(Table(Path("log.csv"), np.arange(2, 202), cells), Said())
+    assert (roles.time, roles.pairs) == ("Second", (Pair("", "CH2 [Volt]", "CH1 [Volt]"),))
+    assert "CH2 [Volt] drives and CH1 [Volt] moves" in roles.findings[0]
+    with pytest.raises(RecordingError, match=r"one of CH1 \[Volt\], CH2 \[Volt\]"):  # both the same
+        find_roles(Table(Path("log.csv"), np.arange(2, 202), {**cells, "CH1 [Volt]": DRIVE}), Said())
