@@ -19,15 +19,12 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from .forces import State, bridge, drive, outer_load, push_at_rest, rates
+from .forces import State, bridge, drive, outer_load, push_at_rest
 from .parameters import Values, record_of
+from .runge_kutta import Mode, find_change, take_step
 
 Floats = NDArray[np.float64]
-# way: -1, 0 (held), +1; contact: the flank the load hangs on: -1, +1, 0 in the play, 2 before the first motion; the
-# angles between which the motor is free
-Mode = tuple[float, float, float, float]
 _STEPS_PER_NODE = 5
-_INSTANT = 1e-14  # [s] to which events are located
 _RANDOM_STEP = 1e-4  # [s] for which a random torque stays as it is
 _EVENTS_PER_STEP = 50  # more than that within 10 µs is chatter: held for the rest of the step
 
@@ -76,52 +73,6 @@ def random_torque(p: Any, duration: float) -> Floats:
 
 
 @njit(cache=True)
-def _shifted(y: State, k: State, h: float) -> State:
-    return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3], y[4] + h * k[4], y[5] + h * k[5]
-
-
-@njit(cache=True)
-def _step(y: State, mode: Mode, t: float, h: float, v: float, slope: float, outer: float, p: Any) -> State:
-    """One classic Runge-Kutta step; the voltage is v + slope·(time into the step)."""
-    way = mode[0]
-    share = (1.0 - p.compliance_fraction) * (1.0 - p.load_fraction if mode[1] == 0.0 else 1.0)
-    half = 0.5 * h
-    a = rates(y, t, v, outer, way, share, p)
-    b = rates(_shifted(y, a, half), t + half, v + slope * half, outer, way, share, p)
-    c = rates(_shifted(y, b, half), t + half, v + slope * half, outer, way, share, p)
-    d = rates(_shifted(y, c, h), t + h, v + slope * h, outer, way, share, p)
-    return _shifted(_shifted(_shifted(_shifted(y, a, h / 6.0), b, h / 3.0), c, h / 3.0), d, h / 6.0)
-
-
-@njit(cache=True)
-def _above(y: State, t: float, v: float, outer: float, p: Any, which: int, level: float) -> float:
-    """State number `which` less a level; for -1, by how much [V] the push at rest exceeds what holds."""
-    if which >= 0:
-        return y[which] - level
-    push, hold = push_at_rest(y, t, v, outer, p)
-    return abs(push) - hold
-
-
-@njit(cache=True)
-def _reach(
-    y: State, mode: Mode, t: float, h: float, v: float, slope: float, outer: float, p: Any, which: int, level: float
-) -> float:
-    """The part of a step [s] after which `_above` has just changed sign: false position, Illinois variant."""
-    low, high = 0.0, h
-    f_low = _above(y, t, v, outer, p, which, level)
-    f_high = _above(_step(y, mode, t, h, v, slope, outer, p), t + h, v + slope * h, outer, p, which, level)
-    while high - low > 2.0 * _INSTANT:
-        x = (low * f_high - high * f_low) / (f_high - f_low) if f_high != f_low else 0.5 * (low + high)
-        x = min(max(x, low + _INSTANT), high - _INSTANT)
-        f = _above(_step(y, mode, t, x, v, slope, outer, p), t + x, v + slope * x, outer, p, which, level)
-        if (f > 0.0) == (f_high > 0.0):
-            high, f_high, f_low = x, f, 0.5 * f_low
-        else:
-            low, f_low, f_high = x, f, 0.5 * f_high
-    return high
-
-
-@njit(cache=True)
 def _started(y: State, mode: Mode, push: float, p: Any) -> Mode:
     """The mode of a motor that leaves its rest in the direction of the push."""
     way = copysign(1.0, push)
@@ -142,12 +93,12 @@ def _rest(
     push, hold = push_at_rest(y, t, v, outer, p)
     if abs(push) > hold:
         return y, _started(y, mode, push, p), 0.0, True
-    new = _step(y, mode, t, h, v, slope, outer, p)
+    new = take_step(y, mode, t, h, v, slope, outer, p)
     push, hold = push_at_rest(new, t + h, v + slope * h, outer, p)
     if abs(push) <= hold:
         return new, mode, h, False
-    used = _reach(y, mode, t, h, v, slope, outer, p, -1, 0.0)
-    return _step(y, mode, t, used, v, slope, outer, p), mode, used, True
+    used = find_change(y, mode, t, h, v, slope, outer, p, -1, 0.0)
+    return take_step(y, mode, t, used, v, slope, outer, p), mode, used, True
 
 
 @njit(cache=True)
@@ -161,15 +112,15 @@ def _advance(
     flank = high if way > 0.0 else low
     if contact == 0.0 and way * (y[0] - flank) >= 0.0:
         return y, (way, way, low, high), 0.0, True
-    new = _step(y, mode, t, h, v, slope, outer, p)
+    new = take_step(y, mode, t, h, v, slope, outer, p)
     used = h
     stops = way * new[1] <= 0.0
     if stops:
-        used = _reach(y, mode, t, h, v, slope, outer, p, 1, 0.0)
-        new = _step(y, mode, t, used, v, slope, outer, p)
+        used = find_change(y, mode, t, h, v, slope, outer, p, 1, 0.0)
+        new = take_step(y, mode, t, used, v, slope, outer, p)
     if contact == 0.0 and way * (new[0] - flank) >= 0.0:
-        used = _reach(y, mode, t, used, v, slope, outer, p, 0, flank)
-        new = _step(y, mode, t, used, v, slope, outer, p)
+        used = find_change(y, mode, t, used, v, slope, outer, p, 0, flank)
+        new = take_step(y, mode, t, used, v, slope, outer, p)
         return (flank, new[1], new[2], new[3], new[4], new[5]), mode, used, True
     if stops:
         return (new[0], 0.0, new[2], new[3], new[4], new[5]), (0.0, contact, low, high), used, True
@@ -217,7 +168,7 @@ def _run(
                 left = h - done
                 if events == _EVENTS_PER_STEP:
                     y, mode = (y[0], 0.0, y[2], y[3], y[4], y[5]), (0.0, mode[1], mode[2], mode[3])
-                    y = _step(y, mode, begin + done, left, v + slope * done, slope, outer, p)
+                    y = take_step(y, mode, begin + done, left, v + slope * done, slope, outer, p)
                     break
                 y, mode, used, happened = _advance(y, mode, begin + done, left, v + slope * done, slope, outer, p)
                 done = h if used == left else done + used
