@@ -49,7 +49,8 @@ def align(voltage: Series, motion: Series, current: Series | None) -> Rows:
         place = np.searchsorted(when, time, side="right") - 1
         amperes = np.where(place >= 0, current.values[np.maximum(place, 0)], np.nan)
         notes.append(about_current)
-    return Rows(time, _held_means(commanded, commands, time), motion.values[keep], amperes, tuple(notes))
+    once = tuple(dict.fromkeys(notes))  # fields of one topic are stamped alike
+    return Rows(time, _held_means(commanded, commands, time), motion.values[keep], amperes, once)
 
 
 def stamps_of(series: Series) -> tuple[Integers, str]:

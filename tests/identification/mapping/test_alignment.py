@@ -37,6 +37,13 @@ def test_rows_before_the_first_command_are_left_out() -> None:
         align(series("/c:x", [45 * MS], [2.0]), motion, None)
 
 
+def test_what_is_to_be_known_of_a_topic_is_said_once_for_all_its_fields() -> None:
+    received = np.arange(6) * 10 * MS
+    speed, volts, current = (series(f"/m:{field}", received, np.arange(6)) for field in ("speed", "volts", "current"))
+    assert len(align(volts, speed, current).notes) == 1
+    assert len(align(series("/c:volts", received, np.arange(6)), speed, current).notes) == 2
+
+
 def test_times_of_arrival_with_their_jitter() -> None:
     received = np.arange(100) * 20 * MS + np.tile([0, 2 * MS], 50)
     times, said = stamps_of(series("/c:x", received, np.zeros(100), garbled=3))
