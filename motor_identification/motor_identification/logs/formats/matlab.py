@@ -1,5 +1,6 @@
-"""MATLAB files (version 4 to 7) as a table: vectors of one length, columns of matrices, fields of structs."""
+"""MATLAB files (version 4 to 7.3) as a table: vectors of one length, columns of matrices, fields of structs."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -7,6 +8,8 @@ import numpy as np
 
 from motor_identification.logs.columns.clock import runs_forward
 from motor_identification.logs.csv.table import Table
+from motor_identification.logs.formats.hdf5 import SIGNATURE
+from motor_identification.logs.formats.mat_7_3 import MARK, read_variables_7_3
 from motor_identification.logs.formats.mat_elements import BrokenFileError, TooLargeError, Value, read_variables
 from motor_identification.logs.formats.mat_version_4 import is_version_4, read_matrices
 from motor_identification.logs.rows.row_times import tells_how_often
@@ -27,7 +30,7 @@ def read_matlab(path: Path) -> Table:
     vectors: dict[str, Any] = {}
     try:
         data = path.read_bytes()
-        variables = read_matrices(data) if is_version_4(data) else read_variables(data)
+        variables = _reader(data)(data)
         objects = "" in variables  # what MATLAB keeps of them has no name
         for name, value in variables.items():
             if name:
@@ -54,6 +57,13 @@ def read_matlab(path: Path) -> Table:
     notes = [f"Left out, as they have other lengths: {', '.join(others[:8])}."] if others else []
     notes += [f"Not read: {OBJECTS}; {SAVE_THEM}, if the motion is in them."] if objects else []
     return Table(path, np.arange(1, length + 1), fitting, notes=tuple(notes))
+
+
+def _reader(data: bytes) -> Callable[[bytes], dict[str, Value]]:
+    """What reads a file of this beginning."""
+    if data.startswith((MARK, SIGNATURE)):
+        return read_variables_7_3
+    return read_matrices if is_version_4(data) else read_variables
 
 
 def _share_clock(vectors: dict[str, Any]) -> dict[str, Any]:

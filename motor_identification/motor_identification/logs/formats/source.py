@@ -68,8 +68,9 @@ def _read_other(path: Path, head: bytes) -> Source:
     for is_format, cure in _REFUSED:
         if is_format(head):
             raise RecordingError(f"{path} is {cure}.")
-    if head.startswith(b"MATLAB 5.0"):
-        return Source(read_matlab(path), "MATLAB 5 file")
+    for version in ("5.0", "7.3"):
+        if head.startswith(f"MATLAB {version}".encode()):
+            return Source(read_matlab(path), f"MATLAB {version.removesuffix('.0')} file")
     if is_version_4(head):
         return Source(read_matlab(path), "MATLAB 4 file")
     if head.startswith(LABVIEW):
@@ -94,7 +95,7 @@ def _read_json(path: Path) -> Source:
 
 
 _REFUSED: tuple[tuple[Callable[[bytes], bool], str], ...] = (
-    (lambda head: head.startswith((_HDF5, b"MATLAB 7.3")), "a MATLAB 7.3 or HDF5 file: save it with -v7, or as CSV"),
+    (lambda head: head.startswith(_HDF5), "an HDF5 file: save its arrays as CSV"),
     (
         lambda head: head.startswith(_ZIP) and any(one in head for one in _WORKBOOK),
         "a spreadsheet: save its sheet as CSV (comma separated values), and give that",

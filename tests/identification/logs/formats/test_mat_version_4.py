@@ -71,9 +71,3 @@ def test_damage_is_a_sentence(tmp_path: Path) -> None:
             assert len(read_source(path).table) >= 2
         except RecordingError as error:
             assert "\n" not in str(error) and str(error).endswith(".")
-
-
-def test_version_7_3_is_named(tmp_path: Path) -> None:
-    (tmp_path / "log.mat").write_bytes(b"MATLAB 7.3 MAT-file, Platform".ljust(512, b"\0") + b"\x89HDF\r\n\x1a\n")
-    with pytest.raises(RecordingError, match="is a MATLAB 7.3 or HDF5 file: save it with -v7"):
-        read_source(tmp_path / "log.mat")

@@ -31,7 +31,7 @@ def test_what_a_user_says_comes_before_what_the_file_says() -> None:
 @pytest.mark.parametrize(
     ("head", "complaint"),
     [
-        (b"\x89HDF\r\n\x1a\n", "is a MATLAB 7.3 or HDF5 file: save it with -v7"),
+        (b"\x89HDF\r\n\x1a\n", "is an HDF5 file: save its arrays as CSV"),
         (b"PK\x03\x04", "is a ZIP or spreadsheet file: unpack it, or export it as CSV"),
         (b"PK\x03\x04\x14\0[Content_Types].xml", "is a spreadsheet: save its sheet as CSV"),
         (

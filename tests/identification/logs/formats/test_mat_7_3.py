@@ -1,0 +1,95 @@
+"""MATLAB 7.3 files: matrices and structs, and what Simulink logged as it ran."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.formats.mat_7_3 import read_variables_7_3
+from motor_identification.logs.formats.matlab import read_matlab
+from motor_identification.logs.formats.source import read_source
+from motor_identification.logs.imported import import_log
+from motor_model.errors import RecordingError
+from tests.support.hdf5_file import Stored, Tree, hdf5, matrix, text
+
+TIME = np.arange(400) * 0.001
+VOLTS = np.repeat([0.0, 6.0, -3.0, 4.5], 100)
+SPEED = np.cumsum(VOLTS) * 0.25
+
+
+def write(tree: Tree, path: Path) -> Path:
+    path.write_bytes(hdf5(tree))
+    return path
+
+
+def test_matrices_and_structs(tmp_path: Path) -> None:
+    tree: Tree = {
+        "t": matrix(TIME[:, None]),
+        "log": {"u": matrix(VOLTS), "deep": {"y": matrix(SPEED[:, None])}},
+        "both": matrix(np.column_stack([TIME, VOLTS])),
+        "name": text("bench"),
+        "none": Stored(np.zeros(2, np.uint64), {"MATLAB_class": "double", "MATLAB_empty": 1}),
+        "cells": Stored(np.zeros((1, 1), np.uint64), {"MATLAB_class": "cell"}, refers=("name",)),
+        "#refs#": {"a": matrix(TIME[:, None])},
+    }
+    variables = read_variables_7_3(hdf5(tree))
+    assert sorted(variables) == ["both", "log", "t"]
+    source = read_source(write(tree, tmp_path / "log.mat"))
+    assert source.format == "MATLAB 7.3 file"
+    table = source.table
+    assert sorted(table.names) == ["both 1", "both 2", "log.deep.y", "log.u", "t"]
+    assert table.numbers("log.u").tolist() == VOLTS.tolist() and table.numbers("both 2").tolist() == VOLTS.tolist()
+
+
+def signal(record: int, kind: str, block: str, name: str = "", count: int = 400) -> Tree:
+    """One element of a data set: its clock, its record, and the block that it comes from."""
+    return {
+        "BlockPath": Stored(np.zeros((1, 1), np.uint64), {"MATLAB_class": "cell"}, refers=(block,)),
+        "Name": text(name) if name else Stored(np.zeros(2, np.uint64), {"MATLAB_class": "char", "MATLAB_empty": 1}),
+        "Values": {
+            "CompressedTime": matrix([[0.0], [0.001], [float(count)]]),
+            "DataR2": matrix([[float(record)]]),
+            "SignalAttributes": {"ClassName": text(kind)},
+        },
+    }
+
+
+def data_set(names: tuple[str, str] = ("", ""), count: int = 400) -> Tree:
+    """What Simulink logs to a file: an object that only MATLAB reads, and beside it what it stands for."""
+    raw = (VOLTS.astype("<f8").tobytes(), SPEED.astype("<f4").tobytes())
+    return {
+        "data": Stored(np.zeros((1, 6), np.uint32), {"MATLAB_class": "Simulink.Dataset", "MATLAB_object_decode": 3}),
+        "#refs#": {
+            "d": signal(0, "double", "#refs#/e", names[0], count),
+            "e": text("rig/Voltage"),
+            "f": signal(1, "single", "#refs#/g", names[1], count),
+            "g": text("rig/board/Speed (rad//s)"),
+        },
+        "#sigstream#": {
+            str(k): {"#data#": Stored(np.frombuffer(one, np.uint8), chunk=(1024,))} for k, one in enumerate(raw)
+        },
+    }
+
+
+def test_signals_that_simulink_logged_to_a_file(tmp_path: Path) -> None:
+    table = read_matlab(write(data_set(), tmp_path / "log.mat"))
+    assert table.names == ["time", "Voltage", "Speed (rad/s)"]
+    assert table.numbers("time") == pytest.approx(TIME) and table.numbers("Voltage").tolist() == VOLTS.tolist()
+    assert table.numbers("Speed (rad/s)") == pytest.approx(SPEED)
+    (motor,) = import_log(write(data_set(("u", "omega")), tmp_path / "named.mat"), Said(unit="rad/s")).motors
+    assert motor.log.info.sample_period == pytest.approx(0.001)
+    (run,) = motor.log.runs
+    assert {sample.voltage for sample in run.samples} == set(VOLTS)
+
+
+def test_a_stream_of_another_length_is_left_alone(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match="objects of MATLAB"):
+        read_matlab(write(data_set(count=399), tmp_path / "log.mat"))
+
+
+def test_damage_is_a_sentence(tmp_path: Path) -> None:
+    path = tmp_path / "log.mat"
+    path.write_bytes(hdf5({"t": matrix(TIME[:, None]), "u": matrix(VOLTS)})[:700])
+    with pytest.raises(RecordingError, match="is a damaged MATLAB file .*: save it again with -v7"):
+        read_matlab(path)
