@@ -29,6 +29,8 @@ UNITS: dict[Kind, dict[str, float | None]] = {
         "cm/s": None,
         "mm/s": None,
         "km/h": None,
+        "in/s": None,
+        "ft/s": None,
         "count/s": None,
     },
     Kind.POSITION: {
@@ -38,6 +40,8 @@ UNITS: dict[Kind, dict[str, float | None]] = {
         "m": None,
         "cm": None,
         "mm": None,
+        "in": None,
+        "ft": None,
         "count": None,
     },
     Kind.COUNT: {"count": None},
@@ -51,6 +55,10 @@ LENGTHS = {
     "mm": ("mm", 1.0),
     "mm/s": ("mm", 1.0),
     "km/h": ("m", 1.0 / 3.6),
+    "in": ("in", 1.0),
+    "in/s": ("in", 1.0),
+    "ft": ("ft", 1.0),
+    "ft/s": ("ft", 1.0),
 }
 TIME_UNITS = {"s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}  # in nanoseconds
 

@@ -67,7 +67,10 @@ def test_metres_need_to_be_told_how_far_a_turn_goes() -> None:
     with pytest.raises(RecordingError, match="how far a turn goes .--units-per-revolution"):
         read(metres, [1.0, 2.0])
     assert read(replace(metres, units_per_revolution=0.5), [1.0, 2.0]).speed == pytest.approx([2 * tau, 4 * tau])
-    for unit, turn, speed in (("cm/s", 50.0, 100.0), ("mm/s", 500.0, 1000.0), ("km/h", 0.5, 3.6)):  # all are 1 m/s
+    inch, foot = 0.0254, 0.3048  # [m]
+    lengths = [("in/s", 0.5 / inch, 1.0 / inch), ("ft/s", 0.5 / foot, 1.0 / foot)]
+    lengths += [("cm/s", 50.0, 100.0), ("mm/s", 500.0, 1000.0), ("km/h", 0.5, 3.6)]
+    for unit, turn, speed in lengths:  # all are 1 m/s
         same = replace(metres, unit=unit, units_per_revolution=turn)
         assert read(same, [speed, 2 * speed]).speed == pytest.approx([2 * tau, 4 * tau])
 

@@ -21,6 +21,7 @@ PARTS, FEWEST_PARTS = 40, 5  # of a log, over which they are compared
 
 ANSWERS, UNANSWERED = 0.6, 0.2  # share of what moves that a drive explains, and of a drive that what moves does
 FEWEST_STEPS = 50  # of two columns that tell it
+WITH_DRIVE = 0.8  # correlation of a motor's speed, or of its way, with what drives it and others
 FEWEST_OWN = 10  # changes of a velocity while its drive stays, from which on it is no voltage
 FIRST_ROWS = 6.0  # sample periods after 0, within which a run's clock began with its voltage
 FIRST_VALUES = 3  # of a run, that tell whether the motor turned already
@@ -114,6 +115,33 @@ def numbered_motors(headings: list[Heading]) -> list[Heading]:
     if len(moving) < 2 or sorted(moving) != sorted(driving) or len(set(moving)) != len(moving):
         return headings
     return [replace(one, side=numbers.get(one.name, one.side)) for one in headings]
+
+
+def share_one_drive(table: Table, headings: list[Heading]) -> list[Heading]:
+    """Motors by number on the one drive, where each of them follows it: `pwm`, `enc1`, `enc2`, `enc3`.
+
+    A pendulum's second encoder does not follow the drive, nor does a parameter of a controller.
+    """
+    driving = [one for one in headings if drives(one)]
+    moving = [one for one in headings if one.quantity in MOVES]
+    names = {(one.words[:-1], one.quantity, one.unit, one.side) for one in moving}
+    numbers = [one.words[-1] for one in moving if one.words and one.words[-1].isdigit()]
+    if (
+        len(driving) != 1
+        or driving[0].side
+        or "".join(driving[0].words[-1:]).isdigit()
+        or len(names) != 1
+        or len(moving) < 2
+        or len(set(numbers)) != len(moving)
+    ):
+        return headings
+    drive, ones = driving[0].name, np.ones(len(table))
+    for one in moving:
+        speeds = one.quantity is Quantity.SPEED or bool(np.any(table.numbers(one.name) % 1.0))
+        with_it = correlate(table.numbers(one.name), table.numbers(drive)) if speeds else 0.0
+        if max(with_it, _agreement(table, one.name, drive, ones)) < WITH_DRIVE:
+            return headings
+    return [replace(one, side=one.words[-1]) if one in moving else one for one in headings]
 
 
 def ends_of_a_loop(headings: list[Heading]) -> list[Heading]:

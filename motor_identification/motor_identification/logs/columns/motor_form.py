@@ -119,7 +119,7 @@ def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> 
         return Drive(1.0, f"is {said.constant_voltage:g} V in every row, as said"), 1.0, None
     if said.voltage_scale is not None:
         return Drive(said.voltage_scale, f"times {said.voltage_scale:g} V"), said.voltage_scale, None
-    if said.full_duty or heading.quantity is Quantity.DUTY:
+    if said.full_duty or heading.quantity is Quantity.DUTY or _is_beyond(heading, values, said.supply_voltage):
         drive = duty_drive(heading, _duties(table, pair, roles), said.full_duty)
     else:
         drive = voltage_drive(heading, values)
@@ -138,6 +138,12 @@ def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> 
     why = drive.why.replace(" (assumed; otherwise:", " (otherwise")
     notes.questions.append((pair.voltage, f"{why}: say the voltage at full duty (--supply-voltage V)"))
     return drive, 1.0, None
+
+
+def _is_beyond(heading: Heading, values: Floats, supply: float | None) -> bool:
+    """Whether values without a unit are more than the supply's voltage, which was said: then they are no volts."""
+    largest = float(np.max(np.abs(values), initial=0.0))
+    return supply is not None and not heading.unit and largest > supply * (1.0 + ROUNDED)
 
 
 def _caution_beyond_full(table: Table, pair: Pair, drive: Drive, notes: Notes) -> None:

@@ -12,6 +12,7 @@ from motor_identification.logs.columns.behaviour import (
     follows,
     numbered_motors,
     present_values,
+    share_one_drive,
     speeds_called_v,
 )
 from motor_identification.logs.columns.clock import find_clock, read_clock, runs_forward, since_1970
@@ -20,7 +21,7 @@ from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_motion, miss_drive, miss_motion
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.speed_beside import find_driven_speed
-from motor_identification.logs.columns.vocabulary import FILTERED, MEASURED, MOVES, UNITS, Quantity
+from motor_identification.logs.columns.vocabulary import FILTERED, MEASURED, MOVES, RAW, UNITS, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.constant_voltage import CONSTANT
@@ -29,6 +30,8 @@ from motor_model.errors import RecordingError
 Floats = NDArray[np.float64]
 
 SAME_CLOCK = 0.9999  # correlation of two columns of times
+STEADY = 0.7  # of its largest value: a battery stays above
+BOTH_WAYS = 0.2  # of the largest speed, which a motor has the other way
 FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
 _BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
 
@@ -59,7 +62,7 @@ def find_roles(table: Table, said: Said) -> Roles:
     free = ends_of_a_loop(
         [one for one in others if one.quantity is not None or not _is_clock_of(table, one.name, time)]
     )
-    free = numbered_motors(speeds_called_v(table, present_values(free)))
+    free = share_one_drive(table, numbered_motors(speeds_called_v(table, present_values(free))))
     free, undriven = ([*free], ()) if said.motors or said.motion or said.voltage else _driven_sides(free)
     pairs = said.motors or _pairs(table, free, said, time)
     pairs, findings = _of_one_shaft(table, pairs, free, said, time)
@@ -210,6 +213,7 @@ def _moving(
         found = found or [one.name for one in headings if one.quantity is quantity]
         if len(found) > 1:  # what was made of another one comes later, and is smoother than the motor
             found = [name for name in found if not FILTERED & set(read_heading(name).words)] or found
+            found = [name for name in found if RAW & set(read_heading(name).words)] or found
         if len(found) > 1:
             raise ask_motion(table, headings, quantity, found)
         if found:
@@ -237,6 +241,8 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
         found = own or found
         if quantity is Quantity.VOLTAGE and duties:
             found = [name for name in found if not is_supply(table.numbers(name), table.numbers(duties[0]))]
+        if quantity is Quantity.VOLTAGE and not duties:
+            found = [name for name in found if not _is_battery(table, name)]
         if len(found) > 1:
             raise ask_column(table, quantity.value, "--voltage", found)
         if found:
@@ -251,6 +257,18 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
     if not candidates:
         raise miss_drive(table)
     raise ask_drive(table, candidates)
+
+
+def _is_battery(table: Table, name: str) -> bool:
+    """Whether a voltage is a battery's: it stays, of one sign, once it is there, while a motor turns both ways."""
+    volts = table.numbers(name)
+    there = volts[volts != 0.0]
+    beside = [read_heading(one) for one in table.names if _is_numeric(table, one)]
+    speeds = [table.numbers(one.name) for one in beside if one.quantity is Quantity.SPEED]
+    both = any(np.min(speed) < -BOTH_WAYS * np.max(speed) < 0.0 for speed in speeds)
+    turned = any({"dir", "direction"} & set(one.words) for one in beside)  # by a pin of its own
+    steady = len(there) > 0 and np.min(there) > STEADY * np.max(there) > 0.0
+    return bool(both and not turned and steady and np.count_nonzero(np.diff(volts)) > FEWEST_CHANGES)
 
 
 def _swings(values: Floats) -> bool:

@@ -30,6 +30,7 @@ _row = words_of
 INPUTS = _row("input entrada eingang entrée entree ingresso")  # of a system: what drives it, or a controller
 OUTPUTS = _row("output saída saida salida ausgang sortie uscita")
 
+RAW = _row("raw unfiltered roh brut crudo bruto")
 FILTERED = _row(
     "filtered filt filter smooth smoothed avg average averaged mean lpf ema ma kalman est estimate estimated fir"
 )
@@ -118,12 +119,16 @@ UNITS: dict[str, tuple[Quantity, float | None]] = {
     "cm/s": (Quantity.SPEED, None),
     "mm/s": (Quantity.SPEED, None),
     "km/h": (Quantity.SPEED, None),
+    "in/s": (Quantity.SPEED, None),
+    "ft/s": (Quantity.SPEED, None),
     "rad": (Quantity.POSITION, 1.0),
     "deg": (Quantity.POSITION, radians(1.0)),
     "rev": (Quantity.POSITION, 2.0 * pi),
     "m": (Quantity.POSITION, None),
     "cm": (Quantity.POSITION, None),
     "mm": (Quantity.POSITION, None),
+    "in": (Quantity.POSITION, None),
+    "ft": (Quantity.POSITION, None),
     "count": (Quantity.COUNT, None),
 }
 _SPELLINGS = {
@@ -150,6 +155,10 @@ _SPELLINGS = {
     "cm/s": "cm/s cm_s cmps cm/sec",
     "mm/s": "mm/s mm_s mmps mm/sec",
     "km/h": "km/h km_h kmh kmph kph",
+    "in/s": "in/s in/sec ips inch/s inch/sec inches/s inches/sec",
+    "ft/s": "ft/s ft/sec fps feet/s feet/sec",
+    "in": "inch inches",
+    "ft": "ft feet foot",
     "cm": "cm centimeter centimeters",
     "mm": "mm millimeter millimeters",
     "m/s": "m/s m/sec mps m_s meters/s metres/s",

@@ -36,6 +36,10 @@ leftSpeedRpm      | speed          | rpm   | left
 r_speed           | speed          |       | right
 vel_rad_s         | speed          | rad/s |
 Drehzahl [1/min]  | speed          | rpm   |
+v_l (ips)         | speed          | in/s  | left
+velocity [ft/s]   | speed          | ft/s  |
+position_inches   | position       | in    |
+pwm_in            | duty           |       |
 M1 speed          | speed          |       | 1
 ω (rad/s)         | speed          | rad/s |
 pos_deg           | position       | deg   |

@@ -108,3 +108,15 @@ def test_milliamperes() -> None:
     assert form(Said(voltage_scale=1.0), Notes([], []), **{"i [mA]": np.ones(100)}).current_scale == 1e-3
     assert form(Said(voltage_scale=1.0), Notes([], []), **{"i [A]": np.ones(100)}).current_scale == 1.0
     assert FIRST_ROWS > 4.7  # the EV3's runs begin up to 24 ms late, in rows of 5.2 ms
+
+
+@pytest.mark.parametrize(("supply", "drive", "scale"), [(25.0, "setpoint", 25.0 / 255.0), (25.0, "setpoint [V]", 1.0)])
+def test_more_than_the_supply_are_no_volts(supply: float, drive: str, scale: float) -> None:
+    time = 0.01 * np.arange(1, 101)
+    numbers = {"t": time, drive: np.repeat([50.0, -50.0], 50), "speed [rpm]": np.sin(time)}
+    table = Table(Path("log.csv"), np.arange(100), numbers)
+    roles, said = Roles("t", (), None, None), Said(supply_voltage=supply)
+    pair = Pair("", drive, "speed [rpm]")
+    assert make_form(table, pair, roles, said, ROWS, Notes([], [])).voltage_scale == pytest.approx(scale)
+    within = Said(supply_voltage=51.0)
+    assert make_form(table, pair, roles, within, ROWS, Notes([], [])).voltage_scale == 1.0

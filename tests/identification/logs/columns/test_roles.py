@@ -13,7 +13,15 @@ from motor_model.errors import RecordingError
 TIME = np.arange(200) * 0.01
 DRIVE = np.repeat([3.0, -2.0, 5.0, 1.0], 50)
 MOVED = np.cumsum(DRIVE) * 0.1 + np.sin(TIME * 9.0)
-KINDS = {"t": TIME, "u": DRIVE, "y": MOVED, "b": 12.0 - 0.01 * np.abs(DRIVE), "r": 2.0 * DRIVE, "0": np.zeros(200)}
+KINDS = {
+    "n": np.sin(TIME * 31.0),
+    "t": TIME,
+    "u": DRIVE,
+    "y": MOVED,
+    "b": 12.0 - 0.01 * np.abs(DRIVE),
+    "r": 2.0 * DRIVE,
+    "0": np.zeros(200),
+}
 
 
 def table(**columns: str) -> Table:
@@ -162,8 +170,8 @@ def test_a_motion_changes_more_than_a_few_times(changes: int, told: bool) -> Non
     ("columns", "complaint"),
     [
         ({"t": "t", "speed_a": "y", "speed_b": "y", "u": "u"}, "the speed? Say --speed and one of speed_a, speed_b."),
-        ({"t": "t", "w1": "y", "w2": "y", "pwm": "u"}, "w1, w2. For a motor of each: --motor 1:pwm,w1 --motor 2:"),
-        ({"t": "t", "Enc1": "y", "Enc2": "y", "pwm": "u"}, "the motion? Say --speed or --position and one of Enc1,"),
+        ({"t": "t", "w1": "y", "w2": "n", "pwm": "u"}, "w1, w2. For a motor of each: --motor 1:pwm,w1 --motor 2:"),
+        ({"t": "t", "Enc1": "y", "Enc2": "n", "pwm": "u"}, "the motion? Say --speed or --position and one of Enc1,"),
         ({"t": "t", "x": "y", "z": "y", "u": "u"}, "one of x, z. For a motor of each: --motor 1:u,x --motor 2:u,z"),
         ({"t": "t", "speed": "y"}, "no column is the voltage or duty: say which one is (--voltage COL), or --c"),
         ({"t": "t", "u": "u", "b": "0"}, "log.csv: b is 0 in every row: the motor never moves in it."),
@@ -250,3 +258,44 @@ def test_of_two_channels_in_volts_one_follows_the_other() -> None:
     assert "CH2 [Volt] drives and CH1 [Volt] moves" in roles.findings[0]
     with pytest.raises(RecordingError, match=r"one of CH1 \[Volt\], CH2 \[Volt\]"):  # both the same
         find_roles(Table(Path("log.csv"), np.arange(2, 202), {**cells, "CH1 [Volt]": DRIVE}), Said())
+
+
+def columns(**numbers: np.ndarray) -> Table:  # type: ignore[type-arg]
+    return Table(Path("log.csv"), np.arange(2, 202), numbers)
+
+
+FOLLOWS = np.convolve(DRIVE, np.exp(-np.arange(60) / 8.0) / 8.0)[:200]
+
+
+def test_numbered_motors_share_the_one_drive_where_each_follows_it() -> None:
+    speeds = {f"Enc{k}": np.round(4.1 * FOLLOWS + 0.01 * k, 2) for k in (1, 2, 3)}
+    roles = find_roles(columns(t=TIME, PWM=50.0 * DRIVE, **speeds), Said())
+    assert roles.pairs == tuple(Pair(str(k), "PWM", f"Enc{k}") for k in (1, 2, 3))
+    counts = {f"enc{k}": np.floor(90.0 * k + 7.3 * np.cumsum(FOLLOWS)) for k in (1, 2)}
+    assert [pair.label for pair in find_roles(columns(t=TIME, pwm=50.0 * DRIVE, **counts), Said()).pairs] == ["1", "2"]
+
+
+def test_a_pendulums_encoder_shares_no_drive() -> None:
+    swings = np.floor(300.0 * np.sin(TIME * 31.0))
+    with pytest.raises(RecordingError, match="For a motor of each: --motor 1:pwm,enc1"):
+        find_roles(columns(t=TIME, pwm=50.0 * DRIVE, enc1=np.floor(7.3 * np.cumsum(FOLLOWS)), enc2=swings), Said())
+
+
+def test_what_is_raw_comes_before_what_was_made_of_it() -> None:
+    named = find_roles(columns(t=TIME, pwm=DRIVE, **{"VEL": FOLLOWS, "RAW VEL": 1.1 * FOLLOWS}), Said())
+    assert named.pairs[0].motion == "RAW VEL"
+
+
+@pytest.mark.parametrize(("least", "battery"), [(22.0, True), (2.0, False)])
+def test_a_voltage_that_stays_while_the_motor_turns_both_ways_drives_nothing(least: float, battery: bool) -> None:
+    volts = np.where(np.arange(200) < 4, 0.0, np.linspace(25.0, least, 200))
+    table = columns(t=TIME, VOLT=volts, vel=FOLLOWS)
+    if battery:
+        with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+            find_roles(table, Said())
+        directed = columns(t=TIME, VOLT=volts, vel=FOLLOWS, dir=np.sign(DRIVE))  # a pin says which way
+        assert find_roles(directed, Said()).pairs[0].voltage == "VOLT"
+    else:
+        assert find_roles(table, Said()).pairs[0].voltage == "VOLT"
+    one_way = columns(t=TIME, VOLT=volts, vel=np.abs(FOLLOWS))
+    assert find_roles(one_way, Said()).pairs[0].voltage == "VOLT"
