@@ -29,6 +29,7 @@ from motor_model.errors import RecordingError
 
 Floats = NDArray[np.float64]
 
+SAME_MOTION = 0.9995  # correlation of a motion with itself in another unit, which is rounded
 SAME_CLOCK = 0.9999  # correlation of two columns of times
 STEADY = 0.7  # of its largest value: a battery stays above
 BOTH_WAYS = 0.2  # of the largest speed, which a motor has the other way
@@ -214,6 +215,7 @@ def _moving(
         if len(found) > 1:  # what was made of another one comes later, and is smoother than the motor
             found = [name for name in found if not FILTERED & set(read_heading(name).words)] or found
             found = [name for name in found if RAW & set(read_heading(name).words)] or found
+            found = _in_one_unit(table, found)
         if len(found) > 1:
             raise ask_motion(table, headings, quantity, found)
         if found:
@@ -231,6 +233,18 @@ def _moving(
         raise ask_motion(table, headings, None, unnamed)
     names = [name for name in table.names if name != time] or table.names
     raise ask_column(table, "motion", "--speed, --position or --count", names)
+
+
+def _in_one_unit(table: Table, names: Sequence[str]) -> list[str]:
+    """Keep one of several columns that are the same in other units, `rpm` beside `rad/s`: one whose unit has a size."""
+    units = {name: read_heading(name).unit for name in names}
+    first, *others = sorted(names, key=lambda name: not units[name] or UNITS[units[name]][1] is None)
+    values = table.numbers(first)
+    for name in others:
+        same = units[name] != units[first] and correlate(values, table.numbers(name)) > SAME_MOTION
+        if not same or not units[first]:
+            return list(names)
+    return [first]
 
 
 def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple[str, ...]) -> str:

@@ -48,8 +48,8 @@ TAILS = _row(
 WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.OTHER: _row(
         "error err erro fehler erreur errore galat kp ki kd integral gyro temp temperature accel acceleration "
-        "acc derivative id index loop state mode enabled fault limited saturated lead integrator torque heading dir "
-        "direction drehrichtung richtung yaw pitch roll rate"
+        "acc derivative id index loop state mode enabled fault limited saturated lead integrator wcs acs shunt torque "
+        "heading dir direction drehrichtung richtung yaw pitch roll rate"
     ),
     Quantity.REFERENCE: _row(
         "target sollwert consigne referencia referência référence referenz riferimento setpoint set sp ref "
@@ -88,6 +88,7 @@ WORDS: dict[Quantity, frozenset[str]] = {
     ),
     Quantity.VOLTAGE: INPUTS
     | _row(
+        "sine sinewave chirp ramp stair stairs staircase prbs aprbs sweep excitation stimulus "
         "voltage volt volts voltaje spannung tension tensión tensão u v vm vmotor applied tensao tensione "
         "tegangan tensiune 전압 spanning spænding spänning napięcie napiecie napětí napeti gerilim voltaj "
         "напряжение 电压 電圧"

@@ -67,6 +67,9 @@ Commande vitesse  | reference      |       |
 POSITION [degrés] | position       | deg   |
 VIT. MOTEUR [rad/sec] | speed      | rad/s |
 rapport cyclique  | duty           |       |
+Sine Wave1        | voltage        |       |
+Chirp Signal      | voltage        |       |
+wcs2_raw_volt     | other          | V     |
 Motordrehzahl [1/min] | speed      | rpm   |
 Solldrehzahl      | reference      |       |
 Drehzahlsollwert  | reference      |       |

@@ -299,3 +299,20 @@ def test_a_voltage_that_stays_while_the_motor_turns_both_ways_drives_nothing(lea
         assert find_roles(table, Said()).pairs[0].voltage == "VOLT"
     one_way = columns(t=TIME, VOLT=volts, vel=np.abs(FOLLOWS))
     assert find_roles(one_way, Said()).pairs[0].voltage == "VOLT"
+
+
+def test_a_speed_in_two_units_is_one_motion() -> None:
+    rounded = np.rint(MOVED * 60.0 / (2.0 * np.pi))
+    cells = {"t": TIME, "u": DRIVE, "pps": MOVED * 1303.8, "speed rpm": rounded, "omega [rad/s]": MOVED}
+    both = Table(Path("log.csv"), np.arange(2, 202), cells)
+    assert find_roles(both, Said()).pairs == (Pair("", "u", "speed rpm"),)
+    for other in (
+        MOVED + np.random.default_rng(0).normal(0.0, 0.1 * np.std(MOVED), 200),
+        MOVED[::-1],
+    ):  # another motor's
+        apart = Table(Path("log.csv"), np.arange(2, 202), {**cells, "omega [rad/s]": other})
+        with pytest.raises(RecordingError, match="which column is the speed"):
+            find_roles(apart, Said())
+    twins = {"t": TIME, "u": DRIVE, "speed a [rpm]": MOVED, "speed b [rpm]": MOVED}  # two wheels of one unit
+    with pytest.raises(RecordingError, match="which column is the speed"):
+        find_roles(Table(Path("log.csv"), np.arange(2, 202), twins), Said())
