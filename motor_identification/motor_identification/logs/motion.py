@@ -8,6 +8,7 @@ import numpy as np
 from motor_identification.logs.count_size import AGREE_SPEED, agree_on_edges, count_size
 from motor_identification.logs.form import LENGTHS, CsvForm, Kind
 from motor_identification.logs.position_lattice import LEAST_LEVELS, ON_GRID, printed_digit
+from motor_identification.logs.rows.bursts import cut_stalls
 from motor_identification.logs.rows.count_rate import count_rates
 from motor_identification.logs.rows.flicker import remove_flicker
 from motor_identification.logs.rows.resets import split_at_resets
@@ -145,6 +146,7 @@ def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
             f"{signals.path}: {form.motion} comes to {largest:.3g} counts, beyond what can be counted: check the "
             "column and --count-quantum."
         )
+    signals, stalled = cut_stalls(signals, form.motion)
     signals, reset = split_at_resets(signals, form, lambda values: np.rint(values / count.size).astype(np.int64))
     exact = (signals.motion - count.origin) / count.size
     counts = np.rint(exact).astype(np.int64)
@@ -160,6 +162,7 @@ def _counts(form: CsvForm, info: Info, signals: Signals) -> Motion:
     findings = [
         *wrapped,
         *turned,
+        *stalled,
         *reset,
         f"Sampled counts without time stamps: one count is {count.size:.6g} {form.unit}, {per_turn} per "
         f"revolution{count.how}.",

@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.csv.dialect import read_text
 from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import LENGTHS
 from motor_model.errors import RecordingError
 
 TESTS = ("slow-forward", "slow-backward", "fast-forward", "fast-backward")
-_UNITS = {"Meters": "m", "Feet": "m", "Inches": "m", "Radians": "rad", "Rotations": "rev", "Degrees": "deg"}
+_UNITS = {"Meters": "m", "Feet": "ft", "Inches": "in", "Radians": "rad", "Rotations": "rev", "Degrees": "deg"}
 _DRIVETRAIN = ("left voltage", "right voltage", "left position", "right position", "left velocity", "right velocity")
 _SINGLE = ("voltage", "position", "velocity")
 
@@ -20,8 +21,8 @@ _SINGLE = ("voltage", "position", "velocity")
 def read_sysid(path: Path) -> tuple[Table, float | None]:
     """A log's tests one after the other, told apart by the column `test`, and how far a turn goes.
 
-    Positions stand in the log's unit, velocities in that per second; where that is a length, `m` stands for it and the
-    units of a turn say how long.
+    Positions stand in the log's unit, velocities in that per second; where that is a length, the log says how
+    far a turn goes.
     frc-characterization has battery and share of the voltage behind the time, and two sides of any mechanism.
 
     Raises:
@@ -106,7 +107,7 @@ def _rows(path: Path, name: str, rows: object) -> NDArray[np.float64]:
 
 def _turn(path: Path, log: dict[str, Any], unit: str) -> float | None:
     """How far a turn goes, where the unit is a length."""
-    if unit != "m":
+    if unit not in LENGTHS:
         return None
     turn = log.get("unitsPerRotation")
     if not isinstance(turn, int | float) or isinstance(turn, bool) or not 0.0 < turn < 1e6:

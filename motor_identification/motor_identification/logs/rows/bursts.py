@@ -3,6 +3,9 @@
 A program that draws between two reads of its serial port stamps rows when it takes them: many at once, then none. Its
 last row of a burst came at once, so that those lie on the board's clock, and the time from one to the next goes with
 the number of rows between them. A board that really pauses takes as long for each pause, however many rows came before.
+
+Where a log has rows of its own instead, those repeat the latest value until the link goes on: a position stands still,
+and then goes all the way at once.
 """
 
 from dataclasses import replace
@@ -16,6 +19,58 @@ QUICK = 0.8  # of the even distance: rows within a burst are closer
 SAME = 0.2  # relative: how far the time that one more row takes may be from the even distance
 SURE = 4.0  # standard errors of that time, by which it is more than within a burst
 BESIDE, MOSTLY = 1.5, 0.9  # even distances beside the board's clock that a last row may be, and the share that is
+
+# A value that stays for so many times the usual, while the motor goes on, was not handed on:
+STALL = 5.0
+AROUND = 4  # changes before it, none of them late, that tell how fast the motor was
+LATE = 2.0  # times the usual, beyond which a change is late
+CAUGHT_UP = 0.7, 1.4  # of the way that it would have gone meanwhile
+AT_ONCE, MOST = 0.25, 12  # of the stall's time, and changes, within which it is caught up
+FEW = 0.05  # of the changes: a motor that sticks and slips does so again and again
+
+
+def cut_stalls(signals: Signals, name: str) -> tuple[Signals, list[str]]:
+    """Leave out rows whose position a link did not hand on, until it made up for it at once: a run begins there."""
+    keep, begins, lines = np.ones(len(signals), np.bool_), np.zeros(len(signals), np.bool_), []
+    for run in signals.runs.values():
+        for first, last in _find_stalls((signals.time[run] - signals.time[run.start]) * 1e-9, signals.motion[run]):
+            keep[run.start + first : run.start + last] = False
+            begins[run.start + last] = True
+            lines.append(int(signals.lines[run.start + first]))
+    if not lines:
+        return signals, []
+    lost = int(np.count_nonzero(~keep))
+    split = signals.split(begins)
+    rows = np.isin(split.lines, signals.lines[keep])
+    cut = split.only(rows)
+    said = (
+        f"Left out: {lost} rows from line {', '.join(map(str, lines))} on, in which {name} stays while the motor goes "
+        f"on and then makes up for it at once, as a link hands on what it held back: {len(cut.runs)} runs, a bag each."
+    )
+    return cut, [said]
+
+
+def _find_stalls(time: Floats, position: Floats) -> list[tuple[int, int]]:
+    """The first row of each stall of positions (K,) at times (K,) [s], and the one at which it is made up for."""
+    changed = np.flatnonzero(np.diff(position)) + 1
+    gaps = np.diff(time[changed])
+    if len(gaps) < 4 * AROUND:
+        return []
+    usual, found = float(np.median(gaps)), []
+    for k in np.flatnonzero(gaps > STALL * usual):
+        before, seen = changed[max(k - AROUND, 0) : k + 1], time[changed]
+        if len(before) <= AROUND or np.any(gaps[k - AROUND : k] > LATE * usual):
+            continue
+        rate = (position[before[-1]] - position[before[0]]) / (time[before[-1]] - time[before[0]])
+        for end in range(k + 2, min(k + 2 + MOST, len(changed))):
+            share = (position[changed[end]] - position[before[-1]]) / (rate * (seen[end] - seen[k]))
+            if seen[end] - seen[k + 1] > AT_ONCE * gaps[k]:
+                break
+            if CAUGHT_UP[0] <= share <= CAUGHT_UP[1]:
+                held = int(np.searchsorted(time, seen[k] + usual))
+                found.append((held, int(changed[end])))
+                break
+    return found if len(found) <= FEW * len(changed) else []
 
 
 def spread_bursts(signals: Signals, gap: Bools) -> tuple[Signals, list[str]]:

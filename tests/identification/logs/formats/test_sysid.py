@@ -42,6 +42,8 @@ def test_a_single_mechanism(tmp_path: Path, unit: str, names: tuple[str, str]) -
 
 def test_a_length_without_its_turn_is_asked_for_later(tmp_path: Path) -> None:
     assert read_sysid(write(tmp_path, units="Meters", unitsPerRotation=0.5))[1] == 0.5
+    table, turn = read_sysid(write(tmp_path, units="Inches", unitsPerRotation=13.35))
+    assert turn == 13.35 and table.names[3:] == ["position [in]", "velocity [in/s]"]
     for turn in (0, -1.0, "wide", True, 1e7, None):
         assert read_sysid(write(tmp_path, units="Meters", unitsPerRotation=turn))[1] is None
 
@@ -54,8 +56,8 @@ def test_a_log_of_frc_characterization(tmp_path: Path, width: int) -> None:
     table, turn = read_sysid(path)
     assert turn == 1.0 and table.notes == ("frc-characterization's log of Drivetrain: slow-forward.",)
     assert table.names[2:] == [
-        "left voltage [V]", "right voltage [V]", "left position [m]", "right position [m]",
-        "left velocity [m/s]", "right velocity [m/s]",
+        "left voltage [V]", "right voltage [V]", "left position [ft]", "right position [ft]",
+        "left velocity [ft/s]", "right velocity [ft/s]",
     ]  # fmt: skip
     assert [table.numbers(name)[0] for name in table.names[1:]] == [0.02, *row[3:9]]
     path = write(tmp_path, sysid=False, test="Elevator", **{"slow-forward": [row, row]})

@@ -5,10 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from position_rows import rows as rows_of
 
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm, Kind
-from motor_identification.logs.rows.bursts import FEWEST, spread_bursts
+from motor_identification.logs.rows.bursts import FEWEST, cut_stalls, spread_bursts
 from motor_identification.logs.rows.parts import GAP, split_at_gaps
 from motor_identification.logs.signals import Signals, read_signals
 
@@ -74,3 +75,42 @@ def test_such_rows_are_one_run() -> None:
     times = handed_on(40, pause=(30, 60))
     parts, said = split_at_gaps(timed(times))
     assert np.max(np.diff(times)) > GAP * WITHIN and len(parts.runs) == 1 and "in bursts, about 4" in said[0]
+
+
+def held_back(begin: int, length: int, catching_up: int, every: int = 5) -> NDArray[np.float64]:
+    """Positions of a motor that gains speed, new in every so many rows; a link holds them back for some rows."""
+    row = np.arange(1200)
+    told = row // every * every
+    late = (row >= begin) & (row < begin + length)
+    told[late] = (begin - 1) // every * every
+    behind = slice(begin + length, begin + length + catching_up)
+    told[behind] = np.linspace(begin, begin + length + catching_up, catching_up).astype(int) // every * every
+    return 10.0 * told + 0.01 * told**2
+
+
+def test_rows_of_a_link_that_stood_still_are_left_out() -> None:
+    position = held_back(600, 100, 8)
+    signals, said = cut_stalls(rows_of(position), "y")
+    first, second = signals.runs.values()
+    assert 600 <= first.stop <= 606 and 490 <= second.stop - second.start <= 500
+    assert "rows from line 60" in said[0] and "2 runs, a bag each" in said[0]
+    even = np.diff(signals.motion[first])
+    assert np.max(np.diff(signals.motion[second])[10:]) < 5 * 36.0 and even.max() < 5 * 25.0
+
+
+@pytest.mark.parametrize(
+    ("what", "position"),
+    [
+        ("it goes on as before", held_back(600, 0, 0)),
+        ("too short", held_back(600, 15, 3)),
+        ("caught up as slowly as a motor may", held_back(600, 100, 90)),
+        (
+            "it stood",
+            np.concatenate([10.0 * (np.arange(600) // 5), np.full(100, 1190.0), 1200.0 + 10.0 * (np.arange(500) // 5)]),
+        ),
+        ("it sticks and slips", np.cumsum(np.where(np.arange(1200) % 40 < 5, 80.0, 0.0))),
+    ],
+)
+def test_rows_of_a_motor_that_stood_are_not(what: str, position: NDArray[np.float64]) -> None:
+    signals, said = cut_stalls(rows_of(position), "y")
+    assert said == [] and len(signals) == len(position), what
