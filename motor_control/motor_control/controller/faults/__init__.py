@@ -8,10 +8,7 @@ In goes what a sample shows (`evidence`), out comes a sentence, or none (`detect
                      that is held
     irregular_edges  periods that jump back and forth: noise, no motor
     unexpected_edges edges at angles where the model's motor is not: noise that is too slow for its periods to be judged
-    runaway          the voltage is 0 or strongly against the motion, and yet the speed grows: a wrong sign, a bridge
-                     that stays on, a load
-    wrong_direction  pulses against the motion, beyond what a load takes, that make it faster: exchanged channels
-    plugging         a motion that the voltage against it, all that `plug_limit` leaves, does not slow down
+    direction/       motions that the voltage does not drive: a wrong sign, a bridge that stays on, a load
     push_at_rest     voltages that no load needs where the motor shall stand
     insensitive_speed  a speed that no voltage changes: hum on the line
     hum              edges in the rhythm of the mains, or that have jumped to another one, under 0 V or beside more

@@ -10,13 +10,11 @@ from motor_control.controller.faults import (
     insensitive_speed,
     irregular_edges,
     overspeed,
-    plugging,
     push_at_rest,
-    runaway,
     stall,
     unexpected_edges,
-    wrong_direction,
 )
+from motor_control.controller.faults.direction import implied_load, plugging, pulses, runaway
 from motor_control.controller.faults.evidence import Config, Seen
 
 
@@ -30,8 +28,9 @@ class State:
     unexpected: unexpected_edges.State = unexpected_edges.State()
     undriven: runaway.State = runaway.State()
     too_fast: float = 0.0  # [s]
-    pushed: wrong_direction.State = wrong_direction.State()
+    pushed: pulses.State = pulses.State()
     plugged: plugging.State = plugging.State()
+    driven: implied_load.State = implied_load.State()
     unrest: push_at_rest.State = push_at_rest.State()
     contradicted: contradiction.State = contradiction.State()
     insensitive: insensitive_speed.State = insensitive_speed.State()
@@ -48,7 +47,7 @@ def begin(speed: float, before: State | None = None) -> State:
     if before is None:
         return State(missing=few_edges.State(expected=speed), contradicted=contradiction.begin(speed))
     missing, stalled = replace(before.missing, expected=speed), replace(before.stalled, speed=0.0)
-    return replace(before, missing=missing, undriven=runaway.State(), stalled=stalled)
+    return replace(before, missing=missing, undriven=runaway.State(), driven=implied_load.State(), stalled=stalled)
 
 
 def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
@@ -60,14 +59,15 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     odd, unexpected = unexpected_edges.check(config, state.unexpected, seen)
     away, undriven = runaway.check(config, state.undriven, seen)
     fast, too_fast = overspeed.check(config, state.too_fast, seen)
-    wrong, pushed = wrong_direction.check(config, state.pushed, seen)
+    wrong, pushed = pulses.check(config, state.pushed, seen)
     kept, plugged = plugging.check(config, state.plugged, seen)
+    heavy, driven = implied_load.check(config, state.driven, seen)
     restless, unrest = push_at_rest.check(config, state.unrest, seen)
     false, contradicted = contradiction.check(config, state.contradicted, seen)
     same, insensitive = insensitive_speed.check(config, state.insensitive, seen)
     loose, dropped = dropouts.check(config, state.dropped, seen)
     humming, hums = hum.check(config, state.hums, seen)
-    found = (still, few, irregular, odd, away, fast, wrong, kept, restless, false, humming, same, loose)
+    found = (still, few, irregular, odd, away, fast, wrong, kept, heavy, restless, false, humming, same, loose)
     return next((one for one in found if one), ""), State(
         stalled,
         missing,
@@ -77,6 +77,7 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
         too_fast,
         pushed,
         plugged,
+        driven,
         unrest,
         contradicted,
         insensitive,

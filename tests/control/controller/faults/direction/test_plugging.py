@@ -5,7 +5,7 @@ from math import exp, inf
 import pytest
 from fault_bench import LIMIT, SLOT
 
-from motor_control.controller.faults import plugging
+from motor_control.controller.faults.direction import plugging
 from motor_control.controller.faults.evidence import Config, Seen
 from motor_control.controller.motion import Motion
 from motor_model.sample import Sample
