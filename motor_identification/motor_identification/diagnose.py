@@ -165,14 +165,14 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
         selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
         if selection.model.complete and selection.model.above_floor:
             selection = add_rivals_beside_torque(selection, reporter)
-    elif beside.steps and fits_torque(beside.model.held.gap, start.model.held.gap):
+    elif beside.steps and fits_torque(beside.model.held, start.model.held):
         selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
     else:
         selection = beside
     left, undetermined = drop_undetermined(selection, reporter)
-    # With nothing left, a model that fits a slow torque instead of the motion tells less than the one to begin with.
-    nothing = not left.steps and fits_torque(left.model.held.gap, start.model.held.gap)
-    return start if nothing else left, undetermined
+    # What is left of a model that fits a slow torque instead of the motion tells less than the one to begin with.
+    worse = fits_torque(left.model.held, start.model.held)
+    return start if worse else left, undetermined
 
 
 def _select_both_ways(begun: Selection, reporter: ProgressReporter) -> Selection:

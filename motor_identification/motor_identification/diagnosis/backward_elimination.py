@@ -20,8 +20,9 @@ from motor_identification.diagnosis.effect_test import (
 )
 from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
 from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss, is_better
+from motor_identification.diagnosis.evidence.standstill_evidence import explains_standstills
 from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_beside_torque
-from motor_identification.diagnosis.stand_ins import stands_in_for_curve
+from motor_identification.diagnosis.stand_ins import is_own_evidence, stands_in_for_curve
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
@@ -95,13 +96,25 @@ def _try_in_place(
     settled = [_settle(test, current, selection.hold_out) for test in drop_chance_harmonics(tried)]
     tests = sorted(settled, key=lambda test: test.evidence, reverse=True)
     current = _catch_up(current, tests, selection.hold_out)
-    better = choose_better(tests, effect, current)
+    better = choose_better(_drop_without_own_evidence(tests, effect, without, current), effect, current)
     if better is None:
         return selection.replace_step(step, replace(step, rivals=_list_rivals(tests, effect, current)), current)
     rivals = find_rivals(better, tests)
     if _is_as_likely_from_there(effect, better, selection):
         rivals = sort_by_table({*rivals, effect})
     return selection.replace_step(step, replace(step, found=better, rivals=rivals), better.model)
+
+
+def _drop_without_own_evidence(
+    tests: Sequence[CandidateTest], effect: str, without: Model, current: Model
+) -> list[CandidateTest]:
+    """Drop from tests in the place of an effect that holds the motor those that do not, where it is seen to be held.
+
+    What bends the motion may well be likelier, and is found beside the friction if it is there.
+    """
+    if not EFFECT_BY_NAME[effect].holds or not is_own_evidence(effect, without, current):
+        return list(tests)
+    return [test for test in tests if explains_standstills(without, test.model)]
 
 
 def add_rivals_beside_torque(selection: Selection, reporter: ProgressReporter) -> Selection:

@@ -103,12 +103,12 @@ def share_explained(before: float, after: float, floor: float) -> float:
     return (before**2 - after**2) / (before**2 - floor**2) if before > floor else 1.0
 
 
-def fits_torque(beside: float, start: float) -> bool:
-    """Decide by gaps [rad/s] whether a model beside a random torque fits the torque instead of the motion.
+def fits_torque(beside: HeldOut, start: HeldOut) -> bool:
+    """Decide by gaps whether a model beside a random torque fits the torque instead of the motion.
 
-    It predicts worse than the model that the diagnosis began with.
+    It predicts worse than the model that the diagnosis began with; or does not even fit better what both have seen.
     """
-    return beside > thresholds.GAP_CHANCE * start
+    return beside.gap > (1.0 if beside.seen else thresholds.GAP_CHANCE) * start.gap
 
 
 def predicts_far_worse(beside: float, plain: float) -> bool:

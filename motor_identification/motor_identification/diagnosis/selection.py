@@ -80,9 +80,10 @@ def begin_selection(
     robust = fit_robustly(careful.on(directed.problem))
     if robust is not None and may_be_miscounted(robust, model.floor):
         clean = exclude_miscounts(robust)
-        rest = validate_model(hold_out, clean)
+        corrected = hold_out.correct_directions(clean)
+        rest = validate_model(corrected, clean)
         if rest.at_floor:
-            return Selection(steps, rest, hold_out.correct_directions(clean), workers)
+            return Selection(steps, rest, corrected, workers)
     return Selection(steps, model, hold_out, workers)
 
 

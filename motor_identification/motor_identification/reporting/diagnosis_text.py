@@ -6,7 +6,7 @@ from motor_identification.discrepancy.missing_torque import describe_torque, est
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.reporting.diagnosis_table import format_parameters
 from motor_identification.reporting.names import capitalize, effect_name, join_effects, join_names
-from motor_identification.reporting.numbers import format_change, format_measured, format_ratio
+from motor_identification.reporting.numbers import describe_change, format_measured, format_ratio
 
 GAP, FITTED_GAP = "validation RMS error (gap)", "RMS error (gap)"
 TOO_SHORT = "The recording is too short to keep a part of it for validation: record more motion."
@@ -40,13 +40,15 @@ def summarize_diagnosis(diagnosis: Diagnosis) -> str:
 
 
 def _describe_gap_reduction(diagnosis: Diagnosis) -> str:
-    """Say by how much the gap falls, beside the noise floor."""
-    change = format_change(diagnosis.gap_before, diagnosis.gap_after)
-    text = f"the {_name_gap(diagnosis)} falls from {change} rad/s ({_compare_with_floor(diagnosis)})"
+    """Say by how much the gap falls, beside the noise floor; beside a random torque it may rise."""
+    change = describe_change(diagnosis.gap_before, diagnosis.gap_after)
+    text = f"the {_name_gap(diagnosis)} {change} rad/s ({_compare_with_floor(diagnosis)})"
+    if diagnosis.gap_after > diagnosis.gap_before:
+        return f"{text}: most of it is of a random torque, beside which the motion is likelier"
     if diagnosis.gap_before > EXPLAINED_GAP * diagnosis.noise_floor:
         return text
-    lasting = format_change(*(held.joined(LASTING_INTERVAL).gap for held in (diagnosis.before, diagnosis.after)))
-    return f"{text}; averaged over {LASTING_INTERVAL:g} s, which smooths the encoder's steps, from {lasting} rad/s"
+    lasting = describe_change(*(held.joined(LASTING_INTERVAL).gap for held in (diagnosis.before, diagnosis.after)))
+    return f"{text}; averaged over {LASTING_INTERVAL:g} s, which smooths the encoder's steps, it {lasting} rad/s"
 
 
 def _name_gap(diagnosis: Diagnosis) -> str:

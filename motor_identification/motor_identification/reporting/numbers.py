@@ -70,10 +70,15 @@ def format_odds(log_ratio: float) -> str:
 
 
 def format_change(before: float, after: float) -> str:
-    """Write from where to where a number falls, with the digits that show it: 3, or as many as it takes, up to 6."""
+    """Write from where to where a number changes, with the digits that show it: 3, or as many as it takes, up to 6."""
     pairs = ((f"{before:.{digits}g}", f"{after:.{digits}g}") for digits in (3, 4, 5))
     shown = next((pair for pair in pairs if pair[0] != pair[1]), (f"{before:.6g}", f"{after:.6g}"))
     return " to ".join(shown)
+
+
+def describe_change(before: float, after: float) -> str:
+    """Say from where to where a number falls, or rises."""
+    return f"{'rises' if after > before else 'falls'} from {format_change(before, after)}"
 
 
 def describe_absence(name: str, value: float, error: float) -> str:

@@ -207,3 +207,23 @@ def test_what_is_replaced_is_a_rival_if_it_is_as_likely_from_where_the_other_lea
     )
     test = CandidateTest(instead, bare, better)
     assert backward_elimination._is_as_likely_from_there(effect, test, stub_selection(2.0)) is alike
+
+
+@pytest.mark.parametrize(
+    ("effect", "seen", "left"),
+    [
+        ("coulomb_friction", True, ["dead_zone"]),
+        ("coulomb_friction", False, ["transport_delay", "dead_zone"]),
+        ("quadratic_drag", True, ["transport_delay", "dead_zone"]),  # it holds nothing
+    ],
+)
+def test_what_is_seen_to_hold_the_motor_is_replaced_by_what_holds_it(
+    monkeypatch: pytest.MonkeyPatch, effect: str, seen: bool, left: list[str]
+) -> None:
+    """A delay bends the transients of a robot more than its friction does, but it moves where that stood."""
+    without, current = stub_model(5.0), stub_model(4.0)
+    tests = [stub_test(name, without, 3.0, 200.0) for name in ("transport_delay", "dead_zone")]
+    monkeypatch.setattr(backward_elimination, "is_own_evidence", lambda name, one, other: seen)
+    monkeypatch.setattr(backward_elimination, "explains_standstills", lambda one, other: other is tests[1].model)
+    kept = backward_elimination._drop_without_own_evidence(tests, effect, without, current)
+    assert [test.effect for test in kept] == left

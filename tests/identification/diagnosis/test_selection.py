@@ -1,13 +1,18 @@
 """A stepwise selection begins with a model fitted again, and is fitted again with every step."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from diagnosed import fitted, with_effect
 
-from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import selection, thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.selection import SelectionStep, begin_selection, may_be_miscounted
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.validation.hold_out import HoldOut
 
 BELOW, ABOVE = 0.999, 1.001
 
@@ -23,6 +28,28 @@ def test_steps_are_added_and_the_model_is_fitted_again() -> None:
     assert found.model.effects == ("coulomb_friction",) and found.model.at_floor
     assert found.model.estimate.parameters.value("ks") == pytest.approx(0.4, rel=1e-3)
     assert found.model.estimate.simulations > more.simulations
+
+
+def test_a_model_without_miscounts_is_judged_on_the_motion_that_candidates_will_be(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Directions read once more by the cleaner fit may make other intervals of the held-out motion."""
+    estimate, hold_out = fitted(ks=0.4)
+    judged: list[tuple[Model, HoldOut]] = []
+
+    def validate(by: HoldOut, one: Estimate) -> Model:
+        model = validate_model(by, estimate)
+        judged.append((model, by))
+        return model
+
+    monkeypatch.setattr(type(hold_out), "correct_directions", lambda self, by: replace(self))
+    monkeypatch.setattr(selection, "fit_robustly", lambda careful: careful)
+    monkeypatch.setattr(selection, "validate_model", validate)
+    monkeypatch.setattr(selection, "may_be_miscounted", lambda robust, floor: True)
+    monkeypatch.setattr(Model, "at_floor", True)
+    begun = begin_selection(estimate, hold_out, 1)
+    model, by = judged[-1]
+    assert begun.model is model and begun.hold_out is by and len(judged) == 2
 
 
 @pytest.mark.parametrize("times", [BELOW, ABOVE])

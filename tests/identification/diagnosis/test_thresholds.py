@@ -202,7 +202,9 @@ def test_chance_harmonic(times: float, passes: bool) -> None:
 @SIDES
 def test_gap_chance(times: float, passes: bool) -> None:
     """A model beside a random torque that predicts worse than the one to begin with fits the torque."""
-    assert fits_torque(times * thresholds.GAP_CHANCE * 2.0, 2.0) is passes
+    start = stub_held(2.0)
+    assert fits_torque(stub_held(times * thresholds.GAP_CHANCE * 2.0), start) is passes
+    assert fits_torque(replace(stub_held(times * 2.0), seen=True), start) is passes  # it was fitted to that
 
 
 @SIDES

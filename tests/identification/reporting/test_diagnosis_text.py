@@ -32,6 +32,13 @@ def test_summaries(variants: dict[Verdict, Diagnosis]) -> None:
     assert f"{capitalize(one.findings[0].where)}. Residual torque over the speed: -0.3" in said[Verdict.UNEXPLAINED]
 
 
+def test_a_gap_that_rises_beside_a_random_torque_is_said_to_rise(variants: dict[Verdict, Diagnosis]) -> None:
+    one = variants[Verdict.EXPLAINED]
+    said = summarize_diagnosis(replace(one, gap_before=1.0, gap_after=1.05))
+    assert "(gap) rises from 1 to 1.05 rad/s" in said and "most of it is of a random torque" in said
+    assert "rises" not in summarize_diagnosis(one) and "random torque" not in summarize_diagnosis(one)
+
+
 def test_an_undecided_recording_without_findings_says_what_it_hides(variants: dict[Verdict, Diagnosis]) -> None:
     one = replace(variants[Verdict.NOTHING_MISSING], verdict=Verdict.UNDECIDED, undetectable=("dead_zone", "backlash"))
     assert "Nothing is missing that this recording could show" in summarize_diagnosis(one)

@@ -6,6 +6,7 @@ import pytest
 
 from motor_identification.reporting.numbers import (
     describe_absence,
+    describe_change,
     format_change,
     format_error,
     format_odds,
@@ -55,6 +56,7 @@ def test_a_change_has_the_digits_that_show_it() -> None:
     assert format_change(2.3212, 0.0803412) == "2.32 to 0.0803"
     assert format_change(2.98214, 2.97832) == "2.982 to 2.978"
     assert format_change(2.9821436, 2.9821441) == "2.98214 to 2.98214"
+    assert describe_change(2.0, 1.0) == "falls from 2 to 1" and describe_change(1.0, 2.0) == "rises from 1 to 2"
 
 
 def test_an_effect_may_be_consistent_with_none() -> None:

@@ -14,7 +14,7 @@ from motor_identification.reporting.html.next_steps import Files, list_diagnosis
 from motor_identification.reporting.html.pictures import Picture, draw_picture
 from motor_identification.reporting.html.tables import list_gaps, list_parameters, rank_alternatives
 from motor_identification.reporting.html.template import fill_template
-from motor_identification.reporting.numbers import format_change, format_ratio
+from motor_identification.reporting.numbers import describe_change, format_ratio
 from motor_model.effects import EFFECT_BY_NAME
 
 VERDICTS = {
@@ -47,7 +47,7 @@ def render_diagnosis(diagnosis: Diagnosis, files: Files) -> str:
         torque=describe_torque(estimate_missing_torque(diagnosis.after)),
         parameters=list_parameters(diagnosis.model, diagnosis.baseline),
         format_parameters=format_parameters,
-        format_change=format_change,
+        describe_change=describe_change,
         rank_alternatives=rank_alternatives,
         limits=list_limits(diagnosis),
         steps=list_diagnosis_steps(diagnosis, files),
