@@ -1,5 +1,6 @@
 """What columns are by how their numbers behave, where their names tell nothing or two things."""
 
+import os.path
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import permutations
@@ -9,7 +10,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.clock import row_period
 from motor_identification.logs.columns.drive import drives, is_supply
-from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.heading import Heading, words_besides
 from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
@@ -115,6 +116,37 @@ def numbered_motors(headings: list[Heading]) -> list[Heading]:
     if len(moving) < 2 or sorted(moving) != sorted(driving) or len(set(moving)) != len(moving):
         return headings
     return [replace(one, side=numbers.get(one.name, one.side)) for one in headings]
+
+
+def named_motors(headings: list[Heading]) -> tuple[list[Heading], tuple[str, ...]]:
+    """Motors by the names that a drive and a motion share: `shooter_volts`, `shooter_rpm`, `/Drive/Module0/TurnVolts`.
+
+    Only where columns could be those of several; what drives or moves besides is left out, and named.
+    """
+    own = [one for one in headings if drives(one) or one.quantity in MOVES]
+    if not _several(own):
+        return headings, ()
+    motors: dict[tuple[str, ...], list[Heading]] = {}
+    for one in own:
+        motors.setdefault(words_besides(one), []).append(one)
+    whole = {
+        words: ones
+        for words, ones in motors.items()
+        if any(map(drives, ones)) and any(one.quantity in MOVES for one in ones) and not _several(ones)
+    }
+    if not whole or (len(whole) == 1 and () in whole):
+        return headings, ()
+    shared = len(os.path.commonprefix(list(whole))) if len(whole) > 1 else 0
+    labels = {one.name: "_".join(words[shared:]) or "motor" for words, ones in whole.items() for one in ones}
+    left = [one for one in own if one.name not in labels]
+    kept = [replace(one, side=labels.get(one.name, one.side)) for one in headings if one not in left]
+    return kept, tuple(one.name for one in left if one.quantity in MOVES)
+
+
+def _several(headings: Sequence[Heading]) -> bool:
+    """Whether there are two columns of one kind for the same side."""
+    kinds = [(one.quantity, one.side) for one in headings]
+    return len(set(kinds)) < len(kinds)
 
 
 def share_one_drive(table: Table, headings: list[Heading]) -> list[Heading]:

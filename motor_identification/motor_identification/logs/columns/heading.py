@@ -22,6 +22,7 @@ _CAMEL = re.compile(r"(?<=[^\W\d_A-ZÀ-Þ])(?=[A-ZÀ-Þ])|(?<=[A-Z])(?=[A-Z][a-z
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
 _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
 _AXES, _JOINT_FIELDS = frozenset(["yaw", "pitch", "roll"]), frozenset(["position", "velocity", "effort"])
+_TELLING = frozenset().union(MEASURED, *(WORDS[kind] for kind in (*MOVES, Quantity.VOLTAGE, Quantity.DUTY)))
 _KNOWN = frozenset().union(*WORDS.values(), MEASURED, FILTERED)
 _WRITTEN_TOGETHER = re.compile(  # the longer ones first
     "|".join(sorted((word for word in _KNOWN if "\u2e80" < word[0] < "\ua4d0"), key=len, reverse=True))
@@ -52,6 +53,11 @@ def read_heading(name: str) -> Heading:
         words = (*before, *words[len(words) - behind :])
     side = _side(words)
     return Heading(name, words, _quantity(words, unit), unit, side)
+
+
+def words_besides(heading: Heading) -> tuple[str, ...]:
+    """The words of a name that tell no quantity, but a machine's part: `front left` of `frontLeftVolts`."""
+    return tuple(word for word in heading.words if word not in _TELLING)
 
 
 def _unit_in_brackets(name: str) -> tuple[str, str]:

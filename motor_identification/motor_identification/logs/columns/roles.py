@@ -10,6 +10,7 @@ from motor_identification.logs.columns.behaviour import (
     ends_of_a_loop,
     find_position,
     follows,
+    named_motors,
     numbered_motors,
     present_values,
     share_one_drive,
@@ -64,6 +65,7 @@ def find_roles(table: Table, said: Said) -> Roles:
         [one for one in others if one.quantity is not None or not _is_clock_of(table, one.name, time)]
     )
     free = share_one_drive(table, numbered_motors(speeds_called_v(table, present_values(free))))
+    free, unlike = (free, ()) if said.motors or said.motion or said.voltage else named_motors(free)
     free, undriven = ([*free], ()) if said.motors or said.motion or said.voltage else _driven_sides(free)
     pairs = said.motors or _pairs(table, free, said, time)
     pairs, findings = _of_one_shaft(table, pairs, free, said, time)
@@ -71,7 +73,12 @@ def find_roles(table: Table, said: Said) -> Roles:
     named = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs} | {supply}
     currents = [one.name for one in free if one.quantity is Quantity.CURRENT and one.name not in named]
     return Roles(
-        time, pairs, supply, currents[0] if len(currents) == 1 and len(pairs) == 1 else None, undriven, findings
+        time,
+        pairs,
+        supply,
+        currents[0] if len(currents) == 1 and len(pairs) == 1 else None,
+        (*unlike, *undriven),
+        findings,
     )
 
 
