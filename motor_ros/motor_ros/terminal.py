@@ -5,11 +5,13 @@ import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from shutil import get_terminal_size
 from typing import Any, TextIO
 
 from motor_model.errors import MotorError
 from motor_model.printable import escape
 
+CLEAR = "\r\x1b[K"  # the line of a terminal
 # Line ends, tabs, and what progress bars need: to the line's beginning, clear the rest of it, one line up.
 _OURS = re.compile(r"(\r?\n|\r|\t|\x1b\[[KA])")
 
@@ -62,3 +64,10 @@ def escaped_output() -> Iterator[None]:
             yield
         finally:
             sys.stdout, sys.stderr = before
+
+
+def in_place(line: str) -> None:
+    """Replace the last line of a terminal; a file or a pipe gets nothing."""
+    if sys.stdout.isatty():
+        width = get_terminal_size().columns - 1
+        print(f"{CLEAR}{line if len(line) <= width else line[: width - 1] + '…'}", end="", flush=True)

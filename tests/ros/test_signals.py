@@ -10,7 +10,7 @@ from std_msgs.msg import Float64
 from workbench import ENVIRONMENT, PATIENCE, Bench, program
 
 from motor_identification.bag import messages
-from motor_ros.command import shell
+from motor_ros.command.shell import shell
 
 BASH = ("env", "--default-signal=HUP", "bash", "-c")  # whether or not the tests themselves run behind nohup
 BACKGROUND = '"$@" & echo $!; wait $!'  # bash lets this ignore SIGINT, for there is no terminal

@@ -8,7 +8,7 @@ from motor_board.build import BRIDGES, FirmwareConfig, firmware
 from motor_board.programmer import KINDS, flash, the_port
 from motor_board.sketch import write_sketch
 from motor_model.errors import MotorError
-from motor_ros.command import CommandParser
+from motor_ros.command.parser import CommandParser
 
 
 def parser() -> argparse.ArgumentParser:

@@ -8,7 +8,9 @@ from motor_control.tuning.design import Tuning, Wish, tune
 from motor_control.tuning.speed_feedback import MEASURED, OBSERVER, Encoder
 from motor_model import model_file
 from motor_model.parameters import Parameters
-from motor_ros.command import CommandParser, positive, shell
+from motor_ros.command.number_types import positive
+from motor_ros.command.parser import CommandParser
+from motor_ros.command.shell import shell
 from motor_ros.output_files import add_force_option, check_outputs
 
 

@@ -9,7 +9,8 @@ from motor_driver.frames.codes import BAUD, Decay
 from motor_driver.parameters import MOST_ID
 from motor_model.errors import MotorError
 from motor_model.gearing.gear import parse_gear_ratio
-from motor_ros.command import CommandParser, between, positive, whole_between
+from motor_ros.command.number_types import between, positive, whole_between
+from motor_ros.command.parser import CommandParser
 from motor_ros.output_files import add_force_option
 
 

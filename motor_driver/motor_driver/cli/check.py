@@ -17,7 +17,7 @@ from motor_driver.ports.port_error import COMMAND, PortError
 from motor_driver.ports.search import the_only
 from motor_model.errors import MotorError
 from motor_model.regular_file import write_text
-from motor_ros.command import shell
+from motor_ros.command.shell import shell
 from motor_ros.output_files import check_outputs
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from motor_model.errors import MotorError
-from motor_ros.command import ended_by_interrupt
+from motor_ros.command.shell import ended_by_interrupt
 from motor_ros.output_files import check_outputs
 
 if TYPE_CHECKING:

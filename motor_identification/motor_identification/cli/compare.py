@@ -3,7 +3,8 @@
 import argparse
 from pathlib import Path
 
-from motor_ros.command import CommandParser, shell
+from motor_ros.command.parser import CommandParser
+from motor_ros.command.shell import shell
 
 EXAMPLES = """\
 the motors of a robot, each recorded and identified with the same effects:

@@ -8,7 +8,8 @@ from math import inf
 from motor_identification.cli.identify import add_effects_option
 from motor_identification.cli.options.mapping import add_mapping_options, make_source
 from motor_model.effects import EFFECTS
-from motor_ros.command import CommandParser, shell
+from motor_ros.command.parser import CommandParser
+from motor_ros.command.shell import shell
 from motor_ros.output_files import add_force_option
 
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from motor_identification.cli.options.plant import add_plant_options
 from motor_model.excitation import PROFILES, profile
 from motor_model.parameters import paper_motor
-from motor_ros.command import CommandParser, shell
+from motor_ros.command.parser import CommandParser
+from motor_ros.command.shell import shell
 from motor_ros.output_files import add_force_option
 
 if TYPE_CHECKING:

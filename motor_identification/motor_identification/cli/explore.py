@@ -11,7 +11,8 @@ from motor_identification.cli.diagnose import named
 from motor_identification.cli.identify import add_effects_option
 from motor_identification.cli.options.plant import add_plant_options, passed_on
 from motor_model.excitation import PROFILES
-from motor_ros.command import CommandParser, shell
+from motor_ros.command.parser import CommandParser
+from motor_ros.command.shell import shell
 
 if TYPE_CHECKING:
     from motor_identification.cli._diagnosed import Files

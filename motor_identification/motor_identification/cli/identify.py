@@ -13,7 +13,9 @@ from motor_identification.cli.options.physical import add_physical_options, read
 from motor_identification.estimation.request import Request, SearchConfig
 from motor_model.effects import EFFECT_BY_NAME, EFFECTS
 from motor_model.errors import MotorError
-from motor_ros.command import CommandParser, ended_by_interrupt, listed_names, shell, whole_between
+from motor_ros.command.number_types import whole_between
+from motor_ros.command.parser import CommandParser, listed_names
+from motor_ros.command.shell import ended_by_interrupt, shell
 from motor_ros.output_files import add_force_option, check_outputs
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from motor_identification.cli.import_log import run
 from motor_identification.cli.options.log import add_log_options
-from motor_ros.command import CommandParser
+from motor_ros.command.parser import CommandParser
 
 if TYPE_CHECKING:
     from motor_identification.logs.columns.said import Said

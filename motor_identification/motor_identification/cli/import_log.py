@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from motor_identification.cli.options.log import add_log_options, read_log_options
-from motor_ros.command import CommandParser, shell
+from motor_ros.command.parser import CommandParser
+from motor_ros.command.shell import shell
 
 if TYPE_CHECKING:
     from motor_identification.logs.columns.said import Said

@@ -4,7 +4,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_ros.command import CommandParser, shell
+from motor_ros.command.parser import CommandParser
+from motor_ros.command.shell import shell
 from motor_ros.output_files import add_force_option, check_outputs
 
 if TYPE_CHECKING:

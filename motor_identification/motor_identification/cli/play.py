@@ -4,7 +4,10 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from motor_ros.command import CommandParser, in_place, not_negative, positive, shell
+from motor_ros.command.number_types import not_negative, positive
+from motor_ros.command.parser import CommandParser
+from motor_ros.command.shell import shell
+from motor_ros.terminal import in_place
 
 if TYPE_CHECKING:
     from motor_identification.bag import Contents

@@ -5,8 +5,11 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from motor_ros.command import CommandParser, in_place, positive, shell
+from motor_ros.command.number_types import positive
+from motor_ros.command.parser import CommandParser
+from motor_ros.command.shell import shell
 from motor_ros.output_files import add_force_option
+from motor_ros.terminal import in_place
 from motor_ros.topics import TOPICS
 
 if TYPE_CHECKING:

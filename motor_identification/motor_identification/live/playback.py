@@ -9,7 +9,7 @@ from motor_identification.bag import Contents, in_time_order, messages
 from motor_identification.live.playback_schedule import Schedule
 from motor_identification.live.publishers import Publishers
 from motor_model.errors import RecordingError
-from motor_ros.command import in_place
+from motor_ros.terminal import in_place
 
 ANNOUNCED_GAP = 10.0  # [s] who sees nothing happen that long asks why
 LONGEST_GAP = 30 * 86400.0  # [s] no bag of a motor pauses for a month; garbled log times lie centuries off

@@ -101,7 +101,7 @@ def heard(draw: Draw, random: Random, folder: Path) -> list[str]:
 
 def watch(words: list[str]) -> int:
     """Do what a monitor does with messages, without a graph: keep them, and judge the motor now and then."""
-    from motor_ros.command import shell
+    from motor_ros.command.shell import shell
 
     def work() -> int:
         from motor_identification.bag.storage import Bag

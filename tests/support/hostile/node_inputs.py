@@ -59,7 +59,7 @@ def values(draw: Draw, random: Random, folder: Path) -> list[str]:
 
 def fill_values(words: list[str]) -> int:
     """What the stand-in does with a type and a text, without a graph."""
-    from motor_ros.command import shell
+    from motor_ros.command.shell import shell
     from ros2_stand_in.interfaces import interface_type
     from ros2_stand_in.interfaces import values as typed
 

@@ -12,7 +12,7 @@ from motor_identification.logs.form import TIME_UNITS, UNITS, Kind
 from motor_model.errors import MotorError
 from motor_model.gearing.gear import parse_gear_ratio
 from motor_model.sample import RANGES
-from motor_ros.command import between, positive, whole_between
+from motor_ros.command.number_types import between, positive, whole_between
 from motor_ros.output_files import add_force_option
 
 SHORTEST_TICK, LONGEST_TICK = 1e-9, 3600.0  # [s] a nanosecond is as fine as times are kept

@@ -4,7 +4,7 @@ import argparse
 
 from motor_identification.estimation.request import PhysicalRequest
 from motor_model.errors import MotorError
-from motor_ros.command import positive
+from motor_ros.command.number_types import positive
 
 
 def add_physical_options(parser: argparse.ArgumentParser) -> None:

@@ -2,7 +2,7 @@
 
 import argparse
 
-from motor_ros.command import between, positive, whole_between
+from motor_ros.command.number_types import between, positive, whole_between
 
 _NAMES = (
     "voltage", "speed", "topic_namespace", "model", "sample_rate", "edges_per_revolution", "edge_resolution",

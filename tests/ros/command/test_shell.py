@@ -1,16 +1,14 @@
-"""What commands share: exit statuses, sentences, numbers on the command line, completion of lists."""
+"""How a command ends: exit statuses, sentences, interrupts."""
 
-import argparse
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from motor_model.errors import MotorError
-from motor_ros.command import CommandParser, between, listed_names, not_negative, positive, shell, whole_between
+from motor_ros.command.shell import shell
 
 
 def test_the_status_says_how_it_ended(capsys: pytest.CaptureFixture[str]) -> None:
@@ -40,36 +38,9 @@ def test_a_command_hears_ctrl_c_although_whoever_started_it_holds_it_back() -> N
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-@pytest.mark.parametrize(
-    ("take", "text", "value"),
-    [(positive, "0.5", 0.5), (not_negative, "0", 0.0), (positive, "0", None), (not_negative, "-1", None)]
-    + [(positive, text, None) for text in ("inf", "nan", "much")]
-    + [(between(1, 20), "20", 20.0), (between(1, 20), "20.5", None), (between(1, 20), "0.9", None)]
-    + [(whole_between(-1, 3), "-1", -1), (whole_between(-1, 3), "4", None), (whole_between(-1, 3), "2.0", None)],
-)
-def test_numbers_outside_their_range_are_refused(take: Callable[[str], float], text: str, value: float | None) -> None:
-    if value is not None:
-        assert take(text) == value
-        return
-    with pytest.raises(argparse.ArgumentTypeError, match=text):
-        take(text)
-
-
-def test_a_list_with_commas_is_completed_name_by_name() -> None:
-    complete = listed_names(["friction", "drag", "delay"])
-    assert complete("") == ["friction", "drag", "delay"]
-    assert complete("drag,d") == ["drag,friction", "drag,delay"]
-
-
-def test_a_table_keeps_its_lines_and_a_paragraph_is_filled() -> None:
-    text = CommandParser("motor_ros", "tool", "word " * 60, "profiles:\n  step   4 s\n  rich  28 s").format_help()
-    assert "profiles:\n  step   4 s\n  rich  28 s" in text
-    assert all(len(line) < 200 for line in text.splitlines()) and "word word" in text
-
-
 END = """
 import io, os, signal, sys
-from motor_ros.command import ended_by_interrupt, shell
+from motor_ros.command.shell import ended_by_interrupt, shell
 
 class Interrupted(io.FileIO):
     def write(self, data):
@@ -114,7 +85,7 @@ def test_a_mistake_of_ours_says_so_and_keeps_its_log(
     assert said.count("\n") == 1 and str(log) in said and "Traceback" in log.read_text()
 
 
-PRINTS = "from motor_ros.command import shell\nraise SystemExit(shell(lambda: print('x' * 100) or 0))"
+PRINTS = "from motor_ros.command.shell import shell\nraise SystemExit(shell(lambda: print('x' * 100) or 0))"
 
 
 @pytest.mark.parametrize(
