@@ -24,6 +24,7 @@ from motor_identification.logs.form import LENGTHS, UNITS, CsvForm, Kind, time_u
 Floats = NDArray[np.float64]
 
 STEPS_BETWEEN = 0.8  # of the rows that a steady curve's voltage changes in
+WHOLE_DEGREES = 360  # counts a turn, which are degrees as well
 ROUNDED = 0.01  # of full duty, by which rounding may go beyond it
 _KINDS = {Quantity.SPEED: Kind.SPEED, Quantity.POSITION: Kind.POSITION, Quantity.COUNT: Kind.COUNT}
 _ORDER = (Kind.SPEED, Kind.COUNT, Kind.POSITION)  # `count` is a count before it is a position
@@ -195,6 +196,8 @@ def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: floa
     guessed = (
         guess_speed_unit(values, said.speed_window or period) if kind is Kind.SPEED else guess_position_unit(values)
     )
+    if not guessed.name and "count" in guessed.candidates and said.edges_per_revolution not in (None, WHOLE_DEGREES):
+        return Unit("count", "as the counts of a turn are said; otherwise: --unit")
     if not guessed.name and said.motion and said.kind:
         return Unit(next(iter(UNITS[kind])), "assumed; otherwise: --unit")
     return guessed

@@ -32,6 +32,8 @@ Floats = NDArray[np.float64]
 
 SAME_MOTION = 0.9995  # correlation of a motion with itself in another unit, which is rounded
 SAME_CLOCK = 0.9999  # correlation of two columns of times
+MOSTLY = 0.5  # of its cells are numbers: else it holds notes beside the table, whatever its name
+SUMMED_UP = 0.9  # of the rows in motion: there a count goes on by just what another column says
 STEADY = 0.7  # of its largest value: a battery stays above
 BOTH_WAYS = 0.2  # of the largest speed, which a motor has the other way
 FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
@@ -88,7 +90,9 @@ def _is_numeric(table: Table, name: str) -> bool:
     except RecordingError:
         # Garbage in a column of numbers is told when it is used; a column of words or times of day is none of ours.
         heading = read_heading(name)
-        return heading.quantity not in (None, Quantity.OTHER)
+        return heading.quantity not in (None, Quantity.OTHER) and (
+            heading.quantity is Quantity.TIME or float(np.mean(table.readable(name))) > MOSTLY
+        )
     return True
 
 
@@ -222,6 +226,7 @@ def _moving(
         if len(found) > 1:  # what was made of another one comes later, and is smoother than the motor
             found = [name for name in found if not FILTERED & set(read_heading(name).words)] or found
             found = [name for name in found if RAW & set(read_heading(name).words)] or found
+            found = [name for name in found if _is_summed_up(table, name, found)] or found
             found = _in_one_unit(table, found)
         if len(found) > 1:
             raise ask_motion(table, headings, quantity, found)
@@ -278,6 +283,15 @@ def _driving(table: Table, headings: Sequence[Heading], side: str, others: tuple
     if not candidates:
         raise miss_drive(table)
     raise ask_drive(table, candidates)
+
+
+def _is_summed_up(table: Table, name: str, others: Sequence[str]) -> bool:
+    """Whether a column is the sum of another one, such as counts of those since the row before."""
+    ways = np.diff(table.numbers(name))
+    told = ways != 0.0
+    return np.count_nonzero(told) > FEWEST_CHANGES and any(
+        np.mean(ways[told] == table.numbers(other)[1:][told]) > SUMMED_UP for other in others if other != name
+    )
 
 
 def _is_battery(table: Table, name: str) -> bool:

@@ -18,6 +18,7 @@ _OF_COLUMN = re.compile(
 _VALUES = re.compile(r"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?(?![\w.])|\b0x[0-9a-fA-F]+")  # of an example row
 _UNIT = re.compile(r"[\[(][^\])]*[\])]")
 ALIGNED = 2  # characters that a cell may end before or behind its name
+FEWEST_NAMES = 4  # for each number among them
 
 
 def find_header(
@@ -44,7 +45,15 @@ def find_header(
         units = (unit.strip(_BRACKETS) for unit in cells[-1])
         pairs = zip_longest(cells[-2], units, fillvalue="")
         return tuple(f"{name} [{unit}]" if name and unit else name or unit for name, unit in pairs)
-    return tuple(next((row for row, fits in zip(cells[::-1], fit[::-1], strict=True) if fits), ()))
+    found = next((row for row, fits in zip(cells[::-1], fit[::-1], strict=True) if fits), ())
+    return tuple(found or next((row for row in cells[-1:] if _holds_a_number(row, width, most, comma)), ()))
+
+
+def _holds_a_number(row: Sequence[str], width: int, most: int, comma: bool) -> bool:
+    """Whether a line just above the rows has names but for a few cells, as a sheet has where somebody calculated."""
+    words = [cell for cell in row if cell and not is_number(cell, comma)]
+    numbers = sum(is_number(cell, comma) for cell in row)
+    return width <= len(row) <= most and row[:1] == words[:1] and 0 < FEWEST_NAMES * numbers <= len(words)
 
 
 def _numbered(before: Sequence[str], width: int) -> tuple[str, ...]:

@@ -120,3 +120,13 @@ def test_more_than_the_supply_are_no_volts(supply: float, drive: str, scale: flo
     assert make_form(table, pair, roles, said, ROWS, Notes([], [])).voltage_scale == pytest.approx(scale)
     within = Said(supply_voltage=51.0)
     assert make_form(table, pair, roles, within, ROWS, Notes([], [])).voltage_scale == 1.0
+
+
+@pytest.mark.parametrize(("edges", "unit"), [(256, "count"), (360, ""), (None, "")])
+def test_whole_positions_are_counts_where_those_of_a_turn_are_said(edges: int | None, unit: str) -> None:
+    time = 0.01 * np.arange(1, 101)
+    numbers = {"t": time, "u": np.repeat([5.0, -5.0], 50), "Position": np.floor(300.0 * np.sin(time))}
+    notes, table = Notes([], []), Table(Path("log.csv"), np.arange(100), numbers)
+    said = Said(edges_per_revolution=edges)
+    made = make_form(table, Pair("", "u", "Position"), Roles("t", (), None, None), said, ROWS, notes)
+    assert (made.kind is Kind.COUNT) == bool(unit) and (notes.questions == []) == bool(unit)

@@ -316,3 +316,20 @@ def test_a_speed_in_two_units_is_one_motion() -> None:
     twins = {"t": TIME, "u": DRIVE, "speed a [rpm]": MOVED, "speed b [rpm]": MOVED}  # two wheels of one unit
     with pytest.raises(RecordingError, match="which column is the speed"):
         find_roles(Table(Path("log.csv"), np.arange(2, 202), twins), Said())
+
+
+def test_counts_and_those_of_each_row_are_one_motors_position() -> None:
+    each = np.floor(3.0 + 4.0 * np.sin(TIME))
+    counts = {"Delta (u) count": each, "Position (x) count": np.cumsum(each)}
+    assert find_roles(columns(t=TIME, pwm=DRIVE, **counts), Said()).pairs[0].motion == "Position (x) count"
+
+
+@pytest.mark.parametrize(("notes", "taken"), [(150, False), (40, True)])
+def test_a_column_of_few_numbers_holds_notes(notes: int, taken: bool) -> None:
+    cells = [*["63.2% vmax"] * notes, *["12.0"] * (200 - notes)]
+    table = Table(Path("log.csv"), np.arange(2, 202), {"t": TIME, "pwm": DRIVE, "speed": FOLLOWS, "V_max": cells})
+    if taken:
+        with pytest.raises(RecordingError, match="column V_max: '63.2% vmax' is not a number"):
+            find_roles(table, Said())
+    else:
+        assert find_roles(table, Said()).pairs == (Pair("", "pwm", "speed"),)

@@ -22,6 +22,10 @@ UNITS = "        ms    degrés    degrés     Volts        mA     rad/s     rad/
         (("a;b;c;d;e", "t;ref;pos;u;y"), ("t", "ref", "pos", "u", "y")),  # no units: the last line
         (("1;2;3;4;5", "ms;deg;deg;V;V"), ("ms", "deg", "deg", "V", "V")),  # numbers are no names
         (("1;2;3;4;5",), ()),
+        (("Time;Position;Delta;366;Velocity",), ("Time", "Position", "Delta", "366", "Velocity")),  # a sheet's cell
+        (("t;u;y;v;w", "Kp;of;the;loop;2"), ("t", "u", "y", "v", "w")),
+        (("Time;Position;12;366;Velocity",), ()),
+        (("366;Position;Delta;v;Velocity",), ()),
     ],
 )  # fmt: skip
 def test_units_stand_below_the_names_or_are_the_names(before: tuple[str, ...], header: tuple[str, ...]) -> None:
