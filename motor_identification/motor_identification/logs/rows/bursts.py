@@ -67,6 +67,9 @@ def _find_stalls(time: Floats, position: Floats) -> list[tuple[int, int]]:
             if seen[end] - seen[k + 1] > AT_ONCE * gaps[k]:
                 break
             if CAUGHT_UP[0] <= share <= CAUGHT_UP[1]:
+                end += int(
+                    np.argmax(np.append(gaps[end:], np.inf) > QUICK * usual)
+                )  # behind the last that came so soon
                 held = int(np.searchsorted(time, seen[k] + usual))
                 found.append((held, int(changed[end])))
                 break
