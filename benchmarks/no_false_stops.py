@@ -58,6 +58,10 @@ Python and does so in compiled code now, the same to the bit; what is left is co
 | 6cb93a5 | 1370000 on | 1 kHz | usual | 25 | 0.25 | none |
 | 6337753 | 1400000 on | 1 kHz | usual | 275 | 2.75 | none |
 | 30d3d72 | 1520000 on | 200 Hz | usual | 75 | 0.75 | none |
+| before 65c9a86, less let be for several flanks | 1800000 on | 200 Hz | usual | 130 | 1.3 | none |
+| 65c9a86 | 1810000 on | 200 Hz | usual, `--edge-rate 3000` | 60 | 0.6 | none |
+| 65c9a86 | 1820000 on | 1 kHz | usual | 25 | 0.25 | none |
+| 65c9a86 | 1900000 on | 200 Hz | usual, with a model and two channels alone | 120 | 1.2 | none |
 
 Seed 1100093 (30 % warmer): a motor that crawls at 1 % of its top speed, without an edge for 0.6 s, and then gets 60 %
 of the voltage. It was stopped 0.13 s later, having just begun to turn, because the silence before had counted; now what
