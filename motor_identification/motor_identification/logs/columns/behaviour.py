@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.clock import row_period
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, words_besides
+from motor_identification.logs.columns.movement import guess_kind
 from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import Kind
 
 Floats = NDArray[np.float64]
 
@@ -25,6 +27,7 @@ FEWEST_STEPS = 50  # of two columns that tell it
 WITH_DRIVE = 0.8  # correlation of a motor's speed, or of its way, with what drives it and others
 FEWEST_OWN = 10  # changes of a velocity while its drive stays, from which on it is no voltage
 FIRST_ROWS = 6.0  # sample periods after 0, within which a run's clock began with its voltage
+MOST_LEVELS = 3  # of a pulse that drives
 FIRST_VALUES = 3  # of a run, that tell whether the motor turned already
 AGAINST = 0.25  # of a run's largest speed, which noise may seem to turn against the voltage
 
@@ -47,6 +50,11 @@ def follows(table: Table, motion: str, drive: str) -> bool:
     if len(moves) < FEWEST_STEPS:
         return False
     return _explained(moves, drives_it) > ANSWERS and _explained(drives_it, moves) < UNANSWERED
+
+
+def is_speed_by_drive(values: Floats, drive: Floats) -> bool:
+    """Whether a motion goes with its drive and forgets what was, as no angle does. Both of shape (K,)."""
+    return guess_kind(values, drive) is Kind.SPEED and correlate(values, drive) > WITH_DRIVE
 
 
 def _explained(values: Floats, by: Floats) -> float:
@@ -104,6 +112,22 @@ def speeds_called_v(table: Table, headings: list[Heading]) -> list[Heading]:
     if min(alone) < FEWEST_OWN:
         return headings
     return [replace(one, quantity=Quantity.SPEED) if one in called else one for one in headings]
+
+
+def pulses_that_drive(table: Table, headings: list[Heading]) -> list[Heading]:
+    """`pulse` of a few levels, where nothing else drives and something else moves, is what drives, and no count."""
+    if any(map(drives, headings)):
+        return headings
+    few = [
+        one
+        for one in headings
+        if one.quantity is Quantity.COUNT
+        and one.words in (("pulse",), ("pulses",))
+        and 2 <= len(np.unique(table.numbers(one.name))) <= MOST_LEVELS
+    ]
+    if len(few) != 1 or not any(one.quantity in MOVES for one in headings if one not in few):
+        return headings
+    return [replace(one, quantity=Quantity.VOLTAGE) if one in few else one for one in headings]
 
 
 def numbered_motors(headings: list[Heading]) -> list[Heading]:

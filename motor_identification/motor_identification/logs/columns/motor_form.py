@@ -6,7 +6,7 @@ from math import tau
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.behaviour import begins_at_rest
+from motor_identification.logs.columns.behaviour import begins_at_rest, is_speed_by_drive
 from motor_identification.logs.columns.direction import guess_direction
 from motor_identification.logs.columns.drive import Drive, duty_drive, supply_scale, voltage_drive
 from motor_identification.logs.columns.heading import Heading, read_heading
@@ -17,7 +17,7 @@ from motor_identification.logs.columns.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.speed_beside import find_counted_position, tell_position_unit
 from motor_identification.logs.columns.turn_counts import say_turn_counts
-from motor_identification.logs.columns.vocabulary import MOVES, Quantity
+from motor_identification.logs.columns.vocabulary import MOVES, UNIT_BY_SPELLING, Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import LENGTHS, UNITS, CsvForm, Kind, time_unit_size
 
@@ -177,6 +177,9 @@ def _motion(
         kind = next(one for one in _ORDER if said.unit in UNITS[one])
     if kind is None:
         kind = guess_kind(values, table.numbers(pair.voltage)) if period else Kind.SPEED
+    if _is_speed_called_angle(heading, said) and is_speed_by_drive(values, table.numbers(pair.voltage)):
+        why = f"assumed: {pair.motion} is a unit alone, and a speed that follows {pair.voltage}"
+        return Kind.SPEED, Unit(f"{heading.unit}/s", f"{why}; otherwise: --position {pair.motion}")
     unit = _unit(heading, values, kind, said, period)
     if kind is Kind.POSITION and not unit.name and stamps is not None:
         unit = tell_position_unit(table, heading, stamps) or unit
@@ -184,6 +187,12 @@ def _motion(
         kind = Kind.COUNT
     _ask_about(pair.motion, values, kind, unit, said, notes)
     return kind, unit
+
+
+def _is_speed_called_angle(heading: Heading, said: Said) -> bool:
+    """Whether a column that is called `rad` or `deg` and nothing else may hold a speed, as far as the user said."""
+    alone = UNIT_BY_SPELLING.get(heading.name.strip().lower()) in ("rad", "deg")
+    return alone and said.kind is None and said.unit is None
 
 
 def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: float) -> Unit:

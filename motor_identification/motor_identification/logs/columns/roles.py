@@ -13,6 +13,7 @@ from motor_identification.logs.columns.behaviour import (
     named_motors,
     numbered_motors,
     present_values,
+    pulses_that_drive,
     share_one_drive,
     speeds_called_v,
 )
@@ -66,7 +67,9 @@ def find_roles(table: Table, said: Said) -> Roles:
     free = ends_of_a_loop(
         [one for one in others if one.quantity is not None or not _is_clock_of(table, one.name, time)]
     )
-    free = share_one_drive(table, numbered_motors(speeds_called_v(table, present_values(free))))
+    free = share_one_drive(
+        table, numbered_motors(speeds_called_v(table, present_values(pulses_that_drive(table, free))))
+    )
     free, unlike = (free, ()) if said.motors or said.motion or said.voltage else named_motors(free)
     free, undriven = ([*free], ()) if said.motors or said.motion or said.voltage else _driven_sides(free)
     pairs = said.motors or _pairs(table, free, said, time)

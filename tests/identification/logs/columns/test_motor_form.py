@@ -94,6 +94,22 @@ def test_kind_and_unit_of_the_motion(motion: str, said: Said, kind: Kind, unit: 
     assert (asked in notes.questions[0][1]) if asked else notes.questions == []
 
 
+@pytest.mark.parametrize(
+    ("said", "kind", "unit"),
+    [(Said(), Kind.SPEED, "rad/s"), (Said(motion="rad", kind=Kind.POSITION), Kind.POSITION, "rad")],
+)
+def test_a_speed_called_by_a_unit_of_angles(said: Said, kind: Kind, unit: str) -> None:
+    """`rad` beside a voltage, as a Simulink signal is called: it follows the voltage and forgets what was."""
+    rows, steps = 0.01 * np.arange(1, 401), np.repeat([6.0, 0.0, 12.0, 3.0, 9.0, -6.0, 0.0, 6.0], 50)
+    speed = np.zeros(400)
+    for k in range(399):
+        speed[k + 1] = speed[k] + 0.2 * (20.0 * steps[k] - speed[k])
+    for motion, named in ((speed, kind), (np.cumsum(speed) * 0.01, Kind.POSITION)):
+        table = Table(Path("log.csv"), np.arange(400), {"t": rows, "u": steps, "rad": motion})
+        made = make_form(table, Pair("", "u", "rad"), Roles("t", (), None, None), said, ROWS, Notes([], []))
+        assert (made.kind, made.unit) == (named, unit if named is kind else "rad")
+
+
 @pytest.mark.parametrize(("unit", "said", "turn"), [("mm/s", None, tau), ("m/s", None, tau), ("m/s", 0.2, 0.2)])
 def test_a_length_without_a_turn_is_one_radian(unit: str, said: float | None, turn: float) -> None:
     notes = Notes([], [])

@@ -333,3 +333,12 @@ def test_a_column_of_few_numbers_holds_notes(notes: int, taken: bool) -> None:
             find_roles(table, Said())
     else:
         assert find_roles(table, Said()).pairs == (Pair("", "pwm", "speed"),)
+
+
+def test_a_pulse_of_two_levels_drives_and_counts_nothing() -> None:
+    pulse = np.where(np.sin(TIME * 3.0) > 0.0, 12.0, 0.0)
+    cells = {"t": TIME, "pulse": pulse, "rad": answer(pulse)}
+    assert find_roles(Table(Path("log.csv"), np.arange(2, 202), cells), Said()).pairs == (Pair("", "pulse", "rad"),)
+    counted = {**cells, "pulse": np.arange(200.0)}
+    with pytest.raises(RecordingError):
+        find_roles(Table(Path("log.csv"), np.arange(2, 202), counted), Said())
