@@ -67,7 +67,8 @@ def fill_gaps(table: Table) -> Filled:
     for name in table.names:
         quantity = read_heading(name).quantity
         empty = _empty_cells(table.column(name))
-        if quantity is Quantity.OTHER or np.count_nonzero(empty) <= GARBLED * len(table):
+        words = np.asarray(table.column(name)).dtype.kind != "f"
+        if (quantity is Quantity.OTHER and words) or np.count_nonzero(empty) <= GARBLED * len(table):
             continue
         if empty.all():
             del cells[name]

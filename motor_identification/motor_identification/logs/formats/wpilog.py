@@ -70,7 +70,7 @@ def read_wpilog(path: Path) -> RobotLog:
         raise RecordingError(f"{path} has {len(numbers)} series of numbers, and {MOST_NAMES} is the most: log fewer.")
     states = _states_of(entries)
     routine = _motors_of(numbers, states)
-    rows = _rows_of([entry for entries in routine.values() for entry in entries] or numbers)
+    rows = _rows_of_routine(routine, states) if routine else _rows_of(numbers)
     if len(rows) * len(numbers) > MOST_NUMBERS:
         raise RecordingError(f"{path} has {len(rows)} rows of {len(numbers)} numbers: export fewer of them as CSV.")
     tests = _tests_at(states, rows)
@@ -84,9 +84,10 @@ def read_wpilog(path: Path) -> RobotLog:
     for entry in numbers:
         names[id(entry)] = _free_name(entry, cells)
         cells[names[id(entry)]] = _at(entry, rows, np.nan)[chosen]
+    _silence(cells, names, routine, states)
     first = next(iter(routine.values()), [max(numbers, key=lambda e: len(e.times))])[0]
     notes = [f"WPILOG of {len(numbers)} series; rows are those of {first.name}."]
-    if split and len(states) > 1:
+    if split and len(states) > 1 and not routine:
         notes.append(f"Tests of {len(states)} mechanisms, named before each: choose the columns of one.")
     if routine:
         notes.append("Motors are those that SysId's routine names; other series are left out (otherwise: --motor).")
@@ -108,25 +109,38 @@ def _states_of(entries: list[Entry]) -> list[Entry]:
 
 
 def _motors_of(numbers: list[Entry], states: list[Entry]) -> dict[str, list[Entry]]:
-    """Voltage and motion of each motor that a routine logs, by name; none where there is not one mechanism.
+    """Voltage and motion of each motor that routines log, by name, and by the mechanism where there are several.
 
     WPILib's SysIdRoutineLog calls them `voltage-MOTOR-MECHANISM`, where the state is `sysid-test-state-MECHANISM`.
     """
-    if len(states) != 1 or STATE not in states[0].name:
-        return {}
-    mechanism = states[0].name.partition(STATE)[2]
     series = {entry.name: entry for entry in numbers}
     found: dict[str, list[Entry]] = {}
-    for name, voltage in series.items():
-        if not (name.startswith("voltage-") and name.endswith(mechanism)):
-            continue
-        motor = name.removeprefix("voltage-").removesuffix(mechanism)
-        motions = [series[f"{what}-{motor}{mechanism}"] for what in MOTIONS if f"{what}-{motor}{mechanism}" in series]
-        moving = [entry for entry in motions if len(set(entry.values)) > 1] or motions
-        label = re.sub(r"[^\w.+]", "_", motor)[:80]
-        if moving and label not in found:
-            found[label] = [voltage, moving[0]]
+    for state in states:
+        mechanism = state.name.partition(STATE)[2]
+        for name, voltage in series.items():
+            if STATE not in state.name or not (name.startswith("voltage-") and name.endswith(mechanism)):
+                continue
+            motor = name.removeprefix("voltage-").removesuffix(mechanism)
+            own = [series[one] for what in MOTIONS if (one := f"{what}-{motor}{mechanism}") in series]
+            moving = [entry for entry in own if len(set(entry.values)) > 1] or own
+            label = re.sub(r"[^\w.+]", "_", f"{motor}{mechanism}" if len(states) > 1 else motor)[:80]
+            if moving and label not in found:
+                found[label] = [voltage, moving[0]]
     return found
+
+
+def _silence(
+    cells: dict[str, Any], names: dict[int, str], routine: dict[str, list[Entry]], states: list[Entry]
+) -> None:
+    """Of several mechanisms, each says nothing in the tests of the others: its last values stand for none."""
+    if len(states) < 2 or "test" not in cells:
+        return
+    for state in states:
+        mechanism = state.name.partition(STATE)[2]
+        others = ~np.char.startswith(cells["test"], mechanism.strip("-_ /")[:100] + " ")
+        for entry in {id(one): one for ones in routine.values() for one in ones}.values():
+            if entry.name.endswith(mechanism):
+                cells[names[id(entry)]] = np.where(others, np.nan, cells[names[id(entry)]])
 
 
 def _tests_at(states: list[Entry], rows: NDArray[np.float64]) -> NDArray[Any]:
@@ -213,6 +227,15 @@ def _take(entry: Entry, time: int, payload: bytes) -> None:
     else:
         return
     entry.times.append(time)
+
+
+def _rows_of_routine(routine: dict[str, list[Entry]], states: list[Entry]) -> NDArray[np.float64]:
+    """The times [us] of the rows: those of each mechanism's voltages, one of them where they come together."""
+    mechanisms = [state.name.partition(STATE)[2] for state in states]
+    voltages = [voltage for voltage, _ in routine.values()]
+    first = [next((one for one in voltages if one.name.endswith(mechanism)), None) for mechanism in mechanisms]
+    rows = [_rows_of([entry]) for entry in first if entry is not None]
+    return np.asarray(np.unique(np.concatenate(rows)), dtype=np.float64)
 
 
 def _rows_of(numbers: list[Entry]) -> NDArray[np.float64]:

@@ -179,3 +179,25 @@ def test_where_a_routine_logged_no_position_the_speed_is_its_motion(tmp_path: Pa
             log.put(entry, value, 20_000 * k)
     (tmp_path / "log").write_bytes(log.data)
     assert read_wpilog(tmp_path / "log").motors[0].motion == "velocity-roll-arm [rev/s]"
+
+
+def test_each_of_several_mechanisms_has_its_own_tests(tmp_path: Path) -> None:
+    log = Log()
+    states = {name: log.start(f"sysid-test-state-{name}", "string") for name in ("drive", "arm")}
+    series = {
+        name: [log.start(f"{what}-{motor}-{name}", "double", unit) for what, unit in _ROUTINE.items()]
+        for name, motor in (("drive", "left"), ("arm", "roll"))
+    }
+    for name, begin in (("drive", 0), ("arm", 4_000_000)):
+        for k in range(150):
+            log.put(states[name], "none" if k > 140 else "dynamic-forward", begin + 20_000 * k)
+            for entry, value in zip(series[name], (3.0, 0.02 * k * k, 0.04 * k), strict=True):
+                log.put(entry, value, begin + 20_000 * k + 30)
+    (tmp_path / "log").write_bytes(log.data)
+    motors = import_log(tmp_path / "log", Said()).motors
+    assert [motor.label for motor in motors] == ["left_drive", "roll_arm"]
+    assert [[run.label for run in motor.log.runs] for motor in motors] == [
+        ["drive_dynamic-forward"],
+        ["arm_dynamic-forward"],
+    ]
+    assert all(139 <= len(motor.log.runs[0].samples) <= 141 for motor in motors)
