@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.candidate_model import find_lasting_interval
 from motor_identification.diagnosis.result import Diagnosis, Verdict
-from motor_identification.diagnosis.thresholds import LASTING_INTERVAL
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.whitened_fit import make_whitened
@@ -244,5 +244,6 @@ def test_diagnosis_of_steps_both_ways_by_a_coarse_encoder() -> None:
     values = found.model.parameters.values
     assert 0.22 < values["ks"] < 0.30 and 0.94 < values["reverse_gain"] < 0.97
     assert 0.010 < values["delay"] < 0.034 and 0.056 < values["ka"] / values["kv"] < 0.075
-    before, after = (held.joined(LASTING_INTERVAL).gap for held in (found.before, found.after))
+    length = find_lasting_interval(found.before)
+    before, after = (held.joined(length).gap for held in (found.before, found.after))
     assert 0.42 < before < 0.50 and 0.20 < after < 0.28

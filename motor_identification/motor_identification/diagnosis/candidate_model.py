@@ -90,7 +90,7 @@ class Model:
     @cached_property
     def lasting(self) -> HeldOut:
         """What it leaves in lasting intervals."""
-        return self.held.joined(thresholds.LASTING_INTERVAL)
+        return self.held.joined(find_lasting_interval(self.held))
 
     @cached_property
     def quiet(self) -> bool:
@@ -199,6 +199,14 @@ class Model:
         )
         others = [] if same else [rest(*row) for row in training]
         return find_structure(own, others, self.errors, self.lag)
+
+
+def find_lasting_interval(held: HeldOut) -> float:
+    """Find how long [s] the intervals are in which what a model leaves lasts."""
+    values = held.parameters.values
+    whole = sum(_measure_time(data, marks) for data, marks in zip(held.intervals, held.scored, strict=True))
+    longest = min(values["ka"] / values["kv"], whole / thresholds.LASTING_PARTS)
+    return max(thresholds.LASTING_INTERVAL, longest)
 
 
 def _measure_time(data: Intervals, marks: Bools) -> float:

@@ -5,7 +5,7 @@ from functools import cached_property
 from math import log
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_model import Model, find_lasting_interval
 from motor_identification.diagnosis.evidence.torque_evidence import measure_steadiness
 from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME, LAGS
@@ -24,11 +24,10 @@ class CandidateTest:
         """What the model without it leaves, on the same held-out intervals."""
         return self.before.held.leave_out(self.model.held.instants)
 
-    @property
-    def _lasting_before(self) -> HeldOut:
-        if self.held_before is self.before.held:
-            return self.before.lasting
-        return self.held_before.joined(thresholds.LASTING_INTERVAL)
+    def _join_lasting(self) -> tuple[HeldOut, HeldOut]:
+        """Join what both leave to intervals of the same length, in which what is left lasts."""
+        length = find_lasting_interval(self.before.held)
+        return self.held_before.joined(length), self.model.held.joined(length)
 
     @property
     def evidence(self) -> float:
@@ -80,7 +79,7 @@ class CandidateTest:
         """Whether it takes away a good part of what lasts longer than the encoder's noise, or of the white residual."""
         if self.model.beside_torque:
             return self._is_relevant_beside_torque()
-        before, after = self._lasting_before, self.model.lasting
+        before, after = self._join_lasting()
         floor = after.floor(self.model.noise.share)
         if before.gap < (thresholds.SEEN_GAP if before.seen else thresholds.RELEVANT_GAP) * floor:
             return False

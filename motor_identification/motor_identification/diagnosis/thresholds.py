@@ -8,11 +8,12 @@
 # Times the floor. Measured: complete models end at 0.95 to 1.08 (the floor's irregularity is estimated, phases and
 # instants of validation recordings are fitted on half of them), models that lack what is not in the table at 9 to 135.
 EXPLAINED_GAP = 1.3
-# [s] of joined intervals, in which the encoder's steps average out, but no trace of a time constant (ka/kv, 0.03 to
-# 0.3 s): what is left there lasts. Tried and left: a time constant of the fitted motor instead. The same names in 59 of
-# 60 logs of motors from 20 to 600 ms; but of a coarse encoder and a time constant of 0.09 s two of three are lost: they
-# share what lasts, and how near that is to the floor goes with the interval.
+# [s] of joined intervals, at least, in which the encoder's steps average out: what is left there lasts. A slow motor's
+# time constant where that is longer, in which a torque moves it; but so many have to fit into the held-out motion.
+# Measured: with 0.1 s what a robot of 0.75 s lacks is the wheels' slip alone. Tried: a time constant of 0.09 s alone,
+# and of three effects of a coarse encoder, which share what lasts, two are lost.
 LASTING_INTERVAL = 0.1
+LASTING_PARTS = 15
 # Times the floor in lasting intervals; below it no effect is tried. Measured: complete models leave 0.84 to 1.5 (few
 # intervals: the ratio is unsure), so that this only spares time where the ratio is low by chance.
 QUIET_GAP = 1.05

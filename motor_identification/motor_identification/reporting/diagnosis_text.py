@@ -1,7 +1,8 @@
 """A diagnosis in words: what was missing, what that explains, what is left, and what to do next."""
 
+from motor_identification.diagnosis.candidate_model import find_lasting_interval
 from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict
-from motor_identification.diagnosis.thresholds import EXPLAINED_GAP, LASTING_INTERVAL
+from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.reporting.diagnosis_table import format_parameters
@@ -47,8 +48,9 @@ def _describe_gap_reduction(diagnosis: Diagnosis) -> str:
         return f"{text}: most of it is of a random torque, beside which the motion is likelier"
     if diagnosis.gap_before > EXPLAINED_GAP * diagnosis.noise_floor:
         return text
-    lasting = describe_change(*(held.joined(LASTING_INTERVAL).gap for held in (diagnosis.before, diagnosis.after)))
-    return f"{text}; averaged over {LASTING_INTERVAL:g} s, which smooths the encoder's steps, it {lasting} rad/s"
+    length = find_lasting_interval(diagnosis.before)
+    lasting = describe_change(*(held.joined(length).gap for held in (diagnosis.before, diagnosis.after)))
+    return f"{text}; averaged over {length:.2g} s, which smooths the encoder's steps, it {lasting} rad/s"
 
 
 def _name_gap(diagnosis: Diagnosis) -> str:

@@ -9,6 +9,7 @@ import pytest
 from stub_models import LASTING_FLOOR, rescored, stub_held, stub_model, stub_test
 
 from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import find_lasting_interval
 from motor_identification.diagnosis.candidate_test import (
     CandidateTest,
     fits_torque,
@@ -22,6 +23,7 @@ from motor_identification.diagnosis.effect_test import (
 from motor_identification.diagnosis.evidence.line_evidence import is_beyond_chance
 from motor_identification.recording import Recording
 from motor_model.effects import EFFECTS
+from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 
 BELOW, ABOVE = 0.999, 1.001
 SIDES = pytest.mark.parametrize(("times", "passes"), [(BELOW, False), (ABOVE, True)])
@@ -45,9 +47,18 @@ def test_quiet_gap(times: float, passes: bool) -> None:
 
 def test_lasting_interval() -> None:
     """What alternates every 1/16 s is gone in it, what is steady is not."""
-    assert stub_held(3.0, 0.0).joined(thresholds.LASTING_INTERVAL).gap < 1e-9
-    assert stub_held(3.0, 0.0).joined(0.5 * thresholds.LASTING_INTERVAL).gap == pytest.approx(3.0)
-    assert stub_held(3.0, 3.0).joined(thresholds.LASTING_INTERVAL).gap == pytest.approx(3.0)
+    held = stub_held(3.0, 0.0)
+    length = find_lasting_interval(held)
+    assert length == thresholds.LASTING_INTERVAL  # the paper's motor has a time constant of 0.08 s
+    assert held.joined(length).gap < 1e-9 and held.joined(0.5 * length).gap == pytest.approx(3.0)
+    assert stub_held(3.0, 3.0).joined(length).gap == pytest.approx(3.0)
+
+
+@pytest.mark.parametrize(("times", "length"), [(1.9, 1.9 * PAPER_KA / PAPER_KV), (2.3, 2.5 / thresholds.LASTING_PARTS)])
+def test_lasting_parts(times: float, length: float) -> None:
+    """A slow motor's time constant, where the 2.5 s of motion have enough of it."""
+    slow = Parameters({"kv": PAPER_KV, "ka": times * PAPER_KA})
+    assert find_lasting_interval(replace(stub_held(3.0), parameters=slow)) == pytest.approx(length)
 
 
 @SIDES
