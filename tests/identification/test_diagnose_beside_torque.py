@@ -112,7 +112,9 @@ def test_a_selection_that_swings_ends(monkeypatch: pytest.MonkeyPatch) -> None:
     assert module._select_both_ways(other, SILENT) is other and len(rounds) == thresholds.ROUNDS + 1
 
 
-@pytest.mark.parametrize(("gap", "steps", "begun"), [(1.101, 0, True), (1.099, 0, False), (1.101, 1, False)])
+@pytest.mark.parametrize(
+    ("gap", "steps", "begun"), [(1.101, 0, True), (1.099, 0, False), (1.101, 1, True), (1.099, 1, False)]
+)
 def test_a_model_of_the_torque_alone_is_not_the_result(
     monkeypatch: pytest.MonkeyPatch, gap: float, steps: int, begun: bool
 ) -> None:

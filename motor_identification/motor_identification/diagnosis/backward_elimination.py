@@ -20,9 +20,8 @@ from motor_identification.diagnosis.effect_test import (
 )
 from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
 from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss, is_better
-from motor_identification.diagnosis.evidence.standstill_evidence import explains_standstills
 from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_beside_torque
-from motor_identification.diagnosis.stand_ins import is_own_evidence, stands_in_for_curve
+from motor_identification.diagnosis.stand_ins import has_same_evidence, is_own_evidence, stands_in_for_curve
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
@@ -108,13 +107,13 @@ def _try_in_place(
 def _drop_without_own_evidence(
     tests: Sequence[CandidateTest], effect: str, without: Model, current: Model
 ) -> list[CandidateTest]:
-    """Drop from tests in the place of an effect that holds the motor those that do not, where it is seen to be held.
+    """Drop from tests in the place of an effect that holds the motor, and is seen to, those that are not seen so.
 
-    What bends the motion may well be likelier, and is found beside the friction if it is there.
+    What bends the motion in few moments may well be likelier, and is found beside the friction if it is there.
     """
     if not EFFECT_BY_NAME[effect].holds or not is_own_evidence(effect, without, current):
         return list(tests)
-    return [test for test in tests if explains_standstills(without, test.model)]
+    return [test for test in tests if has_same_evidence(test.model, without, current)]
 
 
 def add_rivals_beside_torque(selection: Selection, reporter: ProgressReporter) -> Selection:

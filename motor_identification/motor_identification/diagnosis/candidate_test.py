@@ -6,6 +6,7 @@ from math import log
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, find_lasting_interval
+from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
 from motor_identification.diagnosis.evidence.torque_evidence import measure_steadiness
 from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME, LAGS
@@ -86,7 +87,11 @@ class CandidateTest:
         near_floor = thresholds.NEAR_FLOOR_SEEN if before.seen else thresholds.NEAR_FLOOR
         near = before.gap < near_floor * floor or self.has_instants
         least = thresholds.RELEVANT_SHARE_NEAR_FLOOR if near else thresholds.RELEVANT_SHARE
-        return self.model.held.gap < self.held_before.gap and share_explained(before.gap, after.gap, floor) > least
+        if self.model.held.gap >= self.held_before.gap:
+            return False
+        effect = EFFECT_BY_NAME[self.effect]
+        calm = effect.holds and effect.linear_onset and explains_calm(self.before, self.model)
+        return calm or share_explained(before.gap, after.gap, floor) > least
 
     def _is_relevant_beside_torque(self) -> bool:
         said = self.model.score.held_out - self.before.score.held_out

@@ -7,6 +7,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refit_without
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import share_explained
+from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
 from motor_identification.diagnosis.evidence.standstill_evidence import explains_standstills
 from motor_identification.diagnosis.selection import Selection
 from motor_identification.discrepancy.free_curves import PAST, REPEATING
@@ -17,9 +18,9 @@ def drop_stand_ins(selection: Selection) -> Selection:
     """Drop what may only stand in for an effect that is not in the table, where the gap stays above the floor.
 
     That is every finding that leaves a visible part of what it should explain, and what was found after it; a line in
-    the spectrum over the angle is its own evidence, and so is a standstill under a voltage. Where what is left comes
-    and goes whatever the motor does, no finding that answers its motion stands in for that; and no friction for what
-    goes with the past, such as a sensor's filter.
+    the spectrum over the angle is its own evidence, and so is a standstill under a voltage, or friction nearly all of
+    the time. Where what is left comes and goes whatever the motor does, no finding that answers its motion stands in
+    for that; and no friction for what goes with the past, such as a sensor's filter.
     """
     if selection.model.complete:
         return selection
@@ -45,7 +46,17 @@ def leaves_mostly(model: Model, variables: Sequence[str], minor: float = 0.0) ->
 
 def is_own_evidence(effect: str, without: Model, model: Model) -> bool:
     """Decide whether an effect is told by what nothing outside the table does, from a model without it and with it."""
-    return explains_standstills(without, model) if EFFECT_BY_NAME[effect].holds else EFFECT_BY_NAME[effect].periodic
+    row = EFFECT_BY_NAME[effect]
+    if not row.holds:
+        return row.periodic
+    # What bends the motion at some speeds, as a friction that falls with them does, may stand in for other bends.
+    return explains_standstills(without, model) or (row.linear_onset and explains_calm(without, model))
+
+
+def has_same_evidence(other: Model, without: Model, model: Model) -> bool:
+    """Decide whether another model explains what an effect that holds the motor is told by, from a model without it."""
+    explains = explains_standstills if explains_standstills(without, model) else explains_calm
+    return explains(without, other)
 
 
 def drop_stand_ins_of_either(first: Selection, second: Selection) -> Selection:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from stub_models import FLOOR, LASTING_FLOOR, StubModel, stub_held, stub_model, stub_test
 
-from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import candidate_test, thresholds
 from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.candidate_test import (
     CandidateTest,
@@ -105,3 +105,26 @@ def test_a_lag_beside_no_torque_has_to_take_away_of_the_gap(
     monkeypatch.setattr(StubModel, "effects", property(lambda self: effects.get(id(self), ())))
     monkeypatch.setattr(StubModel, "errors", ErrorModel(0.0, 0.0, torque, 1.0))
     assert takes_away_more(model, plain) is taken
+
+
+@pytest.mark.parametrize(
+    ("effect", "falls", "relevant"),
+    [
+        ("coulomb_friction", 0.999, True),
+        ("dead_zone", 0.999, True),
+        ("static_friction", 0.999, False),
+        ("transport_delay", 0.999, False),
+        ("coulomb_friction", 1.001, False),  # the gap has to fall at all
+    ],
+)
+def test_a_friction_that_explains_most_of_the_time_is_relevant_whatever_is_left_in_few_moments(
+    monkeypatch: pytest.MonkeyPatch, effect: str, falls: float, relevant: bool
+) -> None:
+    before = stub_model(20.0)
+    test = stub_test(effect, before, 20.0 * falls, 100.0)
+    assert not test.relevant
+    monkeypatch.setattr(
+        candidate_test, "explains_calm", lambda without, model: without is before and model is test.model
+    )
+    assert not stub_test(effect, before, 20.0 * falls, 100.0).relevant  # another model
+    assert replace(test).relevant is relevant

@@ -15,6 +15,8 @@ from motor_identification.diagnosis.stand_ins import (
     drop_stand_ins,
     drop_stand_ins_of_either,
     drop_unneeded,
+    has_same_evidence,
+    is_own_evidence,
     keep_confirmed,
     stands_in_for_curve,
 )
@@ -82,6 +84,7 @@ def test_friction_stands_in_for_nothing_that_goes_with_the_past(
     monkeypatch: pytest.MonkeyPatch, effect: str, explains: float, drive: float, kept: int
 ) -> None:
     monkeypatch.setattr(stand_ins, "explains_standstills", lambda *models: False)
+    monkeypatch.setattr(stand_ins, "explains_calm", lambda *models: False)
     rest = (Structure("past", 0.8, 100.0), Structure("drive", 0.8 * drive, 100.0))
     model = cast(Model, SimpleNamespace(complete=False, structure=rest))
     assert len(drop_stand_ins(replace(stub_selection(5.0, stub_step(effect, explains)), model=model)).steps) == kept
@@ -184,3 +187,34 @@ def test_findings_that_another_selection_confirms_are_kept() -> None:
 def test_a_line_in_the_spectrum_is_its_own_evidence() -> None:
     steps = stub_step("torque_ripple", 0.1), stub_step("load_bias", 0.99)
     assert drop_stand_ins(stub_selection(5.0, *steps)).steps == steps
+
+
+@pytest.mark.parametrize(
+    ("effect", "stood", "calm", "told"),
+    [
+        ("coulomb_friction", True, False, True),
+        ("coulomb_friction", False, True, True),
+        ("coulomb_friction", False, False, False),
+        ("static_friction", True, False, True),
+        ("static_friction", False, True, False),  # any bend of the motion over the speed looks like it
+        ("transport_delay", True, True, False),
+        ("torque_ripple", False, False, True),
+    ],
+)
+def test_friction_is_told_by_standstills_or_by_most_of_the_time(
+    monkeypatch: pytest.MonkeyPatch, effect: str, stood: bool, calm: bool, told: bool
+) -> None:
+    monkeypatch.setattr(stand_ins, "explains_standstills", lambda *models: stood)
+    monkeypatch.setattr(stand_ins, "explains_calm", lambda *models: calm)
+    assert is_own_evidence(effect, stub_model(5.0), stub_model(4.0)) is told
+
+
+@pytest.mark.parametrize(("stands", "same"), [(True, False), (False, True)])
+def test_what_replaces_a_friction_explains_what_that_is_told_by(
+    monkeypatch: pytest.MonkeyPatch, stands: bool, same: bool
+) -> None:
+    """A delay may explain most of the time; not why a motor stood."""
+    without, model, delayed = stub_model(5.0), stub_model(4.0), stub_model(3.0)
+    monkeypatch.setattr(stand_ins, "explains_standstills", lambda before, one: stands and one is model)
+    monkeypatch.setattr(stand_ins, "explains_calm", lambda before, one: one is delayed)
+    assert has_same_evidence(delayed, without, model) is same
