@@ -6,6 +6,7 @@ leaves visibly smaller residuals, the common motor is a compromise: another day'
 mode, a missing effect; and the common standard errors are not those of any one of them.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,9 +63,14 @@ def _compare_one(fit: WhitenedFit, r: int, jacobian: Floats, residuals: Floats) 
     )
 
 
-def describe_dissent(one: Dissent) -> str:
-    """Describe a disagreement, and what to do about it."""
-    return (
-        f"{one.uri}: joint fit {one.common:.3g} rad/s RMS, separate fit {one.own:.3g}: the recordings disagree. "
-        "Do not trust the joint values and errors; fit each recording alone and compare."
-    )
+def describe_worst_dissent(compared: Sequence[Dissent]) -> list[str]:
+    """Describe the worst of the recordings that disagree, how many others do, and what to do; nothing if none does."""
+    dissent = [one for one in compared if one.disagrees]
+    if not dissent:
+        return []
+    worst, others = max(dissent, key=lambda one: one.common / one.own), len(dissent) - 1
+    more = f", and {others} other{'s do' if others > 1 else ' does'}, too" if others else ""
+    return [
+        f"{worst.uri}: joint fit {worst.common:.3g} rad/s RMS, separate fit {worst.own:.3g}: the recordings "
+        f"disagree{more}. Do not trust the joint values and errors; fit each recording alone and compare."
+    ]

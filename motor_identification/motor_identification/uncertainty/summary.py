@@ -11,7 +11,7 @@ from motor_identification.estimation.request import SearchReport
 from motor_identification.estimation.whitened_fit import WhitenedFit
 from motor_identification.uncertainty.absence import find_absent_effects
 from motor_identification.uncertainty.identifiability import find_confusable_effects, suggest_profile
-from motor_identification.uncertainty.recording_consistency import compare_recordings, describe_dissent
+from motor_identification.uncertainty.recording_consistency import compare_recordings, describe_worst_dissent
 from motor_identification.uncertainty.result import Fit
 from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_model.effect import ParameterSpec
@@ -78,7 +78,7 @@ def compute_r_squared(problem: Problem, cost: float) -> float:
 def _list_own_notes(fit: WhitenedFit) -> list[str]:
     """List what the recordings say of themselves, and where they disagree."""
     notes = [note for recording in fit.problem.recordings for note in recording.notes]
-    return notes + [describe_dissent(one) for one in compare_recordings(fit) if one.disagrees]
+    return notes + describe_worst_dissent(compare_recordings(fit))
 
 
 def _own(effect: str) -> tuple[ParameterSpec, ...]:
