@@ -18,8 +18,12 @@ def explains_calm(without: Model, model: Model) -> bool:
 def measure_calm_share(without: Model, model: Model) -> float:
     """Measure the share of the excess over the floor that a model takes away outside of where it leaves most.
 
-    In squares, in lasting intervals; 0 near the floor, where the smallest of what is left is so by chance.
+    In squares, in lasting intervals; 0 near the floor, where the smallest of what is left is so by chance, and where
+    the two are not judged by the same intervals.
     """
+    scored, others = without.held.scored, model.held.scored
+    if [len(part) for part in scored] != [len(part) for part in others]:  # directions of some were read anew
+        return 0.0
     length = find_lasting_interval(without.held)
     before, after = without.held.leave_out(model.held.instants).joined(length), model.held.joined(length)
     if before.residuals.shape != after.residuals.shape:

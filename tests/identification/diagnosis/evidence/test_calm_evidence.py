@@ -9,6 +9,8 @@ from stub_models import COUNT, LASTING_FLOOR, STEP, stub_model
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.evidence.calm_evidence import explains_calm, measure_calm_share
+from motor_identification.measurement.edit_intervals import exclude_intervals
+from motor_identification.validation.held_out import HeldOut
 
 BELOW, ABOVE = 0.999, 1.001
 LASTING = COUNT // 2  # intervals that last
@@ -21,6 +23,12 @@ def steady(gap: float, wild: float = 0.0, many: int = 1) -> Model:
     more = np.zeros(COUNT)
     more[: 2 * many] = wild
     return replace(model, held=replace(model.held, angles=(angle + np.append(0.0, np.cumsum(more * STEP)),)))
+
+
+def exclude(held: HeldOut, few: int) -> HeldOut:
+    """The same motion without its first few intervals."""
+    (data,), (scored,), kept = held.intervals, held.scored, np.arange(COUNT) >= few
+    return replace(held, intervals=(exclude_intervals(data, ~kept),), scored=(scored[kept],))
 
 
 def test_what_is_left_in_few_moments_does_not_count() -> None:
@@ -37,6 +45,17 @@ def test_what_is_left_in_few_moments_does_not_count() -> None:
 def test_where_a_model_bends_the_motion_instead_it_explains_nothing_there() -> None:
     without = steady(3.0, 100.0)
     assert measure_calm_share(without, steady(3.0, 1.0)) == pytest.approx(0.0, abs=1e-9)
+
+
+def test_models_that_are_judged_by_other_intervals_are_not_compared() -> None:
+    """Directions were read anew, and a block of time has an instant in it, which does not count."""
+    without, model = steady(3.0), steady(1.0)
+    block = np.arange(COUNT) < 4
+    left_out = replace(model, held=replace(model.held, instants=(block,), scored=(~block,)))
+    assert measure_calm_share(without, left_out) > 0.9
+    shorter = replace(without, held=exclude(without.held, 2))
+    assert measure_calm_share(shorter, left_out) == 0.0
+    assert measure_calm_share(shorter, model) == 0.0
 
 
 @pytest.mark.parametrize(("times", "enough"), [(BELOW, False), (ABOVE, True)])
