@@ -27,6 +27,8 @@ LATE = 2.0  # times the usual, beyond which a change is late
 CAUGHT_UP = 0.7, 1.4  # of the way that it would have gone meanwhile
 AT_ONCE, MOST = 0.25, 12  # of the stall's time, and changes, within which it is caught up
 FEW = 0.05  # of the changes: a motor that sticks and slips does so again and again
+# Times the speed that the motor has in a twentieth of the time: slower, it stopped and started by itself.
+FASTER, USUAL = 1.5, 0.95
 
 
 def cut_stalls(signals: Signals, name: str) -> tuple[Signals, list[str]]:
@@ -57,16 +59,19 @@ def _find_stalls(time: Floats, position: Floats) -> list[tuple[int, int]]:
     if len(gaps) < 4 * AROUND:
         return []
     usual, found = float(np.median(gaps)), []
+    fastest = _find_fastest(np.abs(np.diff(position[changed])) / gaps, gaps)
     for k in np.flatnonzero(gaps > STALL * usual):
         before, seen = changed[max(k - AROUND, 0) : k + 1], time[changed]
         if len(before) <= AROUND or np.any(gaps[k - AROUND : k] > LATE * usual):
             continue
         rate = (position[before[-1]] - position[before[0]]) / (time[before[-1]] - time[before[0]])
         for end in range(k + 2, min(k + 2 + MOST, len(changed))):
-            share = (position[changed[end]] - position[before[-1]]) / (rate * (seen[end] - seen[k]))
+            way = position[changed[end]] - position[before[-1]]
+            share = way / (rate * (seen[end] - seen[k]))
             if seen[end] - seen[k + 1] > AT_ONCE * gaps[k]:
                 break
-            if CAUGHT_UP[0] <= share <= CAUGHT_UP[1]:
+            speed = abs(way) / (seen[end] - seen[k + 1] + usual)
+            if CAUGHT_UP[0] <= share <= CAUGHT_UP[1] and speed > FASTER * fastest:
                 end += int(
                     np.argmax(np.append(gaps[end:], np.inf) > QUICK * usual)
                 )  # behind the last that came so soon
@@ -74,6 +79,13 @@ def _find_stalls(time: Floats, position: Floats) -> list[tuple[int, int]]:
                 found.append((held, int(changed[end])))
                 break
     return found if len(found) <= FEW * len(changed) else []
+
+
+def _find_fastest(speed: Floats, duration: Floats) -> float:
+    """Find the speed of changes (C,) that the motor does not exceed for most of the time."""
+    order = np.argsort(speed)
+    passed = np.cumsum(duration[order])
+    return float(speed[order][np.searchsorted(passed, USUAL * passed[-1])])
 
 
 def spread_bursts(signals: Signals, gap: Bools) -> tuple[Signals, list[str]]:

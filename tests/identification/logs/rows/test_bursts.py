@@ -111,6 +111,12 @@ def test_rows_of_a_link_that_stood_still_are_left_out() -> None:
             "it stood",
             np.concatenate([10.0 * (np.arange(600) // 5), np.full(100, 1190.0), 1200.0 + 10.0 * (np.arange(500) // 5)]),
         ),
+        (
+            "it stopped slowly, stood, and started",
+            np.cumsum(
+                np.concatenate([np.full(500, 10.0), np.linspace(10.0, 0.1, 50), np.zeros(100), np.full(500, 2.0)])
+            ),
+        ),
         ("it sticks and slips", np.cumsum(np.where(np.arange(1200) % 40 < 5, 80.0, 0.0))),
     ],
 )
