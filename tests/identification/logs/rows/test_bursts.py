@@ -114,7 +114,7 @@ def test_rows_of_a_link_that_stood_still_are_left_out() -> None:
         (
             "it stopped slowly, stood, and started",
             np.cumsum(
-                np.concatenate([np.full(500, 10.0), np.linspace(10.0, 0.1, 50), np.zeros(100), np.full(500, 2.0)])
+                np.concatenate([np.full(500, 10.0), np.linspace(10.0, 0.1, 50), np.zeros(100), np.full(500, 8.0)])
             ),
         ),
         ("it sticks and slips", np.cumsum(np.where(np.arange(1200) % 40 < 5, 80.0, 0.0))),
