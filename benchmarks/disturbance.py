@@ -1,7 +1,8 @@
 """Does the diagnosis name what was hidden beside a random torque? The motors of `hidden.py`, with a torque each.
 
-Sizes are those of the confusion table; the torque is an Ornstein-Uhlenbeck voltage of the tests' independent plant,
-another course of it in training and validation. Seeds that no page had before are drawn by `--first-seed`.
+Sizes are those of the confusion table, and at least twice the smallest that is found beside such a torque (`power.py`);
+the torque is an Ornstein-Uhlenbeck voltage of the tests' independent plant, another course of it in training and
+validation. Seeds that no page had before are drawn by `--first-seed`.
 """
 
 import argparse

@@ -7,6 +7,8 @@ against it here; the table of `diagnosis.py` does that. A column for each random
 """
 
 import argparse
+import math
+import re
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -39,7 +41,7 @@ SIZE = {
     "warm_up": ("resistance_rise", 0.0),
     "missed_edges": ("miss_rate", 0.0),
 }
-TORQUES = {"": QUIET, "0.1 V, 50 ms": Torque(0.1, 0.05)}  # columns: RMS, and the time it is correlated over
+TORQUES = {"": QUIET} | {f"{rms:g} V, 50 ms": Torque(rms, 0.05) for rms in (0.03, 0.1, 0.3)}  # columns
 HEAD = (
     "# Diagnosis: the smallest effects that are found",
     "",
@@ -79,15 +81,20 @@ def found(effect: str, halvings: int, torque: Torque, first: int, pool: ProcessP
     return count
 
 
-def smallest(effect: str, torque: Torque, first: int, pool: ProcessPoolExecutor) -> int | None:
-    """The largest number of halvings at which it is found often enough, by bisection; None: not even at none."""
-    low, high = -1, HALVINGS + 1
+def smallest(effect: str, torque: Torque, guess: int, first: int, pool: ProcessPoolExecutor) -> int | None:
+    """The largest number of halvings at which it is found often enough; None: not even at none.
+
+    It is looked for around the guess, one step off, then two more, then four more; then by bisection.
+    """
+    low, high, middle, step = -1, HALVINGS + 1, guess, 1
     while high - low > 1:
-        middle = max((low + high) // 2, 0)
         if found(effect, middle, torque, first, pool) >= NEEDED:
-            low = middle
+            low, middle = middle, middle + step
         else:
-            high = middle
+            high, middle = middle, middle - step
+        step *= 2
+        if not low < middle < high:
+            middle = (low + high) // 2
     return low if low >= 0 else None
 
 
@@ -100,6 +107,20 @@ def entry(effect: str, halvings: int | None) -> str:
     if halvings is None:
         return f"not found in {NEEDED} of {MOTORS} at {what} ({commit()})"
     return f"{what}{' or less' if halvings == HALVINGS else ''} ({commit()})"
+
+
+def halvings_of(effect: str, entry: str) -> int | None:
+    """How often the size was halved that an entry of the page says; None where it says none."""
+    name, none = SIZE[effect]
+    said = re.search(rf"{name} ([0-9.e-]+)", entry)
+    return said and round(math.log2(abs(sized(effect, 0)[name] - none) / float(said[1])))
+
+
+def smallest_found(effect: str, rms: float) -> tuple[float, float]:
+    """The size that the page has beside a torque of so many volts, and the value where there is none of the effect."""
+    name, none = SIZE[effect]
+    column = [torque.rms for torque in TORQUES.values()].index(rms)
+    return abs(sized(effect, halvings_of(effect, kept()[effect][column]) or 0)[name] - none), none
 
 
 def kept() -> dict[str, list[str]]:
@@ -121,8 +142,9 @@ def main() -> int:
         for name in options.torques:
             for effect in options.effects:
                 cells = rows.setdefault(effect, ["–"] * len(TORQUES))
-                least = smallest(effect, TORQUES[name], options.first_seed, pool)
-                cells[list(TORQUES).index(name)] = entry(effect, least)
+                column = list(TORQUES).index(name)
+                guess = next((n for cell in cells[column::-1] if (n := halvings_of(effect, cell)) is not None), 3)
+                cells[column] = entry(effect, smallest(effect, TORQUES[name], guess, options.first_seed, pool))
                 print(effect, name, cells, flush=True)
                 table = ["| " + " | ".join((one, *rows[one])) + " |" for one in SIZE if one in rows]
                 RESULTS.write_text("\n".join([*HEAD, *table, NOTE]), encoding="utf-8")
