@@ -98,6 +98,7 @@ class Found:
     gap: float  # after, times the noise floor
     strength: float  # of the torque, found over true; NaN where there or found is none
     seconds: float  # of CPU time
+    variable: str = ""  # over which most of what is left can be predicted
 
 
 @dataclass(frozen=True)
@@ -115,16 +116,26 @@ class Torque:
 QUIET = Torque(0.0, 1.0)
 
 
-def recorded(
-    hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None, torque: Torque = QUIET
-) -> Hidden:
-    """Hide it in a random motor; `sizes` are given, all others drawn."""
-    random = np.random.default_rng([seed, len(hidden), *map(ord, "".join(hidden))])
+def generator(hidden: tuple[str, ...], seed: int) -> np.random.Generator:
+    """Make the generator that a motor with this in it is drawn by."""
+    return np.random.default_rng([seed, len(hidden), *map(ord, "".join(hidden))])
+
+
+def drawn(hidden: tuple[str, ...], random: np.random.Generator) -> dict[str, float]:
+    """Draw a motor and the sizes of what is hidden in it."""
     values = {"kv": PAPER_KV * random.uniform(0.7, 1.4), "ka": PAPER_KA * random.uniform(0.6, 1.5)}
     for name in hidden:
         for parameter, bounds in (SIZES | OUTSIDE)[name].items():
             values[parameter] = float(random.uniform(*bounds))
-    values |= sizes or {}
+    return values
+
+
+def recorded(
+    hidden: tuple[str, ...], seed: int, sizes: dict[str, float] | None = None, torque: Torque = QUIET
+) -> Hidden:
+    """Hide it in a random motor; `sizes` are given, all others drawn."""
+    random = generator(hidden, seed)
+    values = drawn(hidden, random) | (sizes or {})
     share, disc = float(random.uniform(0.0, 0.01)), int(random.integers(1000))
     later = values | ({"step_time": float(random.uniform(3.0, 8.0))} if "step_time" in values else {})
     drives = profiles.rich(12.0, seed), profiles.random(12.0, 14.0, seed + 500)
@@ -153,6 +164,7 @@ def find(training: Recording, validation: Recording, torque: float) -> Found:
         gap=found.gap_after / found.noise_floor if found.noise_floor > 0.0 else float("nan"),
         strength=found.disturbance.rms_voltage / torque if found.disturbance and torque else float("nan"),
         seconds=process_time() - begun,
+        variable=found.structure[0].variable if found.structure else "",
     )
 
 

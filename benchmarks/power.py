@@ -98,6 +98,12 @@ def smallest(effect: str, torque: Torque, guess: int, first: int, pool: ProcessP
     return low if low >= 0 else None
 
 
+def likely(before: list[int | None]) -> int:
+    """The halvings to begin with: those that the entry had, or two less than beside a third of the torque."""
+    off = next((i for i, halvings in enumerate(reversed(before)) if halvings is not None), 0)
+    return max((before[-1 - off] or 0) - 2 * off, 0)
+
+
 def entry(effect: str, halvings: int | None) -> str:
     """An entry of the table."""
     name, none = SIZE[effect]
@@ -143,7 +149,7 @@ def main() -> int:
             for effect in options.effects:
                 cells = rows.setdefault(effect, ["–"] * len(TORQUES))
                 column = list(TORQUES).index(name)
-                guess = next((n for cell in cells[column::-1] if (n := halvings_of(effect, cell)) is not None), 3)
+                guess = likely([halvings_of(effect, cell) for cell in cells[: column + 1]])
                 cells[column] = entry(effect, smallest(effect, TORQUES[name], guess, options.first_seed, pool))
                 print(effect, name, cells, flush=True)
                 table = ["| " + " | ".join((one, *rows[one])) + " |" for one in SIZE if one in rows]
