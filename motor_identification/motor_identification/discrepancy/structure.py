@@ -30,6 +30,7 @@ LEAST_SHARE = 0.1  # of the power of what is left: complete models show −0.03 
 LEAST_WHITE_SHARE = 0.03  # of the white residual's power
 OVER_THE_DISC = "angle"  # the family whose curves an irregular disc has too
 ROBUST = 4.0  # standard deviations: beyond, a white residual counts linearly
+OF_TIME = 0.5  # a bridge that slews shows to four fifths in the motion before; a supply's ripple in no motion at all
 LINES = 3  # of a spectrum that are taken together
 SMOOTHED = 20_000  # intervals that a spectrum is taken of at most
 
@@ -81,12 +82,21 @@ def find_structure(own: Sequence[Rest], others: Sequence[Rest], model: ErrorMode
             again = _judge_family(name, simulated, reach, model, lag)
             judged = min(judged, again, key=lambda one: one.significance)
         found.append(judged)
-    return tuple(sorted(found, key=_rank))
+    return rank(found)
 
 
-def _rank(one: Structure) -> tuple[bool, float]:
-    """Rank what is certain first, by its share; then the others by their significance."""
-    return not one.certain, -one.share if one.certain else -one.significance
+def rank(found: Sequence[Structure]) -> tuple[Structure, ...]:
+    """Rank structures: what is certain first, by its share; then the others by their significance.
+
+    A curve over time is learnt in the recording that it is judged in, between whose samples it interpolates: beside a
+    variable of the motion, learnt elsewhere too, it counts half.
+    """
+
+    def key(one: Structure) -> tuple[bool, float]:
+        share = one.share * (OF_TIME if one.variable in OF_ONE_RECORDING else 1.0)
+        return not one.certain, -share if one.certain else -one.significance
+
+    return tuple(sorted(found, key=key))
 
 
 def _to_judge(rest: Rest) -> Rest:

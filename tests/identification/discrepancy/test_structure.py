@@ -19,6 +19,7 @@ from motor_identification.discrepancy.structure import (
     Rest,
     Structure,
     find_structure,
+    rank,
     share_of_disc,
     solve_ridge,
 )
@@ -79,6 +80,16 @@ def test_what_is_missing_is_found_in_its_variable(
 )
 def test_structure_is_large_and_significant(share: float, significance: float, certain: bool) -> None:
     assert Structure("speed", share, significance).certain == certain
+
+
+@pytest.mark.parametrize(("motion", "first"), [(0.83, "past"), (0.52, "past"), (0.48, "time"), (0.08, "time")])
+def test_time_comes_first_only_where_no_motion_tells_half_as_much(motion: float, first: str) -> None:
+    """Of a bridge that slews, curves over time predicted 1.04 of what was left, over the motion before 0.83."""
+    found = [Structure("time", 1.0, 1100.0), Structure("past", motion, 880.0), Structure("angle", 0.02, 2000.0)]
+    ranked = rank(found)
+    assert ranked[0].variable == first
+    assert [one.variable for one in rank(found[::-1])] == [one.variable for one in ranked]
+    assert ranked[-1].variable == ("past" if motion < LEAST_SHARE else "angle")
 
 
 def test_harmonics_of_the_angle_predict_a_third_of_96_irregular_slots() -> None:
