@@ -39,7 +39,7 @@ Result = tuple[tuple[str, ...], Found]  # what was hidden, and what was found
 
 
 def enlarged(hidden: tuple[str, ...], seed: int, rms: float) -> dict[str, float]:
-    """Sizes of what is hidden that are drawn too small: twice the smallest that is found beside such a torque."""
+    """Sizes of what is hidden that are drawn too small: twice the smallest found, at most the table's largest."""
     values, sizes = drawn(hidden, generator(hidden, seed)), {}
     for effect in hidden:
         if effect not in SIZE:
@@ -48,7 +48,7 @@ def enlarged(hidden: tuple[str, ...], seed: int, rms: float) -> dict[str, float]
         name = SIZE[effect][0]
         none = values["ks"] if effect == "static_friction" else none
         if abs(values[name] - none) < 2.0 * least:
-            sizes[name] = none + float(np.copysign(2.0 * least, values[name] - none))
+            sizes[name] = float(np.clip(none + np.copysign(2.0 * least, values[name] - none), *SIZES[effect][name]))
     return sizes
 
 
@@ -134,8 +134,9 @@ def page(first: int, rows: list[str], results: dict[float, list[Result]]) -> str
         "# Diagnosis beside a random torque",
         "",
         "Simulated motors of the tests' independent plant, each effect at least twice as large as the smallest that is",
-        f"[found beside a torque of that strength](power.md); commit {commit()}, seeds from {first} on; {machine()};",
-        "two diagnoses at a time.",
+        "[found beside a torque of that strength](power.md), or as the largest of the confusion table; where that page",
+        "has no entry, the smallest is taken to grow as the torque. What is outside the table is not enlarged.",
+        f"Commit {commit()}, seeds from {first} on; {machine()}; two diagnoses at a time.",
         "",
         *(line for rms, ones in results.items() for line in summary(rms, ones)),
         "",

@@ -123,10 +123,15 @@ def halvings_of(effect: str, entry: str) -> int | None:
 
 
 def smallest_found(effect: str, rms: float) -> tuple[float, float]:
-    """The size that the page has beside a torque of so many volts, and the value where there is none of the effect."""
-    name, none = SIZE[effect]
-    column = [torque.rms for torque in TORQUES.values()].index(rms)
-    return abs(sized(effect, halvings_of(effect, kept()[effect][column]) or 0)[name] - none), none
+    """The size that the page has beside a torque of so many volts, and the value where there is none of the effect.
+
+    Where it has no entry, the next weaker torque's grows as the torque.
+    """
+    (name, none), torques = SIZE[effect], list(TORQUES.values())
+    entries = zip(torques, [halvings_of(effect, cell) for cell in kept()[effect]], strict=True)
+    known = [(torque.rms, halvings) for torque, halvings in entries if halvings is not None and 0.0 < torque.rms <= rms]
+    beside, halvings = max(known, default=(rms, 0))
+    return abs(sized(effect, halvings)[name] - none) * rms / beside, none
 
 
 def kept() -> dict[str, list[str]]:
