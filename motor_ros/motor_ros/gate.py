@@ -4,6 +4,9 @@
     waiting  on, but the sender began before the plant came up: 0 V until it sends 0 V, or motor/enable
     driven   the newest voltage of one sender; another's are left aside until that one has been silent for HOLD
 
+Who was left aside beside another that drove has to begin at 0 V, too, once that one has ended: it is most often one
+that was forgotten, and the motor has just been stopped.
+
 That there are two is said once the first is heard again after the other: one sender that was held up sends what it has
 missed all at once, more than is kept, and its numbers jump ahead as another's would. Its next numbers go on from there.
 
@@ -35,6 +38,10 @@ WAITING = (
     "{:.3g} V was already being sent on motor/voltage when the plant came up: the motor gets 0 V until 0 V is sent, or"
     " motor/enable is called with data: true."
 )
+HANDED = (
+    "{:.3g} V was already being sent on motor/voltage beside another node that drove the motor and has ended: the motor"
+    " gets 0 V until 0 V is sent, or motor/enable is called with data: true."
+)
 TWO_SENDERS = (
     "More than one node sends motor/voltage{}: only {} is obeyed, until it has been silent for {:g} s; end the others."
 )
@@ -51,6 +58,7 @@ class Gate:
     stopped: str = ""  # why the output was switched off; empty: by the user, or never
     faults: RepeatedStops = RepeatedStops()  # stops for what the motor did
     begun: bool = False  # the voltages have started from 0 V, or were allowed by motor/enable
+    handed: bool = False  # they have not, since one that was left aside took over
     first: Sender | None = None  # the sender's first command that was heard since then
     command: float = 0.0  # [V]
     received: int | None = None  # [ns]
@@ -74,8 +82,10 @@ class Gate:
         told = self._tell_senders(number, now) if ours else replace(self, aside=None)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
         first = self.first if ours and self.first is not None else sender
+        handed = voltage != 0.0 and (self.handed or (not ours and self.conflict(now)))
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
-        return replace(told, command=voltage, received=now, sender=sender, first=first, begun=begun)
+        begun = begun and not handed
+        return replace(told, command=voltage, received=now, sender=sender, first=first, begun=begun, handed=handed)
 
     def _tell_senders(self, number: int | None, now: int) -> "Gate":
         """The sender is heard again: what was left aside was another's, unless it was sent between its two commands."""
@@ -86,7 +96,7 @@ class Gate:
 
     def enable(self, on: bool) -> "Gate":
         """Switch the output, by the user's will; a command from before the switch never acts."""
-        return replace(self, enabled=on, begun=on, stopped="", command=0.0, received=None)
+        return replace(self, enabled=on, begun=on, handed=False, stopped="", command=0.0, received=None)
 
     def stop(self, why: str) -> "Gate":
         """Switch the output off for a reason, until the user switches it on."""
@@ -102,7 +112,7 @@ class Gate:
 
     def come_up(self, now: int) -> "Gate":
         """The plant can drive the motor from now [ns] on: voltages have to begin at 0 V again."""
-        return replace(self, since=now, begun=False, first=None, command=0.0, received=None)
+        return replace(self, since=now, begun=False, handed=False, first=None, command=0.0, received=None)
 
     def fresh(self, now: int) -> bool:
         """Whether there is a command at `now` [ns] that is not too old."""
@@ -125,7 +135,7 @@ class Gate:
             obeyed = f"frame_id '{self.sender.name}'" if self.sender and self.sender.name != self.rival else "the first"
             return TWO_SENDERS.format(among, obeyed, HOLD * 1e-9)
         if self.enabled and not self.begun and self.fresh(now):
-            return WAITING.format(self.command)
+            return (HANDED if self.handed else WAITING).format(self.command)
         return ""
 
     def state(self, now: int) -> str:

@@ -95,8 +95,39 @@ def test_the_first_of_two_senders_is_obeyed_until_it_is_silent(name: str) -> Non
     assert "More than one node sends motor/voltage (/left, /right)" in told
     assert ("frame_id ''" in told) == bool(name)
     assert plant.problem(now + CONFLICT) == ""
-    for silence, voltage in ((HOLD, 0.0), (HOLD + 1, -9.0)):
-        assert plant.take(-9.0, now + silence, name, other).voltage(now + silence) == voltage
+    assert plant.take(-9.0, now + HOLD, name, other).received == now
+    later = plant.take(-9.0, now + HOLD + 1, name, other)
+    assert later.sender is not None and later.sender.name == name and later.received == now + HOLD + 1
+
+
+@pytest.mark.parametrize("name", ["", "experiment"])
+@pytest.mark.parametrize(("at_once", "zero", "enable"), [(-9.0, True, False), (-9.0, False, True), (0.0, False, False)])
+def test_who_was_left_aside_begins_at_0_volt_once_the_first_has_ended(
+    name: str, at_once: float, zero: bool, enable: bool
+) -> None:
+    """Ctrl-C for the one that drives, and the forgotten one turns the motor: it does not, whatever its age."""
+    plant = stream(gate(), 2.0, range(0, 500, 5), 1)
+    for k in range(100):
+        plant = plant.take(2.0, T0 + (500 + 5 * k) * MS, "", 101 + k)
+        plant = plant.take(at_once, T0 + (501 + 5 * k) * MS, name, 1001 + k)
+    now = T0 + 1000 * MS + HOLD
+    for k in range(400):
+        plant, now = plant.take(at_once, now, name, 1201 + k), now + 5 * MS
+        assert plant.voltage(now) == 0.0
+    assert ("beside another node that drove the motor" in plant.problem(now)) is (at_once != 0.0)
+    assert plant.come_up(now).take(-9.0, now + MS, name, 1601).problem(now + MS).endswith("data: true.")
+    plant = plant.take(0.0, now, name, 1601) if zero else plant
+    plant = plant.enable(True) if enable else plant
+    plant = plant.take(-9.0, now + MS, name, 1602)
+    assert plant.voltage(now + MS) == -9.0 and plant.problem(now + MS) == ""
+
+
+def test_who_begins_as_the_first_one_ends_takes_over_at_once() -> None:
+    """An experiment after a controller: its 0 V came while the first one still counted as there."""
+    plant = stream(replace(gate(), sample_period=0.005), 2.0, range(0, 500, 5), 1)
+    for k in range(120):
+        plant = plant.take(-9.0, T0 + (500 + 5 * k) * MS, "experiment", 1 + k)
+    assert plant.voltage(T0 + 1095 * MS) == -9.0
 
 
 def test_messages_that_were_missed_are_no_second_sender() -> None:
