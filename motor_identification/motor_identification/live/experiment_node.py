@@ -1,6 +1,7 @@
 """The node of a live experiment: answers every sample with the plan's command, and sees when something is wrong."""
 
 import time
+from dataclasses import replace
 from math import inf
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -60,6 +61,7 @@ class Driver(Node):
         self._following, self._enough, self.samples = plan, enough, []
         self._ready, self._start, self.done, self.elapsed = self.get_clock().now(), None, False, 0.0
         self.heard = self._since = time.monotonic()  # nobody has listened while something else was done
+        self._plant = replace(self._plant, seen=None)
 
     def send(self, voltage: float) -> None:
         """Ask the plant for a voltage [V]."""

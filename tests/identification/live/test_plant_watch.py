@@ -1,8 +1,11 @@
 """What ends an experiment, sample by sample, on a clock of the test's own."""
 
+from dataclasses import replace
+from math import nan
+
 import pytest
 
-from motor_identification.live.plant_watch import DEAF, Asked, PlantWatch
+from motor_identification.live.plant_watch import DEAF, HELD_UP, Asked, PlantWatch
 
 ASKED = Asked(6.0, True, 1.5)
 PERIOD = 5_000_000  # [ns]
@@ -22,6 +25,7 @@ def test_two_samples_in_a_row_are_too_fast_and_one_is_not() -> None:
     _, problems = see(PlantWatch(40.0), [(40.1, 6.0), (40.0, 6.0), (-40.1, 6.0), (-41.0, 6.0)])
     assert problems[:3] == ["", "", ""]
     assert problems[3].startswith("The motor ran at 41 rad/s after 1.50 s, at 6 V, above --speed 40")
+    assert see(PlantWatch(40.0), [(nan, 6.0)] * 2)[1][1].startswith("The motor ran at nan rad/s")
     assert see(PlantWatch(), [(1e6, 6.0)] * 3)[1] == ["", "", ""]
 
 
@@ -40,3 +44,15 @@ def test_a_clock_that_steps_back_is_another_plant() -> None:
     watch, _ = see(PlantWatch(), [(0.0, 6.0)] * 2)
     assert watch.see(watch.latest + 1, 0.0, 6.0, ASKED, 0.0)[1] == ""
     assert watch.see(watch.latest, 0.0, 6.0, ASKED, 0.0)[1].startswith("The plant's clock stepped back after 1.50 s")
+
+
+@pytest.mark.parametrize(("ours", "plants"), [(1.0, 1.0), (1.0, 0.005), (0.005, 1.0)])
+def test_a_motor_that_stood_does_not_go_on_by_itself(ours: float, plants: float) -> None:
+    """Ctrl-Z and fg of the command; a computer that was suspended, whose clock then stands still."""
+    watch, _ = see(PlantWatch(), [(0.0, 6.0)] * 2)
+    assert watch.seen is not None
+    for longer in (0.99, 1.01):
+        time, now = watch.latest + round(plants * longer * HELD_UP * 1e9), watch.seen + ours * longer * HELD_UP
+        problem = watch.see(time, 0.0, 0.0, ASKED, now)[1]
+        assert problem.startswith("No sample was answered for 1.0 s after 1.50 s") is (longer > 1.0)
+        assert replace(watch, seen=None).see(time, 0.0, 0.0, ASKED, now)[1] == ""

@@ -27,6 +27,8 @@ def drop_old_reference(config: Config, state: State, plant: PlantWatch, now: flo
         return state
     if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
         return drop(state, RETURNED)
+    if _stood_still(state, plant):
+        return drop(state, RETURNED)
     if state.held is not None and now - state.held > AWAY and now - state.referred > AWAY:
         return drop(state, HELD.format(state.held_by))
     if state.demand.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
@@ -36,3 +38,14 @@ def drop_old_reference(config: Config, state: State, plant: PlantWatch, now: flo
     if state.run is not None and state.run.ignored > OFF and now - state.referred > OFF:
         return drop(state, WAS_OFF)
     return state
+
+
+def _stood_still(state: State, plant: PlantWatch) -> bool:
+    """Tell whether a reference from before a silence of which our own clock knows nothing is still in force.
+
+    That is what a computer shows that was suspended while the plant, on another one, went on; it does not drive the
+    motor on when somebody opens its lid.
+    """
+    if state.plant is None or state.arrival is None or state.referred > state.arrival:
+        return False
+    return plant.sample_time - state.plant.sample_time > AWAY * 1e9

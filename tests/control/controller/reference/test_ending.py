@@ -49,6 +49,15 @@ def test_silence_ends_it_unless_it_is_as_fresh(times: float, ends: bool) -> None
 
 
 @pytest.mark.parametrize(("times", "ends"), [(BELOW, False), (ABOVE, True)])
+def test_silence_ends_it_although_our_own_clock_stood_still_meanwhile(times: float, ends: bool) -> None:
+    """A laptop that was suspended for a night beside a plant that went on."""
+    before = replace(ASKED, plant=PLANT, arrival=8.0, referred=7.9)
+    after = replace(PLANT, sample_time=PLANT.sample_time + round(times * AWAY * 1e9))
+    assert (end(before, 8.005, after).demand is None) is ends
+    assert end(replace(before, referred=8.001), 8.005, after).demand is not None
+
+
+@pytest.mark.parametrize(("times", "ends"), [(BELOW, False), (ABOVE, True)])
 def test_being_held_at_0_v_ends_it_with_what_held_it(times: float, ends: bool) -> None:
     now = 3.0 + times * AWAY
     after = end(replace(ASKED, arrival=now, held=3.0, held_by="Too late."), now)
