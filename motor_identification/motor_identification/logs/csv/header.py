@@ -6,11 +6,13 @@ from itertools import zip_longest
 
 from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING
 from motor_identification.logs.csv.cells import COMMENT, SPACES, is_number, split_line
+from motor_identification.logs.csv.sparse import NO_VALUE
 
 _APART = re.compile(r"\s{2,}|\t")  # names of several words
 _WORDS = re.compile(r"\S+(?: \S+)*")  # those names, where they stand
 _BRACKETS = "[]()<>{}"
 _UNIT_ROW = re.compile(r"[\[(]?[A-Za-zµμ°%/²\d.^_-]{1,10}[\])]?$")
+_NO_UNIT = frozenset({"#", "-", "–", "1"})  # of a number of something, in brackets
 _SURE = frozenset({"s", "ms", "V"})  # of what may be units: these are none of a column's names
 _OF_COLUMN = re.compile(
     r"\s*(?:col(?:umn)?\.?\s*)?(?P<places>\d{1,3}(?:\s+\d{1,3})*)\b[:.)=\s]\s*(?P<name>[^\W\d].*|\(.*)$", re.I
@@ -19,6 +21,7 @@ _VALUES = re.compile(r"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?(?![\w.])|\b0x[0
 _UNIT = re.compile(r"[\[(][^\])]*[\])]")
 ALIGNED = 2  # characters that a cell may end before or behind its name
 FEWEST_NAMES = 4  # for each number among them
+FEWEST_NAMED, MOST_WITHOUT_CELLS = 2, 2  # columns below, and names behind them
 
 
 def find_header(
@@ -40,13 +43,30 @@ def find_header(
         return numbered
     lines = [COMMENT.sub("", line) for line in before]
     cells = [_without_empty_end(_names(line, first, delimiter, width)) for line in lines]
+    cells = [row for row in cells if not row or not all(cell in NO_VALUE for cell in row)]  # nan,nan,nan
     fit = [width <= len(row) <= most and not any(is_number(one, comma) for one in row) for row in cells]
     if len(cells) > 1 and fit[-2] and _are_units(cells[-1], cells[-2]):
         units = (unit.strip(_BRACKETS) for unit in cells[-1])
         pairs = zip_longest(cells[-2], units, fillvalue="")
         return tuple(f"{name} [{unit}]" if name and unit else name or unit for name, unit in pairs)
     found = next((row for row, fits in zip(cells[::-1], fit[::-1], strict=True) if fits), ())
-    return tuple(found or next((row for row in cells[-1:] if _holds_a_number(row, width, most, comma)), ()))
+    found = found or next((row for row in cells[-1:] if _holds_a_number(row, width, most, comma)), [])
+    return tuple(found or next((row[:most] for row in cells[-1:] if _has_more(row, most, comma)), ()))
+
+
+def _has_more(row: Sequence[str], most: int, comma: bool) -> bool:
+    """Whether a line of names, just above the rows, goes on behind their cells: what its program never wrote."""
+    named = bool(row) and all(row) and not any(is_number(cell, comma) for cell in row)
+    return named and FEWEST_NAMED < most < len(row) <= most + MOST_WITHOUT_CELLS
+
+
+def say_names_without_cells(before: Sequence[str], delimiter: str, header: Sequence[str]) -> list[str]:
+    """Say which names of the line above the rows stand over no cells."""
+    above = [COMMENT.sub("", line) for line in before if line.strip()]
+    names = split_line(above[-1], delimiter) if above else []
+    if len(names) <= len(header) or names[: len(header)] != list(header):
+        return []
+    return [f"Left out: the names {', '.join(names[len(header) :])}, below which no row has a cell."]
 
 
 def _holds_a_number(row: Sequence[str], width: int, most: int, comma: bool) -> bool:
@@ -95,8 +115,12 @@ def _are_units(row: Sequence[str], above: Sequence[str]) -> bool:
     known = [cell.strip(_BRACKETS).strip().lower() in UNIT_BY_SPELLING for cell in units]
     if all(known) and len(units) > 1:
         return not all(name.strip(_BRACKETS).strip().lower() in UNIT_BY_SPELLING for name in above if name)
-    alike = all(one or _UNIT_ROW.match(cell) for cell, one in zip(units, known, strict=True))
+    alike = all(one or _is_like_a_unit(cell) for cell, one in zip(units, known, strict=True))
     return alike and any("[" in cell or "/" in cell or cell in _SURE for cell in units)
+
+
+def _is_like_a_unit(cell: str) -> bool:
+    return bool(_UNIT_ROW.match(cell)) or ("[" in cell and cell.strip(_BRACKETS) in _NO_UNIT)
 
 
 def _names(line: str, first: str, delimiter: str, width: int) -> list[str]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from motor_identification.logs.csv.cells import is_number
+from motor_identification.logs.csv.cells import COMMENT, is_number
 
 MOSTLY = 0.9  # of the first lines
 _LOOKED_AT = 100  # lines
@@ -12,10 +12,10 @@ NOTE = "The file has a line for each column: they are taken for columns."
 
 def take_off_brackets(lines: Sequence[str]) -> Sequence[str]:
     """Take the brackets and the semicolons off rows such as `[0 0.02 5;`, where nearly every line ends with one."""
-    begin = [line.strip() for line in lines[: 2 * _LOOKED_AT] if line.strip()][:_LOOKED_AT]
+    begin = [line.strip() for line in lines[: 2 * _LOOKED_AT] if line.strip() and not COMMENT.match(line)][:_LOOKED_AT]
     if sum(line.count(";") == 1 and line[-1] == ";" for line in begin) < MOSTLY * len(begin) or not begin:
         return lines
-    return [_without_brackets(line) for line in lines]
+    return [line if COMMENT.match(line) else _without_brackets(line) for line in lines]
 
 
 def _without_brackets(line: str) -> str:

@@ -3,7 +3,7 @@
 import pytest
 
 from motor_identification.logs.csv.dialect import find_dialect
-from motor_identification.logs.csv.header import find_header
+from motor_identification.logs.csv.header import find_header, say_names_without_cells
 
 FIRST = "0;0;0,2;0;21,1"
 SPREAD = "         5      10.6       0.0      21.1      4700                "
@@ -85,3 +85,27 @@ def test_comments_that_say_which_column_is_what() -> None:
 )
 def test_comments_that_begin_with_other_numbers(comments: tuple[str, ...]) -> None:
     assert find_header(comments, "0,0,0", ",", False, 3, 3) == ("t", "u", "y")
+
+
+def test_units_of_numbers_without_one() -> None:
+    found = find_header(("%n,voltage,position", "%[#],[V],[turns]"), "0,1,2", ",", False, 3, 3)
+    assert found == ("n [#]", "voltage [V]", "position [turns]")
+    assert find_header(("n,u,y", "nan,nan,nan"), "0,1,2", ",", False, 3, 3) == ("n", "u", "y")
+
+
+@pytest.mark.parametrize(
+    ("names", "kept"),
+    [
+        ("t,u,y,state", "t,u,y"),
+        ("t,u,y,state,mode", "t,u,y"),
+        ("t,u,y,state,mode,name", ""),  # of another table
+        ("t,,y,state", ""),
+        ("t,u,y,4", ""),
+    ],
+)
+def test_names_behind_the_cells_of_all_rows(names: str, kept: str) -> None:
+    header = find_header(("# a log", names), "0,1,2", ",", False, 3, 3)
+    assert ",".join(header) == kept
+    said = say_names_without_cells(("# a log", names), ",", header or ("a", "b", "c"))
+    assert bool(said) == bool(kept)
+    assert find_header((names,), "0,1", ",", False, 2, 2) == ()  # of two columns nobody knows

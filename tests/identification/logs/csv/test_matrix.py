@@ -52,3 +52,9 @@ def test_tables_that_stand_upright_stay(rows: int, cells: int, turned: bool) -> 
 )
 def test_what_is_no_line_for_each_column(lines: list[str]) -> None:
     assert turn_lines_into_columns(lines) == (lines, ())
+
+
+def test_comments_above_rows_that_end_with_semicolons_stay() -> None:
+    above = ["% a log", "% of some motor", *["%"] * 20, "%t,u,y", "%[#],[V],[turns]"]
+    found = take_off_brackets([*above, *["1,2,3;"] * 40])
+    assert found[: len(above)] == above and found[-1] == "1,2,3"
