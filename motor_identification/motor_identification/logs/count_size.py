@@ -64,11 +64,19 @@ def count_size(form: CsvForm, values: Floats, voltage: Floats, levels: Floats | 
         return _whole(form, turn / form.edges_per_revolution, form.edges_per_revolution)
     way = float(np.quantile(np.abs(np.diff(values)), 0.9))  # from row to row
     lattice = find_position_lattice(values) or _within_a_turn(levels, values, turn)
-    if lattice and turn / lattice.step < MOST_EDGES:
+    if lattice and turn / lattice.step < MOST_EDGES and not _is_rounding(lattice, values):
         return _seen(form, lattice, turn, way <= COUNTS_A_ROW * lattice.step and lattice.holds(values))
     noise = estimate_white_noise(values, voltage)
     coarse = max(noise, way / COUNTS_A_ROW)
     return _fine(form, turn, coarse, f" (assumed: the values show no steps, and noise of {noise:.2g} {form.unit})")
+
+
+def _is_rounding(lattice: Lattice, values: Floats) -> bool:
+    """Whether a lattice is that of numbers of 32 bits, as which positions, shape (K,), were kept: no encoder's."""
+    with np.errstate(over="ignore"):
+        short = values.astype(np.float32)
+    finest = 2.0 * float(np.spacing(np.max(np.abs(short))))
+    return lattice.step < finest and bool(np.all(short == values))
 
 
 def _within_a_turn(levels: Floats | None, values: Floats, turn: float) -> Lattice | None:

@@ -87,3 +87,14 @@ def test_a_fast_shaft_shows_its_counts_within_a_turn(offset: float, seen: bool) 
     assert count_size(DEGREES, turning, np.zeros(300)).stands_for
     count = count_size(DEGREES, turning + offset * 360.0 / 4096 * (numbers % 3), np.zeros(300), levels)
     assert (count.edges == 4096 and not count.stands_for) == seen
+
+
+@pytest.mark.parametrize(("far", "seen"), [(114.0, False), (0.9, True)])
+def test_the_rounding_of_numbers_of_32_bits_is_no_encoders_step(far: float, seen: bool) -> None:
+    """Of a position of a hundred turns as ODrive prints it, the last digits are 131,072 a turn."""
+    turns = CsvForm("t", "u", "y", Kind.POSITION, "rev")
+    fine = np.float32(far + np.cumsum(np.random.default_rng(5).integers(-40, 90, 400)) / 2.0**17)
+    count = count_size(turns, fine.astype(np.float64), np.zeros(400))
+    assert (count.edges == 2**17) == seen and count.stands_for != seen
+    exact = far + np.cumsum(np.random.default_rng(5).integers(-40, 90, 400)) / 1e5
+    assert not count_size(turns, exact, np.zeros(400)).stands_for
