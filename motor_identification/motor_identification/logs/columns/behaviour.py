@@ -12,7 +12,7 @@ from motor_identification.logs.columns.clock import row_period
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading, words_besides
 from motor_identification.logs.columns.movement import guess_kind
-from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, Quantity
+from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, WORDS, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
@@ -216,6 +216,19 @@ def ends_of_a_loop(headings: list[Heading]) -> list[Heading]:
     sides = sum(_place(one) == moves for one in headings) > 1
     found = Quantity.POSITION if sides else None  # of which kind, its numbers tell
     return [replace(one, quantity=found) if _place(one) == moves else one for one in headings]
+
+
+def commands_beside_control(table: Table, headings: list[Heading]) -> list[Heading]:
+    """An input that nobody calls a voltage, beside a duty that changes, is what the controller is told: a set point."""
+    duties = [table.numbers(one.name) for one in headings if one.quantity is Quantity.DUTY]
+    if not any(np.any(duty != duty[0]) for duty in duties):
+        return headings
+    return [replace(one, quantity=Quantity.REFERENCE) if _is_bare_input(one) else one for one in headings]
+
+
+def _is_bare_input(heading: Heading) -> bool:
+    told = set(heading.words) & WORDS[Quantity.VOLTAGE]
+    return heading.quantity is Quantity.VOLTAGE and not heading.unit and bool(told) and told <= INPUTS
 
 
 def _place(heading: Heading) -> frozenset[str] | None:

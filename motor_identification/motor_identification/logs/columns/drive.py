@@ -28,6 +28,7 @@ REACHED = 0.5  # of a register of 16 bits, below which a largest duty tells noth
 FEWEST_MILLIVOLTS = 2000.0  # of what is called a voltage: fewer may be a duty of 255 or 1,023
 VOLTAGE_WORDS = frozenset({"voltage", "volt", "volts", "voltaje", "spannung", "tension", "tensión"})
 LARGEST_VOLTS = 60.0  # whole numbers beyond are a duty
+_LARGEST_UNNAMED = 24.0  # and where no name says that they are volts
 
 
 @dataclass(frozen=True)
@@ -46,10 +47,12 @@ def voltage_drive(heading: Heading, values: Floats) -> Drive:
     if scale is not None:
         return Drive(scale, f"in {heading.unit}")
     largest = float(np.max(np.abs(values), initial=0.0))
-    if largest > LARGEST_VOLTS and not np.any(values % 1.0):
+    if largest > (LARGEST_VOLTS if heading.quantity else _LARGEST_UNNAMED) and not np.any(values % 1.0):
         if FEWEST_MILLIVOLTS <= largest <= 1e3 * LARGEST_VOLTS and set(heading.words) & VOLTAGE_WORDS:
             return Drive(1e-3, "in mV (assumed; otherwise: --full-duty, --voltage-scale)")
         return duty_drive(heading, values)
+    if heading.quantity is None and largest > LARGEST_VOLTS:
+        return Drive(None, f"goes up to {largest:.4g}, more than a motor's volts", sure=False)
     return Drive(1.0, "in V (assumed; otherwise: --full-duty, --voltage-scale)")
 
 
@@ -68,6 +71,8 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
         return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest)
     if why := _why_in_volts(heading, values, largest):
         return Drive(1.0, f"in V (assumed, as {why}; otherwise: --full-duty, --voltage-scale)")
+    if heading.quantity is None and largest < 100.0 and not np.any(values % 1.0):  # of 100 or of 255: nothing tells
+        return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest, sure=False)
     words = set(heading.words)
     for candidate in FULL_DUTIES if not _is_odd_timer(largest) else ():
         per_cent = candidate == 100.0 and np.any(values % 1.0) == 0 and largest < 100.0 and not words & _PER_CENT

@@ -1,5 +1,6 @@
 """A table's forms, one a motor: as the user said, and guessed where not; every guess is said."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -15,6 +16,7 @@ from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import TIME_UNITS, CsvForm, time_unit_size
 from motor_model.errors import RecordingError
 
+_AT_A_RATE = re.compile(r"\d\s*k?hz\b", re.I)  # in the name of a column of times: 8 kHz
 SHORTEST = 1e-6  # [s] between rows: what a unit makes shorter is in another one
 
 
@@ -55,6 +57,8 @@ def _rows(table: Table, roles: Roles, said: Said, notes: Notes) -> Rows:
             )
         return Rows(None, "s", 0.0)
     unit, why = _time_unit(table, roles.time, said)
+    if not said.time_unit and _AT_A_RATE.search(roles.time):
+        notes.questions.append((roles.time, "counts by a rate: say how many seconds one is (--time-unit S)"))
     if said.sample_period:
         notes.findings.append(f"Time: rows are {said.sample_period * 1e3:.6g} ms apart, as said (--sample-period).")
     else:

@@ -4,9 +4,11 @@ import re
 from dataclasses import dataclass
 
 from motor_identification.logs.columns.vocabulary import (
+    COUNTS_IN_BRACKETS,
     FILTERED,
     MEASURED,
     MOVES,
+    OF_OTHERS,
     OUTPUTS,
     SIDES,
     TAILS,
@@ -52,7 +54,10 @@ def read_heading(name: str) -> Heading:
         unit, before = _unit_at_the_end(words[: len(words) - behind])
         words = (*before, *words[len(words) - behind :])
     side = _side(words)
-    return Heading(name, words, _quantity(words, unit), unit, side)
+    quantity = _quantity(words, unit)
+    if not unit and quantity in (None, Quantity.DUTY) and _has_unit_of_others(name):  # effort (N)
+        quantity = Quantity.OTHER
+    return Heading(name, words, quantity, unit, side)
 
 
 def words_besides(heading: Heading) -> tuple[str, ...]:
@@ -62,10 +67,15 @@ def words_besides(heading: Heading) -> tuple[str, ...]:
 
 def _unit_in_brackets(name: str) -> tuple[str, str]:
     for match in _BRACKETS.finditer(name):
-        unit = UNIT_BY_SPELLING.get(match[1].strip().lower().replace(" ", ""), "")
+        spelt = match[1].strip().lower().replace(" ", "")
+        unit = "count" if spelt in COUNTS_IN_BRACKETS else UNIT_BY_SPELLING.get(spelt, "")
         if unit:
             return unit, name.replace(match[0], " ")
     return "", _BRACKETS.sub(lambda match: " " if "/" in match[1] else f" {match[1]} ", name)  # furlongs/s: no seconds
+
+
+def _has_unit_of_others(name: str) -> bool:
+    return any(match[1].strip().lower().replace(" ", "") in OF_OTHERS for match in _BRACKETS.finditer(name))
 
 
 def split_words(text: str) -> tuple[str, ...]:
@@ -91,6 +101,8 @@ def _unit_at_the_end(words: tuple[str, ...]) -> tuple[str, tuple[str, ...]]:
         unit = UNIT_BY_SPELLING.get(f"{UNIT_BY_SPELLING.get(words[-3], '')}/{_PER[words[-1]]}", "")
         if unit:
             return unit, words[:-3]
+    if words[-1:] == ("hz",) and any(word.isdigit() for word in words[-3:-1]):  # sampled at 8 kHz: no speed
+        return "", words
     for length in (2, 1):
         unit = UNIT_BY_SPELLING.get("_".join(words[-length:]), "") if len(words) >= length else ""
         if unit and len(words) > length and words[-1] not in ("a", "v", "l", "r"):

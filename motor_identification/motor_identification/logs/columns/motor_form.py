@@ -127,6 +127,10 @@ def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> 
     if drive.scale is not None:
         return drive, drive.scale, None
     full = drive.full or 1.0
+    if drive.full is None:
+        what = "say which column drives (--voltage COL), or what it is in volts (--voltage-scale V)"
+        notes.questions.append((pair.voltage, f"{drive.why}: {what}"))
+        return drive, 1.0, roles.supply
     if not drive.sure:
         beside = "" if said.supply_voltage or roles.supply else " and the voltage there (--supply-voltage V)"
         notes.questions.append((pair.voltage, f"is a duty: say what it is at full duty (--full-duty D){beside}"))

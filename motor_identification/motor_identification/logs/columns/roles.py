@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour import (
+    commands_beside_control,
     ends_of_a_loop,
     find_position,
     follows,
@@ -67,6 +68,7 @@ def find_roles(table: Table, said: Said) -> Roles:
     free = ends_of_a_loop(
         [one for one in others if one.quantity is not None or not _is_clock_of(table, one.name, time)]
     )
+    free = commands_beside_control(table, free)
     free = share_one_drive(
         table, numbered_motors(speeds_called_v(table, present_values(pulses_that_drive(table, free))))
     )
@@ -230,13 +232,15 @@ def _moving(
             found = [name for name in found if not FILTERED & set(read_heading(name).words)] or found
             found = [name for name in found if RAW & set(read_heading(name).words)] or found
             found = [name for name in found if _is_summed_up(table, name, found)] or found
-            found = _in_one_unit(table, found)
+            found = _in_one_unit(table, _each_once(table, found))
         if len(found) > 1:
             raise ask_motion(table, headings, quantity, found)
         if found:
             return found[0]
     unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
     measured = [one.name for one in headings if one.name in unnamed and MEASURED & set(one.words)]
+    if not measured and {one.name for one in headings if drives(one)} == {"u"}:
+        measured = [name for name in unnamed if name == "y"]  # a system's input and output, as textbooks call them
     if len(unnamed) == 1 or len(measured) == 1:
         return (measured or unnamed)[0]
     if len(unnamed) == 2 and (position := find_position(table, unnamed, time)):
@@ -248,6 +252,16 @@ def _moving(
         raise ask_motion(table, headings, None, unnamed)
     names = [name for name in table.names if name != time] or table.names
     raise ask_column(table, "motion", "--speed, --position or --count", names)
+
+
+def _each_once(table: Table, names: Sequence[str]) -> list[str]:
+    """Leave out columns with the name and the numbers of one before, as where a program lists a signal twice."""
+    kept: list[str] = []
+    for name in names:
+        alike = [one for one in kept if name.partition(" #")[0] == one]
+        if not any(np.array_equal(table.numbers(name), table.numbers(one)) for one in alike):
+            kept.append(name)
+    return kept
 
 
 def _in_one_unit(table: Table, names: Sequence[str]) -> list[str]:

@@ -49,6 +49,7 @@ WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.OTHER: _row(
         "error err erro fehler erreur errore galat kp ki kd integral gyro temp temperature accel acceleration "
         "acc derivative id index loop state mode enabled fault limited saturated lead integrator wcs acs shunt torque "
+        "couple drehmoment moment coppia torsione kraft force écart ecart écarts ecarts uchyb odchylka regelabweichung "
         "heading dir direction drehrichtung richtung yaw pitch roll rate"
     ),
     Quantity.REFERENCE: _row(
@@ -61,6 +62,7 @@ WORDS: dict[Quantity, frozenset[str]] = {
         "alimentation alimentación alimentacion alimentação alimentazione zasilanie napájení besleme 供电 电源 電源"
     ),
     Quantity.TIME: _row(
+        "timestep timesteps "
         "t time times timp waktu 시간 timestamp stamp tiempo zeit temps tps date tempo tid clock elapsed second "
         "seconds secs sec sekunde sekunden segundo segundos seconde secondes secondi saniye detik millis micros nanos "
         "milliseconds microseconds ms us ns tijd czas čas cas idő zaman время 时间 時間"
@@ -169,6 +171,10 @@ _SPELLINGS = {
     "m": "m meter meters metre metres",
     "count": "count counts tick ticks pulse pulses edges pt pts points top tops imp impulsions",
 }
+# Counts, where they stand in brackets: `qc` are quadcounts; words of a name elsewhere, such as `time steps`.
+COUNTS_IN_BRACKETS = _row("steps qc inc incs increments inkremente pulsos cuentas impulsos impulse impulses tics pasos")
+# Units, in brackets, of what is neither a motor's drive nor its motion.
+OF_OTHERS = _row("nm n.m n·m mnm n·mm ncm nmm kgf n kn lbf g °c ºc degc w mw kw pa kpa bar mbar wh mah ah j nm/a °c/w")
 UNIT_BY_SPELLING = {spelling: unit for unit, row in _SPELLINGS.items() for spelling in row.split()}
 
 SIDES = {

@@ -45,7 +45,10 @@ def read_matlab(path: Path) -> Table:
         raise RecordingError(f"{path} holds {OBJECTS}, which only MATLAB reads: {SAVE_THEM}.")
     lengths = [len(vector) for vector in vectors.values() if len(vector) >= 2]
     if not lengths:
-        raise RecordingError(f"{path} has no vectors of numbers: save time, voltage and motion as vectors.")
+        raise RecordingError(
+            f"{path} has no vectors of numbers: save time, voltage and motion as vectors (of an iddata: u = data.u; "
+            "y = data.y)."
+        )
     length = max(set(lengths), key=lambda n: (min(lengths.count(n), SIGNALS), n))
     fitting = {name: vector for name, vector in vectors.items() if len(vector) == length}
     if len(fitting) < 2:

@@ -98,3 +98,18 @@ def test_a_command_of_a_few_is_in_volts(name: str, values: np.ndarray, volts: bo
     assert ("in V (assumed, as" in drive.why) == volts
     assert (drive.scale == 1.0) == volts and (drive.full is None) == volts
     assert duty_drive(read_heading(name), values, 100.0).scale is None
+
+
+@pytest.mark.parametrize(("top", "volts"), [(24.0, True), (25.0, False), (60.0, False)])
+def test_whole_numbers_without_a_name_are_volts_of_a_small_motor_only(top: float, volts: bool) -> None:
+    drive = voltage_drive(read_heading("column 1"), np.full(100, top))
+    assert (drive.scale == 1.0) == volts and drive.sure == volts  # 60 may be of 100 or of 255
+    assert voltage_drive(read_heading("column 1"), np.array([0.0, 100.0])).full == 100.0
+    assert duty_drive(read_heading("column 1"), np.full(100, 60.0), 100.0).sure
+
+
+@pytest.mark.parametrize(("top", "sure"), [(60.0, True), (61.0, False)])
+def test_fractions_beyond_volts_without_a_name_drive_nothing(top: float, sure: bool) -> None:
+    drive = voltage_drive(read_heading("column 1"), top * WAVE / np.max(np.abs(WAVE)))
+    assert drive.sure == sure and (drive.scale == 1.0) == sure
+    assert voltage_drive(read_heading("u"), 99.5 * WAVE).scale == 1.0

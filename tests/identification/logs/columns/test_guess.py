@@ -107,3 +107,21 @@ def test_times_called_microseconds_that_are_seconds(name: str, step: float, unit
         f"Time: {name} in s (whatever its name says: rows are then {1e3 * step:.4g} ms apart; otherwise: --time-unit)."
     )
     assert (said in made.findings) == (unit == "s")
+
+
+def test_what_is_more_than_volts_and_has_no_name_is_asked(tmp_path: Path) -> None:
+    k = np.arange(300)
+    rows = [f"{0.01 * n:.2f} {190 * np.sin(n // 30):.3f} {np.sin(0.11 * n) + 0.3 * (n % 3):.3f}" for n in k]
+    (tmp_path / "log.txt").write_text("\n".join(rows))
+    with pytest.raises(RecordingError, match="column 2 goes up to 188, more than a motor's volts: say which column"):
+        guess_forms(read_table(tmp_path / "log.txt"), Said(unit="rad/s"))
+    assert guess_forms(read_table(tmp_path / "log.txt"), Said(unit="rad/s", voltage_scale=0.1)).forms
+
+
+def test_times_that_count_by_a_rate_are_asked_for_it(tmp_path: Path) -> None:
+    rows = [f"{45 * n},{n // 30 % 2},{n % 9}.5" for n in range(300)]
+    (tmp_path / "log.csv").write_text("\n".join(["timestep (8 kHz),voltage,speed [rpm]", *rows]))
+    with pytest.raises(RecordingError, match="counts by a rate: say how many seconds one is"):
+        guess_forms(read_table(tmp_path / "log.csv"), Said())
+    (form,) = guess_forms(read_table(tmp_path / "log.csv"), Said(time_unit="0.000125")).forms
+    assert (form.time, form.time_unit) == ("timestep (8 kHz)", "0.000125")

@@ -25,6 +25,15 @@ Spannung          | voltage        |       |
 batteryVoltage    | supply voltage |       |
 Battery [mV]      | supply voltage | mV    |
 Velocidad (rad/s) | speed          | rad/s |
+timestep (8Hz)    | time           |       |
+rotation (Hz)     | speed          | rev/s |
+écart 1 (mm)      | other          | mm    |
+Couple Moteur [Nm] | other         |       |
+effort (N)        | other          |       |
+timestep (8 kHz)  | time           |       |
+enconder(steps)   | count          | count |
+Position [qc]     | count          | count |
+time steps        | time           |       |
 Speed (steps/s)   | speed          | count/s |
 Speed (furlongs/s) | speed         |       |
 tacho             | speed          |       |

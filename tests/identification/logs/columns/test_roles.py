@@ -342,3 +342,26 @@ def test_a_pulse_of_two_levels_drives_and_counts_nothing() -> None:
     counted = {**cells, "pulse": np.arange(200.0)}
     with pytest.raises(RecordingError):
         find_roles(Table(Path("log.csv"), np.arange(2, 202), counted), Said())
+
+
+def test_a_bare_input_beside_a_control_signal_is_what_the_controller_is_told() -> None:
+    loop = find_roles(table(time="t", encoder="y", inputSignal="r", controlSignal="u"), Said())
+    assert loop.pairs == (Pair("", "controlSignal", "encoder"),)
+    assert find_roles(table(time="t", encoder="y", inputSignal="u"), Said()).pairs[0].voltage == "inputSignal"
+    volts = find_roles(table(time="t", encoder="y", **{"input voltage": "u"}, control="r"), Said())
+    assert volts.pairs[0].voltage == "input voltage"
+    still = find_roles(table(time="t", encoder="y", input="u", control="0"), Said())
+    assert still.pairs[0].voltage == "input"
+
+
+def test_a_signal_that_is_listed_twice_is_one() -> None:
+    twice = find_roles(table(t="t", u="u", **{"pos [deg]": "y", "pos [deg] #4": "y"}), Said())
+    assert twice.pairs == (Pair("", "u", "pos [deg]"),)
+    with pytest.raises(RecordingError, match="--position and one of"):
+        find_roles(table(t="t", u="u", **{"pos [deg]": "y", "pos [deg] #4": "n"}), Said())
+
+
+def test_y_is_what_u_drives() -> None:
+    assert find_roles(table(t="t", u="u", x="n", y="y"), Said()).pairs == (Pair("", "u", "y"),)
+    with pytest.raises(RecordingError, match="--speed, --position or --count and one of x, y"):
+        find_roles(table(t="t", pwm="u", x="n", y="y"), Said())
