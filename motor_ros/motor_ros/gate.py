@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 from math import isfinite
 
 from motor_model.sensing.repeated_stops import RepeatedStops
-from motor_ros.sender import Sender
+from motor_ros.sender import QUICKEST, Sender
 
 QUIET = 2_000_000_000  # [ns] without any voltage; where nobody counts, who sent before would have been heard by then
 PACE = 50_000_000, 500_000_000  # [ns] after its first command within which a sender's pace is judged
@@ -30,6 +30,7 @@ SLACK = 100_000_000  # [ns] by which a sender may have begun too early: nobody s
 YOUNG, YOUNG_ANSWER = 1_000_000_000, 100_000_000
 ANSWERS = 2.0  # sample periods from command to command, up to which a sender may be answering samples
 HOLD = 500_000_000  # [ns] of silence after which another sender is obeyed: longer than a busy computer holds one up
+MISSED = 1.5  # times between two commands, after which one of two senders has missed its turn
 CONFLICT = 1_500_000_000  # [ns] for which a second sender is reported: longer than from one diagnostic to the next
 
 OFF = "The output is off: call motor/enable with data: true."
@@ -76,7 +77,7 @@ class Gate:
         if not isfinite(voltage):
             return replace(self, command=0.0, received=None, refused=self.refused + 1)
         holder = self.sender
-        ours = holder is not None and holder.sent(name, number, now)
+        ours = holder is not None and holder.sent(name, number, now) and not self._goes_on(name, number, now)
         if holder is not None and now - holder.at <= HOLD and not ours:
             return replace(self, aside=Sender(name, number, now))
         told = self._tell_senders(number, now) if ours else replace(self, aside=None)
@@ -86,6 +87,13 @@ class Gate:
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
         begun = begun and not handed
         return replace(told, command=voltage, received=now, sender=sender, first=first, begun=begun, handed=handed)
+
+    def _goes_on(self, name: str, number: int | None, now: int) -> bool:
+        """Whether a message whose number may be the sender's is another's that goes on where the sender has ended."""
+        holder, aside = self.sender, self.aside
+        if holder is None or aside is None or not self.conflict(now) or aside.at <= holder.at:
+            return False
+        return now - holder.at > MISSED * (holder.period or QUICKEST) and aside.sent(name, number, now)
 
     def _tell_senders(self, number: int | None, now: int) -> "Gate":
         """The sender is heard again: what was left aside was another's, unless it was sent between its two commands."""

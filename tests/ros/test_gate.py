@@ -122,6 +122,19 @@ def test_who_was_left_aside_begins_at_0_volt_once_the_first_has_ended(
     assert plant.voltage(now + MS) == -9.0 and plant.problem(now + MS) == ""
 
 
+@pytest.mark.parametrize("ahead", [-70, -30, -2, 2, 7, 40, 150])
+def test_of_two_with_one_name_the_other_does_not_go_on_in_the_place_of_the_first(ahead: int) -> None:
+    """Two controllers of one motor: the numbers of the other one pass those that the first would have now."""
+    plant = stream(gate(), 2.0, range(0, 1000, 5), 1)
+    for k in range(100):
+        plant = plant.take(2.0, T0 + (1000 + 5 * k) * MS, "", 201 + k)
+        plant = plant.take(-9.0, T0 + (1001 + 5 * k) * MS, "", 201 + k + ahead)
+    for k in range(100, 500):
+        now = T0 + (1001 + 5 * k) * MS
+        plant = plant.take(-9.0, now, "", 201 + k + ahead)
+        assert plant.voltage(now) == (2.0 if now <= T0 + 1595 * MS else 0.0)
+
+
 def test_who_begins_as_the_first_one_ends_takes_over_at_once() -> None:
     """An experiment after a controller: its 0 V came while the first one still counted as there."""
     plant = stream(replace(gate(), sample_period=0.005), 2.0, range(0, 500, 5), 1)

@@ -115,6 +115,9 @@ def test_two_senders_are_named_and_the_first_is_obeyed(bench: Bench, start: Star
     assert "(/bench, /bench): only the first is obeyed, until it has been silent for 0.5 s" in messages(status)
     assert {sample.voltage for sample in other.samples[30:]} == {5.0}
     user.sending = False
+    bench.wait(lambda: "beside another node that drove the motor" in messages(status), "what the other one waits for")
+    assert {sample.voltage for sample in other.samples[30:]} == {5.0, 0.0}
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
     user.until(lambda sample: sample.voltage == -9.0, "the other one's turn")
 
 
