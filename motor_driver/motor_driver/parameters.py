@@ -8,7 +8,7 @@ from motor_driver.frames.codes import BAUD, Decay, Pwm
 from motor_model.errors import MotorError
 from motor_model.gearing.encoder_count import read_encoder_count
 from motor_ros.parameters import SHARED_PARAMETERS, Row, Value, max_voltage_row
-from motor_ros.program import PLANT_PUBLISHES, Program
+from motor_ros.program import PLANT_PUBLISHES, PLANT_SUBSCRIBES, Program
 
 MOST_ID = 65535
 
@@ -67,7 +67,7 @@ PROGRAM = Program(
     ROWS,
     "ros2 run motor_driver motor_driver --ros-args -p port:=/dev/ttyACM0 -p edges_per_revolution:=96",
     publishes=PLANT_PUBLISHES,
-    subscribes=("motor/voltage",),
+    subscribes=PLANT_SUBSCRIBES,
     services=("motor/enable",),
 )
 

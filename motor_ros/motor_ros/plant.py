@@ -15,6 +15,7 @@ from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.gate import OFF, STOPPED, Gate
 from motor_ros.messages import diagnostic_message, info_message, speed_message
+from motor_ros.other_plant import OtherPlant
 from motor_ros.voltage_input import VoltageInput
 
 
@@ -37,6 +38,7 @@ class Plant:
         self._refusal, self._changed = refusal, changed or (lambda: None)
         self._turned, self._count = 0, 0  # counts: signed, and the board's own
         self._speed = node.create_publisher(MotorSpeed, "motor/speed", qos.SPEED)
+        self._other = OtherPlant(node, self._speed)
         self._info = node.create_publisher(MotorInfo, "motor/info", qos.INFO)
         self._joint = node.create_publisher(JointState, "joint_states", qos.JOINT_STATES)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
@@ -51,8 +53,10 @@ class Plant:
     def voltage(self) -> float:
         """[V] to apply now; the age of commands is judged by a clock that is never set."""
         self._input.poll()
-        limit = self.info.max_voltage
-        return min(max(self.gate.voltage(time.monotonic_ns()), -limit), limit)
+        limit, now = self.info.max_voltage, time.monotonic_ns()
+        if self._other.speaks(now):
+            self.gate = self.gate.come_up(now)
+        return min(max(self.gate.voltage(now), -limit), limit)
 
     def stop(self, why: str, motor: bool = False) -> None:
         """Switch the output off until motor/enable; `why` is said. motor: for what the motor did."""
@@ -70,7 +74,9 @@ class Plant:
 
     def publish(self, sample: Sample, stamp: Time) -> None:
         """Send one sample, and the joint state that viewers draw."""
-        self._speed.publish(speed_message(sample, stamp, self.info.name))
+        message = speed_message(sample, stamp, self.info.name)
+        self._other.sent(message)
+        self._speed.publish(message)
         turned = sample.edge_count - self._count
         if self.info.single_channel and sample.speed < 0.0:
             turned = -turned
@@ -84,7 +90,8 @@ class Plant:
     def diagnose(self, problem: str, values: dict[str, str]) -> None:
         """Send one diagnostic status: OK if nothing is wrong, with the gate's state and these values."""
         now = time.monotonic_ns()
-        message = " ".join(filter(None, (problem, self.gate.problem(now, self._input.senders(self._node)))))
+        gate = self.gate.problem(now, self._input.senders(self._node))
+        message = " ".join(filter(None, (problem, self._other.problem(now), gate)))
         level = DiagnosticStatus.WARN if message else DiagnosticStatus.OK
         sender = self.gate.sender.name if self.gate.sender and self.gate.fresh(now) else ""
         told = diagnostic_message(
@@ -111,7 +118,8 @@ class Plant:
     def _on_enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         was_on = self.gate.enabled
         self._changed()  # a stop that is due comes before what is asked for now
-        refusal = (self.gate.refusal(time.monotonic_ns()) or self._refusal()) if request.data else ""
+        now = time.monotonic_ns()
+        refusal = (self.gate.refusal(now) or self._other.problem(now) or self._refusal()) if request.data else ""
         if request.data and was_on and not self.gate.enabled:
             refusal = f"Just now, {self.gate.stopped}: look, then call again."
         if refusal:

@@ -17,6 +17,7 @@ from motor_ros.parameters import Row
 from motor_ros.topics import ROBOT_TOPICS, SERVICES, TOPICS
 
 INVALID_ARGUMENTS = (rclpy_implementation.RCLInvalidROSArgsError, rclpy_implementation.UnknownROSArgsError)
+PLANT_SUBSCRIBES = ("motor/voltage", "motor/speed")  # the latter while somebody else publishes it
 PLANT_PUBLISHES = ("motor/speed", "motor/info", "joint_states", "/diagnostics")
 
 

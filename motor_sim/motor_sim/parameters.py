@@ -6,7 +6,7 @@ from motor_model.gearing.encoder_count import read_encoder_count
 from motor_model.sensing.board import BoardConfig
 from motor_model.sensing.encoder import Lines
 from motor_ros.parameters import SHARED_PARAMETERS, Row, Value, max_voltage_row
-from motor_ros.program import PLANT_PUBLISHES, Program
+from motor_ros.program import PLANT_PUBLISHES, PLANT_SUBSCRIBES, Program
 
 PARAMETERS = (
     Row("model", "", "model file (YAML) to simulate; empty: the paper's motor", read_only=True),
@@ -65,7 +65,7 @@ PROGRAM = Program(
     (*SHARED_PARAMETERS, max_voltage_row(), *PARAMETERS),
     "ros2 run motor_sim motor_sim --ros-args -p model:=model.yaml -p sample_rate:=500.0 -r __ns:=/left",
     publishes=PLANT_PUBLISHES,
-    subscribes=("motor/voltage",),
+    subscribes=PLANT_SUBSCRIBES,
     services=("motor/enable",),
 )
 

@@ -1,0 +1,94 @@
+"""Notice that somebody else publishes a plant's samples: a second plant, or a recording that is played.
+
+Whose voltages are on motor/voltage then? Those of a recording are of another day, and those that answer samples of
+another plant are not meant for this one. A publisher that has died is listed for a while, so that only samples count:
+they are heard while there is more than one publisher, and are another's where this plant has not sent them.
+"""
+
+import time
+from collections import deque
+
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
+
+from motor_msgs.msg import MotorSpeed
+from motor_ros import qos
+from motor_ros.run import steady_timer
+from motor_ros.topics import publishers_of
+
+RCLError = rclpy_implementation.RCLError
+LOOK_EVERY = 0.05  # [s]
+REMEMBERED = 4096  # samples of our own: no busy computer hears one so late
+SILENT = 500_000_000  # [ns] after another's latest sample, from which on it is gone
+
+ANOTHER = (
+    "Another node publishes {} too ({}), a second plant or a recording that is played: the motor gets 0 V until that "
+    "has ended, and then until 0 V is sent, or motor/enable is called with data: true."
+)
+
+DENIED = (
+    "This node may not subscribe to {}, and does not notice a second plant there: make keys of the present policy.xml "
+    "(docs/security.md)."
+)
+
+Key = tuple[int, int, int]  # of a sample: its instants on the plant's clock and in ROS time
+
+
+class OtherPlant:
+    """Listens to the topic of this plant's samples while somebody else is there to publish them."""
+
+    def __init__(self, node: Node, publisher: Publisher) -> None:
+        self._node, self._topic = node, publisher.topic_name
+        self._order: deque[Key] = deque()
+        self._ours: set[Key] = set()
+        self._heard: int | None = None  # [ns] another's latest sample
+        self._subscription: Subscription | None = None
+        self._may_listen = True
+        steady_timer(node, LOOK_EVERY, self._look)
+
+    def sent(self, message: MotorSpeed) -> None:
+        """Take a sample of our own, before it is published."""
+        key = _key_of(message)
+        self._order.append(key)
+        self._ours.add(key)
+        if len(self._order) > REMEMBERED:
+            self._ours.discard(self._order.popleft())
+
+    def speaks(self, now: int) -> bool:
+        """Whether another plant's samples were heard just before `now` [ns]."""
+        return self._heard is not None and now - self._heard <= SILENT
+
+    def problem(self, now: int) -> str:
+        """What is wrong at `now` [ns], as a sentence; empty if nothing is."""
+        if not self.speaks(now):
+            return ""
+        return ANOTHER.format(self._topic, ", ".join(publishers_of(self._node, self._topic)))
+
+    def _look(self) -> None:
+        several = self._node.count_publishers(self._topic) > 1
+        if several and self._subscription is None and self._may_listen:
+            self._listen()
+        elif not several and self._subscription is not None:
+            self._node.destroy_subscription(self._subscription)
+            self._subscription = None
+
+    def _listen(self) -> None:
+        try:
+            self._subscription = self._node.create_subscription(MotorSpeed, self._topic, self._on_sample, qos.SPEED)
+        except RCLError:  # keys that were made before a plant was to listen
+            self._may_listen = False
+            self._node.get_logger().warning(DENIED.format(self._topic))
+
+    def _on_sample(self, message: MotorSpeed) -> None:
+        if _key_of(message) in self._ours:
+            return
+        now = time.monotonic_ns()
+        spoke, self._heard = self.speaks(now), now
+        if not spoke:
+            self._node.get_logger().error(self.problem(now))
+
+
+def _key_of(message: MotorSpeed) -> Key:
+    return message.sample_time, message.header.stamp.sec, message.header.stamp.nanosec

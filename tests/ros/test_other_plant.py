@@ -1,0 +1,93 @@
+"""A plant that is not alone on motor/speed gives its motor 0 V: a second plant, or a recording that is played."""
+
+import time
+from collections.abc import Callable, Iterator
+from subprocess import Popen
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from plant_user import User
+from std_srvs.srv import SetBool
+from workbench import Bench
+
+from motor_model.sample import Info, Sample
+from motor_msgs.msg import MotorSpeed
+from motor_ros import other_plant, qos
+from motor_ros.gate import Gate
+from motor_ros.messages import speed_message, time_message
+from motor_ros.plant import Plant
+
+Start = Callable[..., "Popen[str]"]
+DAY = 86_400_000_000_000  # [ns]
+
+
+@pytest.fixture
+def quiet() -> Iterator[Bench]:
+    bench = Bench()
+    yield bench
+    bench.close()
+
+
+class Rig:
+    """A plant that samples whenever its executor is spun, driven with 6 V."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench, self.count = bench, 0
+        self.plant = Plant(bench.node, Info(), Gate(True, 10.0), changed=lambda: None)
+        self.plant.gate = self.plant.gate.take(0.0, time.monotonic_ns()).take(6.0, time.monotonic_ns())
+
+    def stamp(self) -> int:
+        return self.bench.node.get_clock().now().nanoseconds
+
+    def sample(self) -> float:
+        """One sample [V]."""
+        self.count += 5_000_000
+        voltage = self.plant.voltage()
+        self.plant.publish(Sample(self.count, 0.0, voltage), time_message(self.stamp()))
+        self.bench.executor.spin_once(timeout_sec=0.001)
+        return voltage
+
+
+def test_a_recording_that_is_played_is_no_command(quiet: Bench) -> None:
+    rig, recorded = Rig(quiet), quiet.publisher(MotorSpeed, "motor/speed")
+    for _ in range(200):  # a publisher that says nothing, as one that has died
+        assert rig.sample() == 6.0
+    quiet.wait(lambda: recorded.get_subscription_count() > 0, "the plant to listen")
+    voltages = []
+    for _ in range(100):
+        recorded.publish(speed_message(Sample(rig.count, 0.0, 6.0), time_message(rig.stamp() - DAY), "motor"))
+        rig.plant.gate = rig.plant.gate.take(6.0, time.monotonic_ns())
+        voltages.append(rig.sample())
+    assert voltages[-90:] == [0.0] * 90
+    refused = rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response())
+    assert not refused.success and "Another node publishes /motor/speed too (/bench, /bench)" in refused.message
+    for _ in range(200):  # what waits in the queue
+        rig.sample()
+    now = rig.plant._other._heard or 0
+    assert rig.plant._other.speaks(now) and not rig.plant._other.speaks(now + 2 * other_plant.SILENT)
+    rig.plant._other._heard = time.monotonic_ns() - 2 * other_plant.SILENT  # it has ended
+    rig.plant.gate = rig.plant.gate.take(6.0, time.monotonic_ns())
+    assert rig.sample() == 0.0  # and who sent meanwhile begins at 0 V
+    assert rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response()).success
+    rig.plant.gate = rig.plant.gate.take(6.0, time.monotonic_ns())
+    assert rig.sample() == 6.0
+    quiet.node.destroy_publisher(recorded)
+    quiet.wait(lambda: rig.plant._other._subscription is None, "the plant to listen no longer")
+
+
+def test_two_plants_of_one_name_are_both_at_0_volt(bench: Bench, start: Start) -> None:
+    """As processes; the second one would move with each voltage that the first one gets."""
+    status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
+    user = User(bench)
+    start("motor_sim", "motor_sim")
+    user.voltage = 5.0
+    user.until(lambda sample: sample.voltage == 5.0, "motion")
+    second = start("motor_sim", "motor_sim", "--ros-args", "-p", "seed:=1")
+    bench.wait(
+        lambda: bool(status) and "Another node publishes /motor/speed too" in status[-1].status[0].message, "the words"
+    )
+    assert {sample.voltage for sample in user.more(200)} == {0.0}
+    second.kill()  # its publisher is listed for a while
+    bench.wait(lambda: bool(status) and "5 V was already being sent" in status[-1].status[0].message, "the other words")
+    assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
+    user.until(lambda sample: sample.voltage == 5.0, "motion again")
