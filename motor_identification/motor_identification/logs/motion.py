@@ -69,7 +69,10 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     if form.count_quantum:
         turn = 2.0 * pi / float(form.gear)  # of the encoder's shaft
         edges = agree_on_edges(form, turn / (form.count_quantum * unit * window), AGREE_SPEED)
-    if edges:
+    told = 0.0 if edges or not means else _counts_a_turn(form, values, window)
+    if told:
+        edges = max(round(told), 1)
+    if edges and not told:
         _check_steps(form, values, edges, edge_angle(edges, form.gear) / window / unit)
     info = replace(info, measurement=Measurement.SPEED, speed_window=window, speed_lag=lag, edges_per_revolution=edges)
     assumed = "" if form.speed_window else " (assumed: one sample period; otherwise: --speed-window)"
@@ -77,7 +80,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     findings = (
         f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",
         f"The middle of that window is {lag * 1e3:.4g} ms before the row's time{placed}.",
-        _about_count(form, signals, edges, window),
+        _about_count(form, signals, 0 if told else edges, window, told),
         *lengths,
         *signs,
         *turned,
@@ -106,9 +109,25 @@ def _undo_running_mean(signals: Signals, period: float) -> tuple[Signals, list[s
     return replace(signals, motion=motion), [said]
 
 
-def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> str:
-    """One count in the form's unit, said or seen by whoever reads the bag, within a window [s]."""
+def _counts_a_turn(form: CsvForm, values: Floats, window: float) -> float:
+    """Counts a turn of single rows' counts, shape (K,), that are too few at once for others to see them; else 0."""
+    sizes = np.abs(values[values != 0.0])
+    if not len(sizes) or find_lattice(values) > 0.0:
+        return 0.0
+    return tau / (float(np.min(sizes)) * (form.unit_size or 1.0) * window) / float(form.gear)
+
+
+def _about_count(form: CsvForm, signals: Signals, edges: int, window: float, told: float = 0.0) -> str:
+    """One count in the form's unit, said or seen by whoever reads the bag, within a window [s].
+
+    told: counts a turn that only the running means have told.
+    """
     unit = form.unit_size or 1.0
+    if told:
+        return (
+            f"One count within the window is one of {told:.5g} per revolution (assumed; otherwise: "
+            "--edges-per-revolution)."
+        )
     if edges:
         size = edge_angle(edges, form.gear) / window / unit
         return f"One count ({edges} per revolution) within the window is {size:.4g} {form.unit}."

@@ -125,6 +125,15 @@ def test_running_means_of_counts_are_taken_back_to_single_rows() -> None:
     assert read(replace(SPEED, speed_window=0.2), means).speed.tolist() == means
 
 
+def test_single_rows_of_one_count_at_most_keep_their_size() -> None:
+    """A lattice of 0 and 1 is none that a reader of the bag could see."""
+    angles = np.cumsum(np.where(np.arange(3000) < 100, 0.0, 0.4 + 0.2 * np.sin(np.arange(3000) / 70.0)))
+    single = np.diff(np.floor(angles), prepend=0.0) * tau / 48.4 / 0.02
+    motion = read(SPEED, np.convolve(single, np.full(32, 1.0 / 32.0))[:3000].tolist())
+    assert motion.speed == pytest.approx(single, abs=1e-9) and motion.info.edges_per_revolution == 48
+    assert "One count within the window is one of 48.4 per revolution" in motion.findings[2]
+
+
 @pytest.mark.parametrize(("factor", "refused"), [(1.0, False), (5.0, False), (0.2, False), (6.0, True), (0.15, True)])
 def test_steps_of_speeds_that_are_no_counts_show_a_mistaken_unit(factor: float, refused: bool) -> None:
     one = tau / 100 / 0.02  # [rad/s] a count within 20 ms

@@ -1,6 +1,6 @@
 """Which column is which: those that were named by the user, then by their names, then by how their numbers behave."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -37,6 +37,7 @@ SAME_CLOCK = 0.9999  # correlation of two columns of times
 MOSTLY = 0.5  # of its cells are numbers: else it holds notes beside the table, whatever its name
 SUMMED_UP = 0.9  # of the rows in motion: there a count goes on by just what another column says
 STEADY = 0.7  # of its largest value: a battery stays above
+UNEVEN = 0.2  # of their mean: steps of a column that may be a motor's way
 BOTH_WAYS = 0.2  # of the largest speed, which a motor has the other way
 FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
 _BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
@@ -110,7 +111,18 @@ def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
         named = sorted(forward, key=lambda name: bool(since_1970(times[name]))) or named
     if named:
         return named[0]
-    return find_clock({heading.name: table.numbers(heading.name) for heading in headings if heading.quantity is None})
+    unnamed = {one.name: table.numbers(one.name) for one in headings if one.quantity is None}
+    return find_clock({name: values for name, values in unnamed.items() if not _is_way(table, name, unnamed)})
+
+
+def _is_way(table: Table, name: str, columns: Mapping[str, Floats]) -> bool:
+    """Whether a column goes on by what another one is, and not evenly: the way of a motor, and no clock."""
+    steps = np.diff(columns[name])
+    with np.errstate(over="ignore", invalid="ignore"):  # a column of anything
+        even = not np.std(steps) >= UNEVEN * np.mean(steps)
+    if even:
+        return False
+    return any(find_position(table, (name, other), None) == name for other in columns if other != name)
 
 
 def _is_clock_of(table: Table, name: str, time: str | None) -> bool:

@@ -49,7 +49,8 @@ WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.OTHER: _row(
         "error err erro fehler erreur errore galat kp ki kd integral gyro temp temperature accel acceleration "
         "acc derivative id index loop state mode enabled fault limited saturated lead integrator wcs acs shunt torque "
-        "couple drehmoment moment coppia torsione kraft force écart ecart écarts ecarts uchyb odchylka regelabweichung "
+        "gain gains couple drehmoment moment coppia torsione kraft force écart ecart écarts ecarts uchyb odchylka "
+        "regelabweichung "
         "heading dir direction drehrichtung richtung yaw pitch roll rate"
     ),
     Quantity.REFERENCE: _row(

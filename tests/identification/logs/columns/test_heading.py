@@ -30,6 +30,7 @@ rotation (Hz)     | speed          | rev/s |
 écart 1 (mm)      | other          | mm    |
 Couple Moteur [Nm] | other         |       |
 effort (N)        | other          |       |
+Axis0_Pos_gain    | other          |       |
 timestep (8 kHz)  | time           |       |
 enconder(steps)   | count          | count |
 Position [qc]     | count          | count |

@@ -365,3 +365,14 @@ def test_y_is_what_u_drives() -> None:
     assert find_roles(table(t="t", u="u", x="n", y="y"), Said()).pairs == (Pair("", "u", "y"),)
     with pytest.raises(RecordingError, match="--speed, --position or --count and one of x, y"):
         find_roles(table(t="t", pwm="u", x="n", y="y"), Said())
+
+
+def test_a_way_without_times_is_no_clock() -> None:
+    """As a model prints voltage, angle and speed of a step; a clock that jitters, or whose rows are late, stays one."""
+    speed = 6.0 - 6.0 * np.exp(-np.arange(200) / 40.0)
+    KINDS.update(g=0.01 * np.cumsum(speed), s=speed, k=np.full(200, 12.0))
+    assert find_roles(table(**{"column 1": "k", "column 2": "g", "column 3": "s"}), Said()).time is None
+    jitter = 0.002 * np.random.default_rng(3).normal(size=200)
+    for late in (np.zeros(200), 0.05 * (np.arange(200) % 50 == 7)):
+        KINDS.update(j=np.cumsum(0.01 + jitter + late))
+        assert find_roles(table(**{"column 1": "j", "column 2": "u", "column 3": "y"}), Said()).time == "column 1"
