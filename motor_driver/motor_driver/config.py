@@ -10,6 +10,7 @@ from motor_driver.frames.from_host import Configure, Protect, Setup
 from motor_model.sample import Info, Measurement
 
 SILENCE = 0.12  # [s] without telemetry, or for the board without commands: then it is 0 V within 150 ms
+ROUND_TRIP = 0.1  # [s] that the board may take to answer: half of it is how much later the motor does as told
 LEAST_TIMEOUT = 0.05  # [s] of the board: no computer is quicker for certain
 # Of the firmware: 1.0 has no pull-ups on the encoder's lines, so that a lost cable makes stray edges, and it counts a
 # shaft that dithers over one flank as turning.
@@ -55,6 +56,11 @@ class Config:
     def silence(self) -> float:
         """[s] without telemetry after which the output is switched off."""
         return max(SILENCE, 1.5 / self.sample_rate)
+
+    @property
+    def round_trip(self) -> float:
+        """[s] that the board may take to answer; who lets commands be older has a slow link, and knows it."""
+        return max(ROUND_TRIP, self.command_timeout)
 
     @property
     def full_voltage(self) -> float:

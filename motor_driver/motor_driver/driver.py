@@ -19,6 +19,10 @@ from motor_model.sample import Info, Sample
 from motor_model.sensing.motion_check import MotionCheck
 
 NO_LINK = "There is no link to the board yet."
+LATE = (
+    "the board on {} answers later than {:.0f} ms, so that the motor does what was right a while ago: the link holds "
+    "bytes back (a wireless adapter, a network, a hub)"
+)
 LOST = "the link to the board on {} was lost"
 
 
@@ -94,6 +98,8 @@ class Driver:
             return self.trouble
         if self.session.silent:
             return f"No telemetry comes from {self.session.port}."
+        if self.session.exchange and self.session.exchange.late:
+            return f"No voltage acts in time: {self._lateness(self.session.port)}."
         return "" if self.session.runs else f"The board on {self.session.port} has not answered yet."
 
     def unsuitable(self, now: int) -> bool:
@@ -138,6 +144,9 @@ class Driver:
         duty = self._readout.duty(voltage) if self._readout else 0
         return Order(session.due(now, wish, duty) if session else b"", stop, motor)
 
+    def _lateness(self, port: str) -> str:
+        return LATE.format(port, 1e3 * self.config.round_trip)
+
     def _halt(self, why: str, motor: bool = False) -> None:
         self._stop, self._by_motor = why, motor
 
@@ -154,6 +163,8 @@ class Driver:
             return self._hear_telemetry(session, event.frame, now)
         elif isinstance(event.frame, Pong) and session.exchange and session.latest and self._readout:
             session.exchange.hear_pong(event.frame, self._readout.clock, now)
+            if session.exchange.late and session.latest.enabled:
+                self._halt(self._lateness(session.port))
         return []
 
     def _hear_hello(self, session: Session, hello: Hello, now: int) -> None:
@@ -163,7 +174,7 @@ class Driver:
             self._anew = self.board is not None and self.board.boot != hello.boot
             self.board = hello
             self.runs_begun += 1
-            session.begin(Exchange(self.config.baud, self._drift), now)
+            session.begin(Exchange(self.config.baud, self._drift, self.config.round_trip), now)
 
     def _reset(self, session: Session, cause: str) -> None:
         self.resets += 1

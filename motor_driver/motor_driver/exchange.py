@@ -1,6 +1,11 @@
-"""Pings and pongs: the two-way exchange that ties the board's clock to the host's."""
+"""Pings and pongs: the two-way exchange that ties the board's clock to the host's, and shows a link that is late.
+
+A link that holds bytes back for a second (a wireless adapter, a network, buffers that fill up) loses nothing, so that
+no time-out sees it: the motor does what was right a second ago, and goes on for a second after its driver has died.
+"""
 
 from dataclasses import dataclass
+from math import inf
 
 from motor_driver.clock.board_clock import BoardClock
 from motor_driver.clock.clock_fit import ClockFit
@@ -11,6 +16,7 @@ from motor_driver.protocol import LEAST
 
 PING_EVERY = 20_000_000  # [ns]
 MEMORY = 64  # pings that may still be answered
+LATE = 5  # late answers in a row; a driver that was held up finds one or two
 BITS = 10  # a byte on the line, start and stop bit included
 
 
@@ -25,13 +31,20 @@ class BoardCounters:
 class Exchange:
     """Feeds a clock fit with when frames were sent and read; host times in ns of a monotonic clock."""
 
-    def __init__(self, baud: int, drift: float = 0.0) -> None:
+    def __init__(self, baud: int, drift: float = 0.0, longest: float = inf) -> None:
+        """`longest` [s]: what an answer may take."""
+        self._longest, self._late = longest * 1e9, 0
         self._byte = BITS * 1e9 / baud  # [ns]
         self.fit = ClockFit(drift)
         self.board = BoardCounters()
         self.round_trip: int | None = None  # [ns] latest
         self._sent: dict[int, int] = {}
         self._token, self._latest = 0, -PING_EVERY
+
+    @property
+    def late(self) -> bool:
+        """Whether the link holds back what goes over it."""
+        return self._late >= LATE
 
     def asks(self, now: int) -> Ping | None:
         """A ping, if one is due at `now`, which is taken for when it is written."""
@@ -48,9 +61,11 @@ class Exchange:
         sent = self._sent.pop(pong.token, None)
         self.board = BoardCounters(pong.bad_frames, pong.dropped_samples)
         if sent is None:
+            self._late += pong.token <= self._token  # of ours, and given up long ago
             return
         received, answered = clock.near(pong.received), clock.near(pong.sent)
         self.round_trip = host - sent - (answered - received)
+        self._late = self._late + 1 if self.round_trip > self._longest else 0
         self.fit.before(received, sent + self._line_time(Ping))
         self.fit.after(answered, host - self._line_time(Pong))
 

@@ -43,6 +43,27 @@ def test_an_answer_to_nobodys_question_says_nothing_of_the_clock() -> None:
     assert exchange.round_trip is None
 
 
+@pytest.mark.parametrize(("took", "late"), [(99, False), (101, True), (3000, True)])
+def test_a_link_that_holds_back_what_goes_over_it_is_late_after_five_answers(took: int, late: bool) -> None:
+    """So many ms each answer takes; the last one is older than what is remembered."""
+    exchange, board, told = Exchange(BAUD, longest=0.1), clock(), []
+    answers = [(k * PING_EVERY, (k * PING_EVERY + took * 1_000_000)) for k in range(1, 200)]
+    asked = 0
+    for token, (_, answered) in enumerate(answers, 1):
+        while asked < len(answers) and answers[asked][0] <= answered:
+            exchange.asks(answers[asked][0])
+            asked += 1
+        exchange.hear_pong(Pong(token, 1_000_100, 1_000_100, 0, 0), board, answered)
+        told.append(exchange.late)
+    assert told[:5] == [False] * 4 + [late] and told[-1] is late
+    exchange.hear_pong(Pong(10_000, 1_000_100, 1_000_100, 0, 0), board, answers[-1][1])  # nobody's
+    assert exchange.late is late
+    ping = exchange.asks(10**12)
+    assert ping is not None
+    exchange.hear_pong(Pong(ping.token, 1_000_100, 1_000_100, 0, 0), board, 10**12 + 1_000_000)
+    assert not exchange.late  # it has recovered
+
+
 def test_a_sample_without_a_fit_is_as_old_as_its_bytes() -> None:
     exchange = Exchange(BAUD)
     instant = exchange.hear_telemetry(1_500_000_000, 40_000_000)

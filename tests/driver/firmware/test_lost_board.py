@@ -10,6 +10,8 @@ import pytest
 from driver_rig import MakeRig, Rig, problem
 
 from motor_board.emulation.chip import Hang
+from motor_board.emulation.faults import Faults
+from motor_board.emulation.serial_line import SerialLine
 
 MOST = 150.0  # [ms] to 0 V at the pins, whatever has died
 
@@ -91,6 +93,43 @@ def test_a_reset_board_stays_off_until_enabled(running: Rig, hang: Hang | None) 
     assert running.enable() == ""
     running.until(lambda: running.pins == 6.0, 30)
     assert problem(running) == ""
+
+
+@pytest.mark.parametrize(("delay", "stops"), [(40, False), (60, True), (1000, True)])
+def test_a_link_that_holds_bytes_back_is_no_link_to_a_motor(running: Rig, delay: int, stops: bool) -> None:
+    """So many ms each way, more and more of them: nothing is lost, and no time-out sees it."""
+    running._in, running._out = HeldBack(), HeldBack()
+    for step in range(100):
+        HeldBack.delay = delay * 10_000 * (step + 1)
+        running.run(20)
+    assert (running.pins == 0.0) is stops is (not running.gate.enabled)
+    if stops:
+        assert running.stops[0] == (
+            "the board on the port answers later than 100 ms, so that the motor does what was right a while ago: the "
+            "link holds bytes back (a wireless adapter, a network, a hub)"
+        )
+        assert running.enable().startswith("No voltage acts in time: the board on the port answers later than 100 ms")
+    else:
+        running.voltage = None
+        assert running.until(lambda: running.pins == 0.0, 160.0) > 100.0
+    HeldBack.delay = 0
+    running.voltage = 6.0
+    running.run(2100)
+    assert running.enable() == ""
+    running.until(lambda: running.pins == 6.0, 30)
+
+
+class HeldBack(SerialLine):
+    """A line on which all bytes come, in order, `delay` [ns] late."""
+
+    delay = 0
+
+    def __init__(self) -> None:
+        super().__init__(1)
+
+    def send(self, data: bytes, faults: Faults, now: int) -> None:
+        if data:
+            self._late.append((now + self.delay, data))
 
 
 def test_a_held_up_driver_finds_its_board_switched_off(running: Rig) -> None:
