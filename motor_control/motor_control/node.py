@@ -13,7 +13,7 @@ from std_srvs.srv import Trigger
 from motor_control.announcements import describe_start
 from motor_control.answers import Answers
 from motor_control.controller import controller
-from motor_control.controller.reference.demand import Kind
+from motor_control.controller.reference.demand import Demand, Kind
 from motor_control.messages import joint_demand_of
 from motor_control.parameters import PROGRAM, ROWS
 from motor_control.settings import Settings
@@ -22,7 +22,7 @@ from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.messages import info_of, sample_of
 from motor_ros.parameters import declare
-from motor_ros.run import quick_executor, run, steady_timer
+from motor_ros.run import STOOD_STILL, HoldUps, quick_executor, run, steady_timer
 from motor_ros.topics import publishers_of
 
 WATCH_EVERY = 0.02  # [s]
@@ -47,6 +47,7 @@ class MotorControl(Node):
         steady_timer(self, WATCH_EVERY, self._on_watch)
         steady_timer(self, 1.0, lambda: self._answers.diagnose(self._settings.config))
         self.add_on_set_parameters_callback(self._on_parameters)
+        self._hold_ups = HoldUps(self)
         self.get_logger().info(describe_start(self._settings.config))
 
     def close(self) -> None:
@@ -72,13 +73,22 @@ class MotorControl(Node):
             self._answers.announce_silence(output, self._settings.config, self._state.demand)
 
     def _on_reference(self, message: Float64) -> None:
-        self._state = controller.refer(self._state, message.data, time.monotonic())
+        self._refer(message.data, Kind.SPEED)
 
     def _on_position_reference(self, message: Float64) -> None:
-        self._state = controller.refer(self._state, message.data, time.monotonic(), Kind.POSITION)
+        self._refer(message.data, Kind.POSITION)
+
+    def _refer(self, value: float, kind: Kind) -> None:
+        now, asks = time.monotonic(), kind is Kind.POSITION or value != 0.0
+        if asks and self._hold_ups.in_doubt():
+            self._state = controller.refuse(self._state, STOOD_STILL, now)
+        else:
+            self._state = controller.refer(self._state, value, now, kind)
 
     def _on_joint_command(self, message: JointState) -> None:
         demand = joint_demand_of(message, self._settings.config)
+        if isinstance(demand, Demand) and demand.value != 0.0 and self._hold_ups.in_doubt():
+            demand = STOOD_STILL
         if demand is not None:
             self._state = controller.command_joint(self._settings.config, self._state, demand, time.monotonic())
 

@@ -1,15 +1,20 @@
 """When the controller as a process gives 0 V, what it says then, and what it takes to drive again."""
 
+import os
+import signal
 import subprocess
 import time
 
 import pytest
 from controller_bench import FakePlant
 from diagnostic_msgs.msg import DiagnosticStatus
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 from workbench import end
 
 from motor_model.sample import Info
+from motor_ros import qos
 
 
 @pytest.mark.on_time
@@ -42,6 +47,35 @@ def test_numbers_that_are_none(plant: FakePlant) -> None:
     assert (state.state, state.voltage) == ("stopped", 0.0)
     assert "speed = inf" in state.reason
     assert plant.answer(50.0).state == "running"
+
+
+@pytest.mark.parametrize("topic", ["motor/reference", "motor/joint_command"])
+def test_what_was_asked_for_while_the_controller_stood_still_is_not_obeyed(
+    plant: FakePlant, process: subprocess.Popen[str], topic: str
+) -> None:
+    """Nothing happened, so somebody looks at the motor; and then it would turn."""
+    joint = plant.publisher(JointState, "motor/joint_command", qos.REFERENCE)
+    plant.heard(joint)
+    os.kill(process.pid, signal.SIGSTOP)
+    try:
+        if topic == "motor/reference":
+            plant._reference.publish(Float64(data=100.0))
+        else:
+            joint.publish(JointState(name=[""], velocity=[100.0]))  # the plant has not said its name
+        time.sleep(1.5)
+    finally:
+        os.kill(process.pid, signal.SIGCONT)
+    count, states = len(plant.voltages), len(plant.states)
+
+    def refused() -> bool:
+        plant.say(0.0)
+        return any("stood still" in state.reason for state in plant.states[states:])
+
+    plant.wait(refused, "the refusal")
+    assert all(message.voltage == 0.0 for message in plant.voltages[count:])
+    if topic == "motor/reference":
+        plant._reference.publish(Float64(data=0.0))  # to stop is always allowed
+        plant.wait(lambda: plant.answer(0.0).state == "running", "a reference of 0")
 
 
 def test_ctrl_c_leaves_zero_volts(plant: FakePlant, process: subprocess.Popen[str]) -> None:

@@ -95,6 +95,11 @@ def _take(state: State, demand: Demand, now: float) -> State:
     return replace(state, demand=demand, referred=now, dropped="", refused="", run=run)
 
 
+def refuse(state: State, why: str, now: float) -> State:
+    """Take no notice of a reference but to say why."""
+    return replace(state, refused=why, refused_at=now)
+
+
 def release(state: State) -> tuple[str, State]:
     """Let go of the motor: no reference, and after one last 0 V no voltage. What to say stands beside the state."""
     return RELEASED, drop(state, RELEASED)

@@ -5,6 +5,7 @@ Whatever is in doubt, the robot stands:
     cmd_vel is older than its timeout    slow down to 0 within the limits, then let go of both motors
     cmd_vel is not a number              the same
     cmd_vel has an old stamp             the same
+    this drive stood still for 1 s       the same for what comes in the next 3.5 s: it may have been sent meanwhile
     one wheel is in trouble              0 for both at once, then let go; a robot on one wheel turns in circles
 
 While it moves, the wheels are kept to what they should have turned by now: `travel_gain` times what a wheel is behind
@@ -94,6 +95,11 @@ def take_command(config: Config, state: State, twist: Twist, now: float, age: fl
     if state.trouble and not (silence or twist == STILL):
         return state
     return replace(state, command=twist, trouble="")
+
+
+def refuse_command(state: State, why: str, now: float) -> State:
+    """Take a velocity that comes at `now` [s] and cannot be obeyed, as a sentence says: it is a stop."""
+    return replace(state, command=None, commanded=now, trouble=why)
 
 
 def step(config: Config, state: State, wheels: tuple[Wheel, Wheel], now: float) -> tuple[Decision, State]:

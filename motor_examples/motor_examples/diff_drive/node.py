@@ -12,7 +12,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from motor_examples.diff_drive import drive
-from motor_examples.diff_drive.kinematics import Twist, Wheels, body_twist
+from motor_examples.diff_drive.kinematics import STILL, Twist, Wheels, body_twist
 from motor_examples.diff_drive.messages import diagnostics_message, odometry_message, stamp_age, transform_message
 from motor_examples.diff_drive.motor import Motor
 from motor_examples.diff_drive.odometry import Pose, advance_pose
@@ -21,7 +21,7 @@ from motor_model.errors import MotorError
 from motor_ros import qos
 from motor_ros.interface_types import NotInstalled, load_message
 from motor_ros.parameters import declare
-from motor_ros.run import quick_executor, run, steady_timer
+from motor_ros.run import STOOD_STILL, HoldUps, quick_executor, run, steady_timer
 
 NO_TF = "tf2_msgs is not installed here: no transforms on /tf; the pose is on odom."
 
@@ -47,6 +47,7 @@ class DiffDrive(Node):
         steady_timer(self, 1.0 / float(self._values["rate"]), self._on_timer)
         steady_timer(self, 1.0, self._on_second)
         self.add_on_set_parameters_callback(self._on_parameters)
+        self._hold_ups = HoldUps(self)
 
     def close(self) -> None:
         """Stop both wheels and let go of them."""
@@ -64,6 +65,9 @@ class DiffDrive(Node):
         if isinstance(message, TwistStamped):
             told, age = message.twist, stamp_age(message.header.stamp, self.get_clock().now().nanoseconds)
         twist = Twist(told.linear.x, told.angular.z)
+        if twist != STILL and self._hold_ups.in_doubt():
+            self._state = drive.refuse_command(self._state, STOOD_STILL, time.monotonic())
+            return
         self._state = drive.take_command(self._config, self._state, twist, time.monotonic(), age)
 
     def _on_timer(self) -> None:

@@ -138,3 +138,14 @@ def test_a_voltage_that_is_no_number_is_0_volt() -> None:
     loop = Loop()
     loop.state = controller.refer(loop.state, nan, loop.now, Kind.VOLTAGE)
     assert loop.run(DT).terms.voltage == 0.0 and loop.run(DT).state == STOPPED
+
+
+def test_a_reference_that_is_refused_is_said_and_changes_nothing() -> None:
+    loop = Loop()
+    loop.run(0.1)
+    before = loop.state
+    loop.state = controller.refuse(loop.state, "It may be an old one.", loop.now)
+    assert replace(loop.state, refused="", refused_at=before.refused_at) == before
+    output = loop.run(0.1)
+    assert (output.state, output.reason, output.warning) == (DISABLED, "It may be an old one.", True)
+    assert loop.run(0.5).reason != "It may be an old one."

@@ -137,6 +137,16 @@ def test_a_velocity_with_an_old_stamp_is_a_stop(age: float, timeout: float, obey
     assert ("The stamp of cmd_vel is older" in decision.reason) != obeyed
 
 
+def test_a_velocity_that_is_refused_is_a_stop_until_they_begin_again() -> None:
+    robot = Robot()
+    robot.run(0.5, SPEED)
+    robot.state = drive.refuse_command(robot.state, "It may be an old one.", robot.now)
+    decision = robot.run(0.4, SPEED)
+    assert decision.references in (None, Wheels(0.0, 0.0)) and decision.reason.startswith("It may be an old one. Both")
+    robot.send(STILL)
+    assert robot.run(0.4, SPEED).references == wheel_speeds(ROBOT, SPEED)
+
+
 def test_a_wheel_that_stays_behind_makes_up_for_it_and_no_more_than_a_little() -> None:
     for gain, least, most in ((2.0, 0.0, 0.01), (0.0, 0.4, 0.6)):
         robot = Robot(gain=gain)
