@@ -1,6 +1,7 @@
 """JSON lines: an object of numbers a line, as loggers of messages write them."""
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ from motor_identification.logs.csv.dialect import read_text
 from motor_identification.logs.csv.table import Table
 from motor_model.errors import RecordingError
 
+_WORDS = re.compile(r"\b(?:True|False|None)\b(?!\")")
 MOST_NAMES = 1000  # columns
 
 
@@ -47,9 +49,15 @@ def read_json_lines(path: Path) -> Table:
 
 def _load(line: str) -> Any:
     try:
-        return json.loads(line)
+        return json.loads(line if '"' in line else _of_python(line))
     except (ValueError, RecursionError):
         return None
+
+
+def _of_python(line: str) -> str:
+    """A dictionary as Python prints it: `{'t': 0.1, 'on': True}`."""
+    quoted = line.replace("'", '"')
+    return _WORDS.sub(lambda match: {"True": "true", "False": "false", "None": "null"}[match[0]], quoted)
 
 
 def flatten_members(members: dict[str, Any]) -> dict[str, str]:

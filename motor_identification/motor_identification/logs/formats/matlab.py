@@ -1,4 +1,4 @@
-"""MATLAB files (version 4 to 7.3) as a table: vectors of one length, columns of matrices, fields of structs."""
+"""MATLAB files (version 4 to 7.3), Octave's and NumPy's as a table: vectors of one length, columns of matrices."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -12,6 +12,10 @@ from motor_identification.logs.formats.hdf5 import SIGNATURE
 from motor_identification.logs.formats.mat_7_3 import MARK, read_variables_7_3
 from motor_identification.logs.formats.mat_elements import BrokenFileError, TooLargeError, Value, read_variables
 from motor_identification.logs.formats.mat_version_4 import is_version_4, read_matrices
+from motor_identification.logs.formats.numpy_arrays import MARK as NUMPY
+from motor_identification.logs.formats.numpy_arrays import is_archive_of_arrays, read_arrays
+from motor_identification.logs.formats.octave_text import MARK as OCTAVE
+from motor_identification.logs.formats.octave_text import read_octave_text
 from motor_identification.logs.rows.row_times import tells_how_often
 from motor_model.errors import RecordingError
 
@@ -28,9 +32,11 @@ def read_matlab(path: Path) -> Table:
         RecordingError: the file is damaged, too large, or has no two vectors of one length.
     """
     vectors: dict[str, Any] = {}
+    read: Callable[[bytes], dict[str, Value]] = read_variables
     try:
         data = path.read_bytes()
-        variables = _reader(data)(data)
+        read = _reader(data)
+        variables = read(data)
         objects = "" in variables  # what MATLAB keeps of them has no name
         for name, value in variables.items():
             if name:
@@ -40,7 +46,8 @@ def read_matlab(path: Path) -> Table:
     except MemoryError as error:
         raise RecordingError(f"{path} does not fit the memory: cut it into parts.") from error
     except BrokenFileError as error:
-        raise RecordingError(f"{path} is a damaged MATLAB file ({error}): save it again with -v7.") from error
+        kind, cure = _KINDS[read]
+        raise RecordingError(f"{path} is a damaged {kind} file ({error}): {cure}.") from error
     if objects and len(vectors) < 2:
         raise RecordingError(f"{path} holds {OBJECTS}, which only MATLAB reads: {SAVE_THEM}.")
     lengths = [len(vector) for vector in vectors.values() if len(vector) >= 2]
@@ -62,8 +69,19 @@ def read_matlab(path: Path) -> Table:
     return Table(path, np.arange(1, length + 1), fitting, notes=tuple(notes))
 
 
+_KINDS: dict[Callable[[bytes], dict[str, Value]], tuple[str, str]] = {
+    **dict.fromkeys((read_variables, read_variables_7_3, read_matrices), ("MATLAB", "save it again with -v7")),
+    read_octave_text: ("Octave", "save it again with -text"),
+    read_arrays: ("NumPy", "save its arrays again with numpy.savez"),
+}
+
+
 def _reader(data: bytes) -> Callable[[bytes], dict[str, Value]]:
     """What reads a file of this beginning."""
+    if data.startswith(OCTAVE):
+        return read_octave_text
+    if data.startswith(NUMPY) or is_archive_of_arrays(data):
+        return read_arrays
     if data.startswith((MARK, SIGNATURE)):
         return read_variables_7_3
     return read_matrices if is_version_4(data) else read_variables

@@ -15,6 +15,8 @@ from motor_identification.logs.formats.lvm import LETTERS as LABVIEW
 from motor_identification.logs.formats.lvm import read_lvm
 from motor_identification.logs.formats.mat_version_4 import is_version_4
 from motor_identification.logs.formats.matlab import read_matlab
+from motor_identification.logs.formats.numpy_arrays import MARK as NUMPY
+from motor_identification.logs.formats.octave_text import MARK as OCTAVE
 from motor_identification.logs.formats.sysid import is_sysid, read_sysid
 from motor_identification.logs.formats.workbook import is_workbook, read_workbook
 from motor_identification.logs.formats.wpilog import LETTERS, read_wpilog
@@ -22,7 +24,7 @@ from motor_model.errors import RecordingError
 
 HEAD = 512  # bytes at the beginning that tell the format
 _LONGEST_LINE = 10_000  # characters of a first line of JSON
-_OLE, _NUMPY = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", b"\x93NUMPY"
+_OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 _WORKBOOK = (b"[Content_Types].xml", b"xl/", b"opendocument.spreadsheet")  # Excel's, and that of LibreOffice
 _HDF5, _ZIP, _PARQUET, _MCAP = b"\x89HDF\r\n\x1a\n", b"PK\x03\x04", b"PAR1", b"\x89MCAP"
 
@@ -68,11 +70,9 @@ def _read_other(path: Path, head: bytes) -> Source:
     for is_format, cure in _REFUSED:
         if is_format(head):
             raise RecordingError(f"{path} is {cure}.")
-    for version in ("5.0", "7.3"):
-        if head.startswith(f"MATLAB {version}".encode()):
-            return Source(read_matlab(path), f"MATLAB {version.removesuffix('.0')} file")
-    if is_version_4(head):
-        return Source(read_matlab(path), "MATLAB 4 file")
+    for is_format, name in _OF_VARIABLES:
+        if is_format(head):
+            return Source(read_matlab(path), name)
     if head.startswith(LABVIEW):
         return Source(read_lvm(path), "file of LabVIEW (LVM)")
     if head.startswith(LETTERS):
@@ -94,6 +94,13 @@ def _read_json(path: Path) -> Source:
     return Source(read_json_table(path), "JSON file")
 
 
+_OF_VARIABLES: tuple[tuple[Callable[[bytes], bool], str], ...] = (
+    (lambda head: head.startswith(b"MATLAB 5.0"), "MATLAB 5 file"),
+    (lambda head: head.startswith(b"MATLAB 7.3"), "MATLAB 7.3 file"),
+    (lambda head: head.startswith(OCTAVE), "text file of Octave"),
+    (lambda head: head.startswith(NUMPY) or (head.startswith(_ZIP) and b".npy" in head), "NumPy file"),
+    (is_version_4, "MATLAB 4 file"),
+)
 _REFUSED: tuple[tuple[Callable[[bytes], bool], str], ...] = (
     (lambda head: head.startswith(_HDF5), "an HDF5 file: save its arrays as CSV"),
     (
@@ -102,10 +109,9 @@ _REFUSED: tuple[tuple[Callable[[bytes], bool], str], ...] = (
     ),
     (lambda head: head.startswith(_OLE), "an old Excel file: save its sheet as CSV, and give that"),
     (
-        lambda head: head.startswith(_NUMPY) or (head.startswith(_ZIP) and b".npy" in head),
-        "a NumPy file: save a column for each array as CSV (numpy.savetxt with delimiter=',')",
+        lambda head: head.startswith(_ZIP) and b".npy" not in head,
+        "a ZIP or spreadsheet file: unpack it, or export it as CSV",
     ),
-    (lambda head: head.startswith(_ZIP), "a ZIP or spreadsheet file: unpack it, or export it as CSV"),
     (lambda head: head.startswith(ROS_1), OF_ROS_1),
     (lambda head: head.startswith(b"TDSm"), "a TDMS file of LabVIEW: export it as CSV"),
     (

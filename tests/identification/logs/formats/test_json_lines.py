@@ -35,3 +35,11 @@ def test_what_is_refused(tmp_path: Path, text: str, complaint: str) -> None:
     (tmp_path / "log").write_text(text)
     with pytest.raises(RecordingError, match=complaint):
         read_json_lines(tmp_path / "log")
+
+
+def test_dictionaries_as_python_prints_them(tmp_path: Path) -> None:
+    text = "{'t': 0.1, 'on': True, 'y': None}\n{'t': 0.2, 'on': False, 'y': 3}\n"
+    assert are_json_lines(text)
+    (tmp_path / "log").write_text(text)
+    table = read_json_lines(tmp_path / "log")
+    assert [table.text("on", row) for row in range(2)] == ["1", "0"] and table.text("y", 1) == "3"
