@@ -141,3 +141,20 @@ def test_a_line_longer_than_any_cell_may_be_is_a_sentence(tmp_path: Path, delimi
     with pytest.raises(MotorError) as refused:
         import_log(path, Said())
     assert "\n" not in str(refused.value) and len(str(refused.value)) < 700
+
+
+def test_a_motion_that_is_told_before_its_voltage_only_leaves_no_rows(tmp_path: Path) -> None:
+    rows = [f"{k * 0.01:.2f},,{k % 7}" for k in range(100)] + [f"{1 + k * 0.01:.2f},{k % 3}," for k in range(100)]
+    (tmp_path / "log.csv").write_text("\n".join(["t,u,rpm", *rows]))
+    with pytest.raises(MotorError, match="rpm has no value in any row from the first of u on"):
+        import_log(tmp_path / "log.csv", Said())
+
+
+@pytest.mark.filterwarnings("error")
+def test_the_largest_numbers_of_a_file_of_arrays_are_none(tmp_path: Path) -> None:
+    table = np.column_stack([np.arange(100) * 0.01, np.arange(100) // 10 % 3, np.arange(100) % 7])
+    table[20, 2], table[40, 2] = 1e308, -1.7e308
+    table[60:, 2] = 1.7e308
+    np.save(tmp_path / "log.npy", table)
+    (run,) = import_log(tmp_path / "log.npy", Said(unit="rpm")).motors[0].log.runs
+    assert len(run.samples) < 60 and max(abs(sample.speed) for sample in run.samples) < 1.0

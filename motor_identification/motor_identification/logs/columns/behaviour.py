@@ -75,8 +75,8 @@ def _agreement(table: Table, position: str, speed: str, steps: Floats) -> float:
     """Correlation of a column's way with another's integral, over parts of the log."""
     with np.errstate(over="ignore", invalid="ignore"):  # a column of anything
         angle, travel = table.numbers(position), np.cumsum(table.numbers(speed) * steps)
-    ends = np.unique(np.linspace(0, len(angle) - 1, min(PARTS, len(angle) // 3) + 1).astype(np.int64))
-    way, integral = np.diff(angle[ends]), np.diff(travel[ends])
+        ends = np.unique(np.linspace(0, len(angle) - 1, min(PARTS, len(angle) // 3) + 1).astype(np.int64))
+        way, integral = np.diff(angle[ends]), np.diff(travel[ends])
     return correlate(way, integral) if len(way) >= FEWEST_PARTS else 0.0
 
 

@@ -83,7 +83,8 @@ def _unevenness(values: Floats) -> float:
     steps = steps[steps <= LATE * np.median(steps[steps > 0.0])]
     place, row = np.concatenate(([0.0], np.cumsum(steps))), np.arange(len(steps) + 1.0)
     rest = place - np.polyval(np.polyfit(row, place, 1), row)
-    return float(np.std(rest) / max(np.mean(steps), 1e-300))
+    with np.errstate(over="ignore"):  # a column of anything
+        return float(np.std(rest) / max(np.mean(steps), 1e-300))
 
 
 def runs_forward(values: Floats) -> bool:

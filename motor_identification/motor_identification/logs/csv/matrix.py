@@ -1,9 +1,11 @@
 """Tables as programs print matrices: brackets and a semicolon around each row, and a line for each column."""
 
+import re
 from collections.abc import Sequence
 
 from motor_identification.logs.csv.cells import COMMENT, is_number
 
+_IN_BRACKETS = re.compile(r"[\[(]+[^\[\]()]+[\])]+,?$")
 MOSTLY = 0.9  # of the first lines
 _LOOKED_AT = 100  # lines
 MOST_COLUMNS, FEWEST_ROWS, LONGER = 20, 40, 5  # of a table that lies on its side: so many lines, and cells in each
@@ -13,6 +15,8 @@ NOTE = "The file has a line for each column: they are taken for columns."
 def take_off_brackets(lines: Sequence[str]) -> Sequence[str]:
     """Take the brackets and the semicolons off rows such as `[0 0.02 5;`, where nearly every line ends with one."""
     begin = [line.strip() for line in lines[: 2 * _LOOKED_AT] if line.strip() and not COMMENT.match(line)][:_LOOKED_AT]
+    if begin and sum(bool(_IN_BRACKETS.match(line)) for line in begin) >= MOSTLY * len(begin):  # as Python prints
+        return [line if COMMENT.match(line) else line.strip().strip("[(]),; ") for line in lines]
     if sum(line.count(";") == 1 and line[-1] == ";" for line in begin) < MOSTLY * len(begin) or not begin:
         return lines
     return [line if COMMENT.match(line) else _without_brackets(line) for line in lines]

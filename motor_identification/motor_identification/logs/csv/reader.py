@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.csv.blocks import turn_blocks_into_rows
 from motor_identification.logs.csv.cells import COMMENT, SPACES, is_number, split_line
 from motor_identification.logs.csv.dialect import LOOKED_AT, Dialect, find_dialect, read_text
 from motor_identification.logs.csv.header import say_names_without_cells
@@ -49,8 +50,9 @@ def table_of(path: Path, text: Sequence[str], notes: list[str], wanted: Sequence
         RecordingError: as there.
     """
     timed, said = give_times(unquote_rows(text))
-    upright, turned = turn_lines_into_columns(take_off_brackets(timed))
-    notes = [*notes, *said, *turned]
+    in_rows, of_blocks = turn_blocks_into_rows(timed)
+    upright, turned = turn_lines_into_columns(take_off_brackets(in_rows))
+    notes = [*notes, *said, *of_blocks, *turned]
     taken = take_apart(upright)
     lines = taken.lines
     dialect = find_dialect(lines)

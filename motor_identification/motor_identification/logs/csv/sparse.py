@@ -14,6 +14,7 @@ from motor_identification.logs.columns.clock import read_clock
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import GARBLED, Cells, Table
+from motor_model.errors import RecordingError
 
 Bools = NDArray[np.bool_]
 Integers = NDArray[np.int64]
@@ -38,6 +39,11 @@ class Filled:
         rows[: max((int(np.argmax(self.told[name])) for name in held), default=0)] = False
         if rows.all():
             return self.table
+        if not rows.any():
+            others = " and ".join(held)
+            raise RecordingError(
+                f"{self.table.path}: {motion} has no value in any row from the first of {others} on: check the columns."
+            )
         notes = [f"{name} has a value in {self._share(name)} rows: it holds until the next." for name in held]
         if motion in self.told:
             notes.insert(0, f"{motion} has a value in {self._share(motion)} rows: those rows are taken.")

@@ -58,3 +58,12 @@ def test_comments_above_rows_that_end_with_semicolons_stay() -> None:
     above = ["% a log", "% of some motor", *["%"] * 20, "%t,u,y", "%[#],[V],[turns]"]
     found = take_off_brackets([*above, *["1,2,3;"] * 40])
     assert found[: len(above)] == above and found[-1] == "1,2,3"
+
+
+@pytest.mark.parametrize("around", ["({})", "[{}],", "[{}]"])
+def test_rows_as_python_prints_them(around: str) -> None:
+    rows = [around.format(f"{0.1 * k:.1f}, {k}, -3") for k in range(20)]
+    assert take_off_brackets(["# t, u, y", *rows])[:2] == ["# t, u, y", "0.0, 0, -3"]
+    printed = ["[[0 1 2]", *[" [3 4 5]"] * 20, " [6 7 8]]"]
+    assert take_off_brackets(printed)[0] == "0 1 2" and take_off_brackets(printed)[-1] == "6 7 8"
+    assert take_off_brackets(["f(1) 2 (3)"] * 20) == ["f(1) 2 (3)"] * 20
