@@ -26,6 +26,7 @@ Floats = NDArray[np.float64]
 STEPS_BETWEEN = 0.8  # of the rows that a steady curve's voltage changes in
 WHOLE_DEGREES = 360  # counts a turn, which are degrees as well
 ROUNDED = 0.01  # of full duty, by which rounding may go beyond it
+ELECTRICAL = "of electrical turns: speeds are those of the shaft times its pole pairs"
 _KINDS = {Quantity.SPEED: Kind.SPEED, Quantity.POSITION: Kind.POSITION, Quantity.COUNT: Kind.COUNT}
 _ORDER = (Kind.SPEED, Kind.COUNT, Kind.POSITION)  # `count` is a count before it is a position
 
@@ -205,7 +206,7 @@ def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: floa
     if kind is Kind.COUNT:
         return Unit("count", "")
     if heading.unit and _kind_of(heading) is kind:
-        return Unit(heading.unit, "")
+        return Unit(heading.unit, ELECTRICAL if "erpm" in heading.name.lower() else "")
     guessed = (
         guess_speed_unit(values, said.speed_window or period) if kind is Kind.SPEED else guess_position_unit(values)
     )

@@ -245,6 +245,8 @@ def _moving(
             found = [name for name in found if RAW & set(read_heading(name).words)] or found
             found = [name for name in found if _is_summed_up(table, name, found)] or found
             found = _in_one_unit(table, _each_once(table, found))
+            with_unit = [name for name in found if read_heading(name).unit]
+            found = with_unit if quantity is Quantity.SPEED and len(with_unit) == 1 else found
         if len(found) > 1:
             raise ask_motion(table, headings, quantity, found)
         if found:

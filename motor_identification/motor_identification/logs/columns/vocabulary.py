@@ -65,6 +65,7 @@ WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.TIME: _row(
         "timestep timesteps "
         "t time times timp waktu 시간 timestamp stamp tiempo zeit temps tps date tempo tid clock elapsed second "
+        "heure hora uhrzeit ora tijdstip "
         "seconds secs sec sekunde sekunden segundo segundos seconde secondes secondi saniye detik millis micros nanos "
         "milliseconds microseconds ms us ns tijd czas čas cas idő zaman время 时间 時間"
     ),
@@ -80,7 +81,7 @@ WORDS: dict[Quantity, frozenset[str]] = {
     ),
     Quantity.SPEED: _row(
         "speed velocity vel velocidad velocidade geschwindigkeit drehzahl vitesse velocità omega ω w wm rpm rps "
-        "dps tacho tachometer vit turatie turație putaran devir sebesség velocita "
+        "dps erpm tacho tachometer vit turatie turație putaran devir sebesség velocita "
         "snelheid viteza viteză kecepatan 속도 toerental hastighed hastighet "
         "prędkość predkosc obroty rychlost otáčky otacky hız hiz скорость обороты 速度 转速 角速度 回転数"
     ),
@@ -149,7 +150,8 @@ _SPELLINGS = {
     "deg/s": "deg/s град/с град_с deg/sec °/s grad/s grados/s graus/s dps degps degrees/s deg_s deg_sec",
     "rpm": (
         "tr/mn trs/min tours/min d/dk "
-        "rpm upm rev/min rev_min u/min tr/min r/min 1/min min-1 umdr/min giri/min ot/min obr/min obr_min об/мин об_мин"
+        "erpm rpm upm rev/min rev_min u/min tr/min r/min 1/min min-1 umdr/min giri/min ot/min obr/min obr_min об/мин "
+        "об_мин"
     ),
     "rev/s": "rps rev/s r/s rotations/s turns/s hz rev_s",
     "count/s": (

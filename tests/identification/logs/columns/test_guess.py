@@ -125,3 +125,10 @@ def test_times_that_count_by_a_rate_are_asked_for_it(tmp_path: Path) -> None:
         guess_forms(read_table(tmp_path / "log.csv"), Said())
     (form,) = guess_forms(read_table(tmp_path / "log.csv"), Said(time_unit="0.000125")).forms
     assert (form.time, form.time_unit) == ("timestep (8 kHz)", "0.000125")
+
+
+def test_electrical_turns_are_told(tmp_path: Path) -> None:
+    rows = [f"{20 * n},{(n // 30 % 3 - 1) * 0.5},{n % 9 * 7}" for n in range(300)]
+    (tmp_path / "log.csv").write_text("\n".join(["ms_today,duty_cycle,erpm", *rows]))
+    found = guess_forms(read_table(tmp_path / "log.csv"), Said(supply_voltage=12.0))
+    assert any("erpm, a speed in rpm (of electrical turns" in line for line in found.findings)

@@ -30,6 +30,8 @@ rotation (Hz)     | speed          | rev/s |
 écart 1 (mm)      | other          | mm    |
 Couple Moteur [Nm] | other         |       |
 effort (N)        | other          |       |
+Heure             | time           |       |
+erpm              | speed          | rpm   |
 Axis0_Pos_gain    | other          |       |
 timestep (8 kHz)  | time           |       |
 enconder(steps)   | count          | count |

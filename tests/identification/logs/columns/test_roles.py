@@ -376,3 +376,10 @@ def test_a_way_without_times_is_no_clock() -> None:
     for late in (np.zeros(200), 0.05 * (np.arange(200) % 50 == 7)):
         KINDS.update(j=np.cumsum(0.01 + jitter + late))
         assert find_roles(table(**{"column 1": "j", "column 2": "u", "column 3": "y"}), Said()).time == "column 1"
+
+
+def test_of_several_speeds_the_one_with_a_unit_is_taken() -> None:
+    vesc = find_roles(table(ms="t", duty_cycle="u", erpm="y", tachometer="n"), Said())
+    assert vesc.pairs == (Pair("", "duty_cycle", "erpm"),)
+    with pytest.raises(RecordingError, match="the speed\\? Say --speed and one of rpm_a, rpm_b"):
+        find_roles(table(t="t", u="u", rpm_a="y", rpm_b="n"), Said())
