@@ -5,6 +5,7 @@ another plant are not meant for this one. A publisher that has died is listed fo
 they are heard while there is more than one publisher, and are another's where this plant has not sent them.
 """
 
+import struct
 import time
 from collections import deque
 
@@ -19,7 +20,7 @@ from motor_ros.run import steady_timer
 from motor_ros.topics import publishers_of
 
 RCLError = rclpy_implementation.RCLError
-LOOK_EVERY = 0.05  # [s]
+LOOK_EVERY = 0.05  # [s] all that has come is looked at then: an executor would take as long for it as for the sampling
 REMEMBERED = 4096  # samples of our own: no busy computer hears one so late
 SILENT = 500_000_000  # [ns] after another's latest sample, from which on it is gone
 
@@ -33,7 +34,10 @@ DENIED = (
     "(docs/security.md)."
 )
 
-Key = tuple[int, int, int]  # of a sample: its instants on the plant's clock and in ROS time
+STAMP = {0: struct.Struct(">iI"), 1: struct.Struct("<iI")}  # by the second byte: how the header's stamp is serialised
+BEFORE = 4  # bytes before it
+
+Stamp = tuple[int, int]  # of a sample, in ROS time: seconds, nanoseconds; no other plant has the same
 
 
 class OtherPlant:
@@ -41,8 +45,8 @@ class OtherPlant:
 
     def __init__(self, node: Node, publisher: Publisher) -> None:
         self._node, self._topic = node, publisher.topic_name
-        self._order: deque[Key] = deque()
-        self._ours: set[Key] = set()
+        self._order: deque[Stamp] = deque()
+        self._ours: set[Stamp] = set()
         self._heard: int | None = None  # [ns] another's latest sample
         self._subscription: Subscription | None = None
         self._may_listen = True
@@ -50,9 +54,9 @@ class OtherPlant:
 
     def sent(self, message: MotorSpeed) -> None:
         """Take a sample of our own, before it is published."""
-        key = _key_of(message)
-        self._order.append(key)
-        self._ours.add(key)
+        stamp = message.header.stamp.sec, message.header.stamp.nanosec
+        self._order.append(stamp)
+        self._ours.add(stamp)
         if len(self._order) > REMEMBERED:
             self._ours.discard(self._order.popleft())
 
@@ -71,24 +75,25 @@ class OtherPlant:
         if several and self._subscription is None and self._may_listen:
             self._listen()
         elif not several and self._subscription is not None:
-            self._node.destroy_subscription(self._subscription)
+            self._subscription.destroy()
             self._subscription = None
+        while self._subscription and (taken := self._subscription.handle.take_message(MotorSpeed, True)):
+            self._hear(taken[0])
 
     def _listen(self) -> None:
         try:
-            self._subscription = self._node.create_subscription(MotorSpeed, self._topic, self._on_sample, qos.SPEED)
+            self._subscription = self._node.create_subscription(
+                MotorSpeed, self._topic, lambda message: None, qos.SPEED, raw=True
+            )
+            self._node._subscriptions.remove(self._subscription)  # so that no executor takes what is to be polled
         except RCLError:  # keys that were made before a plant was to listen
             self._may_listen = False
             self._node.get_logger().warning(DENIED.format(self._topic))
 
-    def _on_sample(self, message: MotorSpeed) -> None:
-        if _key_of(message) in self._ours:
+    def _hear(self, data: bytes) -> None:
+        if STAMP[data[1] & 1].unpack_from(data, BEFORE) in self._ours:
             return
         now = time.monotonic_ns()
         spoke, self._heard = self.speaks(now), now
         if not spoke:
             self._node.get_logger().error(self.problem(now))
-
-
-def _key_of(message: MotorSpeed) -> Key:
-    return message.sample_time, message.header.stamp.sec, message.header.stamp.nanosec
