@@ -21,3 +21,13 @@ def test_cells_in_quotes_stay() -> None:
         assert unquote_rows([line] * 9) == [line] * 9
     assert unquote_rows(['"1,2"'] * 7 + ["3,4"] * 3) == ['"1,2"'] * 7 + ["3,4"] * 3
     assert unquote_rows(['"1,2"'] * 8 + ["3,4"] * 2) == ["1,2"] * 8 + ["3,4"] * 2
+
+
+def test_line_breaks_in_quotes_are_no_rows(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text("time,speed,pwm\n" + "".join(f'{0.01 * k:.2f},{k},"{k % 3}\r\n"\n' for k in range(20)), newline="")
+    table = read_table(path)
+    assert table.notes == () and table.lines[3] == 8
+    np.testing.assert_allclose(table.numbers("pwm"), np.arange(20) % 3)
+    odd = ["a,b", *['1,"'] * 3, *["2,3"] * 20]
+    assert unquote_rows(odd) == odd and unquote_rows(['1,"2', '"', *["3,4"] * 20])[:2] == ['1,"2', '"']
