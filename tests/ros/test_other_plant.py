@@ -75,6 +75,7 @@ def test_a_recording_that_is_played_is_no_command(quiet: Bench) -> None:
     quiet.wait(lambda: rig.plant._other._subscription is None, "the plant to listen no longer")
 
 
+@pytest.mark.on_time
 def test_two_plants_of_one_name_are_both_at_0_volt(bench: Bench, start: Start) -> None:
     """As processes; the second one would move with each voltage that the first one gets."""
     status = bench.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)

@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -81,6 +82,32 @@ def test_what_was_latched_is_latched_again_and_a_loop_ends_by_ctrl_c(
     assert [message.edge_count for message in speeds[:45]] == [(speeds[0].edge_count + k) % 20 for k in range(45)]
     out, err = end(play)
     assert (play.returncode, err) == (0, "") and "messages played" in out
+
+
+@pytest.mark.parametrize("drives", [True, False])
+def test_a_motor_is_not_driven_on_after_playing_stood_still(
+    bench: Bench, start: Start, tmp_path: Path, drives: bool
+) -> None:
+    """Ctrl-Z, and fg when nobody thinks of the motor any more; what commands nothing goes on."""
+    voltages, speeds = bench.hear(MotorVoltage, "motor/voltage"), bench.hear(MotorSpeed, "motor/speed")
+    write(tmp_path / "bag", 600)
+    with BagWriter(tmp_path / "driven") as writer:
+        channel = writer.topic("/motor/voltage", "motor_msgs/msg/MotorVoltage", offered(qos.VOLTAGE))
+        for k in range(600):
+            writer.write(channel, 10**18 + k * PERIOD, serialize_message(voltage_message(6.0, time_message(0), "")))
+    play = start("motor_identification", "play", tmp_path / ("driven" if drives else "bag"))
+    bench.wait(lambda: len(voltages if drives else speeds) > 20, "the first ones")
+    play.send_signal(signal.SIGSTOP)
+    time.sleep(1.3)
+    count = len(voltages)
+    play.send_signal(signal.SIGCONT)
+    out, err = play.communicate(timeout=PATIENCE)
+    assert play.returncode == drives and ("Playing stood still for " in err) is drives
+    if drives:
+        bench.wait(lambda: bool(voltages) and voltages[-1].voltage == 0.0, "the last voltage")
+        assert len(voltages) < count + 150  # what had been sent before, and the last one
+    else:
+        assert "601 messages played" in out
 
 
 def test_ctrl_c_in_a_long_pause_ends_at_once(start: Start, tmp_path: Path) -> None:

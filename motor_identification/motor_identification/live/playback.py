@@ -12,6 +12,7 @@ from motor_model.errors import RecordingError
 from motor_ros.terminal import in_place
 
 ANNOUNCED_GAP = 10.0  # [s] who sees nothing happen that long asks why
+HELD_UP = 1.0  # [s] after which nobody expects a motor to be driven on
 LONGEST_GAP = 30 * 86400.0  # [s] no bag of a motor pauses for a month; garbled log times lie centuries off
 
 
@@ -30,7 +31,7 @@ class Playback:
         """Publish what is due until the end, or until interrupted; with `loop` begin again at the end.
 
         Raises:
-            RecordingError: a garbled log time, which would have us wait for ever.
+            RecordingError: a garbled log time, which would have us wait for ever; or a motor's commands were held up.
         """
         start = (self.bag.span.first if self.bag.span else 0) + round(self.start_offset * 1e9)
         for topic, data in self._latched_before(start):
@@ -46,11 +47,20 @@ class Playback:
                 self._check_gap(self.schedule.gap(log_time))
                 if not self.schedule.wait(log_time, interrupted):
                     return
+                self._check_hold_up()
                 self.publishers.publish(topic, data)
                 if time.monotonic() - shown >= 1.0:
                     shown, elapsed = time.monotonic(), self.schedule.elapsed(log_time)
                     in_place(f"{elapsed:.0f} of {self.bag.duration:.0f} s, {self.schedule.played} messages")
             going = loop and begun
+
+    def _check_hold_up(self) -> None:
+        """Refuse to drive a motor on that has stood meanwhile."""
+        if self.publishers.command and self.schedule.held_up > HELD_UP:
+            raise RecordingError(
+                f"Playing stood still for {self.schedule.held_up:.1f} s (Ctrl-Z, or this computer was held up), and a "
+                "motor would go on by itself: begin again."
+            )
 
     def _check_gap(self, gap: float) -> None:
         """Announce a long pause [s], and refuse one that no recording has."""

@@ -49,6 +49,11 @@ class Schedule:
         """[s] since the message before in this round, as recorded; 0 for its first."""
         return (log_time - self._last) * 1e-9 if self._count else 0.0
 
+    @property
+    def held_up(self) -> float:
+        """[s] by which the latest message was later than the one before: playing stood still."""
+        return self.late[-1] - self.late[-2] if len(self.late) > 1 else 0.0
+
     def late_at_most(self, share: float) -> float:
         """[s] by which that share of the latest messages was late at most; 0 without any."""
         late = sorted(self.late)

@@ -20,6 +20,7 @@ from motor_msgs.msg import MotorVoltage
 from motor_ros.interface_types import NotInstalled, load_message
 
 RMWError = rclpy_implementation.RMWError
+REFERENCES = ("/motor/reference", "/motor/position_reference")
 _SETTLED = 0.5  # [s] without a new subscriber until playing starts
 _PATIENCE = 4.0  # [s] without any subscriber until it does: one that tells of itself every 3 s, as ROS 2 does, is found
 _ARRIVAL = 2.0  # [s] for the last messages to arrive
@@ -61,6 +62,15 @@ class Publishers:
     def __str__(self) -> str:
         played = [(name, self._names[name]) for name in self._by_topic]
         return ", ".join(old if old == new else f"{old} as {new}" for old, new in played)
+
+    @property
+    def command(self) -> bool:
+        """Whether a motor may be driven by what is played."""
+        return any(map(self._commands, self._by_topic))
+
+    def _commands(self, topic: str) -> bool:
+        kind, name = self._by_topic[topic].msg_type, self._names[topic]
+        return kind is MotorVoltage or (kind is Float64 and name.endswith(REFERENCES))
 
     def publish(self, topic: str, data: bytes) -> None:
         """Send a serialised message; one that is not of its type would end whoever hears it, and is not sent."""
