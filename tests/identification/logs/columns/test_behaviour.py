@@ -22,6 +22,16 @@ def test_a_position_among_a_position_and_its_speed() -> None:
     assert find_position(table, ["a", "u"], "t") == ""
 
 
+@pytest.mark.parametrize(("units", "told"), [(1.0, True), (1.04, True), (1.1, False), (np.pi / 180.0, False)])
+def test_a_position_of_a_steady_motor_by_its_speed_in_the_same_units(units: float, told: bool) -> None:
+    """One that has its speed at once, but for the encoder's noise: all its ways are alike."""
+    speed = 140.0 + 3.0 * np.random.default_rng(4).normal(size=300)
+    columns = {"t": TIME, "a": np.round(speed), "b": np.floor(140.0 * units * TIME), "u": np.full(300, 20.0)}
+    table = Table(Path("log.csv"), np.arange(300), columns)
+    assert find_position(table, ["a", "b"], "t") == ("b" if told else "")
+    assert find_position(table, ["b", "u"], "t") == ""
+
+
 @pytest.mark.parametrize(
     ("begin", "voltage", "stood"),
     [
