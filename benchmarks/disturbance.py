@@ -32,7 +32,7 @@ EXACT = {0.03: 0.95, 0.1: 0.9, 0.3: 0.8}  # of singles and pairs, as required
 LEAST_OUTSIDE, MOST_WRONG, MOST_WRONG_OUTSIDE, STRENGTH = 0.9, 0.01, 0.02, 0.2
 NOTHING = "nothing"
 HEAD = (
-    "| torque | hidden | right | wrong names | else (verdict: named) | strength found / true | CPU time |",
+    "| hidden | torque | right | wrong names | else (verdict: named) | strength found / true | CPU time |",
     "|---|---|---:|---:|---|---:|---:|",
 )
 Result = tuple[tuple[str, ...], Found]  # what was hidden, and what was found
@@ -87,8 +87,8 @@ def line(torque: Torque, group: str, results: list[Result]) -> str:
     )
     known = strengths(results)
     cells = [
-        f"{torque.rms:g} V, {torque.time * 1e3:g} ms",
         group,
+        f"{torque.rms:g} V, {torque.time * 1e3:g} ms",
         f"{sum(good)} of {len(good)}",
         str(sum(wrong(hidden, found.named) for hidden, found in results)),
         "; ".join(f"{count} × {what}" if count > 1 else what for what, count in missed.items()),
@@ -164,8 +164,8 @@ def main() -> int:
                 (hidden, pool.submit(one, hidden, seed, torque))
                 for hidden, seed in many(group, options.motors, options.first_seed)
             ])
-            for torque in (Torque(rms, time) for rms in options.strengths for time in options.times)
             for group in options.groups
+            for torque in (Torque(rms, time) for rms in options.strengths for time in options.times)
         ]  # fmt: skip
         for torque, group, futures in jobs:
             found = [(hidden, future.result()) for hidden, future in futures]
