@@ -62,3 +62,23 @@ def test_what_is_not_in_the_table_is_told_from_the_torque(hidden: dict[str, floa
     assert not found.findings and found.disturbance is None
     assert found.structure[0].variable in variables and found.structure[0].certain
     assert found.noise_floor == found.sensor_floor < 0.2 * found.gap_after
+
+
+@pytest.mark.long
+def test_a_ripple_is_named_beside_a_torque_in_which_its_phase_hardly_shows() -> None:
+    """In mean speeds the torque leaves thirty times as much; beside it the ripple's size is sure to some per cent."""
+    ripple = {"ripple_voltage": 0.4, "ripple_cycles": 8.43, "ripple_phase": 0.7}
+    motor = {"kv": 0.082, "ka": 0.0058, "random_torque": 2.0 * TORQUE, "random_torque_time": TIME} | ripple
+    drives = {4: profiles.rich(12.0, 4), 5: profiles.random(12.0, 14.0, 5)}
+    training, validation = (
+        check(record(motor | {"random_torque_seed": seed}, *drive, seed=seed, irregularity=0.005)[0])
+        for seed, drive in drives.items()
+    )
+    found = diagnose([training], [validation])
+    assert [one.effect for one in found.findings] == ["torque_ripple"]
+    assert found.verdict is Verdict.EXPLAINED
+    size, error = found.findings[0].parameters["ripple_voltage"]
+    cycles, _ = found.findings[0].parameters["ripple_cycles"]
+    assert size == pytest.approx(ripple["ripple_voltage"], rel=0.15)
+    assert 0.002 < error < 0.05
+    assert cycles == pytest.approx(ripple["ripple_cycles"], abs=0.01)

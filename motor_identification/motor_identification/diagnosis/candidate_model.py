@@ -7,7 +7,7 @@ from math import exp, sqrt, tau
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.disturbed_fit import list_error_data
+from motor_identification.diagnosis.disturbed_fit import list_error_data, whiten_beside_torque
 from motor_identification.discrepancy.motion_history import make_history
 from motor_identification.discrepancy.structure import Rest, Structure, find_structure
 from motor_identification.estimation.estimate import Estimate
@@ -20,6 +20,7 @@ from motor_identification.noise.error_model import Disturbance, ErrorModel, Lag
 from motor_identification.noise.likelihood import Noise
 from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.validation.held_out import HeldOut
+from motor_model.effects import EFFECT_BY_NAME
 
 CURVE_BLOCKS = TimeBlocks(4)  # that curves are judged by where nothing is held out
 
@@ -79,7 +80,12 @@ class Model:
 
     @cached_property
     def whitened(self) -> WhitenedFit:
-        """The last stage of its fit, which its parameters and their standard errors are said from."""
+        """The last stage of its fit, which its parameters and their standard errors are said from.
+
+        What repeats with the angle is fitted beside the random torque already, which hides its phase elsewhere.
+        """
+        if self.learned is not None and any(EFFECT_BY_NAME[name].periodic for name in self.effects):
+            return whiten_beside_torque(self.estimate, self.learned)
         return fit_whitened(self.estimate)
 
     @property

@@ -81,6 +81,10 @@ class WhitenedResiduals(FilteredResiduals[Encoder]):
         """Every recording's encoder."""
         return self.filters
 
+    def on(self, problem: Problem) -> "WhitenedResiduals":
+        """The same whitening of another model's motion in the same recordings, without what was measured beside it."""
+        return WhitenedResiduals(problem, self.encoders)
+
     @property
     def beside(self) -> tuple[Beside, ...]:
         """What was measured beside the motion; its rows come after all others, recording by recording."""

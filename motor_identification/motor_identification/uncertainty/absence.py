@@ -14,7 +14,7 @@ from scipy.special import chdtri
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_residuals
 from motor_identification.estimation.parameter_space import map_theta
-from motor_identification.estimation.whitened_fit import WhitenedFit, WhitenedResiduals
+from motor_identification.estimation.whitened_fit import WhitenedFit
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 
 SHOWN_SIGMA = 10.0  # standard deviations of a trace that no recording hides
@@ -39,7 +39,7 @@ def _is_spare(fit: WhitenedFit, effects: tuple[str, ...]) -> bool:
     unknowns = fit.problem.unknowns
     problem = fit.problem.with_effects(tuple(name for name in unknowns.effects if name not in effects))
     start = Estimate(problem, map_theta(unknowns, fit.theta, problem.unknowns, {}))
-    residuals = WhitenedResiduals(problem, fit.residuals.encoders)
+    residuals = fit.residuals.on(problem)
     without = fit_residuals(start, residuals, iterations=ITERATIONS, tolerance=TOLERANCE)
     squares = float(np.sum(residuals.residuals(without.theta) ** 2))
     count = len(fit.problem.weight)
@@ -59,7 +59,7 @@ def _would_show(fit: WhitenedFit, effect: str) -> bool:
         if spec.at_least is not None:
             sizes[spec.name] += fit.theta[unknowns.names.index(spec.at_least)]
     noticed = map_theta(left.unknowns, bare, unknowns, sizes)
-    residuals = WhitenedResiduals(left, fit.residuals.encoders)
+    residuals = fit.residuals.on(left)
     trace = fit.residuals.residuals(noticed) - residuals.residuals(bare)
     columns = residuals.jacobian(bare)
     imitation = np.linalg.lstsq(columns, trace, rcond=1e-10)[0]

@@ -6,12 +6,18 @@ import numpy as np
 from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_model import learn_errors
-from motor_identification.diagnosis.disturbed_fit import fit_beside_torque, make_disturbed_residuals
+from motor_identification.diagnosis.disturbed_fit import (
+    fit_beside_torque,
+    make_disturbed_residuals,
+    whiten_beside_torque,
+)
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.whitened_fit import fit_whitened
 from motor_identification.recording import check
+from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 TRUE = {"kv": PAPER_KV, "ka": PAPER_KA}
@@ -55,3 +61,19 @@ def test_the_derivative_is_that_of_the_residuals() -> None:
         moved = disturbed.theta + step * np.eye(len(disturbed.theta))[i]
         difference = (target.residuals(moved) - target.residuals(disturbed.theta)) / step
         assert np.allclose(column, difference, rtol=1e-2, atol=1e-2 * np.abs(column).max())
+
+
+def test_its_standard_errors_are_what_it_scatters_by() -> None:
+    off, said = [], []
+    for seed in range(6):
+        _ordinary, disturbed = fits(seed)
+        fit = whiten_beside_torque(disturbed, learn_errors(disturbed))
+        assert np.array_equal(fit.theta, disturbed.theta)
+        beside, alone = fit.residuals.on(fit.problem), fit_whitened(disturbed).residuals.on(fit.problem)
+        assert np.array_equal(beside.residuals(fit.theta), fit.residuals.residuals(fit.theta))
+        assert not np.allclose(alone.residuals(fit.theta)[:100], fit.residuals.residuals(fit.theta)[:100])
+        assert 0.95 < np.std(fit.residuals.residuals(fit.theta)) < 1.05
+        said.append(estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors)
+        off.append(disturbed.theta - np.log([PAPER_KV, PAPER_KA]))
+    ratio = np.sqrt(np.mean(np.square(off), axis=0) / np.mean(np.square(said), axis=0))
+    assert np.all((ratio > 0.4) & (ratio < 1.8))
