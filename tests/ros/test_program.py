@@ -21,6 +21,8 @@ from motor_control.parameters import PROGRAM as CONTROL
 from motor_driver.parameters import PROGRAM as DRIVER
 from motor_examples.diff_drive.parameters import PROGRAM as DIFF_DRIVE
 from motor_identification.service.parameters import PROGRAM as IDENTIFICATION
+from motor_msgs.msg import MotorSpeed
+from motor_ros import qos
 from motor_ros.program import Program
 from motor_sim.parameters import PROGRAM as SIM
 
@@ -94,6 +96,9 @@ def test_help_names_the_topics_and_services_that_the_node_has(program: Program, 
     start(program.package, program.name)
     node = bench.node
     bench.wait(lambda: program.name in node.get_node_names(), "the node")
+    others = []  # a plant listens to its own topic while another publishes there
+    if set(program.publishes) & set(program.subscribes):
+        others.append(node.create_publisher(MotorSpeed, "motor/speed", qos.SPEED))
 
     def names(found: list[tuple[str, list[str]]]) -> set[str]:
         ours = {name for name, _ in found if name.startswith("/motor/") or name in ("/joint_states", "/diagnostics")}
@@ -111,3 +116,5 @@ def test_help_names_the_topics_and_services_that_the_node_has(program: Program, 
         return found == [absolute(part) for part in (program.publishes, program.subscribes, program.services)]
 
     bench.wait(agrees, "the topics and services that --help names, and no others")
+    for other in others:
+        node.destroy_publisher(other)
