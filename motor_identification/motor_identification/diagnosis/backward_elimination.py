@@ -19,9 +19,10 @@ from motor_identification.diagnosis.effect_test import (
     try_effects,
 )
 from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
+from motor_identification.diagnosis.evidence.presliding_evidence import stands_in_for_presliding
 from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss, is_better
 from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_beside_torque
-from motor_identification.diagnosis.stand_ins import has_same_evidence, is_own_evidence, stands_in_for_curve
+from motor_identification.diagnosis.stand_ins import has_same_evidence, is_own_evidence
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
@@ -61,10 +62,10 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
 
 
 def _is_needed(effect: str, without: Model, current: Model) -> bool:
-    """Decide whether an effect of the current model is likely beside all others, and stands in for no free curve."""
+    """Decide whether an effect of the current model is likely beside all others, and no friction that builds up."""
     if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
         return False
-    return not (EFFECT_BY_NAME[effect].after_reversals and stands_in_for_curve(without, current))
+    return not (EFFECT_BY_NAME[effect].after_reversals and stands_in_for_presliding(current, without))
 
 
 def _find_constant(effect: str, without: Model, current: Model, hold_out: HoldOut) -> CandidateTest | None:

@@ -144,7 +144,7 @@ class Model:
         # Chance of the RMS of so many independent samples.
         chance = min(exp(thresholds.RANDOM_SIGMA * sqrt(0.5 * time / seen)), thresholds.MOST_CHANCE)
         low, high = thresholds.RANDOM_GAP
-        return low < self.held.gap / self.noise_floor < high * chance
+        return low / chance < self.held.gap / self.noise_floor < high * chance
 
     @property
     def unpredictable_gap(self) -> float:

@@ -98,15 +98,3 @@ def keep_confirmed(selection: Selection, effects: Sequence[str]) -> Selection:
         if step.found.effect not in effects:
             return replace(selection, steps=selection.steps[:i], model=step.before)
     return selection
-
-
-def stands_in_for_curve(without: Model, current: Model) -> bool:
-    """Decide whether a free curve over the past predicts about as much beside a random torque as a finding does.
-
-    without: the model that lacks the finding.
-    """
-    if not current.beside_torque:
-        return False
-    curve = max((one.share for one in without.structure if one.certain and one.variable == PAST), default=0.0)
-    found = share_explained(without.held.gap, current.held.gap, current.sensor_floor)
-    return found < thresholds.CURVE_MARGIN * curve

@@ -116,7 +116,7 @@ def _judge_family(name: str, rests: Sequence[Rest], reach: Reach, model: ErrorMo
         speeds = (response / rest.errors.duration)[:, judged]
         kept.append((white[0, judged], white[1:, judged], rest.speeds[judged], speeds, rest, judged))
     knots = solve_ridge(normal, moment)
-    gain = white_power = before = after = floor = disc = 0.0
+    gain = white_power = white_disc = before = after = floor = disc = 0.0
     for z, x, speed, response, rest, judged in kept:
         left = z - knots @ x
         gain += float(np.sum(_loss(z) - _loss(left)))
@@ -126,12 +126,20 @@ def _judge_family(name: str, rests: Sequence[Rest], reach: Reach, model: ErrorMo
         after += float(duration @ (speed - knots @ response) ** 2)
         sensor = rest.errors.blur[judged] ** 2 + (model.share * rest.errors.unit) ** 2
         floor += float(np.sum(2.0 * sensor / duration))
-        disc += float(np.sum(2.0 * (model.share * rest.errors.unit) ** 2 / duration)) * share_of_disc(rest.errors.unit)
-    if name == OVER_THE_DISC:  # harmonics of its slots are the sensor's, however well they are predicted
-        return Structure(name, (before - after - disc) / (before - floor) if before > floor else 0.0, gain)
-    share = (before - after) / (before - floor) if before > floor else 0.0
-    white_share = gain / white_power if white_power > 0.0 else 0.0
+        if name == OVER_THE_DISC:  # harmonics of its slots are the sensor's, however well they are predicted
+            part = share_of_disc(rest.errors.unit)
+            disc += part * float(np.sum(2.0 * (model.share * rest.errors.unit) ** 2 / duration))
+            white_disc += part * _measure_white_disc(rest.errors, model, lag, judged)
+    share = (before - after - disc) / (before - floor) if before > floor else 0.0
+    white_share = (gain - white_disc) / white_power if white_power > 0.0 else 0.0
     return Structure(name, max(share, white_share * LEAST_SHARE / LEAST_WHITE_SHARE), gain)
+
+
+def _measure_white_disc(errors: ErrorData, model: ErrorModel, lag: Lag, judged: Bools) -> float:
+    """Measure what irregular slots alone leave of the white residual's power: a made-up disc's, through the filter."""
+    flanks = model.share * errors.unit * np.random.default_rng(0).standard_normal(len(judged) + 1)
+    _value, white = errors.whiten(model, lag, np.diff(flanks)[None])
+    return float(np.sum(_loss(white[1, judged])))
 
 
 def share_of_disc(slot: float) -> float:

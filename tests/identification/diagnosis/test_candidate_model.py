@@ -56,7 +56,7 @@ def test_a_torque_leaves_about_as_much_as_it_has_samples_to(duration: float, low
     """Of 0.5 s in 25 s: a tenth is the standard deviation of the RMS of fifty independent samples."""
     chance = exp(thresholds.RANDOM_SIGMA * 0.1)
     assert 1.2 < chance < thresholds.MOST_CHANCE
-    limit = thresholds.RANDOM_GAP[0] if low else thresholds.RANDOM_GAP[1] * chance
+    limit = thresholds.RANDOM_GAP[0] / chance if low else thresholds.RANDOM_GAP[1] * chance
     assert Model.is_random.fget(judged(limit * side, duration)) is ((side > 1.0) is low)  # type: ignore[attr-defined]
 
 

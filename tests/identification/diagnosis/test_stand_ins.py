@@ -18,7 +18,6 @@ from motor_identification.diagnosis.stand_ins import (
     has_same_evidence,
     is_own_evidence,
     keep_confirmed,
-    stands_in_for_curve,
 )
 from motor_identification.discrepancy.structure import Structure
 
@@ -91,25 +90,6 @@ def test_friction_stands_in_for_nothing_that_goes_with_the_past(
     left = replace(rest[0], significance=0.0)  # no curve over the past is certain
     model = cast(Model, SimpleNamespace(complete=False, structure=(left, rest[1])))
     assert not drop_stand_ins(replace(stub_selection(5.0, stub_step(effect, explains)), model=model)).steps
-
-
-@pytest.mark.parametrize(
-    ("times", "variable", "beside", "stands_in"),
-    [
-        (BELOW, "past", True, True),
-        (ABOVE, "past", True, False),
-        (BELOW, "speed", True, False),
-        (BELOW, "past", False, False),
-    ],
-)
-def test_what_a_curve_over_the_past_predicts_as_well_is_no_backlash(
-    times: float, variable: str, beside: bool, stands_in: bool
-) -> None:
-    """With a gap of 5 before, 3 after and a floor of 1 rad/s it explains 16 parts of 24."""
-    curve = Structure(variable, 16.0 / 24.0 / thresholds.CURVE_MARGIN / times, 100.0)
-    without = cast(Model, SimpleNamespace(structure=(curve,), held=SimpleNamespace(gap=5.0)))
-    current = cast(Model, SimpleNamespace(beside_torque=beside, held=SimpleNamespace(gap=3.0), sensor_floor=1.0))
-    assert stands_in_for_curve(without, current) is stands_in
 
 
 def stub_with(gap: float, *effects: str) -> Model:

@@ -1,0 +1,101 @@
+"""Judge a backlash by a friction that builds up after every reversal: both show where a motor turns round.
+
+Presliding friction goes from one side to the other over an angle d, x being the travel since the reversal,
+
+    friction = ks·(1 − 2·exp(−x/d))·sign ω
+
+(P. Dahl, "A solid friction model", Aerospace Corp. TOR-0158(3107-18)-1, 1968). A backlash lets the inertia of a load
+go instead, until the play is taken up. The friction is not in the table: it takes the place of the Coulomb friction in
+the motion that a model simulates, by linear least squares of what that leaves; kv, the gain and a load are fitted again
+with it, and so they are in the models that it is compared with.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.disturbed_fit import list_error_data
+from motor_identification.discrepancy.free_curves import KNOTS, TRAVEL, respond
+from motor_identification.discrepancy.motion_history import MotionHistory, make_history
+from motor_identification.discrepancy.structure import ROBUST
+from motor_identification.noise.error_data import ErrorData, log_likelihood
+from motor_identification.noise.error_learning import learn_error_model
+from motor_identification.recording import Floats
+
+RIDGE = 1e-9  # of a column's power: in a motor that turns one way, friction and load are one column
+
+
+@dataclass(frozen=True)
+class _Rest:
+    """What a model leaves in one recording, and the motion that it simulates there, which no random torque is in."""
+
+    errors: ErrorData
+    motion: MotionHistory
+
+
+def stands_in_for_presliding(current: Model, without: Model) -> bool:
+    """Decide whether a friction that builds up explains much of what a backlash of a model does, of fitted motion.
+
+    without: the model that lacks the backlash.
+    """
+    rests = _list_rests(without)
+    before = _score(without, _refit(without, rests, 0.0))
+    backlash = _score(current, _refit(current, _list_rests(current), 0.0)) - before
+    return _score(without, _refit_presliding(without, rests)) - before > thresholds.PRESLIDING_SHARE * backlash
+
+
+def _score(model: Model, left: Sequence[ErrorData]) -> float:
+    """Compute the log likelihood of what is left, under errors that are learned of it."""
+    learned = learn_error_model(left, model.lag, model.errors, thresholds.CANDIDATE_EVALUATIONS)
+    return log_likelihood(left, learned, model.lag)
+
+
+def _refit_presliding(model: Model, rests: Sequence[_Rest]) -> list[ErrorData]:
+    """Refit with the likeliest presliding friction in a model."""
+    reach = max(float(np.abs(rest.motion.speed).max(initial=0.0)) for rest in rests) / model.lag.rate
+    fits = [_refit(model, rests, angle) for angle in np.geomspace(*TRAVEL, KNOTS) * reach]
+    return max(fits, key=lambda left: log_likelihood(left, model.errors, model.lag))
+
+
+def _list_rests(model: Model) -> list[_Rest]:
+    estimate = model.estimate
+    problem, values = estimate.problem, estimate.parameters.values
+    rests = []
+    rows = zip(problem.recordings, problem.intervals, estimate.angles, list_error_data(estimate), strict=True)
+    for recording, data, angle, errors in rows:
+        speeds = data.speed + errors.increments / data.duration  # of the model
+        motion = make_history(recording, data, angle, values["kv"], values.get("delay", 0.0), speeds)
+        rests.append(_Rest(errors, motion))
+    return rests
+
+
+def _refit(model: Model, rests: Sequence[_Rest], angle: float) -> list[ErrorData]:
+    """Refit kv, friction, gain and load to white residuals; what is left then, recording by recording.
+
+    angle: [rad] over which the friction builds up after a reversal; 0 of one that does not.
+    """
+    torques = partial(_list_torques, ks=model.estimate.parameters.values.get("ks", 0.0), angle=angle)
+    responses = [respond(rest.motion, torques(rest.motion), model.lag) for rest in rests]
+    known = [
+        replace(one.errors, increments=one.errors.increments - r[0]) for one, r in zip(rests, responses, strict=True)
+    ]
+    normal, moment = np.zeros((4, 4)), np.zeros(4)
+    for row, response in zip(known, responses, strict=True):
+        white = row.whiten(model.errors, model.lag, response[1:])[1][:, ~row.still]
+        normal += white[1:] @ white[1:].T
+        moment += white[1:] @ np.clip(white[0], -ROBUST, ROBUST)
+    power = np.diag(np.maximum(np.diag(normal), np.finfo(float).tiny))
+    sizes = np.linalg.solve(normal + RIDGE * power, moment)
+    rows = zip(known, responses, strict=True)
+    return [replace(row, increments=row.increments - sizes @ response[1:]) for row, response in rows]
+
+
+def _list_torques(motion: MotionHistory, ks: float, angle: float) -> Floats:
+    """List torques [V], shape (S, 5): the friction of the model, then of unit size another friction, kv, gain, load."""
+    way = np.sign(motion.speed)
+    build_up = 2.0 * np.exp(-motion.travel / angle) if angle > 0.0 else 0.0
+    return np.stack([-ks * way, way * (1.0 - build_up), motion.speed, motion.voltage, np.ones_like(way)], axis=1)

@@ -1,0 +1,51 @@
+"""A friction that builds up after a reversal is told from a backlash by the motion that both were fitted to."""
+
+from functools import cache
+
+import pytest
+from plant import profiles, record
+
+from motor_identification.diagnose import fit_known
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_fit import refit_without
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.evidence.presliding_evidence import stands_in_for_presliding
+from motor_identification.diagnosis.selection import begin_beside_torque
+from motor_identification.estimation.request import Request
+from motor_identification.recording import check
+from motor_identification.validation.hold_out import make_hold_out
+
+PRESLIDING = {"ks": 0.4, "presliding_angle": 0.4}
+BACKLASH = {"ks": 0.4, "backlash_angle": 0.3, "load_fraction": 0.5}
+
+
+@cache
+def fitted(hidden: str) -> tuple[Model, Model]:
+    """A model with a friction and a backlash of a motor beside a random torque, and the one without the backlash."""
+    values = {"presliding": PRESLIDING, "backlash": BACKLASH}[hidden]
+    motor = {"kv": 0.07, "ka": 0.0055, "random_torque": 0.1, "random_torque_time": 0.05, "random_torque_seed": 3.0}
+    recording = check(
+        record(motor | values, *profiles.random(12.0, 12.0, 3), seed=3, irregularity=0.005, disc_seed=3)[0]
+    )
+    hold_out = make_hold_out([recording], [])
+    known, _search = fit_known([recording], Request(effects=("coulomb_friction", "backlash")), hold_out)
+    model = begin_beside_torque(known.model, known.hold_out, 1).model
+    return model, refit_without(model, "backlash", known.hold_out)
+
+
+@pytest.mark.parametrize(("hidden", "stands_in"), [("presliding", True), ("backlash", False)])
+def test_a_backlash_stands_in_for_a_friction_that_builds_up(hidden: str, stands_in: bool) -> None:
+    assert stands_in_for_presliding(*fitted(hidden)) is stands_in
+
+
+@pytest.mark.parametrize(("hidden", "low", "high"), [("presliding", 0.8, 2.0), ("backlash", -0.2, 0.2)])
+def test_the_limit_lies_far_from_both(monkeypatch: pytest.MonkeyPatch, hidden: str, low: float, high: float) -> None:
+    """What the friction gains, over what the backlash does: the limit of 0.4 is far from either."""
+    for limit, stands_in in ((low, True), (high, False)):
+        monkeypatch.setattr(thresholds, "PRESLIDING_SHARE", limit)
+        assert stands_in_for_presliding(*fitted(hidden)) is stands_in
+
+
+def test_both_are_judged_beside_the_torque_that_is_there() -> None:
+    model, without = fitted("backlash")
+    assert model.beside_torque and without.beside_torque and model.likelihood > without.likelihood + 50.0
