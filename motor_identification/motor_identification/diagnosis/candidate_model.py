@@ -191,7 +191,8 @@ class Model:
             history = make_history(recording, data, angle, *motor)
             speeds = data.speed + increments / data.duration  # of the model
             simulated = partial(make_history, recording, data, angle, *motor, speeds)
-            return Rest(make_error_data(data, increments), history, simulated, ~judged, judged)
+            errors, slot = make_error_data(data, increments), data.slot * data.gear if data.tells_of_disc else 0.0
+            return Rest(errors, history, simulated, ~judged, judged, slot)
 
         judged = held.scored
         if held.seen:  # by the fit, not by a curve

@@ -7,7 +7,7 @@ from math import log
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, find_lasting_interval
 from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
-from motor_identification.diagnosis.evidence.torque_evidence import measure_steadiness
+from motor_identification.diagnosis.evidence.torque_evidence import measure_speaking, measure_steadiness
 from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME, LAGS
 
@@ -48,7 +48,13 @@ class CandidateTest:
     @property
     def steadiness(self) -> float:
         """Evidence without the few moments that speak most for it, beside a random torque."""
-        return measure_steadiness(self.before.score.moments, self.model.score.moments)
+        return measure_steadiness(self.before.score.moments, self.model.score.moments, self._speaking)
+
+    @property
+    def _speaking(self) -> float:
+        """Share of the moments in which it can speak: what holds a motor at rest shows where it starts and stops."""
+        holds = EFFECT_BY_NAME[self.effect].holds
+        return measure_speaking(self.before.score.moments, self.model.score.moments) if holds else 1.0
 
     @property
     def explains(self) -> float:
@@ -98,7 +104,7 @@ class CandidateTest:
         # A slow torque, which most of the gap may be of, is another one beside what is fast or speaks for itself.
         free = EFFECT_BY_NAME[self.effect].periodic or said > likelihood_threshold()
         shrinks = self.model.held.gap <= self.held_before.gap * (thresholds.GAP_CHANCE if free else 1.0)
-        least = thresholds.RELEVANT_WHITE_SHARE * self.model.score.scored
+        least = thresholds.RELEVANT_WHITE_SHARE * self.model.score.scored * self._speaking
         return shrinks and said > 0.0 and (2.0 * self.steadiness > least or self.predicts)
 
 

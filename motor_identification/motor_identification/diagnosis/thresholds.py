@@ -95,9 +95,6 @@ LEAST_WAVES, MANY_WAVES = 4.0, 30.0
 CANDIDATE_EVALUATIONS, FINAL_EVALUATIONS = 40, 120
 # How often a model is fitted again from where the best finding leads, beside a random torque.
 VERIFICATIONS = 3
-# Times the standard deviation that random slots give to sine and cosine of their first harmonic, which an eccentricity
-# has to exceed: the amplitude has a Rayleigh distribution, beyond 5 with a chance of e^-12.5 = 4e-6.
-CHANCE_HARMONIC = 5.0
 # Cycles a turn, beside one: a torque so near to it is what such slots do, where they are likelier. Measured: 3e-5.
 ONCE_A_TURN = 0.05
 # Of a recording, from when its motor is first driven or moves: what begins within it is there from the start. Measured:

@@ -13,7 +13,6 @@ import numpy as np
 
 from motor_identification.discrepancy.free_curves import (
     FAMILIES,
-    HARMONICS,
     OF_ONE_RECORDING,
     OF_SPEED,
     Reach,
@@ -23,6 +22,7 @@ from motor_identification.discrepancy.free_curves import (
 from motor_identification.discrepancy.motion_history import MotionHistory
 from motor_identification.noise.error_data import ErrorData
 from motor_identification.noise.error_model import ErrorModel, Lag
+from motor_identification.noise.slots.first_harmonic import bound_chance_eccentricity
 from motor_identification.recording import Bools, Floats
 
 CERTAIN = log(len(FAMILIES) / 0.01)  # [nat] likelihood ratio that chance exceeds in 1 % of complete models (Markov)
@@ -58,6 +58,7 @@ class Rest:
     simulated: Callable[[], MotionHistory]  # with the model's speeds, which no random torque is in
     learnt: Bools  # intervals that curves may be learnt on
     judged: Bools  # others, that they are judged by
+    slot: float = 0.0  # [rad] of the encoder's disc; 0 where there is none
 
     @property
     def speeds(self) -> Floats:
@@ -103,7 +104,32 @@ def _to_judge(rest: Rest) -> Rest:
     return replace(rest, learnt=np.zeros_like(rest.learnt))
 
 
+@dataclass(frozen=True)
+class _Prediction:
+    """What curves predict on intervals that they have not seen."""
+
+    gain: float  # [nat] log likelihood ratio
+    white_power: float  # of the white residual, half its squares
+    before: float  # [rad²/s] squares of the mean speeds that are left, over time
+    after: float  # the same less what curves predict
+    floor: float  # of them, what the sensor leaves
+
+
 def _judge_family(name: str, rests: Sequence[Rest], reach: Reach, model: ErrorModel, lag: Lag) -> Structure:
+    """Judge a family; what it predicts of a disc's slots is the sensor's, however well it does."""
+    told = _predict(name, rests, reach, model, lag)
+    gain, explained = told.gain, told.before - told.after
+    if name == OVER_THE_DISC:
+        disc = _predict(name, [make_up_disc(rest, model) for rest in rests], reach, model, lag)
+        gain -= max(disc.gain, 0.0)
+        explained -= max(disc.before - disc.after, 0.0)
+    share = explained / (told.before - told.floor) if told.before > told.floor else 0.0
+    white_share = gain / told.white_power if told.white_power > 0.0 else 0.0
+    return Structure(name, max(share, white_share * LEAST_SHARE / LEAST_WHITE_SHARE), gain)
+
+
+def _predict(name: str, rests: Sequence[Rest], reach: Reach, model: ErrorModel, lag: Lag) -> _Prediction:
+    """Learn the knots of a family of curves, and predict what is left where they are judged."""
     normal: Floats = np.zeros((0, 0))
     moment: Floats = np.zeros(0)
     kept = []
@@ -116,7 +142,7 @@ def _judge_family(name: str, rests: Sequence[Rest], reach: Reach, model: ErrorMo
         speeds = (response / rest.errors.duration)[:, judged]
         kept.append((white[0, judged], white[1:, judged], rest.speeds[judged], speeds, rest, judged))
     knots = solve_ridge(normal, moment)
-    gain = white_power = white_disc = before = after = floor = disc = 0.0
+    gain = white_power = before = after = floor = 0.0
     for z, x, speed, response, rest, judged in kept:
         left = z - knots @ x
         gain += float(np.sum(_loss(z) - _loss(left)))
@@ -126,28 +152,20 @@ def _judge_family(name: str, rests: Sequence[Rest], reach: Reach, model: ErrorMo
         after += float(duration @ (speed - knots @ response) ** 2)
         sensor = rest.errors.blur[judged] ** 2 + (model.share * rest.errors.unit) ** 2
         floor += float(np.sum(2.0 * sensor / duration))
-        if name == OVER_THE_DISC:  # harmonics of its slots are the sensor's, however well they are predicted
-            part = share_of_disc(rest.errors.unit)
-            disc += part * float(np.sum(2.0 * (model.share * rest.errors.unit) ** 2 / duration))
-            white_disc += part * _measure_white_disc(rest.errors, model, lag, judged)
-    share = (before - after - disc) / (before - floor) if before > floor else 0.0
-    white_share = (gain - white_disc) / white_power if white_power > 0.0 else 0.0
-    return Structure(name, max(share, white_share * LEAST_SHARE / LEAST_WHITE_SHARE), gain)
+    return _Prediction(gain, white_power, before, after, floor)
 
 
-def _measure_white_disc(errors: ErrorData, model: ErrorModel, lag: Lag, judged: Bools) -> float:
-    """Measure what irregular slots alone leave of the white residual's power: a made-up disc's, through the filter."""
-    flanks = model.share * errors.unit * np.random.default_rng(0).standard_normal(len(judged) + 1)
-    _value, white = errors.whiten(model, lag, np.diff(flanks)[None])
-    return float(np.sum(_loss(white[1, judged])))
-
-
-def share_of_disc(slot: float) -> float:
-    """Compute the share of irregular slots' power that harmonics of the angle predict: they span so many of its modes.
-
-    slot: [rad].
-    """
-    return min(2.0 * HARMONICS * slot / tau, 1.0)
+def make_up_disc(rest: Rest, model: ErrorModel) -> Rest:
+    """Make up what a disc leaves that is as irregular as a model's, and as eccentric as chance may have it at most."""
+    errors, history = rest.errors, rest.history
+    if rest.slot == 0.0:
+        return replace(rest, errors=replace(errors, increments=np.zeros_like(errors.increments)))
+    count = max(round(tau / rest.slot), 1)
+    flanks = model.share * errors.unit * np.random.default_rng(0).standard_normal(count)
+    ends = np.append(history.angle, history.angle[-1:])  # to half a segment
+    wave = bound_chance_eccentricity(rest.slot, model.share) * errors.unit / rest.slot * np.sin(ends)
+    error = flanks[np.rint(ends / rest.slot).astype(np.int64) % count] + wave
+    return replace(rest, errors=replace(errors, increments=error[history.at_end] - error[history.at_start]))
 
 
 def _loss(white: Floats) -> Floats:

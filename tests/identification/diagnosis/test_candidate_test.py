@@ -68,14 +68,14 @@ def test_beside_a_torque_a_gap_may_grow_by_chance_where_held_out_motion_speaks_f
 @pytest.mark.parametrize(
     ("effect", "falls", "likely"),
     [
-        ("coulomb_friction", 0.999, True),
-        ("coulomb_friction", 1.001, False),
+        ("quadratic_drag", 0.999, True),
+        ("quadratic_drag", 1.001, False),
         ("load_step", 0.5, False),  # which are fitted to a slow torque
         ("torque_ripple", 0.5, False),
     ],
 )
 def test_what_takes_away_much_of_the_gap_need_not_speak_all_the_time(effect: str, falls: float, likely: bool) -> None:
-    """Beside a torque: a friction between a few steps one way speaks in the few moments in which they change."""
+    """Beside a torque: what bends the motion between a few steps one way speaks in the moments in which they change."""
     before = beside_torque(2.0, -100.0)
     model = beside_torque(2.0 * thresholds.PREDICTING_GAP * falls, -90.0)
     few = np.zeros(200)

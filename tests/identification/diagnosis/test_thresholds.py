@@ -1,7 +1,7 @@
 """Every threshold of the diagnosis decides: just on one side of it, and just on the other."""
 
 from dataclasses import replace
-from math import log, sqrt, tau
+from math import log, sqrt
 from typing import cast
 
 import numpy as np
@@ -20,7 +20,6 @@ from motor_identification.diagnosis.effect_test import (
     choose_finding,
     find_rivals,
 )
-from motor_identification.diagnosis.evidence.line_evidence import is_beyond_chance
 from motor_identification.recording import Recording
 from motor_model.effects import EFFECTS
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
@@ -197,17 +196,6 @@ def test_a_gap_must_not_grow() -> None:
     before = stub_model(5.0, 2.0)
     assert stub_test("load_bias", before, 4.999, 100.0, LASTING_FLOOR).relevant
     assert not stub_test("load_bias", before, 5.0, 100.0, LASTING_FLOOR).relevant
-
-
-@SIDES
-def test_chance_harmonic(times: float, passes: bool) -> None:
-    """Measured on random discs of 96 slots, the standard deviation of the first harmonic's sine and cosine."""
-    slot, share = tau / 96, 0.01
-    discs = np.random.default_rng(0).normal(0.0, share * slot, (2000, 96))
-    waves = discs @ np.exp(1j * slot * np.arange(96)) * 2.0 / 96
-    chance = share * slot * sqrt(2.0 / 96)
-    assert np.std([waves.real, waves.imag]) == pytest.approx(chance, rel=0.03)
-    assert is_beyond_chance(times * thresholds.CHANCE_HARMONIC * chance, slot, share) is passes
 
 
 @SIDES

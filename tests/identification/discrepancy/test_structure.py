@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from math import tau
+from types import SimpleNamespace
 from typing import cast
 
 import numpy as np
@@ -19,8 +20,8 @@ from motor_identification.discrepancy.structure import (
     Rest,
     Structure,
     find_structure,
+    make_up_disc,
     rank,
-    share_of_disc,
     solve_ridge,
 )
 from motor_identification.estimation.global_search import search_globally
@@ -28,6 +29,7 @@ from motor_identification.estimation.multistart import SearchConfig
 from motor_identification.estimation.problem import make_problem
 from motor_identification.noise.error_data import ErrorData
 from motor_identification.noise.error_model import ErrorModel, Lag
+from motor_identification.noise.slots.first_harmonic import bound_chance_eccentricity
 from motor_identification.recording import check
 from motor_identification.validation.hold_out import make_hold_out
 
@@ -92,9 +94,34 @@ def test_time_comes_first_only_where_no_motion_tells_half_as_much(motion: float,
     assert ranked[-1].variable == ("past" if motion < LEAST_SHARE else "angle")
 
 
-def test_harmonics_of_the_angle_predict_a_third_of_96_irregular_slots() -> None:
-    assert share_of_disc(tau / 96) == pytest.approx(1.0 / 3.0)
-    assert share_of_disc(tau / 8) == 1.0
+@pytest.mark.parametrize(("angle_friction", "certain"), [(0.6, True), (0.0, False)])
+def test_a_friction_over_the_angle_is_told_from_a_disc_beside_a_strong_torque(
+    angle_friction: float, certain: bool
+) -> None:
+    """Beside a torque of 2.5 % of the supply it is a few per cent of what is left, and a tenth of what is white."""
+    model = fitted({"ks": 0.45, "angle_friction": angle_friction}, ("coulomb_friction",), torque=0.3)
+    assert [one.variable for one in model.structure if one.certain] == (["angle"] if certain else [])
+    (told,) = (one.significance for one in model.structure if one.variable == "angle")
+    assert (told > 10.0 * CERTAIN) is certain and told < 60.0 * CERTAIN
+
+
+@pytest.mark.parametrize("slot", [tau / 96, 0.0])
+def test_a_made_up_disc_errs_by_its_share_turn_by_turn(slot: float) -> None:
+    count, share = 960, 0.01
+    angle = (np.arange(count) + 0.2) * tau / 96
+    history = SimpleNamespace(angle=angle, at_start=np.arange(count), at_end=np.arange(1, count + 1))
+    errors = ErrorData(*(np.zeros(count),) * 6, tau / 96, 0.0, np.ones(count), np.ones(count, dtype=bool))  # type: ignore[arg-type]
+    rest = Rest(
+        errors, cast(MotionHistory, history), lambda: cast(MotionHistory, history), *(np.ones(1, bool),) * 2, slot
+    )
+    made = make_up_disc(rest, ErrorModel(share, 0.0, 0.0, 1.0)).errors.increments
+    if slot == 0.0:
+        assert not np.any(made)
+        return
+    assert made[:96] == pytest.approx(made[96:192], abs=1e-12)
+    assert 0.8 < np.std(made) / (np.sqrt(2.0) * share * slot) < 1.2
+    wave = 2.0 / 96 * abs(np.cumsum(made[:96]) @ np.exp(1j * angle[:96]))
+    assert 0.3 < wave / bound_chance_eccentricity(slot, share) < 1.7
 
 
 @pytest.mark.parametrize("scale", [0.0, 0.3])
@@ -108,10 +135,11 @@ def test_ridge_finds_what_is_there_and_nothing_else(scale: float) -> None:
 
 
 @pytest.mark.parametrize(("slew", "random"), [(0.0, True), (150.0, False)])
-def test_a_torque_that_would_leave_much_more_is_no_description(slew: float, random: bool) -> None:
+def test_what_a_stand_in_leaves_is_no_random_torque(slew: float, random: bool) -> None:
     """A bridge that slews, which an inductance stands in for, leaves rare large errors and nothing between them."""
     model = fitted({"slew_rate": slew} if slew else {}, ("armature_inductance",), torque=0.0 if slew else 0.1)
-    assert model.is_random == random == model.complete
+    assert model.complete is random
+    assert any(one.certain for one in model.structure) is not random
 
 
 @pytest.mark.parametrize(("simulated", "certain"), [(0.0, False), (200.0, True)])

@@ -1,11 +1,12 @@
 """Judge a line in a spectrum over the angle: random slots have a first harmonic by chance, slow torques a few waves."""
 
 from collections.abc import Sequence
-from math import inf, sqrt, tau
+from math import inf
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.noise.slots.first_harmonic import bound_chance_eccentricity
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -30,15 +31,7 @@ def _is_by_random_slots(test: CandidateTest) -> bool:
     size = _fitted(test.model, EFFECT_BY_NAME[test.effect].parameters[0].name)
     slot = max(data.slot * data.gear for data in test.model.estimate.problem.intervals)  # of the encoder's shaft
     share = test.model.noise.share if test.model.learned is None else test.model.learned.share
-    return size is not None and not is_beyond_chance(size, slot, share)
-
-
-def is_beyond_chance(eccentricity: float, slot: float, share: float) -> bool:
-    """Decide whether an eccentricity [rad] is beyond the first harmonic of slots [rad] that are random by a share.
-
-    Of N = 2π/slot independent offsets of standard deviation σ, sine and cosine of a harmonic have the variance 2σ²/N.
-    """
-    return eccentricity > thresholds.CHANCE_HARMONIC * share * slot * sqrt(2.0 * slot / tau)
+    return size is not None and size <= bound_chance_eccentricity(slot, share)
 
 
 def _is_once_a_turn(test: CandidateTest) -> bool:

@@ -84,10 +84,18 @@ def _moment_of(data: Intervals) -> Integers:
     return np.asarray(np.clip((share * MOMENTS).astype(np.int64), 0, MOMENTS - 1))
 
 
-def measure_steadiness(before: Floats, after: Floats) -> float:
+def measure_steadiness(before: Floats, after: Floats, speaking: float = 1.0) -> float:
     """Measure by how much the log likelihood rises without the few moments (M,) that speak most for the rise.
 
     A restart that is met by luck is worth tens of nats, and there are few of them; what is there speaks all the time.
+    speaking: the share of the moments in which it can.
     """
     gains = np.sort(after - before)
-    return float(gains[: len(gains) - ceil(FEW * len(gains))].sum())
+    return float(gains[: len(gains) - ceil(FEW * speaking * len(gains))].sum())
+
+
+def measure_speaking(before: Floats, after: Floats) -> float:
+    """Measure the share of moments (M,) in which two models differ, by their effective number (Σ|g|)²/Σg²."""
+    gains = np.abs(after - before)
+    power = float(np.sum(gains**2)) * len(gains)
+    return float(np.sum(gains)) ** 2 / power if power > 0.0 else 1.0

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from diagnosed import fitted, with_effect
-from stub_models import rescored
+from stub_models import rescored, stub_model
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
@@ -15,6 +15,7 @@ from motor_identification.diagnosis.disturbed_fit import list_error_data
 from motor_identification.diagnosis.evidence.torque_evidence import (
     MOMENTS,
     mark_common_set,
+    measure_speaking,
     measure_steadiness,
     score_held_out,
     score_training,
@@ -61,6 +62,26 @@ def test_what_a_few_moments_say_is_no_evidence() -> None:
     assert measure_steadiness(nothing, np.full(120, -0.5)) == pytest.approx(-57.0)
 
 
+def test_what_can_speak_in_few_moments_is_judged_by_those() -> None:
+    """A breakaway that shows in seven of 120 moments loses one of them, not six."""
+    nothing, seven = np.zeros(120), np.append(np.full(7, 20.0), np.zeros(113))
+    assert measure_speaking(nothing, seven) == pytest.approx(7.0 / 120.0)
+    assert measure_speaking(nothing, nothing + 1.0) == pytest.approx(1.0)
+    assert measure_speaking(nothing, nothing) == 1.0
+    assert measure_steadiness(nothing, seven, 7.0 / 120.0) == 120.0
+    once = np.append(20.0, np.zeros(119))
+    assert measure_steadiness(nothing, once, measure_speaking(nothing, once)) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("effect", "steadiness"), [("static_friction", 120.0), ("dead_zone", 120.0), ("load_bias", 20.0)]
+)
+def test_what_holds_a_motor_speaks_where_it_starts(effect: str, steadiness: float) -> None:
+    moments = np.append(np.full(7, 20.0), np.zeros(113))
+    before = rescored(stub_model(1.0), moments=np.zeros(120))
+    assert CandidateTest(effect, before, rescored(before, moments=moments)).steadiness == steadiness
+
+
 def judged(**hidden: float) -> tuple[Model, Model]:
     """The motor without and with friction, beside a random torque."""
     estimate, hold_out = fitted(**hidden)
@@ -85,11 +106,11 @@ def test_what_matters_is_a_share_of_the_white_residual_and_shows_on_held_out_mot
 ) -> None:
     estimate, hold_out = fitted()
     least = times * 0.5 * thresholds.RELEVANT_WHITE_SHARE * 2000
-    moments = np.append(np.full(95, least / 95.0), np.full(5, least))  # the five are left out
+    moments = np.append(np.full(95, least / 95.0), np.full(5, least))  # the five are left out of what may always speak
     model = validate_model(hold_out, estimate)
     before = replace(model, learned=ERRORS, score=Score(0.0, scored=2000, moments=0.0 * moments))
     after = rescored(before, likelihood=6.0 * least, held_out=held, moments=moments)
-    assert CandidateTest("coulomb_friction", before, after).relevant == relevant
+    assert CandidateTest("quadratic_drag", before, after).relevant == relevant
 
 
 @pytest.mark.parametrize(("steady", "likely"), [(9.9, False), (10.1, True)])
@@ -98,4 +119,4 @@ def test_an_effect_is_likely_without_the_best_moments_too(steady: float, likely:
     moments = np.append(np.full(95, steady / 95.0), np.full(5, 50.0))
     before = replace(validate_model(hold_out, estimate), learned=ERRORS, score=Score(0.0, moments=0.0 * moments))
     after = rescored(before, likelihood=250.0 + steady, moments=moments)
-    assert CandidateTest("coulomb_friction", before, after).is_likely(10.0) == likely
+    assert CandidateTest("quadratic_drag", before, after).is_likely(10.0) == likely
