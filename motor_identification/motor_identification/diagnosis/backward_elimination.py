@@ -142,7 +142,7 @@ def _list_rivals(tests: Sequence[CandidateTest], effect: str, current: Model) ->
     alike = [
         test.effect
         for test in tests
-        if find_loss(test, effect, current) < thresholds.RIVAL_MARGIN or are_alike(test.model, current)
+        if find_loss(test, current) < thresholds.RIVAL_MARGIN or are_alike(test.model, current)
     ]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
 

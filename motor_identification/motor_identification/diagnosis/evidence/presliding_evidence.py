@@ -43,9 +43,15 @@ def stands_in_for_presliding(current: Model, without: Model) -> bool:
     without: the model that lacks the backlash.
     """
     rests = _list_rests(without)
-    before = _score(without, _refit(without, rests, 0.0))
-    backlash = _score(current, _refit(current, _list_rests(current), 0.0)) - before
+    before = _score_refitted(without, rests)
+    backlash = _score_refitted(current, _list_rests(current)) - before
     return _score(without, _refit_presliding(without, rests)) - before > thresholds.PRESLIDING_SHARE * backlash
+
+
+def _score_refitted(model: Model, rests: Sequence[_Rest]) -> float:
+    """Compute the log likelihood of what a model leaves, refitted where that is likelier: standstills are not linear."""
+    own = log_likelihood([rest.errors for rest in rests], model.errors, model.lag)
+    return max(own, _score(model, _refit(model, rests, 0.0)))
 
 
 def _score(model: Model, left: Sequence[ErrorData]) -> float:

@@ -6,6 +6,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.effect_test import EFFECT_ORDER, count_parameters
+from motor_identification.diagnosis.evidence.torque_evidence import measure_steadiness
 
 
 def choose_better(tests: Sequence[CandidateTest], effect: str, current: Model) -> CandidateTest | None:
@@ -28,7 +29,7 @@ def is_better(test: CandidateTest, effect: str, current: Model) -> bool:
     """
     if count_parameters(test.effect) >= count_parameters(effect):
         return current.likelihood - test.model.likelihood < -thresholds.RIVAL_MARGIN
-    return find_loss(test, effect, current) < thresholds.RIVAL_MARGIN or is_same_motion(test.model, current)
+    return find_loss(test, current) < thresholds.RIVAL_MARGIN or is_same_motion(test.model, current)
 
 
 def is_same_motion(one: Model, other: Model) -> bool:
@@ -42,13 +43,13 @@ def is_same_motion(one: Model, other: Model) -> bool:
     return apart < (thresholds.SAME_MOTION * other.floor) ** 2
 
 
-def find_loss(test: CandidateTest, effect: str, current: Model) -> float:
-    """Find what a test's model loses of log likelihood beside the current one, which has an effect instead.
+def find_loss(test: CandidateTest, current: Model) -> float:
+    """Find what a test's model loses of log likelihood beside the current one, which has another effect instead.
 
     Beside a random torque not counting the few moments that speak most against it, unless it predicts far worse: a
     slow torque does in one moment what a load step does.
     """
     loss = current.likelihood - test.model.likelihood
-    if test.model.held.gap > thresholds.WORSE_GAP * current.held.gap:
+    if not current.beside_torque or test.model.held.gap > thresholds.WORSE_GAP * current.held.gap:
         return loss
-    return min(loss, CandidateTest(effect, test.model, current).steadiness) if current.beside_torque else loss
+    return min(loss, measure_steadiness(test.model.score.moments, current.score.moments))

@@ -71,4 +71,4 @@ def test_a_few_moments_count_where_what_replaces_predicts_worse(times: float, fe
 
     current = model(1.0, 100.0, moments)
     test = CandidateTest("load_bias", current, model(times * thresholds.WORSE_GAP, 0.0, np.zeros(60)))
-    assert find_loss(test, "load_step", current) == (0.0 if few else 100.0)
+    assert find_loss(test, current) == (0.0 if few else 100.0)
