@@ -53,8 +53,8 @@ def run(fault: Fault, motor: Motor, rate: float, model: bool) -> Outcome:
     begin = loop.time
     if not fault.at_start:
         loop.run(AT_REFERENCE)
-        begin = loop.time
         fault.apply(loop)
+        begin = loop.time  # a fault that comes in two steps lets time pass
     loop.run(AFTER)
     return outcome(loop.moments, begin)
 

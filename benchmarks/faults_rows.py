@@ -12,6 +12,7 @@ from motor_control.controller import controller
 from motor_model.effects import INDEX
 
 TREMBLE = 0.001  # of a period, 1 σ, of hum
+SECOND, ASLEEP = 0.6, 2.0  # of the voltage, that another sender sends; [s]
 KNOWN, MOTION = 0.15, 0.5  # [s] from when it could be known, and where only motion can tell
 
 
@@ -146,6 +147,29 @@ def send_nonsense(loop: Loop) -> None:
     loop.raw = nan
 
 
+def end_first_sender(loop: Loop) -> None:
+    """Another sender, which was left aside for a second, goes on where the first one ends."""
+    loop.second = -SECOND * loop.motor.voltage
+    loop.run(1.0)
+    loop.raw, loop.alive = None, False
+
+
+def lose_link(loop: Loop) -> None:
+    """The network between sender and plant is away for a while, and comes back; the sender has gone on."""
+    loop.deaf = True
+    loop.run(ASLEEP)
+    loop.deaf = False
+
+
+def suspend(loop: Loop) -> None:
+    """The controller's computer is suspended for two seconds, and the plant, on another one, goes on."""
+    loop.alive = False
+    loop.run(ASLEEP)
+    loop.asleep += ASLEEP - 1.0 / loop.rate
+    loop.alive = True
+    loop.drop_samples()
+
+
 def second_plant(loop: Loop) -> None:
     """Another plant speaks on the same topic, of a motor that stands."""
     sample = loop.board.sample(loop.moments[-1].voltage)
@@ -203,6 +227,9 @@ FAULTS = (
     Fault("speed is not a number", KNOWN, go_wrong),
     Fault("speed is not a number in every other sample, cable off", KNOWN, go_wrong_now_and_then),
     Fault("voltage is not a number", KNOWN, send_nonsense),
+    Fault("two senders of motor/voltage, the first ends", KNOWN, end_first_sender, raw=0.6),
+    Fault("the link of a sender of motor/voltage was away for 2 s, and is back", KNOWN, lose_link, raw=0.6),
+    Fault("the controller's computer was suspended, and wakes up", KNOWN, suspend),
     Fault("a second plant on the topic", KNOWN, second_plant),
     Fault("plant restarted under a held reference", KNOWN, restart),
     Fault("plain voltage, plant restarted", KNOWN, restart, raw=0.6),
