@@ -74,7 +74,7 @@ def row(name: str, most: float, cells: list[Cell]) -> tuple[str, bool]:
 def simulated() -> Iterable[tuple[str, bool]]:
     """The rows of the simulated plant."""
     for fault in FAULTS:
-        for model in (False, True) if fault.controlled else (False,):
+        for model in fault.models if fault.controlled else (False,):
             cells = [Cell(m, tuple(run(fault, m, rate, model) for rate in RATES)) for m in MOTORS]
             name = fault.name + (", with a model" if model else "")
             yield row(name, fault.most, cells)

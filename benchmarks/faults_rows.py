@@ -31,6 +31,8 @@ class Fault:
     edges: int = 96  # a turn
     mains: float = 0.0  # of the edges that are wanted, that hum of the mains makes; the disc is one of which it does
 
+    models: tuple[bool, ...] = (False, True)  # with which the controller runs
+
     @property
     def controlled(self) -> bool:
         """Whether the controller drives the motor."""
@@ -93,6 +95,11 @@ def go_wrong_now_and_then(loop: Loop) -> None:
     """The speed is not a number in every other sample, and no edge comes."""
     off, wrong = CableOff(), NowAndThen()
     loop.line = lambda sample: wrong(off(sample))
+
+
+def stamp_by_another_clock(loop: Loop) -> None:
+    """The driver stamps edges by another clock than samples."""
+    loop.line = lambda sample: replace(sample, edge_time=sample.edge_time + 10**12)
 
 
 def shake(loop: Loop) -> None:
@@ -215,6 +222,7 @@ FAULTS = (
     ),
     Fault("hum of the mains from the start", MOTION, pick_up_mains, mains=0.75, at_start=True),
     Fault("the driver repeats one sample, at 3 % of the top speed", MOTION, repeat, reference=0.03),
+    Fault("edges are stamped by another clock than samples", MOTION, stamp_by_another_clock, models=(True,)),
     Fault("shaft blocked", MOTION, block),
     Fault("two channels exchanged", MOTION, swap, two_channels=True),
     Fault("two channels exchanged at 5 % of the top speed", MOTION, swap, reference=0.05, two_channels=True),
