@@ -1,7 +1,8 @@
 """Every fault that has to stop the motor, injected: time to 0 V at the pins, largest speed and voltage until then.
 
 On the simulated plant with motors of 6, 30, 174 and 600 rad/s at 12 V and of 174 rad/s at 1.2 and 48 V, at 200 Hz and
-1 kHz, with the controller's measured speed and with a model; and on the emulated board with the real firmware.
+1 kHz, with the controller's measured speed and with a model; on the emulated board with the real firmware; and between
+running programs.
 """
 
 import argparse
@@ -13,6 +14,7 @@ from pathlib import Path
 from faults_board import BOARD_FAULTS, run_on_board
 from faults_encoders import encoders
 from faults_limits import limits
+from faults_live import HEAD, live
 from faults_loop import Loop, Outcome, outcome
 from faults_motor import MOTORS, Motor
 from faults_rows import FAULTS, Fault
@@ -53,8 +55,8 @@ def run(fault: Fault, motor: Motor, rate: float, model: bool) -> Outcome:
     begin = loop.time
     if not fault.at_start:
         loop.run(AT_REFERENCE)
-        begin = loop.time
         fault.apply(loop)
+        begin = loop.time  # a fault that comes in two steps lets time pass
     loop.run(AFTER)
     return outcome(loop.moments, begin)
 
@@ -74,7 +76,7 @@ def row(name: str, most: float, cells: list[Cell]) -> tuple[str, bool]:
 def simulated() -> Iterable[tuple[str, bool]]:
     """The rows of the simulated plant."""
     for fault in FAULTS:
-        for model in (False, True) if fault.controlled else (False,):
+        for model in fault.models if fault.controlled else (False,):
             cells = [Cell(m, tuple(run(fault, m, rate, model) for rate in RATES)) for m in MOTORS]
             name = fault.name + (", with a model" if model else "")
             yield row(name, fault.most, cells)
@@ -104,16 +106,18 @@ def known() -> Iterable[tuple[str, bool]]:
             yield line, "**no**" not in line
 
 
-def page(board: list[tuple[str, bool]]) -> str:
-    """The whole page; the sentences around the tables stand in `faults_page.md`."""
-    sim = list(simulated())
-    met = [ok for _, ok in sim + board]
+def page(board: list[tuple[str, bool]], of_board: str) -> str:
+    """The whole page; the sentences around the tables stand in `faults_page.md`; of_board: what its rows are of."""
+    between, sim = live(), list(simulated())
+    met = [ok for _, ok in sim + board + between]
     return TEMPLATE.read_text(encoding="utf-8").format(
         commit=commit(),
         machine=machine(),
         met=sum(met),
         count=len(met),
         simulated=table(MOTORS, (line for line, _ in sim)),
+        of_board=of_board,
+        live="\n".join([HEAD, *(line for line, _ in between)]),
         emulated=table(BOARD_MOTORS, (line for line, _ in board)),
         encoders="\n".join(encoders()),
         limits="\n".join(limits()),
@@ -124,8 +128,11 @@ def main() -> int:
     """Write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--simulated", action="store_true", help="the emulated board's rows stay as they are")
-    board = list(known() if parser.parse_args().simulated else emulated())
-    (RESULTS / "faults.md").write_text(page(board), encoding="utf-8")
+    if parser.parse_args().simulated:
+        board, of_board = list(known()), "`--simulated`: these rows are those of the page before."
+    else:
+        board, of_board = list(emulated()), ""
+    (RESULTS / "faults.md").write_text(page(board, of_board), encoding="utf-8")
     print(RESULTS / "faults.md")
     return 0
 

@@ -87,6 +87,11 @@ def exchange_channels(loop: BoardLoop) -> None:
     loop.emulator.shaft.plan = other  # type: ignore[method-assign]
 
 
+def hold_back(loop: BoardLoop) -> None:
+    """The link loses nothing, and is late by half of the time since then, up to 1 s, either way."""
+    loop.holds_back = loop.time
+
+
 BOARD_FAULTS = (
     BoardFault("controller killed", KNOWN, kill_controller),
     BoardFault("driver killed", KNOWN, kill_driver),
@@ -94,6 +99,8 @@ BOARD_FAULTS = (
     BoardFault("driver started again under a plain voltage", KNOWN, restart_driver, raw=0.6),
     BoardFault("plug pulled", KNOWN, unplug),
     BoardFault("no telemetry", KNOWN, stick),
+    BoardFault("the link holds bytes back, up to 1 s", MOTION, hold_back),
+    BoardFault("the link holds bytes back, up to 1 s, plain voltage", MOTION, hold_back, raw=0.6),
     BoardFault("firmware hangs", KNOWN, hang),
     BoardFault("board reset", KNOWN, press_reset),
     BoardFault("encoder's cable off", MOTION, cable_off()),

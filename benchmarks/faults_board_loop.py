@@ -3,6 +3,7 @@
 The pins of the emulated chip are looked at on its own clock. The port is looked at every quarter of a millisecond.
 """
 
+from collections import deque
 from dataclasses import dataclass, field
 
 from faults_loop import DEFAULTS, TIMEOUT, Moment
@@ -19,6 +20,7 @@ from motor_driver.driver import Driver
 from motor_ros.gate import Gate
 
 LOOK = FREQUENCY // 4000  # [cycle]
+MOST_LATE = 1.0  # [s]
 REPEAT = 0.01  # [s] the driver's own timer
 
 
@@ -35,6 +37,7 @@ class BoardLoop:
     driving: bool = True  # the driver
     plugged: bool = True
     stuck: bool = False  # telemetry
+    holds_back: float | None = None  # [s] since when the link hands bytes on later and later
     raw: float | None = None  # [V] sent in the controller's place
     reference: float | None = None  # [rad/s] to be sent once
     moments: list[Moment] = field(default_factory=list)
@@ -45,6 +48,8 @@ class BoardLoop:
         encoder = EncoderConfig(seed=3, channels=self.channels, slot_irregularity=0.01)
         self.emulator = Emulator(firmware(build), self.motor.parameters(self.supply), encoder)
         self.emulator.chip.supply(5.0 * self.supply / 60.0)
+        self._in: deque[tuple[float, bytes]] = deque()  # [s] when each is handed on
+        self._out: deque[tuple[float, bytes]] = deque()
         self.start()
         self.state, self._reason, self._sent, self._worked = controller.State(), "", 0, 0.0
 
@@ -72,11 +77,21 @@ class BoardLoop:
 
     def _step(self) -> None:
         self.emulator.run(self.emulator.chip.cycle + LOOK)
-        data = self.emulator.chip.drain()
+        data = self._pass_on(self._in, self.emulator.chip.drain())
         if self.driving:
             self._drive(b"" if self.stuck or not self.plugged else data)
         shaft, said = self.emulator.shaft, self.gate.problem(self._now) or self._reason
         self.moments.append(Moment(self.time, shaft.voltage, shaft.speed, said))
+        if late := self._pass_on(self._out, b""):
+            self.emulator.chip.feed(late)
+
+    def _pass_on(self, line: deque[tuple[float, bytes]], data: bytes) -> bytes:
+        """Bytes go onto a line of the link: those that it hands on now."""
+        if self.holds_back is None:
+            return data
+        if data:
+            line.append((self.time + min(0.5 * (self.time - self.holds_back), MOST_LATE), data))
+        return b"".join(line.popleft()[1] for _ in range(len(line)) if line[0][0] <= self.time)
 
     def _drive(self, data: bytes) -> None:
         readings = self.driver.received(data, self._now) if data and self.driver.session else []
@@ -92,7 +107,7 @@ class BoardLoop:
         if order.stop:
             self.gate = self.gate.stop(order.stop)
         if self.plugged:
-            self.emulator.chip.feed(order.data)
+            self.emulator.chip.feed(self._pass_on(self._out, order.data))
 
     def _answer(self, sample) -> None:  # type: ignore[no-untyped-def]
         if self.raw is not None:

@@ -122,7 +122,7 @@ def rows() -> tuple[list[str], list[Answer]]:
     """The rows of the faults that only motion tells and that are late in a cell, and all answers."""
     lines, answers = [], []
     for fault in filter(is_of_the_line, FAULTS):
-        for model in (False, True) if fault.controlled else (False,):
+        for model in fault.models if fault.controlled else (False,):
             cells = [ask(fault, motor, model) for motor in MOTORS[:4]]
             answers += cells
             if any(cell.told > MOTION for cell in cells):

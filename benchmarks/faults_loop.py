@@ -58,11 +58,14 @@ class Loop:
     measured: bool = False  # the supply, which nobody has said
     goes_on: float | None = None  # [rad/s] somebody answers every stop at once, and asks for this
     alternate: bool = False  # somebody asks for an angle before every other sample, and for the speed before the others
+    second: float | None = None  # [V] that another sender sends beside the first one
+    deaf: bool = False  # no voltage reaches the plant, and who sends does not know
+    asleep: float = 0.0  # [s] for which the controller's computer, and its clock, has stood still in all
 
     def __post_init__(self) -> None:
         known = self.supply if not self.measured else 0.0
         self.limit = min(self.motor.voltage, known or self.motor.voltage)
-        self._samples = self._commands = 0
+        self._samples = self._commands = self._others = 0
         self.come_up()
         parameters = self.motor.parameters(self.supply)
         info = replace(self._board_config.info(parameters), max_voltage=self.limit)
@@ -102,6 +105,10 @@ class Loop:
         for _ in range(round(seconds * self.rate)):
             self._step()
 
+    def drop_samples(self) -> None:
+        """Let the controller hear none of the samples that wait: its topic keeps the newest one."""
+        self._queue.clear()
+
     def _step(self) -> None:
         voltage = min(max(self.gate.voltage(self._now), -self.limit), self.limit)
         true = self.board.sample(voltage)
@@ -117,11 +124,15 @@ class Loop:
             self._reason = ""
         elif self.alive:
             self._control()
+        if self.second is not None:
+            self._others += 1
+            self.gate = self.gate.take(self.second, self._now, "", self._others)
         said = self.gate.problem(self._now) or self._reason
         self.moments.append(Moment(self.time, true.voltage, self.board.speed, said))
         self._samples += 1
 
     def _control(self) -> None:
+        awake = self.time - self.asleep  # [s] on the clock of its computer
         came = [self._queue.popleft()[1] for _ in range(len(self._queue)) if self._queue[0][0] <= self.time + 1e-9]
         if self.rival is not None:
             self.rival = replace(self.rival, sample_time=self.rival.sample_time + round(1e9 / self.rate))
@@ -130,11 +141,11 @@ class Loop:
             fresh, self.reference = self.reference, None
             if self.alternate:
                 fresh = self._ask_in_turn()
-            output, self.state = controller.update(self.config, self.state, sample, fresh, self.time)
+            output, self.state = controller.update(self.config, self.state, sample, fresh, awake)
             self._reason = output.reason if output.state != "running" else ""
             if output.drives:
                 self._command(output.terms.voltage)
-        output, self.state = controller.watch(self.config, self.state, self.time)  # type: ignore[assignment]
+        output, self.state = controller.watch(self.config, self.state, awake)  # type: ignore[assignment]
         if output is not None:
             self._reason = output.reason
             if output.drives:
@@ -157,6 +168,8 @@ class Loop:
 
     def _command(self, voltage: float) -> None:
         self._commands += 1
+        if self.deaf:
+            return
         self.gate = self.gate.take(voltage, self._now, "", self._commands)
 
 

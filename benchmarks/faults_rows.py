@@ -12,6 +12,7 @@ from motor_control.controller import controller
 from motor_model.effects import INDEX
 
 TREMBLE = 0.001  # of a period, 1 σ, of hum
+SECOND, ASLEEP = 0.6, 2.0  # of the voltage, that another sender sends; [s]
 KNOWN, MOTION = 0.15, 0.5  # [s] from when it could be known, and where only motion can tell
 
 
@@ -29,6 +30,8 @@ class Fault:
     at_start: bool = False  # it is there before the reference comes
     edges: int = 96  # a turn
     mains: float = 0.0  # of the edges that are wanted, that hum of the mains makes; the disc is one of which it does
+
+    models: tuple[bool, ...] = (False, True)  # with which the controller runs
 
     @property
     def controlled(self) -> bool:
@@ -94,6 +97,11 @@ def go_wrong_now_and_then(loop: Loop) -> None:
     loop.line = lambda sample: wrong(off(sample))
 
 
+def stamp_by_another_clock(loop: Loop) -> None:
+    """The driver stamps edges by another clock than samples."""
+    loop.line = lambda sample: replace(sample, edge_time=sample.edge_time + 10**12)
+
+
 def shake(loop: Loop) -> None:
     """Something holds the shaft, and the voltage turns to and fro."""
     block(loop)
@@ -146,6 +154,29 @@ def send_nonsense(loop: Loop) -> None:
     loop.raw = nan
 
 
+def end_first_sender(loop: Loop) -> None:
+    """Another sender, which was left aside for a second, goes on where the first one ends."""
+    loop.second = -SECOND * loop.motor.voltage
+    loop.run(1.0)
+    loop.raw, loop.alive = None, False
+
+
+def lose_link(loop: Loop) -> None:
+    """The network between sender and plant is away for a while, and comes back; the sender has gone on."""
+    loop.deaf = True
+    loop.run(ASLEEP)
+    loop.deaf = False
+
+
+def suspend(loop: Loop) -> None:
+    """The controller's computer is suspended for two seconds, and the plant, on another one, goes on."""
+    loop.alive = False
+    loop.run(ASLEEP)
+    loop.asleep += ASLEEP - 1.0 / loop.rate
+    loop.alive = True
+    loop.drop_samples()
+
+
 def second_plant(loop: Loop) -> None:
     """Another plant speaks on the same topic, of a motor that stands."""
     sample = loop.board.sample(loop.moments[-1].voltage)
@@ -191,6 +222,7 @@ FAULTS = (
     ),
     Fault("hum of the mains from the start", MOTION, pick_up_mains, mains=0.75, at_start=True),
     Fault("the driver repeats one sample, at 3 % of the top speed", MOTION, repeat, reference=0.03),
+    Fault("edges are stamped by another clock than samples", MOTION, stamp_by_another_clock, models=(True,)),
     Fault("shaft blocked", MOTION, block),
     Fault("two channels exchanged", MOTION, swap, two_channels=True),
     Fault("two channels exchanged at 5 % of the top speed", MOTION, swap, reference=0.05, two_channels=True),
@@ -203,6 +235,9 @@ FAULTS = (
     Fault("speed is not a number", KNOWN, go_wrong),
     Fault("speed is not a number in every other sample, cable off", KNOWN, go_wrong_now_and_then),
     Fault("voltage is not a number", KNOWN, send_nonsense),
+    Fault("two senders of motor/voltage, the first ends", KNOWN, end_first_sender, raw=0.6),
+    Fault("the link of a sender of motor/voltage was away for 2 s, and is back", KNOWN, lose_link, raw=0.6),
+    Fault("the controller's computer was suspended, and wakes up", KNOWN, suspend),
     Fault("a second plant on the topic", KNOWN, second_plant),
     Fault("plant restarted under a held reference", KNOWN, restart),
     Fault("plain voltage, plant restarted", KNOWN, restart, raw=0.6),

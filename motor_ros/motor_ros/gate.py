@@ -5,7 +5,8 @@
     driven   the newest voltage of one sender; another's are left aside until that one has been silent for HOLD
 
 Who was left aside beside another that drove has to begin at 0 V, too, once that one has ended: it is most often one
-that was forgotten, and the motor has just been stopped.
+that was forgotten, and the motor has just been stopped. So has who went on sending while nothing of it was heard for a
+second and more, because its link was away: the motor has stood meanwhile, and nobody expects it to go on by itself.
 
 That there are two is said once the first is heard again after the other: one sender that was held up sends what it has
 missed all at once, more than is kept, and its numbers jump ahead as another's would. Its next numbers go on from there.
@@ -31,6 +32,8 @@ YOUNG, YOUNG_ANSWER = 1_000_000_000, 100_000_000
 ANSWERS = 2.0  # sample periods from command to command, up to which a sender may be answering samples
 HOLD = 500_000_000  # [ns] of silence after which another sender is obeyed: longer than a busy computer holds one up
 MISSED = 1.5  # times between two commands, after which one of two senders has missed its turn
+AWAY = 1_000_000_000  # [ns] without a voltage, after which a motor that goes on by itself is a surprise
+UNHEARD = 10  # commands more than that are not lost to a plant that looks less often than they come: it heard none
 CONFLICT = 1_500_000_000  # [ns] for which a second sender is reported: longer than from one diagnostic to the next
 
 OFF = "The output is off: call motor/enable with data: true."
@@ -42,6 +45,10 @@ WAITING = (
 HANDED = (
     "{:.3g} V was already being sent on motor/voltage beside another node that drove the motor and has ended: the motor"
     " gets 0 V until 0 V is sent, or motor/enable is called with data: true."
+)
+AWAY_LINK = (
+    "{:.3g} V went on being sent on motor/voltage while the plant heard none of it for more than 1 s, as over a link "
+    "that is away: the motor gets 0 V until 0 V is sent, or motor/enable is called with data: true."
 )
 TWO_SENDERS = (
     "More than one node sends motor/voltage{}: only {} is obeyed, until it has been silent for {:g} s; end the others."
@@ -60,6 +67,7 @@ class Gate:
     faults: RepeatedStops = RepeatedStops()  # stops for what the motor did
     begun: bool = False  # the voltages have started from 0 V, or were allowed by motor/enable
     handed: bool = False  # they have not, since one that was left aside took over
+    away: bool = False  # they have not, since one that was not heard for long has gone on
     first: Sender | None = None  # the sender's first command that was heard since then
     command: float = 0.0  # [V]
     received: int | None = None  # [ns]
@@ -80,6 +88,8 @@ class Gate:
         ours = holder is not None and holder.sent(name, number, now) and not self._goes_on(name, number, now)
         if holder is not None and now - holder.at <= HOLD and not ours:
             return replace(self, aside=Sender(name, number, now))
+        if holder is not None and self._goes_on_unheard(holder, ours, number, now):
+            return replace(self.come_up(holder.at), sender=None, away=True).take(voltage, now, name, number)
         told = self._tell_senders(number, now) if ours else replace(self, aside=None)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
         first = self.first if ours and self.first is not None else sender
@@ -87,6 +97,12 @@ class Gate:
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
         begun = begun and not handed
         return replace(told, command=voltage, received=now, sender=sender, first=first, begun=begun, handed=handed)
+
+    def _goes_on_unheard(self, holder: Sender, ours: bool, number: int | None, now: int) -> bool:
+        """Whether a sender, the latest or another, has sent for long while nothing was heard, and the motor stood."""
+        if number is None or now - holder.at <= max(AWAY, self.timeout * 1e9):
+            return False
+        return number - (holder.number or 0 if ours else 0) > UNHEARD
 
     def _goes_on(self, name: str, number: int | None, now: int) -> bool:
         """Whether a message whose number may be the sender's is another's that goes on where the sender has ended."""
@@ -104,7 +120,7 @@ class Gate:
 
     def enable(self, on: bool) -> "Gate":
         """Switch the output, by the user's will; a command from before the switch never acts."""
-        return replace(self, enabled=on, begun=on, handed=False, stopped="", command=0.0, received=None)
+        return replace(self, enabled=on, begun=on, handed=False, away=False, stopped="", command=0.0, received=None)
 
     def stop(self, why: str) -> "Gate":
         """Switch the output off for a reason, until the user switches it on."""
@@ -120,7 +136,7 @@ class Gate:
 
     def come_up(self, now: int) -> "Gate":
         """The plant can drive the motor from now [ns] on: voltages have to begin at 0 V again."""
-        return replace(self, since=now, begun=False, handed=False, first=None, command=0.0, received=None)
+        return replace(self, since=now, begun=False, handed=False, away=False, first=None, command=0.0, received=None)
 
     def fresh(self, now: int) -> bool:
         """Whether there is a command at `now` [ns] that is not too old."""
@@ -143,7 +159,7 @@ class Gate:
             obeyed = f"frame_id '{self.sender.name}'" if self.sender and self.sender.name != self.rival else "the first"
             return TWO_SENDERS.format(among, obeyed, HOLD * 1e-9)
         if self.enabled and not self.begun and self.fresh(now):
-            return (HANDED if self.handed else WAITING).format(self.command)
+            return (HANDED if self.handed else AWAY_LINK if self.away else WAITING).format(self.command)
         return ""
 
     def state(self, now: int) -> str:

@@ -143,6 +143,35 @@ def test_who_begins_as_the_first_one_ends_takes_over_at_once() -> None:
     assert plant.voltage(T0 + 1095 * MS) == -9.0
 
 
+@pytest.mark.parametrize("name", ["", "other"])
+@pytest.mark.parametrize(
+    ("away", "period", "number", "acts"),
+    [
+        (990, 5, 299, True),  # shorter than a second: a hiccup
+        (1100, 5, 321, False),
+        (60_000, 50, 1301, False),
+        (60_000, 5, 110, True),  # it was silent, and a plant that looks every 10 ms misses some of its new ones
+        (60_000, 5, 321, False),
+    ],
+)
+def test_who_went_on_sending_while_its_link_was_away_begins_at_0_volt(
+    name: str, away: int, period: int, number: int, acts: bool
+) -> None:
+    """The motor has stood meanwhile; it does not go on by itself because a network is back."""
+    plant = stream(gate(), 6.0, range(0, 500, period), 101 - 500 // period)
+    back = 495 + away
+    assert plant.voltage(T0 + back * MS) == 0.0
+    number -= 0 if name == "" or not acts else number - 10
+    plant = stream(plant, 6.0, range(back, back + 700, period), number, name)
+    now = T0 + (back + 699) * MS
+    assert (plant.voltage(now) == 6.0) is acts
+    assert ("while the plant heard none of it" in plant.problem(now)) is not acts
+    after = number + 700 // period
+    assert plant.enable(True).take(6.0, now, name, after).voltage(now) == 6.0
+    plant = plant.take(0.0, now, name, after).take(6.0, now + period * MS, name, after + 1)
+    assert plant.voltage(now + period * MS) == 6.0 and plant.problem(now + period * MS) == ""
+
+
 def test_messages_that_were_missed_are_no_second_sender() -> None:
     plant = stream(gate(), 2.0, range(0, 500, 5), 1)
     for at, number in ((505, 101), (550, 110), (551, 111), (600, 120), (650, 130)):

@@ -10,8 +10,10 @@ from std_srvs.srv import SetBool
 from workbench import Bench
 
 from motor_model.sample import Info, Sample
+from motor_msgs.msg import MotorInfo
+from motor_ros import qos
 from motor_ros.gate import Gate
-from motor_ros.messages import time_message
+from motor_ros.messages import info_message, time_message
 from motor_ros.plant import Plant
 
 
@@ -86,3 +88,23 @@ def test_joint_states_are_the_angle_that_was_counted(quiet: Bench, single: bool,
     for count, speed in ((3, 5.0), (3 + 2 * down, 5.0)):
         plant.publish(Sample(0, speed, 0.0, edge_count=count), time_message(0))
     assert joints[-1].position[0] == pytest.approx(angle * 6.283185307 / 4)
+
+
+def test_a_plant_says_again_what_it_is_while_another_says_it_too(quiet: Bench) -> None:
+    """A recording that is played with its motor/info: a controller would go on with another motor's disc and limits."""
+    plant, heard = Plant(quiet.node, Info(), Gate(True, 0.1)), quiet.hear(MotorInfo, "motor/info", qos.INFO)
+    quiet.wait(lambda: len(heard) == 1, "what it says at its start")
+    for _ in range(3):
+        plant.diagnose("", {})
+    quiet.executor.spin_once(timeout_sec=0.2)
+    assert len(heard) == 1
+    stranger = quiet.publisher(MotorInfo, "motor/info", qos.INFO)
+    stranger.publish(info_message(Info(edges_per_revolution=12, max_voltage=48.0), time_message(0)))
+    quiet.wait(lambda: heard[-1].edges_per_revolution == 12, "the other one")
+
+    def said_again() -> bool:
+        plant.diagnose("", {})
+        return bool(heard[-1].edges_per_revolution == 96)
+
+    quiet.wait(said_again, "what it says after the other one")
+    assert heard[-1].max_voltage == 12.0

@@ -11,7 +11,12 @@ from motor_model.sample import Sample
 
 NO_REFERENCE = "No reference yet: publish a speed in rad/s on motor/reference."
 FRESH = "{} The motor waits for a fresh reference: publish a speed in rad/s on motor/reference."
+NO_VOLTAGE = "voltage_limit is 0 V: set it to what the motor may get."
 BAD_REFERENCE = "The reference is {}: publish a finite speed in rad/s on motor/reference."
+# [rad/s] Any rotor would burst: the rim of one of 1 mm has 1 km/s. A number that is no speed, as of memory that nobody
+# has set, or of another unit, is as a rule far beyond, and would be all the voltage for ever.
+FASTEST = 1e6
+TOO_FAST = "The reference is {:.3g} rad/s, faster than any motor turns: publish one in rad/s on motor/reference."
 TOO_FAR = "The angle {:.3g} rad is farther than any motor turns: publish one in rad on motor/position_reference."
 BAD_SAMPLE = "A sample on motor/speed says {} = {}: find out what is wrong with the plant."
 CALL_RESET = "{} Call motor/reset, then publish a fresh reference, to go on."
@@ -28,6 +33,8 @@ def find_obstacle(config: Config, state: State, sample: Sample) -> tuple[str, st
             return STOPPED, BAD_SAMPLE.format(name, value)
     if state.demand is None:
         return DISABLED, FRESH.format(state.dropped) if state.dropped else NO_REFERENCE
+    if config.voltage_limit == 0.0:  # who stands at 0 V for long has no reference any more: see reference/ending.py
+        return STOPPED, NO_VOLTAGE
     return RUNNING, ""
 
 
@@ -46,6 +53,8 @@ def find_mistake(config: Config, demand: Demand, sample: Sample) -> str:
     """Find why a demand cannot be obeyed, as a sentence; "" if it can."""
     if not isfinite(demand.value - sample.speed):
         return BAD_REFERENCE.format(demand.value)
+    if demand.kind is Kind.SPEED and abs(demand.value) > FASTEST:
+        return TOO_FAST.format(demand.value)
     if demand.kind is Kind.POSITION and config.position is None:
         return config.no_position
     if demand.kind is Kind.POSITION and config.position and abs(demand.value / config.position.slot) > FARTHEST:

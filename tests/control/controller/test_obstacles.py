@@ -8,7 +8,7 @@ from bench_board import DEFAULTS, motor, settings
 
 from motor_control.configuration import config_of
 from motor_control.controller.controller import State, refer, stop
-from motor_control.controller.obstacles import explain_stop, find_mistake, find_obstacle, is_finite
+from motor_control.controller.obstacles import FASTEST, explain_stop, find_mistake, find_obstacle, is_finite
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED
 from motor_control.controller.reference.demand import Demand, Kind
 from motor_control.controller.reference.position_law import FARTHEST
@@ -34,6 +34,12 @@ def test_the_first_that_is_true_is_said() -> None:
     assert find_obstacle(CONFIG, State(), bad)[0] == STOPPED
     name, reason = find_obstacle(CONFIG, State(), FINE)
     assert name == DISABLED and reason.startswith("No reference yet")
+    powerless = replace(CONFIG, voltage_limit=0.0)
+    assert find_obstacle(powerless, State(), FINE)[0] == DISABLED
+    assert find_obstacle(powerless, ASKED, FINE) == (
+        STOPPED,
+        "voltage_limit is 0 V: set it to what the motor may get.",
+    )
     dropped = replace(State(), dropped="The plant was restarted.")
     assert find_obstacle(CONFIG, dropped, FINE)[1].startswith("The plant was restarted. The motor waits for a fresh")
 
@@ -52,6 +58,10 @@ def test_a_sample_that_is_no_number_is_named(field: str, value: float) -> None:
 def test_a_demand_that_cannot_be_obeyed_is_a_mistake() -> None:
     assert find_mistake(CONFIG, Demand(60.0), FINE) == ""
     assert find_mistake(CONFIG, Demand(nan), FINE).startswith("The reference is nan")
+    assert find_mistake(CONFIG, Demand(-FASTEST), FINE) == ""
+    assert find_mistake(CONFIG, Demand(1.001 * FASTEST), FINE).startswith(
+        "The reference is 1e+06 rad/s, faster than any"
+    )
     angle = Demand(1.0, Kind.POSITION)
     nowhere = replace(CONFIG, position=None, no_position="One channel has no angle.")
     assert find_mistake(nowhere, angle, FINE) == "One channel has no angle."

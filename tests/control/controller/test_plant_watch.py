@@ -39,3 +39,18 @@ def test_two_plants_are_told_within_a_few_samples(offset: int) -> None:
 def test_restarts_apart_are_not_two_plants() -> None:
     seen = watch([PERIOD * k for k in range(150)] * 3)
     assert sum(one.restarted for one in seen) == 2 and not any(one.two for one in seen)
+
+
+@pytest.mark.parametrize(("told_after", "two"), [(1.9, False), (2.1, True)])
+def test_a_plant_that_is_started_again_may_sample_more_often(told_after: float, two: bool) -> None:
+    """It says so at about the time of its first samples; who never does is two."""
+    state, now = None, 0.0
+    seen = []
+    for k in range(200):
+        state, now = watch_plant(state, Sample(10**10 + PERIOD * k, 0.0, 0.0, k), now, 0.005), now + 0.005
+    for k in range(3000):
+        period = 0.005 if 0.001 * k < told_after else 0.001
+        state, now = watch_plant(state, Sample(1_000_000 * k, 0.0, 0.0, k), now, period), now + 0.001
+        seen.append(state)
+    assert [one.restarted for one in seen].index(True) == 0 and sum(one.restarted for one in seen) == 1
+    assert any(one.two for one in seen) is two

@@ -190,6 +190,7 @@ OBSTACLES: dict[str, tuple[Config, float, float]] = {  # config, speed that is s
     "speed = nan": (CONFIG, nan, 0.0),
     "sample_period = 0": (replace(CONFIG, unusable="motor/info says sample_period = 0."), 0.0, 0.0),
     "The sample is": (CONFIG, 0.0, 0.1),
+    "voltage_limit is 0 V": (replace(CONFIG, voltage_limit=0.0), 0.0, 0.0),
 }
 
 
@@ -200,12 +201,13 @@ def test_what_holds_the_motor_for_long_ends_the_reference(name: str, seconds: fl
     config, speed, age = OBSTACLES[name]
     config = replace(config, latency_limit=0.02)
     state = controller.refer(controller.State(), 50.0, 0.0)
+    free = replace(config, unusable="", voltage_limit=CONFIG.voltage_limit)
     late, end = round(1.0 / 0.005), round((1.0 + seconds) / 0.005)
     for k in range(end + 20):
         held = late <= k < end
         now = 0.005 * k + (age if held else 0.0)
         sample = Sample(k * 5_000_000, speed if held else 0.0, 1.0)
-        output, state = controller.update(config if held else replace(config, unusable=""), state, sample, None, now)
+        output, state = controller.update(config if held else free, state, sample, None, now)
         if held:
             assert output.state == "stopped" or output.state == "disabled" and output.terms.voltage == 0.0
     assert (output.state == "running") == resumes and (output.terms.voltage > 0.0) == resumes

@@ -1,5 +1,6 @@
 """A speed that is not the one of the plant's own edges."""
 
+from dataclasses import replace
 from math import inf
 
 import pytest
@@ -60,3 +61,27 @@ def test_a_count_that_jumps_once_is_none() -> None:
 @pytest.mark.parametrize("config", [Config(), Config(slot=SLOT, stall_time=0.0)])
 def test_where_no_edges_are_counted_or_nothing_shall_stop_it_is_none(config: Config) -> None:
     assert told(0.0, 100.0, config) == (inf, "")
+
+
+def told_by_stamps(age: float, dt: float = 0.005, edges: int = 3, tick: float = 4e-6, kv: float = 0.07) -> int:
+    """After how many samples edge times of an age [s] are told; 0: never. Every other sample has no edge."""
+    state = contradiction.begin(50.0)
+    for k in range(1, 41):
+        came = edges if k % 2 else 0
+        time = round((10.0 + k * dt) * 1e9)
+        sample = Sample(time, 50.0, 6.0, edge_time=round(time - age * 1e9))
+        look = Seen(sample, 50.0, Motion(edges=came), 50.0, dt, LIMIT)
+        reason, state = contradiction.check(replace(ENCODER, tick=tick, kv=kv), state, look)
+        if reason.startswith("The plant's edges do not come when it says: the latest was counted"):
+            return k
+    return 0
+
+
+@pytest.mark.parametrize(
+    ("age", "after"), [(0.0, 0), (0.01, 0), (0.0101, 9), (-0.005, 0), (-0.0051, 9), (1e9, 9), (-1e9, 9)]
+)
+def test_edges_that_were_counted_now_and_came_at_another_time_are_told(age: float, after: int) -> None:
+    """A clock of another epoch, or one that stands; five samples with edges."""
+    assert told_by_stamps(age) == after
+    assert told_by_stamps(age, tick=0.0) == told_by_stamps(age, kv=0.0) == 0  # not stamped, or nothing goes by it
+    assert told_by_stamps(age, edges=0) == 0

@@ -5,6 +5,9 @@ whose channels are exchanged from one standstill to the next: each pulse is too 
 drive it too. But a pulse beyond what a load takes makes a motion against it slower, whatever the load. `PULSES` that
 made it faster, and not one that made it slower or any motion along with them in between, are a wrong direction. Pulses
 of a few milliseconds, after which the speed is much what it was, tell nothing.
+
+A timer that ticks hardly faster than edges come tells one speed as another: of periods of two and of three ticks the
+shorter may be the longer one. What that may be does not count.
 """
 
 from dataclasses import dataclass
@@ -73,7 +76,16 @@ def _follow_speed(state: State, speed: float) -> State:
 
 def _count_pulse(config: Config, state: State) -> tuple[str, State]:
     """Count a pulse that has ended if it made the motion faster; begin anew after one that made it slower."""
-    faster = state.fastest > GROWTH * state.slowest + EDGES * config.slot
+    fastest, slowest = _shift_period(config, state.fastest, 1.0), _shift_period(config, state.slowest, -1.0)
+    faster = fastest > GROWTH * slowest + EDGES * config.slot
     pulses = state.pulses + faster if state.fastest >= SLOWER * state.begun else 0
     reason = SENTENCE.format(pulses, state.voltage, state.fastest) if pulses >= PULSES else ""
     return reason, replace(state, pulses=pulses)
+
+
+def _shift_period(config: Config, speed: float, ticks: float) -> float:
+    """Give the speed [rad/s] of a period that is longer by so many ticks of the timer; infinite: of none."""
+    if config.slot == 0.0 or speed == 0.0:
+        return speed
+    period = config.slot / speed + ticks * config.tick
+    return config.slot / period if period > 0.0 else inf

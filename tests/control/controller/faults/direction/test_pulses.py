@@ -1,7 +1,7 @@
 """Pulses against the motion."""
 
 from dataclasses import replace
-from math import inf
+from math import inf, tau
 
 import pytest
 from bench_board import DEFAULTS
@@ -51,6 +51,15 @@ def test_pulses_that_drive_the_motor_the_other_way_are_a_wrong_direction() -> No
 )
 def test_other_pulses_are_not(rows: list[Row]) -> None:
     assert feed(rows, TWO) == ("", inf)
+
+
+@pytest.mark.parametrize(("tick", "told"), [(4e-6, False), (1e-7, True)])
+def test_a_period_of_a_tick_less_is_no_faster_motion(tick: float, told: bool) -> None:
+    """3,619 edges a turn at 200 rad/s and 1 kHz (seed 2000294): 145 and 217 rad/s in turn, under braking."""
+    fine = replace(TWO, slot=tau / 3619, tick=tick)
+    slow, fast = (fine.slot / (k * 4e-6) for k in (3, 2))
+    rows = [turning(-slow, 0.0), turning(-slow, 7.0), turning(-fast, 7.0), turning(-slow, 0.0)]
+    assert bool(feed(rows * 5, fine)[0]) is told
 
 
 def test_one_channel_does_not_measure_the_direction() -> None:

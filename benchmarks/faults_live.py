@@ -1,0 +1,146 @@
+"""Faults that come between programs, injected live: the simulated plant's shell, and others as processes over ROS 2.
+
+One motor (174 rad/s, 12 V) at 200 Hz. Time is the wall clock's, as a listener hears it, so that what a busy machine is
+late by is in it; speeds are those that the plants report.
+"""
+
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from faults_live_stage import MOTOR, Stage, stage
+from faults_loop import Outcome, outcome
+from geometry_msgs.msg import Twist
+from std_msgs.msg import Float64
+from workbench import program
+
+from motor_msgs.msg import MotorSpeed, MotorVoltage
+from motor_ros import qos
+
+KNOWN, WATCHED = 0.15, 3.0  # [s] from when it could be known; and watched
+HEAD = "| fault | may take | ms | speed | voltage | what was said |\n|---|---|---|---|---|---|"
+
+
+def recorded(stage: Stage) -> Path:
+    """A recording of the same motor under steps of 12 V."""
+    bag = stage.folder / "bag"
+    words = [program("motor_identification", "experiment"), "rich", "--model", stage.model, "--output", bag]
+    subprocess.run(list(map(str, words)), check=True, capture_output=True)
+    return bag
+
+
+def play_bag(stage: Stage) -> None:
+    """All topics of a recording are played onto a plant that stands."""
+    bag = recorded(stage)
+    stage.plant("live")
+    stage.until(lambda: len(stage.moments) > 50, "the plant")
+    heard = stage.bench.hear(MotorVoltage, "motor/voltage")
+    stage.run("motor_identification", "play", bag, "--rate", "1")
+    stage.until(lambda: any(message.voltage for message in heard), "a voltage of the recording")
+
+
+def start_second_plant(stage: Stage) -> None:
+    """A second plant of the same names comes up beside one that is driven."""
+    stage.plant()
+    stage.until(lambda: len(stage.moments) > 50, "the plant")
+    stage.send(6.0)
+    infos = stage.bench.hear(MotorSpeed, "motor/speed")
+    stage.plant("second")
+    stage.until(lambda: any(message.header.frame_id == "second" for message in infos), "the second plant")
+
+
+def resume_experiment(stage: Stage) -> None:
+    """An experiment is stopped by Ctrl-Z in mid-run, and goes on."""
+    stage.plant()
+    stage.until(lambda: len(stage.moments) > 50, "the plant")
+    one = stage.run("motor_identification", "experiment", "rich", "--output", stage.folder / "new")
+    stage.until(lambda: abs(stage.moments[-1].voltage) > 1.0, "motion")
+    stage.stand_still(one)
+
+
+def refer_to_stopped_controller(stage: Stage) -> None:
+    """A reference comes while the controller is stopped."""
+    stage.plant()
+    stage.controller()
+    stage.until(lambda: len(stage.said) > 3 and len(stage.moments) > 50, "the loop")
+    reference = stage.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+    stage.bench.heard(reference)
+    stage.stand_still(stage.programs[-1], lambda: reference.publish(Float64(data=0.5 * MOTOR.top)))
+
+
+def drive_stopped_robot(stage: Stage) -> None:
+    """A velocity comes while `diff_drive` is stopped."""
+    for side in ("left", "right"):
+        stage.plant(side, side)
+        stage.controller(side)
+    drive = stage.run("motor_examples", "diff_drive")
+    command = stage.bench.publisher(Twist, "cmd_vel", qos.REFERENCE)
+    stage.bench.heard(command)
+    stage.until(lambda: any("/diff_drive" in one or "cmd_vel" in one for one in stage.said), "the drive")
+    twist = Twist()
+    twist.linear.x = 0.4
+    stage.stand_still(drive, lambda: command.publish(twist))
+
+
+def resume_play(stage: Stage) -> None:
+    """Voltages of a recording are played, stopped by Ctrl-Z in mid-run, and go on."""
+    bag = recorded(stage)
+    stage.plant()
+    stage.until(lambda: len(stage.moments) > 50, "the plant")
+    play = stage.run("motor_identification", "play", bag, "--topics", "motor/voltage")
+    stage.until(lambda: abs(stage.moments[-1].voltage) > 1.0, "motion")
+    stage.stand_still(play)
+
+
+@dataclass(frozen=True)
+class LiveFault:
+    """One fault; what is heard after it is judged, and of what is said the sentence with these words."""
+
+    name: str
+    apply: Callable[[Stage], None]
+    words: str
+
+
+LIVE_FAULTS = (
+    LiveFault("a whole recording is played onto a plant", play_bag, "Another node publishes"),
+    LiveFault("a second plant in one namespace, plain voltage", start_second_plant, "Another node publishes"),
+    LiveFault("`experiment` stopped for 1.5 s (Ctrl-Z), and goes on", resume_experiment, "The samples stopped"),
+    LiveFault("a controller stopped for 1.5 s, a reference meanwhile", refer_to_stopped_controller, "stood still"),
+    LiveFault("`diff_drive` stopped for 1.5 s, a velocity meanwhile", drive_stopped_robot, "stood still"),
+    LiveFault("`play` of voltages stopped for 1.5 s, and goes on", resume_play, "Playing stood still"),
+)
+
+
+def run_live(fault: LiveFault) -> Outcome:
+    """What a fault does to the motors of running programs."""
+    with stage() as one:
+        fault.apply(one)
+        begin = time.monotonic()
+        one.hear(WATCHED)
+    found = outcome(one.moments, begin)
+    said = next((text for text in one.said if fault.words in text), "")
+    return Outcome(found.after, found.speed, found.voltage, said)
+
+
+def live() -> list[tuple[str, bool]]:
+    """The rows, and whether each is met."""
+    rows = []
+    for fault in LIVE_FAULTS:
+        one = run_live(fault)
+        met = one.after is not None and (one.voltage == 0.0 or one.after <= KNOWN)
+        after = 0.0 if one.voltage == 0.0 else one.after  # and not when it was heard first
+        took = "never" if after is None else f"{1e3 * after:.0f}"
+        speed, voltage = one.speed / MOTOR.top, one.voltage / MOTOR.voltage
+        mark = "" if met else " **no**"
+        rows.append(
+            (f"| {fault.name} | {1e3 * KNOWN:.0f}{mark} | {took} | {speed:.0%} | {voltage:.0%} | {one.said} |", met)
+        )
+        print(rows[-1][0], file=sys.stderr)
+    return rows
+
+
+if __name__ == "__main__":
+    live()
