@@ -1,6 +1,7 @@
 """A diagnosis in words: what was missing, what that explains, what is left, and what to do next."""
 
 from motor_identification.diagnosis.candidate_model import find_lasting_interval
+from motor_identification.diagnosis.evidence.command_evidence import Ignored, find_ignored
 from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
@@ -163,6 +164,15 @@ def _describe_undetermined(diagnosis: Diagnosis) -> str:
     return f"{what}, but this recording does not tell how much."
 
 
+def _describe_ignored(ignored: Ignored) -> str:
+    """Say that a motion has hardly to do with its command, and what to look at."""
+    return (
+        f"The motion hardly follows the command: a motor leaves {ignored.gap:.3g} rad/s (RMS) of it, where the speed "
+        f"itself varies by {ignored.variation:.3g} rad/s. Check that the columns of voltage and motion are those of "
+        "one motor, and that no rows are missing between them."
+    )
+
+
 def _undecided(diagnosis: Diagnosis) -> str:
     if diagnosis.findings:
         parts = [_describe_findings(diagnosis), f"{capitalize(_describe_gap_reduction(diagnosis))}."]
@@ -174,6 +184,8 @@ def _undecided(diagnosis: Diagnosis) -> str:
         parts = [f"Something is missing that this recording does not determine: {_describe_gap(diagnosis)}."]
     elif not diagnosis.after.confirms and not _is_at_floor(diagnosis):
         parts = [f"Something may be missing that one response does not tell: {_describe_gap(diagnosis)}."]
+    elif (ignored := find_ignored(diagnosis.after)) is not None:
+        return _describe_ignored(ignored)
     else:
         parts = [f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."]
     if diagnosis.model.on_bound.get("kv", False):
