@@ -132,11 +132,16 @@ def find_same_levels(drive: Floats, motion: Floats) -> int:
     it turns in another unit: both are the same at several levels by chance once in hundreds of logs.
     """
     top = float(np.max(np.abs(drive), initial=0.0))
-    if top == 0.0 or np.ptp(drive) == 0.0:
+    if top == 0.0:
         return 0
-    band = np.minimum(BANDS * (drive - drive.min()) / np.ptp(drive), BANDS - 1).astype(int)
+    with np.errstate(over="ignore"):  # a damaged cell may be any number
+        drive, motion = drive / top, motion / top
+    swing = float(np.ptp(drive))
+    if swing == 0.0:
+        return 0
+    band = np.minimum(BANDS * (drive - drive.min()) / swing, BANDS - 1).astype(int)
     levels = [band == number for number in range(BANDS)]
     held = [rows for rows in levels if np.mean(rows) > LEAST_ROWS]
-    held = [rows for rows in held if abs(float(np.median(drive[rows]))) > LEAST_SIZE * top]
+    held = [rows for rows in held if abs(float(np.median(drive[rows]))) > LEAST_SIZE]
     apart = [abs(float(np.median(motion[rows] - drive[rows]))) for rows in held]
-    return len(held) if len(held) >= LEAST_LEVELS and max(apart) < SAME * top else 0
+    return len(held) if len(held) >= LEAST_LEVELS and max(apart) < SAME else 0
