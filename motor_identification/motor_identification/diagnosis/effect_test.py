@@ -120,17 +120,18 @@ def _choose_first(findings: Sequence[CandidateTest]) -> CandidateTest:
 
 def _is_finding(test: CandidateTest) -> bool:
     comes_back = count_waves(test.model, test.effect) > thresholds.LEAST_WAVES
-    return is_supported(test) and test.relevant and comes_back and not _is_there_from_the_start(test)
+    return is_supported(test) and test.relevant and comes_back and not is_there_from_the_start(test)
 
 
-def _is_there_from_the_start(test: CandidateTest) -> bool:
+def is_there_from_the_start(test: CandidateTest) -> bool:
     """Whether what begins at an instant does so with the motion: then it is constant, or a wrong initial state."""
     if not needs_instant(test.effect) or test.effect not in test.model.effects:
         return False
     estimate = test.model.estimate
     columns, begins = list_instant_columns(estimate.problem, [test.effect]), list_first_motions(estimate.problem)
+    lag = thresholds.ON_ITS_WAY * estimate.parameters.time_constant
     return all(
-        float(estimate.theta[column]) < begin + thresholds.FROM_THE_START * duration
+        float(estimate.theta[column]) < begin + max(thresholds.FROM_THE_START * duration, lag)
         for (column, duration), begin in zip(columns, cycle(begins), strict=False)
     )
 

@@ -17,6 +17,7 @@ from motor_identification.diagnosis.effect_test import (
     count_parameters,
     find_rivals,
     is_supported,
+    is_there_from_the_start,
     list_candidates,
     sort_by_table,
     try_effects,
@@ -187,7 +188,11 @@ def _add_rival(selection: Selection, likelier: Selection) -> Selection:
 
 
 def list_other_firsts(first: SelectionStep) -> list[CandidateTest]:
-    """List the tests, best first, that were nearly as likely as a first step."""
+    """List the tests, best first, that were nearly as likely as a first step.
+
+    Not what begins at an instant but is there from the start: it is no finding, whatever comes beside it.
+    """
     likely = max(thresholds.SECOND_START_EVIDENCE * first.found.evidence, likelihood_threshold())
     others = [test for test in first.tests if test is not first.found and test.evidence > likely]
+    others = [test for test in others if not is_there_from_the_start(test)]
     return others[: thresholds.SECOND_STARTS]

@@ -8,6 +8,7 @@ import numpy as np
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.detectability import find_undetectable
+from motor_identification.diagnosis.evidence.command_evidence import find_ignored
 from motor_identification.diagnosis.evidence.missed_edges import count_missed_edges
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Nearest, Verdict
 from motor_identification.diagnosis.selection import Selection, SelectionStep
@@ -151,6 +152,8 @@ def decide(
         return Verdict.UNEXPLAINED, unclear or ("rich" if hidden else "")
     if unclear:
         return Verdict.UNDECIDED, unclear
+    if not findings and last.complete and find_ignored(last.held) is not None:
+        return Verdict.UNDECIDED, ""  # no experiment tells more before its columns belong together
     if hidden and not findings:
         return Verdict.UNDECIDED, EFFECT_BY_NAME[hidden[0]].shown_by  # the table begins with what is most common
     if not last.held.confirms and (findings or not last.complete):

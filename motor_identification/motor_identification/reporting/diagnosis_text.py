@@ -1,6 +1,7 @@
 """A diagnosis in words: what was missing, what that explains, what is left, and what to do next."""
 
 from motor_identification.diagnosis.candidate_model import find_lasting_interval
+from motor_identification.diagnosis.evidence.command_evidence import Ignored, find_ignored
 from motor_identification.diagnosis.result import Diagnosis, Finding, Verdict
 from motor_identification.diagnosis.thresholds import EXPLAINED_GAP
 from motor_identification.discrepancy.missing_torque import describe_torque, estimate_missing_torque
@@ -163,19 +164,20 @@ def _describe_undetermined(diagnosis: Diagnosis) -> str:
     return f"{what}, but this recording does not tell how much."
 
 
+def _describe_ignored(ignored: Ignored) -> str:
+    """Say that a motion has hardly to do with its command, and what to look at."""
+    return (
+        f"The motion hardly follows the command: a motor leaves {ignored.gap:.3g} rad/s (RMS) of it, where the speed "
+        f"itself varies by {ignored.variation:.3g} rad/s. Check that the columns of voltage and motion are those of "
+        "one motor, and that no rows are missing between them."
+    )
+
+
 def _undecided(diagnosis: Diagnosis) -> str:
     if diagnosis.findings:
         parts = [_describe_findings(diagnosis), f"{capitalize(_describe_gap_reduction(diagnosis))}."]
-    elif not diagnosis.after.counted.any():
-        parts = [TOO_SHORT]
-    elif diagnosis.time_limit:
-        parts = [f"No effect was found until then: {_describe_gap(diagnosis)}."]
-    elif diagnosis.undetermined:
-        parts = [f"Something is missing that this recording does not determine: {_describe_gap(diagnosis)}."]
-    elif not diagnosis.after.confirms and not _is_at_floor(diagnosis):
-        parts = [f"Something may be missing that one response does not tell: {_describe_gap(diagnosis)}."]
     else:
-        parts = [f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."]
+        parts = [_describe_no_finding(diagnosis)]
     if diagnosis.model.on_bound.get("kv", False):
         parts.append(NO_MOTOR)
     if diagnosis.time_limit:
@@ -185,6 +187,22 @@ def _undecided(diagnosis: Diagnosis) -> str:
     if diagnosis.undetectable and not any(one.ambiguous_with for one in diagnosis.findings):
         parts.append(_describe_untestable(diagnosis))
     return " ".join(parts)
+
+
+def _describe_no_finding(diagnosis: Diagnosis) -> str:
+    """Say why nothing was found."""
+    if not diagnosis.after.counted.any():
+        return TOO_SHORT
+    if diagnosis.time_limit:
+        return f"No effect was found until then: {_describe_gap(diagnosis)}."
+    if diagnosis.undetermined:
+        return f"Something is missing that this recording does not determine: {_describe_gap(diagnosis)}."
+    if not diagnosis.after.confirms and not _is_at_floor(diagnosis):
+        return f"Something may be missing that one response does not tell: {_describe_gap(diagnosis)}."
+    ignored = find_ignored(diagnosis.after)
+    if ignored is not None:
+        return _describe_ignored(ignored)
+    return f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."
 
 
 def _next_step(diagnosis: Diagnosis) -> str:

@@ -12,6 +12,7 @@ have their zeros (`unit_zeros.py`).
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+from math import exp
 
 import numpy as np
 
@@ -46,6 +47,9 @@ LEAST_SPEEDS = 200
 EVEN = 1e-3  # of a row: rows that differ by no more are of one length
 MOST_SHARES = 4  # that make a lattice: where more do, values are too few to tell
 LATTICE_SPEEDS = 40  # that are enough for a lattice to be looked closer at
+# Times what the digits of the log become where a filter is undone: a lattice of no larger step is theirs, and no
+# encoder's. Measured: 1.0 of firmware that gives whole counts a second; of counts that passed a filter 5 and more.
+OF_DIGITS = 2.0
 
 
 def find_filter(shaper: Shaper, timings: Sequence[Timing]) -> Timing:
@@ -175,7 +179,9 @@ def _list_lattices(recordings: Sequence[Recording], kind: str, shares: Sequence[
             return []
         counted = {share: SpeedFilter(kind, share).undo(longest.speed) * durations for share in shares}
         near = [share for share in shares if find_lattice(counted[share][some]) > 0.0]
-        sure = [share for share in near if find_lattice(counted[share]) > 0.0]
+        digit = OF_DIGITS * find_lattice(np.diff(longest.speed * durations)) if near else 0.0
+        least = {share: digit / exp(SpeedFilter(kind, share).log_first) for share in near}
+        sure = [share for share in near if find_lattice(counted[share]) > least[share]]
         if sure:
             return sure if len(sure) <= MOST_SHARES else []
     return []

@@ -156,6 +156,20 @@ def test_what_begins_with_the_first_motion_is_constant(
     assert (choose_finding([test]) is test) is found
 
 
+@pytest.mark.parametrize(("share", "found"), [(0.9, False), (1.1, True)])
+def test_what_begins_on_the_way_from_the_first_step_is_constant(
+    monkeypatch: pytest.MonkeyPatch, share: float, found: bool
+) -> None:
+    """In a long recording 2 % are many time constants; in a short one the motor has shown no state without the load."""
+    test = tried("load_step", ks=0.0, step_voltage=0.6, step_time=2.5)
+    fit = test.model.estimate
+    instant = float(fit.theta[fit.problem.unknowns.names.index("step_time")])
+    begin = instant - share * thresholds.ON_ITS_WAY * fit.parameters.time_constant
+    monkeypatch.setattr(thresholds, "FROM_THE_START", 0.0)
+    monkeypatch.setattr(effect_test, "list_first_motions", lambda problem: (begin,))
+    assert (choose_finding([test]) is test) is found
+
+
 @pytest.mark.parametrize(("waves", "found"), [(0.9, False), (1.1, True)])
 def test_a_line_comes_back_a_few_times(waves: float, found: bool) -> None:
     """Of fewer waves from one end of the motion to the other it is any slow torque."""

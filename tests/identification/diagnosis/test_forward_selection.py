@@ -49,13 +49,24 @@ def test_pairs_are_tried_above_the_floor_and_only_early() -> None:
 def test_other_first_effects_are_nearly_as_likely() -> None:
     before, share = stub_model(9.0), thresholds.SECOND_START_EVIDENCE
     found = stub_test("load_bias", before, 5.0, 100.0)
-    near = [stub_test(name, before, 5.0, 100.0 * share * ABOVE) for name in ("dead_zone", "sag", "drag")]
+    names = ("dead_zone", "supply_sag", "quadratic_drag")
+    near = [stub_test(name, before, 5.0, 100.0 * share * ABOVE) for name in names]
     far = stub_test("coulomb_friction", before, 5.0, 100.0 * share * BELOW)
     assert list_other_firsts(step_of(found, *near, far)) == near[: thresholds.SECOND_STARTS]
     assert list_other_firsts(step_of(found, near[0], far)) == near[:1]
     weak = stub_test("load_bias", before, 5.0, likelihood_threshold() * 1.1)
     by_chance = stub_test("dead_zone", before, 5.0, likelihood_threshold() * BELOW)
     assert list_other_firsts(step_of(weak, by_chance)) == []
+
+
+def test_a_load_that_is_there_from_the_start_is_no_first_step_either(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a speed loop it was no finding, was tried as another first one, and stayed: a load step at no known time."""
+    before = stub_model(9.0)
+    found, others = stub_test("transport_delay", before, 5.0, 100.0), ("load_step", "load_bias")
+    tests = [stub_test(name, before, 5.0, 95.0) for name in others]
+    assert list_other_firsts(step_of(found, *tests)) == tests
+    monkeypatch.setattr(forward_selection, "is_there_from_the_start", lambda test: test is tests[0])
+    assert list_other_firsts(step_of(found, *tests)) == tests[1:]
 
 
 @pytest.mark.parametrize("better", [True, False])

@@ -22,6 +22,7 @@ from motor_identification.monitoring.model_gap import Model, find_changes, measu
 from motor_identification.recording import Recording, check
 from motor_identification.reporting.fit_model_file import save_model
 from motor_identification.reporting.model_comparison import Identified
+from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing import smoothing
 from motor_identification.timing.smoothing import CLIMB, _climb, _find_peak, _list_lattices
 from motor_identification.timing.speed_filter import MEAN, MEMORY, SpeedFilter, parse_filter
@@ -111,6 +112,23 @@ def test_counts_of_rows_of_any_length_lie_on_a_lattice_by_their_rows() -> None:
     uneven = replace(counted, speed=speed, sample_time=stamps)
     assert _list_lattices([smoothed(uneven, 0.6)], MEMORY) == [0.6]
     assert _list_lattices([check(uneven)], MEMORY) == []
+
+
+def test_whole_counts_a_second_are_no_counts_that_passed_a_filter() -> None:
+    """Firmware that divides counts by the row's microseconds and gives whole counts a second: undone, its digits are a
+    lattice, as they are too fine to be one before. Counts that passed a filter and have such digits are told."""
+    turn, row = 1792, 0.01
+    counted = without_count(as_speed(recorded(edges=96)))
+    time = row * np.arange(800)
+    travel = 71.7 * turn / 36.0 * np.maximum(time - 1.0 - 0.02 * (1.0 - np.exp(-np.maximum(time - 1.0, 0.0) / 0.02)), 0)
+    counts = np.diff(np.floor(travel), prepend=0.0)
+    a_second = np.floor(counts / (row + 4e-6 * np.random.default_rng(3).integers(-4, 5, len(counts))))
+    logged = replace(counted.at_rows(np.arange(len(counted)) < len(time)), speed=a_second * 2.0 * np.pi / turn)
+    assert len(logged) == len(time) and find_lattice(logged.speed) == 0.0
+    assert _list_lattices([logged], MEMORY) == []
+    passed = np.round(lfilter([0.1], [1.0, -0.9], counted.speed), 2)
+    assert find_lattice(np.diff(passed)) == pytest.approx(0.01)
+    assert _list_lattices([replace(counted, speed=passed)], MEMORY) == [0.9]
 
 
 @pytest.mark.parametrize(

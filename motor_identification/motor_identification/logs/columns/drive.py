@@ -10,6 +10,13 @@ from motor_identification.logs.columns.vocabulary import UNITS, Quantity, words_
 
 Floats = NDArray[np.float64]
 
+# Levels of a drive that may be a set-point.
+BANDS = 8  # of the drive's range, each a level
+LEAST_ROWS = 0.03  # of all rows, in a band: a level that was held
+LEAST_SIZE = 0.2  # of the largest number: a motor that stands is at 0 by any drive
+SAME = 0.02  # of the largest number: within it a controlled speed is what it should be, at all levels. Measured: 0.01
+LEAST_LEVELS = 2
+
 # What a duty column shows at full duty: shares, per cent, and the registers of timers.
 FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
 SIGNED_BYTE = 127.0  # full duty where it is reached: of VEX, and of motor controllers on a serial line
@@ -116,3 +123,25 @@ def is_supply(values: Floats, duty: Floats) -> bool:
 def drives(heading: Heading) -> bool:
     """Whether a name is that of what drives a motor."""
     return heading.quantity in (Quantity.VOLTAGE, Quantity.DUTY)
+
+
+def find_same_levels(drive: Floats, motion: Floats) -> int:
+    """Count the levels of a drive (K,), if a motion (K,) is the same number at all of them; else 0.
+
+    A controlled speed comes to the very numbers of its set-point. What drives a motor is in volts or duties, and what
+    it turns in another unit: both are the same at several levels by chance once in hundreds of logs.
+    """
+    top = float(np.max(np.abs(drive), initial=0.0))
+    if top == 0.0:
+        return 0
+    with np.errstate(over="ignore"):  # a damaged cell may be any number
+        drive, motion = drive / top, motion / top
+    swing = float(np.ptp(drive))
+    if swing == 0.0:
+        return 0
+    band = np.minimum(BANDS * (drive - drive.min()) / swing, BANDS - 1).astype(int)
+    levels = [band == number for number in range(BANDS)]
+    held = [rows for rows in levels if np.mean(rows) > LEAST_ROWS]
+    held = [rows for rows in held if abs(float(np.median(drive[rows]))) > LEAST_SIZE]
+    apart = [abs(float(np.median(motion[rows] - drive[rows]))) for rows in held]
+    return len(held) if len(held) >= LEAST_LEVELS and max(apart) < SAME else 0

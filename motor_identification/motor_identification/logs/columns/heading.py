@@ -26,6 +26,7 @@ _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, wh
 _AXES, _JOINT_FIELDS = frozenset(["yaw", "pitch", "roll"]), frozenset(["position", "velocity", "effort"])
 _TELLING = frozenset().union(MEASURED, *(WORDS[kind] for kind in (*MOVES, Quantity.VOLTAGE, Quantity.DUTY)))
 _KNOWN = frozenset().union(*WORDS.values(), MEASURED, FILTERED)
+_MOTIONS = frozenset(word for kind in MOVES for word in WORDS[kind] if len(word) > 2)
 _WRITTEN_TOGETHER = re.compile(  # the longer ones first
     "|".join(sorted((word for word in _KNOWN if "\u2e80" < word[0] < "\ua4d0"), key=len, reverse=True))
 )
@@ -89,6 +90,8 @@ def _taken_apart(word: str) -> tuple[str, ...]:
     """The known words in one that are written together, as in Chinese and in German; else the word itself."""
     if word in _KNOWN:
         return (word,)
+    if word[0] in "lr" and word[1:] in _MOTIONS:  # Lspeed beside Rspeed; RPWM and LPWM may be one motor's two ways
+        return (word[0], word[1:])
     if found := tuple(_WRITTEN_TOGETHER.findall(word)):
         return found
     tail = next((one for one in TAILS if word.endswith(one)), "")

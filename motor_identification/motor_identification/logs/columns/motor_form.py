@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour import begins_at_rest, is_speed_by_drive
 from motor_identification.logs.columns.direction import guess_direction
-from motor_identification.logs.columns.drive import Drive, duty_drive, supply_scale, voltage_drive
+from motor_identification.logs.columns.drive import Drive, duty_drive, find_same_levels, supply_scale, voltage_drive
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.increments import count_anew
 from motor_identification.logs.columns.movement import ASKED, Unit, guess_kind, guess_position_unit, guess_speed_unit
@@ -71,6 +71,8 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
             replace(unit, why="; ".join(filter(None, (unit.why, far)))),
             replace(said, units_per_revolution=tau),
         )
+    if kind is Kind.SPEED and said.constant_voltage is None:
+        _caution_set_point(table, pair, notes)
     why = f" ({unit.why})" if unit.why else ""
     notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}{beside_it}.")
     if rows.time is None and not said.steady:
@@ -161,6 +163,16 @@ def _caution_beyond_full(table: Table, pair: Pair, drive: Drive, notes: Notes) -
             f"Caution: {pair.voltage} goes up to {np.max(values):g}, beyond the full duty of {drive.full:g}, in "
             f"{np.count_nonzero(beyond)} rows: no bridge gives more than its supply. Check --full-duty, or leave out "
             "rows whose number is a code."
+        )
+
+
+def _caution_set_point(table: Table, pair: Pair, notes: Notes) -> None:
+    """Tell of a drive whose numbers are those of the motion: what it should be, or has been."""
+    levels = find_same_levels(table.numbers(pair.voltage), table.numbers(pair.motion))
+    if levels:
+        notes.findings.append(
+            f"Caution: at {levels} levels {pair.motion} comes to the numbers of {pair.voltage} themselves, as a speed "
+            "comes to its set-point: neither may be what drives the motor. Check them, and say --voltage and --speed."
         )
 
 

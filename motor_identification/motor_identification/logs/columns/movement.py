@@ -79,10 +79,14 @@ def guess_position_unit(values: Floats) -> Unit:
         for name, (turn, rounded) in turns.items()
         if _is_whole(turn / step, WHOLE_BY_POSITIONS, rounded + error) and not _is_printed(values, step)
     ]
-    if len(whole) != 1:
-        return Unit("", "", tuple(whole) or asked)
-    number = round(turns[whole[0]][0] / step)
-    why = f"steps of {step:.4g} are {number} counts a turn in {whole[0]}, and no whole number in other units"
+    others = "no whole number"
+    if len(whole) != 1:  # of steps so coarse that a turn has hardly any of them, no encoder is made
+        fine = [name for name, (turn, _) in turns.items() if turn / step >= FEWEST_COUNTS]
+        if len(fine) != 1:
+            return Unit("", "", tuple(whole) or asked)
+        whole, others = fine, f"fewer than {FEWEST_COUNTS}"
+    number = turns[whole[0]][0] / step
+    why = f"steps of {step:.4g} are {number:.5g} counts a turn in {whole[0]}, and {others} in other units"
     return Unit(whole[0], f"{why}; otherwise: --unit")
 
 

@@ -24,10 +24,13 @@ class Notes:
 
 def ask_column(table: Table, what: str, option: str, names: Sequence[str]) -> RecordingError:
     """Ask for a column, by the option that says it, among some."""
+    return RecordingError(f"{table.path}: which column is the {what}? Say {option} and one of {_list_names(names)}.")
+
+
+def _list_names(names: Sequence[str]) -> str:
     shown = [name for name in names if name != ROW_TIMES]
     more = f" and {len(shown) - SHOWN} more" if len(shown) > SHOWN else ""
-    listed = f"{', '.join(shown[:SHOWN])}{more}"
-    return RecordingError(f"{table.path}: which column is the {what}? Say {option} and one of {listed}.")
+    return f"{', '.join(shown[:SHOWN])}{more}"
 
 
 def ask_motion(
@@ -56,8 +59,8 @@ def ask_drive(table: Table, candidates: Sequence[str]) -> RecordingError:
 def miss_drive(table: Table) -> RecordingError:
     """Ask for the voltage where no column can be it."""
     return RecordingError(
-        f"{table.path}: no column is the voltage or duty: say which one is (--voltage COL), or --constant-voltage V "
-        "for a log of one step."
+        f"{table.path}: no column is the voltage or duty: say which one of {_list_names(table.names)} is (--voltage "
+        "COL), or --constant-voltage V for a log of one step."
     )
 
 

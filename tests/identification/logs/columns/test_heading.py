@@ -46,6 +46,12 @@ pitch rate        | other          |       |
 pitch_angle       | other          |       |
 leftSpeedRpm      | speed          | rpm   | left
 r_speed           | speed          |       | right
+Rspeed            | speed          |       | right
+Lspeed            | speed          |       | left
+lpos_deg          | position       | deg   | left
+RControl          | duty           |       | right
+RPWM              |                |       |
+load              |                |       |
 vel_rad_s         | speed          | rad/s |
 Drehzahl [1/min]  | speed          | rpm   |
 v_l (ips)         | speed          | in/s  | left

@@ -58,6 +58,15 @@ def test_the_unit_of_positions_by_wraps_and_steps() -> None:
     assert guess_position_unit(angle).candidates == ("rad", "deg", "rev", "count")
 
 
+def test_steps_too_coarse_for_a_turn_in_other_units_are_degrees() -> None:
+    """A potentiometer on ten turns of a converter's 1,024 steps, in degrees: 1.8 of them a turn if it were in rad."""
+    levels = np.rint(np.cumsum(speeds()) * 0.02)
+    found = guess_position_unit(np.round(levels * 3600.0 / 1024.0, 2))
+    assert found.name == "deg" and "102.4 counts a turn in deg, and fewer than 8 in other units" in found.why
+    fine = guess_position_unit(np.round(levels * 0.7 * tau / 8.0, 4))  # 11 of them a turn in rad: it may be either
+    assert fine.name == "" and fine.candidates == ("rad", "deg", "rev", "count")
+
+
 def test_counts_that_are_nearly_whole_by_chance_tell_no_unit() -> None:
     """A LEGO motor of 114.703 counts a turn, in rad with four digits: 6572.016 counts a turn if it were in degrees."""
     step = 0.0547777

@@ -1,0 +1,48 @@
+"""A motion that has nothing to do with its command is told from one that a random torque shakes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from swinging import noisy
+
+from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.evidence import command_evidence
+from motor_identification.diagnosis.evidence.command_evidence import find_ignored
+from motor_identification.diagnosis.result import Diagnosis, Verdict
+from motor_identification.identify import Request
+from motor_identification.recording import Recording, check
+from motor_identification.reporting.diagnosis_text import summarize_diagnosis
+
+
+def diagnosed(recording: Recording) -> Diagnosis:
+    return diagnose([recording], [], Request(()))
+
+
+def wandering() -> Recording:
+    """Speeds around 200 rad/s that go their own way, beside a slow triangle of voltages one way."""
+    logged = noisy(0.5)
+    random, count = np.random.default_rng(7), len(logged)
+    walk = np.zeros(count)
+    for k in range(1, count):
+        walk[k] = 0.995 * walk[k - 1] + random.normal(0.0, 4.0)
+    triangle = 2.0 + 10.0 * np.abs((np.linspace(0.0, 3.0, count) % 1.0) - 0.5) * 2.0
+    return check(replace(logged, voltage=triangle, speed=200.0 + walk + random.normal(0.0, 6.0, count)))
+
+
+def test_a_motion_that_does_not_follow_its_command_is_no_motor_with_nothing_missing() -> None:
+    said = diagnosed(wandering())
+    assert said.verdict is Verdict.UNDECIDED and said.findings == () and said.suggested_experiment == ""
+    text = summarize_diagnosis(said)
+    assert text.startswith("The motion hardly follows the command: a motor leaves") and "Nothing is missing" not in text
+
+
+@pytest.mark.parametrize(("limit", "value"), [("LEAST_EXPLAINED", 1.0), ("VARIES", 0.0), ("MATTERS", 0.0)])
+def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    held = diagnosed(noisy(0.5)).after
+    assert find_ignored(held) is None
+    monkeypatch.setattr(command_evidence, "LEAST_EXPLAINED", 1.0)
+    monkeypatch.setattr(command_evidence, "MATTERS", 0.0)
+    assert find_ignored(held) is not None
+    monkeypatch.setattr(command_evidence, limit, 1.0 - value if limit != "LEAST_EXPLAINED" else 0.0)
+    assert find_ignored(held) is None
