@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from motor_model.compiled import compiled
 from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.current import current_at
-from motor_model.dynamics.linear import relaxed
+from motor_model.dynamics.forces import warmth
 from motor_model.dynamics.motor import advance
 from motor_model.dynamics.state import State, at_rest, turning
-from motor_model.dynamics.straight import find_torques, is_straight, prepare_hold, prepare_lag, turn_lagging
+from motor_model.dynamics.straight import begin_lag, find_straight, find_torques, prepare_hold, turn, turn_lagging
 from motor_model.effects import INDEX
 from motor_model.errors import ModelError
 from motor_model.parameters import Parameters
@@ -80,8 +80,7 @@ def roll_out_with_current(  # noqa: C901
         s = turning(p, start_speed, effective_voltage(p, u))
     _put_current(p, acted, s, t, current, 0)
     switch = command_time[j + 1] + delay if j + 1 < switches else inf
-    straight, lagging = is_straight(p), prepare_lag(p)
-    quick = straight and p[LAG] == 0.0
+    straight, lagging = find_straight(p), begin_lag()
     hold = prepare_hold(p, u, find_torques(p, t))
     loaded = p[STEP_TIME] if p[STEP] != 0.0 and p[STEP_TIME] > t else inf
     if len(anchor) > 0:
@@ -91,16 +90,17 @@ def roll_out_with_current(  # noqa: C901
         while True:
             stop = min(until, switch, loaded)
             if stop > t:
-                ahead, then, travel, drive = s.speed > 0.0, 0.0, 0.0, s.drive
-                if quick and s.play == 0.0:  # in a function of its own this step takes a quarter longer
-                    push = hold.ahead_push if ahead else hold.back_push
-                    then, travel = relaxed(hold.rate, push - hold.rate * s.speed, s.speed, stop - t)
-                elif stop - t <= lagging.longest and s.play == 0.0:
-                    then, drive, travel, lagging = turn_lagging(p, hold, s, stop - t, lagging)
-                if then * s.speed > 0.0:
-                    s = State(s.angle + travel, then, drive, s.play, 1.0 if ahead else -1.0, s.turned)
+                then, travel, drive, h = 0.0, 0.0, s.drive, stop - t
+                if abs(s.speed) > straight.least and h <= straight.longest and s.play == 0.0:
+                    w = warmth(p, t + 0.5 * h)
+                    if p[LAG] == 0.0:
+                        then, travel = turn(p, hold, s, h, w)
+                    else:
+                        then, drive, travel, lagging = turn_lagging(p, hold, s, h, w, straight.least, lagging)
+                if then * s.speed > 0.0 and abs(then) > straight.least:
+                    s = State(s.angle + travel, then, drive, s.play, 1.0 if s.speed > 0.0 else -1.0, s.turned)
                 else:
-                    s = advance(p, u, s, t, stop - t)
+                    s = advance(p, u, s, t, h)
                 t, acted = stop, u
             if stop == loaded:
                 loaded, hold = inf, prepare_hold(p, u, find_torques(p, t))
@@ -110,7 +110,7 @@ def roll_out_with_current(  # noqa: C901
             j += 1
             u = command[j]
             switch = command_time[j + 1] + delay if j + 1 < switches else inf
-            if straight:
+            if straight.least < inf:
                 hold = prepare_hold(p, u, hold.torques)
         angle[k], speed[k] = s.angle, s.speed
         _put_current(p, acted, s, t, current, k)

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from motor_model.dynamics.forces import sliding_speed
 from motor_model.dynamics.motor import advance
 from motor_model.dynamics.state import at_rest
+from motor_model.effects import normalised
 from motor_model.errors import ModelError
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 from motor_model.simulate import roll_out, simulate
@@ -62,6 +64,31 @@ def test_what_is_straight_moves_as_the_step_of_the_motor_says() -> None:
     plain = simulate(Parameters(BASE | {"ks": 0.5}, ("coulomb_friction",)), TIME, VOLTAGE, TIME)
     assert np.array_equal(whole.angle[:64], plain.angle[:64])  # until the load comes, the play is not felt
     assert plain.angle[90] - whole.angle[90] > 0.5
+
+
+BENT = {
+    "static_friction": {"ks": 0.3, "breakaway_voltage": 0.8, "stribeck_speed": 2.0},
+    "warm_up": {"resistance_rise": 0.4, "warm_up_time": 0.6},
+    "armature_inductance": {"electrical_time_constant": 0.004},
+}
+
+
+@pytest.mark.parametrize("lagging", [False, True], ids=["at once", "with inductance"])
+@pytest.mark.parametrize("effects", [("static_friction",), ("warm_up",), ("static_friction", "warm_up")])
+def test_where_a_bent_motor_is_straight_it_moves_as_the_step_of_the_motor_says(
+    effects: tuple[str, ...], lagging: bool
+) -> None:
+    """Stribeck friction that comes and goes, and warm copper: the whole hold's equation, or pieces."""
+    every = (*effects, "armature_inductance") if lagging else effects
+    values = BASE | {name: value for effect in every for name, value in BENT[effect].items()}
+    motor = Parameters(values, normalised(every))
+    whole = simulate(motor, TIME, VOLTAGE, TIME)
+    s, p, stepped = at_rest(0.0), motor.vector(), [0.0]
+    for k in range(len(TIME) - 1):
+        s = advance(p, VOLTAGE[k], s, TIME[k], TIME[k + 1] - TIME[k])
+        stepped.append(s.angle)
+    assert whole.angle == pytest.approx(stepped, abs=1e-9)
+    assert "static_friction" not in effects or 0.3 < np.mean(np.abs(whole.speed) > sliding_speed(p)) < 0.95
 
 
 def test_a_ripple_takes_its_phase_from_the_measured_angle_where_there_is_one() -> None:

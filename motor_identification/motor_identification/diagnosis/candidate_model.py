@@ -19,6 +19,7 @@ from motor_identification.noise.error_learning import estimate_disturbance, lear
 from motor_identification.noise.error_model import Disturbance, ErrorModel, Lag
 from motor_identification.noise.likelihood import Noise
 from motor_identification.recording import Bools, Floats, Recording
+from motor_identification.uncertainty.standard_errors import Uncertainty, estimate_uncertainty
 from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -87,6 +88,12 @@ class Model:
         if self.learned is not None and any(EFFECT_BY_NAME[name].periodic for name in self.effects):
             return whiten_beside_torque(self.estimate, self.learned)
         return fit_whitened(self.estimate)
+
+    @cached_property
+    def uncertainty(self) -> Uncertainty:
+        """How sure its parameters are; every effect that it has asks."""
+        fit = self.whitened
+        return estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta))
 
     @property
     def floor(self) -> float:

@@ -10,7 +10,6 @@ from motor_identification.diagnosis.candidate_test import likelihood_threshold, 
 from motor_identification.diagnosis.effect_test import sort_by_table, try_effects
 from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
-from motor_identification.uncertainty.standard_errors import estimate_uncertainty
 from motor_identification.uncertainty.summary import find_bounds_hit
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 
@@ -111,16 +110,14 @@ def is_chance_size(effect: str, model: Model) -> bool:
         return False
     sure = (thresholds.SURE_LINE if model.held.seen else thresholds.LIKELY_LINE) if line else thresholds.SURE_SIZE
     at = fit.problem.unknowns.names.index(specs[0].name)
-    error = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).errors[at]
+    error = model.uncertainty.errors[at]
     # A line's cycles are always determined.
     return bool(abs(fit.theta[at] - specs[0].off) < sure * error or (line and isnan(error)))
 
 
 def _find_unknown(model: Model) -> tuple[str, ...]:
     """Find the parameters that the training data do not determine, or that ended at a limit of the search alone."""
-    fit = model.whitened
-    unknown = estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta)).not_identifiable
-    return (*unknown, *find_limits_hit(model))
+    return (*model.uncertainty.not_identifiable, *find_limits_hit(model))
 
 
 def find_limits_hit(model: Model) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ itself is compared. `build_intervals.py` makes them of every kind of recording, 
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import sqrt
 
 import numpy as np
@@ -47,12 +48,12 @@ class Intervals:
         """[rad] what a sensor's unknown errors are a share of: a slot, or a logged speed's noise; 0 where neither."""
         return self.noise if self.window > 0.0 else self.slot
 
-    @property
+    @cached_property
     def duration(self) -> Floats:
         """[s] length of every interval, shape (I,)."""
         return np.asarray(self.time[self.last] - self.time[self.first])
 
-    @property
+    @cached_property
     def sigma(self) -> Floats:
         """[rad/s] what the blur of both ends leaves in the mean speed, shape (I,)."""
         return np.asarray(sqrt(2.0) * self.blur / self.duration)
@@ -81,12 +82,12 @@ class Intervals:
         low, middle, high = np.quantile(np.diff(self.time[self.last]), (0.1, 0.5, 0.9))
         return bool(high - low < UNEVEN_ROWS * middle)
 
-    @property
+    @cached_property
     def fresh(self) -> Bools:
         """Which intervals begin with an error of their own, shape (I,): not with that of the one before."""
         return np.ones(len(self.first), dtype=bool) if self.independent else self.apart
 
-    @property
+    @cached_property
     def apart(self) -> Bools:
         """Which intervals do not begin where the one before ended, shape (I,)."""
         follows = np.zeros(len(self.first), dtype=bool)

@@ -10,6 +10,8 @@ from motor_model.compiled import compiled
 
 OUTLIERS = 1e-4  # ε: share of intervals whose error is none of the noise
 WIDTH = 10.0  # scale of their density, in standard deviations of the others
+REGULAR = 9.0  # squared standard deviations up to which the other part is below 1e-4 of a density
+LOG_REGULAR = log((1.0 - OUTLIERS) / sqrt(2.0 * pi))  # of a regular one, beside its variance and its square
 
 
 @compiled
@@ -17,7 +19,7 @@ def compute_log_density(off: float, variance: float) -> float:
     """Compute the logarithm of the contaminated density of an innovation [rad] of a variance [rad²]."""
     square = off * off / variance
     regular = -0.5 * (square + log(2.0 * pi * variance))
-    if square < 9.0:  # there the other part is below 1e-4 of it
+    if square < REGULAR:
         return regular + log(1.0 - OUTLIERS)
     wide = log(OUTLIERS / (pi * WIDTH)) - 0.5 * log(variance) - log(1.0 + square / (WIDTH * WIDTH))
     regular += log(1.0 - OUTLIERS)
@@ -29,7 +31,7 @@ def compute_log_density(off: float, variance: float) -> float:
 def compute_trust(off: float, variance: float) -> float:
     """Compute the probability that an innovation [rad] of a variance [rad²] is regular."""
     square = off * off / variance
-    if square < 9.0:
+    if square < REGULAR:
         return 1.0
     regular = (1.0 - OUTLIERS) * exp(-0.5 * square) / sqrt(2.0 * pi)
     wide = OUTLIERS / (pi * WIDTH * (1.0 + square / (WIDTH * WIDTH)))

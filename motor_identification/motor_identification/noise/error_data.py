@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_filter import GAINS, fill_white, run_filter
 from motor_identification.noise.error_model import ErrorModel, Lag
+from motor_identification.noise.error_score import score_increments
 from motor_identification.recording import Bools, Floats
 
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
@@ -45,18 +47,41 @@ class ErrorData:
         """Compute the log likelihood of every interval, shape (I,); 0 where it does not count."""
         return self._filter(model, lag, None, _NO_GAINS)[2]
 
-    def _filter(self, model: ErrorModel, lag: Lag, more: Floats | None, gains: Floats) -> tuple[float, Floats, Floats]:
+    def score(self, model: ErrorModel, lag: Lag) -> float:
+        """Compute the log likelihood of what counts."""
+        own, process = self._describe(model, lag)
+        return float(
+            score_increments(
+                self.fresh, self.still, self.pause, self.duration, self._blur_squared, self._still_end, own, *process,
+                self.increments, self.counted,
+            )
+        )  # fmt: skip
+
+    @cached_property
+    def _blur_squared(self) -> Floats:
+        return np.asarray(self.blur**2)
+
+    @cached_property
+    def _still_end(self) -> Floats:
+        """[rad²] of the angle at the end of an interval in which the motor stood, shape (I,)."""
+        return np.asarray((SLACK_BLUR * self.slack) ** 2)
+
+    def _describe(self, model: ErrorModel, lag: Lag) -> tuple[float, tuple[float, float, float, float]]:
+        """Describe an error model as the filter has it: the angle's own variance [rad²] at either end, the process."""
         own, growth = (model.share * self.unit) ** 2, model.white
         if self.window > 0.0:
             own, growth = 0.0, growth + 2.0 * own / self.window
-        sensor = self.blur**2 + own
-        end = np.where(self.still, (SLACK_BLUR * self.slack) ** 2, sensor)
+        return own, (lag.rate, 1.0 / model.correlation_time, (model.rms_voltage / lag.ka) ** 2, growth)
+
+    def _filter(self, model: ErrorModel, lag: Lag, more: Floats | None, gains: Floats) -> tuple[float, Floats, Floats]:
+        own, process = self._describe(model, lag)
+        sensor = self._blur_squared + own
+        end = np.where(self.still, self._still_end, sensor)
         rows = self.increments[None] if more is None else np.concatenate([self.increments[None], more])
         white, density = np.empty_like(rows), np.empty(len(self.fresh))
         value = run_filter(
-            self.fresh, self.still, self.pause, self.duration, sensor, end,
-            lag.rate, 1.0 / model.correlation_time, (model.rms_voltage / lag.ka) ** 2, growth,
-            rows, self.counted, white, gains, density,
+            self.fresh, self.still, self.pause, self.duration, sensor, end, *process, rows, self.counted, white, gains,
+            density,
         )  # fmt: skip
         return float(value), white, density
 
@@ -117,4 +142,4 @@ def make_error_data(data: Intervals, increments: Floats, counted: Bools | None =
 
 def log_likelihood(rows: Sequence[ErrorData], model: ErrorModel, lag: Lag) -> float:
     """Compute the log likelihood of what counts in all recordings."""
-    return sum(row.whiten(model, lag)[0] for row in rows)
+    return sum(row.score(model, lag) for row in rows)

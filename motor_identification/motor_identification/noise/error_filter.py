@@ -46,7 +46,7 @@ from motor_model.compiled import compiled
 
 GAINS = 12  # numbers of an interval that the filter of other increments needs
 SAME_TIME = 1e-10  # of an interval: what an even sample period is rounded by, far below what any stamp can tell
-_LONG = 40.0  # time constants after which nothing is remembered
+LONG = 40.0  # time constants after which nothing is remembered
 
 
 class _Stretches(NamedTuple):
@@ -138,7 +138,7 @@ def _filter(
                 x, p, process, stretches.start[k], stretches.pause[k], series, of_pause, over_pause
             )
         if disturbed:
-            of_interval = _respond(series, fastest, h, of_interval, q)
+            of_interval = respond(series, fastest, h, of_interval, q)
             move(x, q)
             p = propagate(p, q, noise)
         p = Covariance(p.bb + growth * h, p.bd, p.bt, p.dd, p.dt, p.tt)
@@ -174,14 +174,14 @@ def _begin_run(
     alpha, beta, strength, _growth = process
     disturbed = strength > 0.0
     fd = ft = by = 0.0
-    if disturbed and not min(alpha, beta) * pause < _LONG:
+    if disturbed and not min(alpha, beta) * pause < LONG:
         p = stationary_covariance(alpha, beta, strength)
         x.d[:] = 0.0
         x.t[:] = 0.0
     elif disturbed and pause == 0.0:
         fd, ft = 1.0, 1.0
     elif disturbed and pause > 0.0:
-        known = _respond(series, max(alpha, beta), pause, known, response)
+        known = respond(series, max(alpha, beta), pause, known, response)
         fd, ft, by = response[LEFT_D], response[LEFT_T], response[BY_T]
         move(x, response)
         p = pass_pause(p, response, 2.0 * beta * strength)
@@ -191,7 +191,7 @@ def _begin_run(
 
 
 @compiled
-def _respond(series: Floats, fastest: float, duration: float, known: float, response: Floats) -> float:
+def respond(series: Floats, fastest: float, duration: float, known: float, response: Floats) -> float:
     """Fill the response (RESPONSES,) over a duration [s] unless it is known for as long; return what it is for."""
     if abs(duration - known) > SAME_TIME * duration:
         fill_response(series, fastest, duration, response)

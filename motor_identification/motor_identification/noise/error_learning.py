@@ -7,6 +7,7 @@ anything can be called significant.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
 from math import sqrt
 
 import numpy as np
@@ -82,8 +83,12 @@ def learn_error_model(
         share, rms, time = np.exp(box.clip(x))
         return ErrorModel(float(share), 0.0, float(rms), float(time))
 
+    @cache  # searches begin where a grid has been
+    def likelihood(model: ErrorModel) -> float:
+        return log_likelihood(rows, model, lag)
+
     def cost(x: Floats) -> float:
-        return 10.0 * box.measure_excess(x) - log_likelihood(rows, of(x), lag)
+        return 10.0 * box.measure_excess(x) - likelihood(of(x))
 
     starts = _list_starts(quiet.share, shares[0], scale)
     if guess is not None and guess.rms_voltage > 0.0:
@@ -147,6 +152,7 @@ def _bound_share(rows: Sequence[ErrorData]) -> tuple[float, float]:
 def _learn_share(rows: Sequence[ErrorData], shares: tuple[float, float], lag: Lag) -> tuple[ErrorModel, float]:
     """Find the sensor's share alone, without any disturbance, and its log likelihood."""
 
+    @cache
     def value(share: float) -> float:
         return log_likelihood(rows, ErrorModel(share, 0.0, 0.0, 1.0), lag)
 

@@ -65,8 +65,11 @@ def estimate_noise(rows: Sequence[tuple[Intervals, Floats]]) -> Noise:
     shares = tuple(rows[0][0].unevenness * share for share in IRREGULARITIES) if rows[0][0].slot > 0.0 else (0.0,)
     share, drift = shares[-1], 0.0
     for _ in range(ROUNDS):
+        before = share
         drift = estimate_drift(noises(share), increments, drifts, OUTLIER_CLIP)
         share = likeliest(shares, drift)
+        if share == before:  # another round would find the same
+            break
     if share > 0.0:
         share = likeliest([share * step for step in FINE_STEPS], drift)
     return Noise(share, drift)

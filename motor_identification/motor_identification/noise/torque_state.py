@@ -90,6 +90,19 @@ def pass_pause(p: Covariance, response: Floats, noise: float) -> Covariance:
 
 
 @compiled
+def _take_out(p: Covariance, taken: float, kb: float, kd: float, kt: float) -> Covariance:
+    """Take out of a covariance what gains of angle, speed and torque have learned of an innovation, `taken` of it."""
+    return Covariance(
+        p.bb - taken * kb * kb,
+        p.bd - taken * kb * kd,
+        p.bt - taken * kb * kt,
+        p.dd - taken * kd * kd,
+        p.dt - taken * kd * kt,
+        p.tt - taken * kt * kt,
+    )
+
+
+@compiled
 def update(
     p: Covariance, off: float, variance: float, trust: float, end: float, jump: float
 ) -> tuple[Covariance, float, float, float]:
@@ -98,21 +111,16 @@ def update(
     variance: [rad²] of the innovation. trust: probability that it is regular. end: [rad²] of the sensor alone.
     jump: [rad²/s²] by which the speed may be off, where the angle has jumped.
     """
+    if trust == 1.0:
+        kb, kd, kt = p.bb / variance, p.bd / variance, p.bt / variance
+        return _take_out(p, variance, kb, kd, kt), kb, kd, kt
     if trust < 0.5:  # an uncounted edge, an unseen reversal: the angle is known from here on only
         # And the speed too, as far as it may be off by what was seen: a stop that only one of the two made.
         return Covariance(end, 0.0, 0.0, p.dd + jump, p.dt, p.tt), 1.0, 0.0, 0.0
     # Moments of the mixture of a regular interval and one that says nothing.
     kb, kd, kt = trust * (p.bb / variance), trust * (p.bd / variance), trust * (p.bt / variance)
     taken = variance / trust - (1.0 - trust) * off * off / trust
-    after = Covariance(
-        p.bb - taken * kb * kb,
-        p.bd - taken * kb * kd,
-        p.bt - taken * kb * kt,
-        p.dd - taken * kd * kd,
-        p.dt - taken * kd * kt,
-        p.tt - taken * kt * kt,
-    )
-    return after, kb, kd, kt
+    return _take_out(p, taken, kb, kd, kt), kb, kd, kt
 
 
 @compiled

@@ -1,6 +1,6 @@
 """The terms of the motor's equation, in V: what drives it, what friction takes, what loads it. See `motor.py`."""
 
-from math import cos, exp, expm1, sin
+from math import cos, exp, expm1, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,9 +63,21 @@ def load_slope_at(p: Floats, angle: float) -> float:
 
 
 @compiled
+def sliding_friction(p: Floats, direction: float) -> float:
+    """Return the friction in V that is the same at every speed at which a motor slides."""
+    return direction * p[KS]
+
+
+@compiled
+def sliding_speed(p: Floats) -> float:
+    """Return the speed [rad/s] above which Stribeck friction is gone: there the motor slides."""
+    return p[STRIBECK] * sqrt(GONE) if p[BREAKAWAY] > p[KS] else 0.0
+
+
+@compiled
 def friction_at(p: Floats, speed: float, direction: float) -> float:
     """Friction at a speed [rad/s], in V; the direction decides at rest."""
-    friction = direction * p[KS] + viscous_part(p) * speed
+    friction = sliding_friction(p, direction) + viscous_part(p) * speed
     if p[BREAKAWAY] > p[KS]:
         x = speed / p[STRIBECK]
         if x * x < GONE:

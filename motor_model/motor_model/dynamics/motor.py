@@ -107,7 +107,7 @@ def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, flo
     c = Coefficients(inertia, torque, slope, source, back_emf, w * load_slope_at(p, s.angle + s.turned) * s.speed)
     acceleration = (s.drive - torque) / inertia
     settled = (source - back_emf * s.speed - torque) / inertia  # the acceleration once the current has followed
-    h = min(h, longest_piece(p, s, max(abs(acceleration), abs(settled)), inertia))
+    h = min(h, longest_piece(p, s, max(abs(acceleration), abs(settled)), inertia, h))
     if is_bent(p):
         c, h = lines(p, c, s, t, h)
     return until_event(p, c, s, h)

@@ -32,6 +32,7 @@ RIPPLE, CYCLES, RISE, WARM_UP = (
 COARSENESS, GEAR = INDEX["coarseness"], INDEX["gear_ratio"]
 
 STRIBECK_PIECE, RUNAWAY, DRAG_PIECE = 0.25, 0.5, 1e-3
+WARM_PIECE = 0.01  # of the time in which a motor warms up
 RIPPLE_ANGLE = 2e-8  # [rad] error of the swing that a ripple makes of a fast shaft
 RIPPLE_TURN, RIPPLE_BEND = 1.5, 0.05  # [rad] of a ripple's phase: all of it, and what is not at the piece's first speed
 EARLY, LATE = 0.5 - sqrt(1 / 12), 0.5 + sqrt(1 / 12)  # Gauss nodes of a piece
@@ -53,11 +54,23 @@ def _ripple_piece(p: Floats, speed: float, acceleration: float, inertia: float) 
 
 
 @compiled
-def longest_piece(p: Floats, s: State, acceleration: float, inertia: float) -> float:
-    """[s] for which a piece's lines hold: unlimited for a linear motor (a quarter period if it oscillates)."""
+def longest_slide(p: Floats, inertia: float) -> float:
+    """[s] for which the lines of a motor hold that slides without drag or ripple, before `coarseness`.
+
+    Unlimited for a linear motor (a quarter period if it oscillates).
+    """
     longest = inf
     if 4.0 * p[KV] * p[LAG] > inertia:
         longest = 1.5 * sqrt(inertia * p[LAG] / p[KV])
+    if p[RISE] != 0.0:
+        longest = min(longest, WARM_PIECE * p[WARM_UP])
+    return longest
+
+
+@compiled
+def longest_piece(p: Floats, s: State, acceleration: float, inertia: float, wanted: float) -> float:
+    """[s] for which a piece's lines hold; not less than is `wanted`, where they hold for longer than that."""
+    longest, wanted = longest_slide(p, inertia), wanted / p[COARSENESS]
     if p[BREAKAWAY] > p[KS]:
         above = abs(s.speed) - 4.0 * p[STRIBECK]  # up there Stribeck friction is gone
         # A speed that runs away from Stribeck friction must not do so in one piece; its steepest slope is √(2/e).
@@ -68,11 +81,11 @@ def longest_piece(p: Floats, s: State, acceleration: float, inertia: float) -> f
     curvature = drag_curvature_at(p, s.speed)
     if curvature != 0.0:
         squared = acceleration * acceleration + 1e-9
-        longest = min(longest, (DRAG_PIECE * inertia / (p[KV] * curvature * squared)) ** (1.0 / 3.0))
+        cube = DRAG_PIECE * inertia / (p[KV] * curvature * squared)
+        if cube < wanted * wanted * wanted:  # a root takes a quarter of all that a piece takes
+            longest = min(longest, cube ** (1.0 / 3.0))
     if p[RIPPLE] != 0.0:
         longest = min(longest, _ripple_piece(p, abs(s.speed), acceleration, inertia))
-    if p[RISE] != 0.0:
-        longest = min(longest, 0.01 * p[WARM_UP])
     return float(longest * p[COARSENESS])
 
 

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ from plant import profiles, record
 from stub_models import stub_model, with_effects
 
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis import determination, thresholds
+from motor_identification.diagnosis import candidate_model, determination, thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
@@ -30,6 +30,7 @@ from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check
+from motor_identification.uncertainty.standard_errors import Uncertainty, estimate_uncertainty
 from motor_model.effects import EFFECT_BY_NAME
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
@@ -93,7 +94,7 @@ def test_a_size_within_its_errors_is_chance(
     model = validate_model(hold_out, with_effect(estimate, effect, values))
     at = model.whitened.problem.unknowns.names.index(next(iter(values)))
     errors = np.full(len(model.whitened.theta), abs(model.whitened.theta[at]) / (sigma * thresholds.SURE_SIZE))
-    monkeypatch.setattr(determination, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
+    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
     assert is_chance_size(effect, model) == chance
 
 
@@ -111,7 +112,7 @@ def test_a_line_of_unknown_size_is_chance(
     estimate, hold_out = fitted()
     model = validate_model(hold_out, with_effect(estimate, effect, values))
     errors = np.full(len(model.whitened.theta), np.nan)
-    monkeypatch.setattr(determination, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
+    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
     assert is_chance_size(effect, model) == chance
 
 
@@ -124,8 +125,23 @@ def test_what_has_no_size_is_there_or_not(
 ) -> None:
     estimate, hold_out = fitted()
     model = validate_model(hold_out, with_effect(estimate, effect, values))
-    monkeypatch.setattr(determination, "estimate_uncertainty", lambda *_: pytest.fail("its error was asked for"))
+    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: pytest.fail("its error was asked for"))
     assert not is_chance_size(effect, model)
+
+
+def test_how_sure_a_model_is_is_asked_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    estimate, hold_out = fitted()
+    model = validate_model(hold_out, with_effect(estimate, "coulomb_friction", {"ks": 0.3}))
+    asked: list[Any] = []
+
+    def count(*given: Any) -> Uncertainty:
+        asked.append(estimate_uncertainty(*given))
+        return asked[-1]
+
+    monkeypatch.setattr(candidate_model, "estimate_uncertainty", count)
+    assert not is_undetermined("coulomb_friction", model.uncertainty.not_identifiable)  # its size is looked at, too
+    find_undetermined(model)
+    assert len(asked) == 1
 
 
 @pytest.mark.parametrize(("sigma", "chance"), [(0.99, True), (1.01, False)])
@@ -138,7 +154,7 @@ def test_a_line_that_was_fitted_to_all_there_is_has_to_be_sure(
     )
     at = model.whitened.problem.unknowns.names.index("eccentricity")
     errors = np.full(len(model.whitened.theta), abs(model.whitened.theta[at]) / (sigma * thresholds.SURE_LINE))
-    monkeypatch.setattr(determination, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
+    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
     seen = replace(model, held=replace(model.held, seen=True))
     assert is_chance_size("encoder_eccentricity", seen) == chance
     assert not is_chance_size("encoder_eccentricity", model)  # held-out motion has confirmed it

@@ -63,6 +63,18 @@ def test_the_learned_model_is_more_likely_than_its_neighbours() -> None:
         assert log_likelihood(rows, other, LAG) < best - 5.0
 
 
+def test_no_model_is_scored_twice(monkeypatch: pytest.MonkeyPatch) -> None:
+    scored: list[ErrorModel] = []
+
+    def note(rows: list[ErrorData], model: ErrorModel, lag: Lag) -> float:
+        scored.append(model)
+        return log_likelihood(rows, model, lag)
+
+    monkeypatch.setattr(error_learning, "log_likelihood", note)
+    learn_error_model(leave(0.1, 0.05, 0.005), LAG)
+    assert len(set(scored)) == len(scored) > 50
+
+
 def log_speeds(noise: float, step: float, torque: float = 0.0) -> tuple[list[ErrorData], float]:
     """What the true motor leaves in a log of counted speeds with white noise [rad/s] beside, on a lattice [rad/s], and
     the noise that counting alone leaves at either end [rad/s]."""

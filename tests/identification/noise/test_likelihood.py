@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import log
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,6 +10,8 @@ from handmade import SLOTS
 
 from motor_identification.measurement.edit_intervals import append_standstills
 from motor_identification.measurement.intervals import Intervals, index_intervals
+from motor_identification.noise import likelihood
+from motor_identification.noise.angle_noise import estimate_drift
 from motor_identification.noise.likelihood import OUTLIER_CLIP, Noise, estimate_noise, log_likelihood, make_noise
 from motor_identification.recording import Floats
 
@@ -80,6 +83,22 @@ def test_recordings_share_their_noise() -> None:
 def test_without_slots_only_drift_is_estimated() -> None:
     data = replace(evenly(), slot=0.0)
     assert estimate_noise([(data, drawn(evenly(), Noise(0.01, 0.0), 1))]).share == 0.0
+
+
+@pytest.mark.parametrize(("slot", "least", "most"), [(0.0, 1, 1), (SLOT, 2, 3)])
+def test_no_round_asks_again_for_what_the_one_before_found(
+    slot: float, least: int, most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[float] = []
+
+    def count(*given: Any) -> float:
+        asked.append(estimate_drift(*given))
+        return asked[-1]
+
+    monkeypatch.setattr(likelihood, "estimate_drift", count)
+    data = replace(evenly(), slot=slot)
+    estimate_noise([(data, drawn(evenly(), Noise(0.01, 0.0), 1))])
+    assert least <= len(asked) <= most
 
 
 def test_drift_has_a_price() -> None:

@@ -34,31 +34,33 @@ BENT = [
 
 
 def test_a_linear_motor_needs_one_piece_and_an_oscillating_one_a_quarter_period() -> None:
-    assert longest_piece(vector("coulomb_friction", ks=0.5), moving(50.0), 1000.0, PAPER_KA) == inf
+    assert longest_piece(vector("coulomb_friction", ks=0.5), moving(50.0), 1000.0, PAPER_KA, inf) == inf
     lag = 0.1  # [s] more than a quarter of the time constant: it oscillates
     swinging = vector("armature_inductance", electrical_time_constant=lag)
-    piece = longest_piece(swinging, moving(50.0), 1000.0, PAPER_KA)
+    piece = longest_piece(swinging, moving(50.0), 1000.0, PAPER_KA, inf)
     assert piece == pytest.approx(1.5 * sqrt(PAPER_KA * lag / PAPER_KV))
     damped = vector("armature_inductance", electrical_time_constant=0.004)
-    assert longest_piece(damped, moving(50.0), 1000.0, PAPER_KA) == inf
+    assert longest_piece(damped, moving(50.0), 1000.0, PAPER_KA, inf) == inf
 
 
 @pytest.mark.parametrize("p", BENT, ids=["static friction", "drag", "ripple", "warm-up"])
 def test_a_coarser_search_takes_pieces_so_much_longer(p: NDArray) -> None:  # type: ignore[type-arg]
-    fine = longest_piece(p, moving(3.0), 500.0, PAPER_KA)
+    fine = longest_piece(p, moving(3.0), 500.0, PAPER_KA, inf)
     coarse = p.copy()
     coarse[INDEX["coarseness"]] = 4.0
-    assert longest_piece(coarse, moving(3.0), 500.0, PAPER_KA) == pytest.approx(4.0 * fine)
+    assert longest_piece(coarse, moving(3.0), 500.0, PAPER_KA, inf) == pytest.approx(4.0 * fine)
     assert 1e-6 < fine < 0.1
 
 
 def test_pieces_are_short_where_the_curve_bends() -> None:
     static = vector("static_friction", **STATIC)
-    near, far = (longest_piece(static, moving(speed), 500.0, PAPER_KA) for speed in (3.0, 100.0))
+    near, far = (longest_piece(static, moving(speed), 500.0, PAPER_KA, inf) for speed in (3.0, 100.0))
     assert near < 0.01 * STATIC["stribeck_speed"] and far > 30.0 * near
     drag = vector("quadratic_drag", drag=1e-4)
-    slow, swift = (longest_piece(drag, moving(50.0), a, PAPER_KA) for a in (100.0, 800.0))
+    slow, swift = (longest_piece(drag, moving(50.0), a, PAPER_KA, inf) for a in (100.0, 800.0))
     assert slow / swift == pytest.approx(4.0)  # the third root of the acceleration's square
+    for wanted, found in ((0.99 * swift, inf), (1.01 * swift, swift)):  # not computed where it is long enough
+        assert longest_piece(drag, moving(50.0), 800.0, PAPER_KA, wanted) == pytest.approx(found)
 
 
 def test_a_straight_line_stands_for_itself() -> None:

@@ -49,7 +49,7 @@ def stands_in_for_presliding(current: Model, without: Model) -> bool:
 
 
 def _score_refitted(model: Model, rests: Sequence[_Rest]) -> float:
-    """Compute the log likelihood of what a model leaves, refitted where that is likelier: standstills are not linear."""
+    """Compute the log likelihood of what a model leaves, refitted where that is likelier; standstills bend it."""
     own = log_likelihood([rest.errors for rest in rests], model.errors, model.lag)
     return max(own, _score(model, _refit(model, rests, 0.0)))
 
