@@ -10,20 +10,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 
-from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.backward_elimination import add_rivals_beside_torque, eliminate_backward
-from motor_identification.diagnosis.candidate_test import (
-    fits_torque,
-    likelihood_threshold,
-    predicts_far_worse,
-    takes_away_more,
-)
+from motor_identification.diagnosis.candidate_test import fits_torque
 from motor_identification.diagnosis.determination import drop_undetermined
-from motor_identification.diagnosis.evidence.line_evidence import count_waves
 from motor_identification.diagnosis.forward_selection import retry_with_another_first, select_forward
 from motor_identification.diagnosis.result import Diagnosis, Verdict
-from motor_identification.diagnosis.selection import Selection, begin_beside_torque, begin_selection
+from motor_identification.diagnosis.selection import Selection, begin_selection
 from motor_identification.diagnosis.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
+from motor_identification.diagnosis.torque_selection import select_beside_torque
 from motor_identification.diagnosis.verdict import conclude, find_nearest
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
@@ -36,7 +30,7 @@ from motor_identification.sensor.description import note_sensors
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import Timing
 from motor_identification.validation.hold_out import HoldOut, make_hold_out
-from motor_model.effects import EFFECT_BY_NAME, normalised
+from motor_model.effects import normalised
 from motor_model.errors import RecordingError
 
 __all__ = ["Request", "Stage", "Stopped", "diagnose"]
@@ -160,7 +154,7 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     first = select_forward(start, reporter)
     selection = retry_with_another_first(first, reporter)
     reporter.report("checking", 0.9, "", selection.model.held.gap)
-    beside = _select_beside_torque(start, selection, reporter)
+    beside = select_beside_torque(start, selection, reporter)
     if beside is None:
         selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
         if selection.model.complete and selection.model.above_floor:
@@ -173,46 +167,3 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     # What is left of a model that fits a slow torque instead of the motion tells less than the one to begin with.
     worse = fits_torque(left.model.held, start.model.held)
     return start if worse else left, undetermined
-
-
-def _select_both_ways(begun: Selection, reporter: ProgressReporter) -> Selection:
-    """Select forward and eliminate backward beside a random torque, again where that changed what there is.
-
-    What stood in for two effects hides both; what is found in its place may be one of them.
-    """
-    selection = select_forward(begun, reporter)
-    for _ in range(thresholds.ROUNDS):
-        left = eliminate_backward(selection, reporter)
-        if set(left.model.effects) == set(selection.model.effects):
-            return left
-        selection = select_forward(left, reporter)
-        if set(selection.model.effects) == set(left.model.effects):
-            return selection
-    return eliminate_backward(selection, reporter)
-
-
-def _select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
-    """Select on beside a random torque, where more is left than the sensor leaves; None if that leaves structure.
-
-    From what was found without it, and where that leads nowhere from the beginning. Where only something likely was
-    refused, that is looked for beside a torque that is there, and nothing that was found is judged again.
-    """
-    # A line of many waves is its own evidence; what comes back a few times, or happens once, slow torques do by chance.
-    effects = [EFFECT_BY_NAME[step.found.effect] for step in plain.steps]
-    lines = [effect.name for effect in effects if effect.periodic and not effect.on_disc]
-    line = any(count_waves(plain.model, name) > thresholds.MANY_WAVES for name in lines)
-    once = any(effect.anywhere for effect in effects)
-    disturbed = plain.model.above_floor or once or (plain.model.lasts and not line)
-    if not (disturbed or plain.refused):
-        return None
-    for begin in (plain, start) if plain.steps and disturbed else (plain,):
-        reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
-        begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
-        selection = _select_both_ways(begun, reporter)
-        worse = predicts_far_worse(selection.model.held.gap, plain.model.held.gap)
-        if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
-            worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
-        if selection.model.complete and not worse:
-            more = set(selection.model.effects) > set(plain.model.effects)
-            return selection if disturbed or (more and takes_away_more(selection.model, plain.model)) else None
-    return None

@@ -6,13 +6,13 @@ import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, Score
-from motor_identification.diagnosis.disturbed_fit import fit_beside_torque, list_error_data
 from motor_identification.diagnosis.evidence.torque_evidence import (
     compute_price,
     mark_common_set,
     score_held_out,
     score_training,
 )
+from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque, list_error_data
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta

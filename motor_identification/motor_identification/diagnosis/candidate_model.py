@@ -7,7 +7,7 @@ from math import exp, sqrt, tau
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.disturbed_fit import list_error_data, whiten_beside_torque
+from motor_identification.diagnosis.fits.disturbed_fit import list_error_data, whiten_beside_torque
 from motor_identification.discrepancy.motion_history import make_history
 from motor_identification.discrepancy.structure import Rest, Structure, find_structure
 from motor_identification.estimation.estimate import Estimate
@@ -152,6 +152,11 @@ class Model:
         chance = min(exp(thresholds.RANDOM_SIGMA * sqrt(0.5 * time / seen)), thresholds.MOST_CHANCE)
         low, high = thresholds.RANDOM_GAP
         return low / chance < self.held.gap / self.noise_floor < high * chance
+
+    @property
+    def fills_floor(self) -> bool:
+        """Whether it leaves about as much as sensor and torque do, or more: less may be chance, or another's torque."""
+        return not self.above_floor or self.held.gap > thresholds.RANDOM_GAP[0] * self.noise_floor
 
     @property
     def unpredictable_gap(self) -> float:

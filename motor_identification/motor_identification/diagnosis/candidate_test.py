@@ -7,6 +7,7 @@ from math import log
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, find_lasting_interval
 from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
+from motor_identification.diagnosis.evidence.standstill_evidence import was_held
 from motor_identification.diagnosis.evidence.torque_evidence import measure_speaking, measure_steadiness
 from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME, LAGS
@@ -50,11 +51,12 @@ class CandidateTest:
         """Evidence without the few moments that speak most for it, beside a random torque."""
         return measure_steadiness(self.before.score.moments, self.model.score.moments, self._speaking)
 
-    @property
+    @cached_property
     def _speaking(self) -> float:
-        """Share of the moments in which it can speak: what holds a motor at rest shows where it starts and stops."""
-        holds = EFFECT_BY_NAME[self.effect].holds
-        return measure_speaking(self.before.score.moments, self.model.score.moments) if holds else 1.0
+        """Share of the moments in which it can speak: what holds a motor shows where that stood, and starts."""
+        if not EFFECT_BY_NAME[self.effect].holds or not was_held(self.model):
+            return 1.0
+        return measure_speaking(self.before.score.moments, self.model.score.moments)
 
     @property
     def explains(self) -> float:

@@ -4,8 +4,8 @@ import numpy as np
 
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
-from motor_identification.diagnosis.effect_fit import add_noticeable_effect
 from motor_identification.diagnosis.effect_test import list_candidates
+from motor_identification.diagnosis.fits.effect_fit import add_noticeable_effect
 from motor_identification.noise.likelihood import log_likelihood
 from motor_identification.recording import Floats
 from motor_model.effects import EFFECT_BY_NAME

@@ -11,8 +11,8 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refine_beside_torque, validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
-from motor_identification.diagnosis.effect_fit import fit_with_effect
 from motor_identification.diagnosis.evidence.line_evidence import count_waves, drop_chance_harmonics
+from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.recording import Floats
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut

@@ -8,7 +8,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
 from motor_identification.diagnosis.candidate_model import Model, learn_errors
 from motor_identification.diagnosis.candidate_test import CandidateTest
-from motor_identification.diagnosis.disturbed_fit import fit_beside_torque
+from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds, measure_scatter

@@ -17,7 +17,7 @@ from motor_identification.diagnosis.backward_elimination import (
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
-from motor_identification.diagnosis.effect_fit import fit_with_effect
+from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.diagnosis.selection import Selection, SelectionStep
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter

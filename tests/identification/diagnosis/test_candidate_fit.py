@@ -5,8 +5,8 @@ import pytest
 from diagnosed import fitted
 
 from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
-from motor_identification.diagnosis.disturbed_fit import list_error_data
 from motor_identification.diagnosis.evidence.torque_evidence import compute_price, score_training
+from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.validation.hold_out import WholeRecordings
 

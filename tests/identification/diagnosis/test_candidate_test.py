@@ -49,11 +49,11 @@ def beside_torque(gap: float, held_out: float, evidence: float = 0.0) -> Model:
 @pytest.mark.parametrize(
     ("effect", "growth", "said", "relevant"),
     [
-        ("coulomb_friction", 1.0, 0.1, True),
-        ("coulomb_friction", 1.001, 0.1, False),
-        ("coulomb_friction", 0.999 * thresholds.GAP_CHANCE, 1.001 * likelihood_threshold(), True),
-        ("coulomb_friction", 0.999 * thresholds.GAP_CHANCE, 0.999 * likelihood_threshold(), False),
-        ("coulomb_friction", 1.001 * thresholds.GAP_CHANCE, 100.0, False),  # it fits the torque instead of the motion
+        ("quadratic_drag", 1.0, 0.1, True),
+        ("quadratic_drag", 1.001, 0.1, False),
+        ("quadratic_drag", 0.999 * thresholds.GAP_CHANCE, 1.001 * likelihood_threshold(), True),
+        ("quadratic_drag", 0.999 * thresholds.GAP_CHANCE, 0.999 * likelihood_threshold(), False),
+        ("quadratic_drag", 1.001 * thresholds.GAP_CHANCE, 100.0, False),  # it fits the torque instead of the motion
         ("torque_ripple", 0.999 * thresholds.GAP_CHANCE, 0.1, True),
         ("torque_ripple", 1.0, -0.1, False),
     ],

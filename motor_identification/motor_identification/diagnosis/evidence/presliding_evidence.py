@@ -18,7 +18,7 @@ import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.disturbed_fit import list_error_data
+from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.discrepancy.free_curves import KNOTS, TRAVEL, respond
 from motor_identification.discrepancy.motion_history import MotionHistory, make_history
 from motor_identification.discrepancy.structure import ROBUST

@@ -22,13 +22,22 @@ def explains_standstills(before: Model, after: Model) -> bool:
     return false > thresholds.LEAST_FALSE_MOTION and left < (1.0 - thresholds.HELD_SHARE) * false
 
 
+def was_held(model: Model) -> bool:
+    """Decide whether the motor stood under a voltage anywhere, and what holds it could show."""
+    return any(bool(find_held_intervals(recording, data).any()) for recording, data, _ in _list_motions(model))
+
+
 def measure_false_motion(model: Model) -> float:
     """Measure simulated travel where the motor stood under a voltage: the sum of squares, in units of the sensor's."""
+    return sum(_sum_false_motion(motion, model.noise.share) for motion in _list_motions(model))
+
+
+def _list_motions(model: Model) -> list[Motion]:
     problem, held = model.estimate.problem, model.held
     rows = list(zip(held.recordings, held.intervals, held.increments, strict=True))
     if not any(one is recording for one, _, _ in rows for recording in problem.recordings):
         rows += zip(problem.recordings, problem.intervals, model.estimate.increments, strict=True)
-    return sum(_sum_false_motion(row, model.noise.share) for row in rows)
+    return rows
 
 
 def _sum_false_motion(motion: Motion, share: float) -> float:

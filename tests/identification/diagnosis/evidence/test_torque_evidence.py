@@ -7,11 +7,10 @@ import pytest
 from diagnosed import fitted, with_effect
 from stub_models import rescored, stub_model
 
-from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import candidate_test, thresholds
 from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
 from motor_identification.diagnosis.candidate_model import Model, Score
 from motor_identification.diagnosis.candidate_test import CandidateTest
-from motor_identification.diagnosis.disturbed_fit import list_error_data
 from motor_identification.diagnosis.evidence.torque_evidence import (
     MOMENTS,
     mark_common_set,
@@ -20,6 +19,7 @@ from motor_identification.diagnosis.evidence.torque_evidence import (
     score_held_out,
     score_training,
 )
+from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.noise.error_model import ErrorModel
 
@@ -74,9 +74,18 @@ def test_what_can_speak_in_few_moments_is_judged_by_those() -> None:
 
 
 @pytest.mark.parametrize(
-    ("effect", "steadiness"), [("static_friction", 120.0), ("dead_zone", 120.0), ("load_bias", 20.0)]
+    ("effect", "stood", "steadiness"),
+    [
+        ("static_friction", True, 120.0),
+        ("static_friction", False, 20.0),
+        ("dead_zone", True, 120.0),
+        ("load_bias", True, 20.0),
+    ],
 )
-def test_what_holds_a_motor_speaks_where_it_starts(effect: str, steadiness: float) -> None:
+def test_what_holds_a_motor_speaks_where_it_stood(
+    monkeypatch: pytest.MonkeyPatch, effect: str, stood: bool, steadiness: float
+) -> None:
+    monkeypatch.setattr(candidate_test, "was_held", lambda model: stood)
     moments = np.append(np.full(7, 20.0), np.zeros(113))
     before = rescored(stub_model(1.0), moments=np.zeros(120))
     assert CandidateTest(effect, before, rescored(before, moments=moments)).steadiness == steadiness

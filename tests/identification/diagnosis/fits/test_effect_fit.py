@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from diagnosed import fitted
 
-from motor_identification.diagnosis.effect_fit import (
+from motor_identification.diagnosis.fits.effect_fit import (
     INSTANTS_TRIED,
     _improve_instants,
     _list_starts,

@@ -6,7 +6,7 @@ import numpy as np
 from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_model import learn_errors
-from motor_identification.diagnosis.disturbed_fit import (
+from motor_identification.diagnosis.fits.disturbed_fit import (
     fit_beside_torque,
     make_disturbed_residuals,
     whiten_beside_torque,

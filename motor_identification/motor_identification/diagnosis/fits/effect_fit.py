@@ -10,7 +10,7 @@ from itertools import product
 
 import numpy as np
 
-from motor_identification.diagnosis.disturbed_fit import (
+from motor_identification.diagnosis.fits.disturbed_fit import (
     DisturbedResiduals,
     fit_beside_torque,
     make_disturbed_residuals,

@@ -1,0 +1,73 @@
+"""Select effects beside a random torque, where more is left than the sensor leaves: what was found is judged again.
+
+Forward selection and backward elimination as without a torque, on models that are fitted and judged beside one.
+"""
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.backward_elimination import eliminate_backward
+from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse, takes_away_more
+from motor_identification.diagnosis.evidence.line_evidence import count_waves
+from motor_identification.diagnosis.forward_selection import select_forward
+from motor_identification.diagnosis.selection import Selection, begin_beside_torque
+from motor_identification.progress import ProgressReporter
+from motor_model.effects import EFFECT_BY_NAME
+
+
+def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
+    """Select on beside a random torque, where more is left than the sensor leaves; None if that leaves structure.
+
+    From what was found without it, and where that leads nowhere from the beginning, or to a torque that leaves less
+    than it should, which is taken if the beginning leads nowhere. Where only something likely was refused, that is
+    looked for beside a torque that is there, and nothing that was found is judged again.
+    """
+    disturbed = _may_be_disturbed(plain)
+    if not (disturbed or plain.refused):
+        return None
+    doubtful: list[Selection] = []
+    for begin in (plain, start) if plain.steps and disturbed else (plain,):
+        reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
+        begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
+        selection = _select_both_ways(begun, reporter)
+        worse = predicts_far_worse(selection.model.held.gap, plain.model.held.gap)
+        if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
+            worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
+        if not selection.model.complete or worse:
+            continue
+        if selection.model.fills_floor:
+            return _choose_more(selection, plain, disturbed)
+        doubtful.append(selection)
+    return _choose_more(doubtful[0], plain, disturbed) if doubtful else None
+
+
+def _may_be_disturbed(plain: Selection) -> bool:
+    """Decide whether a random torque may be in what was found, or left.
+
+    A line of many waves is its own evidence; what comes back a few times, or happens once, slow torques do by chance.
+    """
+    effects = [EFFECT_BY_NAME[step.found.effect] for step in plain.steps]
+    lines = [effect.name for effect in effects if effect.periodic and not effect.on_disc]
+    line = any(count_waves(plain.model, name) > thresholds.MANY_WAVES for name in lines)
+    once = any(effect.anywhere for effect in effects)
+    return plain.model.above_floor or once or (plain.model.lasts and not line)
+
+
+def _choose_more(selection: Selection, plain: Selection, disturbed: bool) -> Selection | None:
+    """Choose what was selected beside a torque; where none disturbs, only if it takes away more than was found."""
+    more = set(selection.model.effects) > set(plain.model.effects)
+    return selection if disturbed or (more and takes_away_more(selection.model, plain.model)) else None
+
+
+def _select_both_ways(begun: Selection, reporter: ProgressReporter) -> Selection:
+    """Select forward and eliminate backward beside a random torque, again where that changed what there is.
+
+    What stood in for two effects hides both; what is found in its place may be one of them.
+    """
+    selection = select_forward(begun, reporter)
+    for _ in range(thresholds.ROUNDS):
+        left = eliminate_backward(selection, reporter)
+        if set(left.model.effects) == set(selection.model.effects):
+            return left
+        selection = select_forward(left, reporter)
+        if set(selection.model.effects) == set(left.model.effects):
+            return selection
+    return eliminate_backward(selection, reporter)

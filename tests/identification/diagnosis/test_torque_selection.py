@@ -1,0 +1,128 @@
+"""Whether what was found without a random torque is judged again beside one, and which of the two is believed."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from stub_models import StubModel, rescored, stub_model, stub_test
+from stub_selections import selection_of, step_of
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis import torque_selection as module
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import likelihood_threshold
+from motor_identification.diagnosis.selection import Selection
+from motor_identification.noise.error_model import ErrorModel
+from motor_identification.progress import ProgressReporter
+
+SILENT = ProgressReporter(lambda stage: None, lambda: False)
+
+
+def seen(model: Model, by_fit: bool) -> Model:
+    """The model, judged by motion that its fit has seen, or not."""
+    return replace(model, held=replace(model.held, seen=by_fit))
+
+
+def selected(monkeypatch: pytest.MonkeyPatch, plain: Selection, begun: Selection, ended: Selection) -> Selection | None:
+    """What is selected where nothing is fitted: the selections beside a torque are given."""
+    monkeypatch.setattr(Model, "complete", True)
+    monkeypatch.setattr(module, "begin_beside_torque", lambda *rest: begun)
+    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended)
+    return module.select_beside_torque(plain, plain, SILENT)
+
+
+@pytest.mark.parametrize(
+    ("by_fit", "gain", "believed"), [(True, 0.9, True), (True, 1.1, False), (False, 0.9, False), (False, -9.0, False)]
+)
+def test_a_gap_that_was_fitted_is_no_prediction(
+    by_fit: bool, gain: float, believed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Beside a torque the load step goes, and the gap doubles: that counts where the motion was held out."""
+    before = seen(stub_model(8.0), by_fit)
+    step = step_of(stub_test("load_step", before, 4.0, 100.0))
+    plain = selection_of(seen(stub_model(4.0), by_fit), step)
+    begun = selection_of(rescored(plain.model, likelihood=gain * likelihood_threshold()), step)
+    ended = selection_of(seen(stub_model(2.0 * thresholds.WORSE_GAP * 4.0), by_fit))
+    assert (selected(monkeypatch, plain, begun, ended) is ended) is believed
+
+
+@pytest.mark.parametrize(
+    ("refused", "more", "torque", "believed"),
+    [
+        (True, "transport_delay", 0.1, True),
+        (True, "transport_delay", 0.0, False),
+        (True, "load_bias", 0.0, True),
+        (True, "", 0.1, False),
+        (False, "load_bias", 0.1, False),
+    ],
+)
+def test_what_was_refused_is_looked_for_once_more(
+    refused: bool, more: str, torque: float, believed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At the sensor's floor nothing else is judged again: more is believed; a lag only beside a torque [V]."""
+    monkeypatch.setattr(StubModel, "errors", ErrorModel(0.0, 0.0, torque, 1.0))
+    plain = replace(selection_of(stub_model(1.0, 0.0)), refused=refused)
+    ended = selection_of(stub_model(0.999, 0.0))
+    effects: dict[int, Any] = {id(ended.model): (more,) if more else ()}
+    monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
+    assert not plain.model.above_floor and not plain.model.lasts
+    assert (selected(monkeypatch, plain, plain, ended) is ended) is believed
+
+
+@pytest.mark.parametrize(("effect", "again"), [("load_step", True), ("warm_up", True), ("dead_zone", False)])
+def test_what_comes_and_goes_in_time_has_to_hold_beside_a_torque(
+    effect: str, again: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """However near to the sensor's floor: a slow torque does in one moment what a load step does."""
+    step = step_of(stub_test(effect, stub_model(1.1, 0.0), 1.0, 100.0))
+    plain, ended = selection_of(stub_model(1.0, 0.0), step), selection_of(stub_model(1.0, 0.0))
+    assert not plain.model.above_floor and not plain.model.lasts
+    assert (selected(monkeypatch, plain, plain, ended) is ended) is again
+
+
+@pytest.mark.parametrize("dropped", [False, True])
+def test_what_elimination_changed_is_selected_on_from(monkeypatch: pytest.MonkeyPatch, dropped: bool) -> None:
+    """A limit and a load step stood in for a coasting bridge and a friction: in their place one, then the other."""
+    before = stub_model(4.0)
+    found = [step_of(stub_test(effect, before, 1.0, 100.0)) for effect in ("voltage_limit", "coast_drive", "dead_zone")]
+    limit, coast, both = (
+        selection_of(stub_model(gap), *steps) for gap, steps in ((3.0, found[:1]), (2.0, found[1:2]), (1.0, found[1:]))
+    )
+    effects = {
+        id(limit.model): ("voltage_limit",),
+        id(coast.model): ("coast_drive",),
+        id(both.model): ("coast_drive", "dead_zone"),
+    }
+    monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
+    further = {id(limit): limit, id(coast): both, id(both): both}
+    left = {id(limit): coast if dropped else limit, id(both): both}
+    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: further[id(selection)])
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: left[id(selection)])
+    assert module._select_both_ways(limit, SILENT) is (both if dropped else limit)
+
+
+def test_a_selection_that_swings_ends(monkeypatch: pytest.MonkeyPatch) -> None:
+    one, other = selection_of(stub_model(2.0)), selection_of(stub_model(3.0))
+    effects = {id(one.model): ("dead_zone",)}
+    monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
+    rounds = []
+    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: one)
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: rounds.append(0) or other)
+    assert module._select_both_ways(other, SILENT) is other and len(rounds) == thresholds.ROUNDS + 1
+
+
+@pytest.mark.parametrize(("gaps", "chosen"), [((0.999, 1.001), 1), ((1.001, 1.5), 0), ((0.999, 0.998), 0)])
+def test_a_torque_that_leaves_less_than_it_should_is_taken_where_the_beginning_leads_nowhere(
+    monkeypatch: pytest.MonkeyPatch, gaps: tuple[float, float], chosen: int
+) -> None:
+    """An eccentricity beside such a torque stood in for a ripple, which is found from the beginning."""
+    step = step_of(stub_test("dead_zone", stub_model(9.0), 5.0, 100.0))
+    plain, start = selection_of(stub_model(5.0), step), selection_of(stub_model(9.0))
+    ended = [selection_of(stub_model(2.0 * gap)) for gap in gaps]
+    monkeypatch.setattr(Model, "complete", True)
+    monkeypatch.setattr(StubModel, "noise_floor", 2.0 / thresholds.RANDOM_GAP[0])
+    monkeypatch.setattr(module, "begin_beside_torque", lambda model, *rest: plain if model is plain.model else start)
+    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended[selection is start])
+    assert module.select_beside_torque(start, plain, SILENT) is ended[chosen]
