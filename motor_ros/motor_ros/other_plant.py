@@ -40,6 +40,14 @@ BEFORE = 4  # bytes before it
 Stamp = tuple[int, int]  # of a sample, in ROS time: seconds, nanoseconds; no other plant has the same
 
 
+def read_stamp(data: bytes) -> Stamp | None:
+    """Read the stamp of a serialised sample; None of one that is too short to have any, which is not ours."""
+    if len(data) < BEFORE + STAMP[0].size:
+        return None
+    seconds, nanoseconds = STAMP[data[1] & 1].unpack_from(data, BEFORE)
+    return seconds, nanoseconds
+
+
 class OtherPlant:
     """Listens to the topic of this plant's samples while somebody else is there to publish them."""
 
@@ -91,7 +99,7 @@ class OtherPlant:
             self._node.get_logger().warning(DENIED.format(self._topic))
 
     def _hear(self, data: bytes) -> None:
-        if STAMP[data[1] & 1].unpack_from(data, BEFORE) in self._ours:
+        if read_stamp(data) in self._ours:
             return
         now = time.monotonic_ns()
         spoke, self._heard = self.speaks(now), now

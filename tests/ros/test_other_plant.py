@@ -21,6 +21,14 @@ Start = Callable[..., "Popen[str]"]
 DAY = 86_400_000_000_000  # [ns]
 
 
+@pytest.mark.parametrize("length", range(13))
+def test_a_sample_that_is_cut_off_is_another_plants(length: int) -> None:
+    """A stranger's four bytes on motor/speed ended the plant."""
+    whole = bytes([0, 1, 0, 0, *(7).to_bytes(4, "little"), *(9).to_bytes(4, "little"), 0, 0])
+    assert other_plant.read_stamp(whole) == (7, 9)
+    assert other_plant.read_stamp(whole[:length]) == ((7, 9) if length == 12 else None)
+
+
 @pytest.fixture
 def quiet() -> Iterator[Bench]:
     bench = Bench()
