@@ -154,6 +154,7 @@ def main() -> int:
     parser.add_argument("--strengths", type=float, nargs="+", choices=STRENGTHS, default=STRENGTHS, metavar="V")
     parser.add_argument("--times", type=float, nargs="+", choices=TIMES, default=TIMES, metavar="S")
     parser.add_argument("--groups", nargs="+", choices=list(GROUPS), default=list(GROUPS), help="rows of each torque")
+    parser.add_argument("--page", type=Path, default=RESULTS, help="where to write (default results/disturbance.md)")
     options = parser.parse_args()
     rows: list[str] = []
     results: dict[float, list[Result]] = {}
@@ -172,7 +173,7 @@ def main() -> int:
             results.setdefault(torque.rms, []).extend(found)
             rows.append(line(torque, group, found))
             print(rows[-1], flush=True)
-            RESULTS.write_text(page(options.first_seed, rows, results), encoding="utf-8")
+            options.page.write_text(page(options.first_seed, rows, results), encoding="utf-8")
     print("\n".join(said for rms, ones in results.items() for said in summary(rms, ones)))
     return 0
 
