@@ -121,7 +121,7 @@ def run_live(fault: LiveFault) -> Outcome:
         begin = time.monotonic()
         one.hear(WATCHED)
     found = outcome(one.moments, begin)
-    said = next((text for text in one.said if fault.words in text), "")
+    said = next((text for text in one.said if fault.words in text), "").replace(f"{one.folder}/", "")
     return Outcome(found.after, found.speed, found.voltage, said)
 
 
