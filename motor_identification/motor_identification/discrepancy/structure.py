@@ -97,11 +97,16 @@ class _Prediction:
 def _judge_family(name: str, rests: Sequence[Rest], reach: Reach, model: ErrorModel, lag: Lag) -> Structure:
     """Judge a family; what it predicts of a disc's slots is the sensor's, however well it does."""
     told = _predict(name, rests, reach, model, lag)
-    gain, explained = told.gain, told.before - told.after
-    if name == OVER_THE_DISC:
-        disc = _predict(name, [make_up_disc(rest, model) for rest in rests], reach, model, lag)
-        gain -= max(disc.gain, 0.0)
-        explained -= max(disc.before - disc.after, 0.0)
+    judged = _measure_structure(name, told, told.gain, told.before - told.after)
+    if name != OVER_THE_DISC or not judged.certain:  # less a disc it is less certain still
+        return judged
+    disc = _predict(name, [make_up_disc(rest, model) for rest in rests], reach, model, lag)
+    gain, explained = told.gain - max(disc.gain, 0.0), told.before - told.after - max(disc.before - disc.after, 0.0)
+    return _measure_structure(name, told, gain, explained)
+
+
+def _measure_structure(name: str, told: _Prediction, gain: float, explained: float) -> Structure:
+    """Measure a structure by how likely it is [nat], and by its share of squared speeds, or of the white residual."""
     share = explained / (told.before - told.floor) if told.before > told.floor else 0.0
     white_share = gain / told.white_power if told.white_power > 0.0 else 0.0
     return Structure(name, max(share, white_share * LEAST_SHARE / LEAST_WHITE_SHARE), gain)
