@@ -9,7 +9,8 @@ import numpy as np
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.fits.disturbed_fit import list_error_data, whiten_beside_torque
 from motor_identification.discrepancy.motion_history import make_history
-from motor_identification.discrepancy.structure import Rest, Structure, find_structure
+from motor_identification.discrepancy.rest import Rest
+from motor_identification.discrepancy.structure import Structure, find_structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.intervals import Intervals

@@ -5,9 +5,9 @@ whose strength maximises the marginal likelihood, and are judged by the likeliho
 fit nor the curve has seen. What no curve can predict is disturbance, however large; what one can is structure.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import log, tau
+from math import log
 
 import numpy as np
 
@@ -19,20 +19,16 @@ from motor_identification.discrepancy.free_curves import (
     measure_reach,
     respond,
 )
-from motor_identification.discrepancy.motion_history import MotionHistory
-from motor_identification.noise.error_data import ErrorData
+from motor_identification.discrepancy.rest import ROBUST, Rest, make_up_disc
+from motor_identification.discrepancy.spectrum_lines import find_lines
 from motor_identification.noise.error_model import ErrorModel, Lag
-from motor_identification.noise.slots.first_harmonic import bound_chance_eccentricity
-from motor_identification.recording import Bools, Floats
+from motor_identification.recording import Floats
 
 CERTAIN = log(len(FAMILIES) / 0.01)  # [nat] likelihood ratio that chance exceeds in 1 % of complete models (Markov)
 LEAST_SHARE = 0.1  # of the power of what is left: complete models show −0.03 to +0.04 in every variable
 LEAST_WHITE_SHARE = 0.03  # of the white residual's power
 OVER_THE_DISC = "angle"  # the family whose curves an irregular disc has too
-ROBUST = 4.0  # standard deviations: beyond, a white residual counts linearly
 OF_TIME = 0.5  # a bridge that slews shows to four fifths in the motion before; a supply's ripple in no motion at all
-LINES = 3  # of a spectrum that are taken together
-SMOOTHED = 20_000  # intervals that a spectrum is taken of at most
 
 
 @dataclass(frozen=True)
@@ -47,23 +43,6 @@ class Structure:
     def certain(self) -> bool:
         """Whether it is there, and more than a sensor's pattern."""
         return self.significance > CERTAIN and self.share > LEAST_SHARE
-
-
-@dataclass(frozen=True)
-class Rest:
-    """What a model leaves in one recording, with the motion's history; masks of shape (I,)."""
-
-    errors: ErrorData
-    history: MotionHistory
-    simulated: Callable[[], MotionHistory]  # with the model's speeds, which no random torque is in
-    learnt: Bools  # intervals that curves may be learnt on
-    judged: Bools  # others, that they are judged by
-    slot: float = 0.0  # [rad] of the encoder's disc; 0 where there is none
-
-    @property
-    def speeds(self) -> Floats:
-        """[rad/s] simulated less measured mean speed."""
-        return np.asarray(self.errors.increments / self.errors.duration)
 
 
 def find_structure(own: Sequence[Rest], others: Sequence[Rest], model: ErrorModel, lag: Lag) -> tuple[Structure, ...]:
@@ -118,11 +97,16 @@ class _Prediction:
 def _judge_family(name: str, rests: Sequence[Rest], reach: Reach, model: ErrorModel, lag: Lag) -> Structure:
     """Judge a family; what it predicts of a disc's slots is the sensor's, however well it does."""
     told = _predict(name, rests, reach, model, lag)
-    gain, explained = told.gain, told.before - told.after
-    if name == OVER_THE_DISC:
-        disc = _predict(name, [make_up_disc(rest, model) for rest in rests], reach, model, lag)
-        gain -= max(disc.gain, 0.0)
-        explained -= max(disc.before - disc.after, 0.0)
+    judged = _measure_structure(name, told, told.gain, told.before - told.after)
+    if name != OVER_THE_DISC or not judged.certain:  # less a disc it is less certain still
+        return judged
+    disc = _predict(name, [make_up_disc(rest, model) for rest in rests], reach, model, lag)
+    gain, explained = told.gain - max(disc.gain, 0.0), told.before - told.after - max(disc.before - disc.after, 0.0)
+    return _measure_structure(name, told, gain, explained)
+
+
+def _measure_structure(name: str, told: _Prediction, gain: float, explained: float) -> Structure:
+    """Measure a structure by how likely it is [nat], and by its share of squared speeds, or of the white residual."""
     share = explained / (told.before - told.floor) if told.before > told.floor else 0.0
     white_share = gain / told.white_power if told.white_power > 0.0 else 0.0
     return Structure(name, max(share, white_share * LEAST_SHARE / LEAST_WHITE_SHARE), gain)
@@ -155,19 +139,6 @@ def _predict(name: str, rests: Sequence[Rest], reach: Reach, model: ErrorModel, 
     return _Prediction(gain, white_power, before, after, floor)
 
 
-def make_up_disc(rest: Rest, model: ErrorModel) -> Rest:
-    """Make up what a disc leaves that is as irregular as a model's, and as eccentric as chance may have it at most."""
-    errors, history = rest.errors, rest.history
-    if rest.slot == 0.0:
-        return replace(rest, errors=replace(errors, increments=np.zeros_like(errors.increments)))
-    count = max(round(tau / rest.slot), 1)
-    flanks = model.share * errors.unit * np.random.default_rng(0).standard_normal(count)
-    ends = np.append(history.angle, history.angle[-1:])  # to half a segment
-    wave = bound_chance_eccentricity(rest.slot, model.share) * errors.unit / rest.slot * np.sin(ends)
-    error = flanks[np.rint(ends / rest.slot).astype(np.int64) % count] + wave
-    return replace(rest, errors=replace(errors, increments=error[history.at_end] - error[history.at_start]))
-
-
 def _loss(white: Floats) -> Floats:
     """Minus the logarithm of a white residual's density, which falls exponentially beyond some standard deviations."""
     size = np.abs(white)
@@ -187,33 +158,3 @@ def solve_ridge(normal: Floats, moment: Floats) -> Floats:
         if gain > best:
             best, chosen = gain, float(prior)
     return np.asarray(vectors @ (projected * chosen / (1.0 + chosen * values)))
-
-
-def find_lines(rests: Sequence[Rest], model: ErrorModel, lag: Lag) -> tuple[float, ...]:
-    """Find the frequencies [Hz] of a load, or a supply, that is periodic in time: lines in the residual's spectrum.
-
-    The white residual is summed into even bins of time, as it is and times the command, and both are transformed.
-    """
-    longest = max(float(rest.history.time[-1]) for rest in rests)
-    step = float(np.median(np.concatenate([rest.errors.duration for rest in rests])))
-    bins = int(min(max(longest / step, 64), SMOOTHED))
-    power: Floats = np.zeros(bins + 1)
-    for rest in rests:
-        used = rest.learnt & ~rest.errors.still
-        _value, white = rest.errors.whiten(model, lag)
-        z = np.clip(white[0, used], -ROBUST, ROBUST)
-        middle = np.minimum((rest.history.at_start + rest.history.at_end) // 2, len(rest.history.time) - 1)[used]
-        index = np.minimum((rest.history.time[middle] / longest * bins).astype(np.int64), bins - 1)
-        command = rest.history.voltage[middle]
-        for factor in (np.ones(len(z)), command / (float(np.abs(command).max(initial=0.0)) or 1.0)):
-            even = np.bincount(index, factor * z, bins) / max(float(np.sum(factor**2)), 1e-9) ** 0.5
-            power = np.maximum(power, np.abs(np.fft.rfft(even, 2 * bins)) ** 2)
-    frequency = np.fft.rfftfreq(2 * bins, longest / bins)
-    power = np.where(frequency * longest < 2.0, 0.0, power)  # slower is what changes over time
-    chosen: list[float] = []
-    for k in np.argsort(-power):
-        if all(abs(frequency[k] - line) * longest > 1.5 for line in chosen):
-            chosen.append(float(frequency[k]))
-        if len(chosen) == LINES:
-            break
-    return tuple(chosen)

@@ -1,8 +1,6 @@
 """What a model lacks is told from what is random, and in which variable it is; ridge and lines on made-up numbers."""
 
 from collections.abc import Sequence
-from math import tau
-from types import SimpleNamespace
 from typing import cast
 
 import numpy as np
@@ -14,13 +12,12 @@ from motor_identification.diagnosis.selection import begin_selection
 from motor_identification.discrepancy import structure
 from motor_identification.discrepancy.free_curves import OF_SPEED, Reach
 from motor_identification.discrepancy.motion_history import MotionHistory
+from motor_identification.discrepancy.rest import Rest
 from motor_identification.discrepancy.structure import (
     CERTAIN,
     LEAST_SHARE,
-    Rest,
     Structure,
     find_structure,
-    make_up_disc,
     rank,
     solve_ridge,
 )
@@ -29,7 +26,6 @@ from motor_identification.estimation.multistart import SearchConfig
 from motor_identification.estimation.problem import make_problem
 from motor_identification.noise.error_data import ErrorData
 from motor_identification.noise.error_model import ErrorModel, Lag
-from motor_identification.noise.slots.first_harmonic import bound_chance_eccentricity
 from motor_identification.recording import check
 from motor_identification.validation.hold_out import make_hold_out
 
@@ -103,25 +99,6 @@ def test_a_friction_over_the_angle_is_told_from_a_disc_beside_a_strong_torque(
     assert [one.variable for one in model.structure if one.certain] == (["angle"] if certain else [])
     (told,) = (one.significance for one in model.structure if one.variable == "angle")
     assert (told > 10.0 * CERTAIN) is certain and told < 60.0 * CERTAIN
-
-
-@pytest.mark.parametrize("slot", [tau / 96, 0.0])
-def test_a_made_up_disc_errs_by_its_share_turn_by_turn(slot: float) -> None:
-    count, share = 960, 0.01
-    angle = (np.arange(count) + 0.2) * tau / 96
-    history = SimpleNamespace(angle=angle, at_start=np.arange(count), at_end=np.arange(1, count + 1))
-    errors = ErrorData(*(np.zeros(count),) * 6, tau / 96, 0.0, np.ones(count), np.ones(count, dtype=bool))  # type: ignore[arg-type]
-    rest = Rest(
-        errors, cast(MotionHistory, history), lambda: cast(MotionHistory, history), *(np.ones(1, bool),) * 2, slot
-    )
-    made = make_up_disc(rest, ErrorModel(share, 0.0, 0.0, 1.0)).errors.increments
-    if slot == 0.0:
-        assert not np.any(made)
-        return
-    assert made[:96] == pytest.approx(made[96:192], abs=1e-12)
-    assert 0.8 < np.std(made) / (np.sqrt(2.0) * share * slot) < 1.2
-    wave = 2.0 / 96 * abs(np.cumsum(made[:96]) @ np.exp(1j * angle[:96]))
-    assert 0.3 < wave / bound_chance_eccentricity(slot, share) < 1.7
 
 
 @pytest.mark.parametrize("scale", [0.0, 0.3])

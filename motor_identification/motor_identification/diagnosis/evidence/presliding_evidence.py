@@ -21,7 +21,7 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.discrepancy.free_curves import KNOTS, TRAVEL, respond
 from motor_identification.discrepancy.motion_history import MotionHistory, make_history
-from motor_identification.discrepancy.structure import ROBUST
+from motor_identification.discrepancy.rest import ROBUST
 from motor_identification.noise.error_data import ErrorData, log_likelihood
 from motor_identification.noise.error_learning import learn_error_model
 from motor_identification.recording import Floats
