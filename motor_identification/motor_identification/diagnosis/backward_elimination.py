@@ -19,7 +19,7 @@ from motor_identification.diagnosis.effect_test import (
     try_effects,
 )
 from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
-from motor_identification.diagnosis.evidence.presliding_evidence import stands_in_for_presliding
+from motor_identification.diagnosis.evidence.presliding_evidence import find_presliding
 from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss, is_better
 from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_beside_torque
 from motor_identification.diagnosis.stand_ins import has_same_evidence, is_own_evidence
@@ -48,8 +48,11 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     without = refit_without(current, effect, selection.hold_out)
     if without.learned is not None and without.likelihood > current.likelihood:  # by errors that it does not know
         current = _judge_by_errors_of(without.learned, current, selection.hold_out)
-    if not _is_needed(effect, without, current):
+    if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
         return selection.replace_step(step, None, without)
+    building_up = find_presliding(without, current) if EFFECT_BY_NAME[effect].after_reversals else None
+    if building_up is not None:
+        return replace(selection.replace_step(step, None, without), building_up=building_up)
     constant = _find_constant(effect, without, current, selection.hold_out)
     if constant is not None:
         by = replace(step, found=constant, rivals=tuple(name for name in step.rivals if name != constant.effect))
@@ -59,13 +62,6 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     if step is selection.steps[-1] and judged_alike and not lost:  # what could be in its place was tried beside it
         return selection
     return _try_in_place(selection, step, without, current, reporter)
-
-
-def _is_needed(effect: str, without: Model, current: Model) -> bool:
-    """Decide whether an effect of the current model is likely beside all others, and no friction that builds up."""
-    if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
-        return False
-    return not (EFFECT_BY_NAME[effect].after_reversals and stands_in_for_presliding(current, without))
 
 
 def _find_constant(effect: str, without: Model, current: Model, hold_out: HoldOut) -> CandidateTest | None:

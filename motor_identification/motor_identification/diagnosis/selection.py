@@ -9,6 +9,7 @@ from motor_identification.diagnosis.candidate_fit import judge_beside_torque, va
 from motor_identification.diagnosis.candidate_model import Model, learn_errors
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque
+from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds, measure_scatter
@@ -36,6 +37,17 @@ class Selection:
     hold_out: HoldOut
     workers: int  # effects that are tried at a time
     refused: bool = False  # whether something likely takes away too little of what lasts, as far as the sensor tells
+    building_up: Structure | None = None  # of a friction that builds up, for which a backlash stood in
+
+    @property
+    def structure(self) -> tuple[Structure, ...]:
+        """What can be predicted of what is left, the most telling variable first."""
+        return (*([] if self.building_up is None else [self.building_up]), *self.model.structure)
+
+    @property
+    def complete(self) -> bool:
+        """Whether nothing is left that can be predicted, and no effect was dropped that stood in for something."""
+        return self.model.complete and self.building_up is None
 
     def add(self, steps: Sequence[SelectionStep]) -> "Selection":
         """Add steps, and fit the model that they lead to once more on corrected recordings."""

@@ -39,7 +39,7 @@ def conclude(
     model = summarise_fit(last.whitened, search, elapsed)
     gaps = _list_gaps(selection)
     findings, hidden = _list_findings(selection, model, gaps), find_undetectable(last)
-    verdict, suggestion = decide(findings, last, hidden, undetermined)
+    verdict, suggestion = decide(findings, selection, hidden, undetermined)
     return Diagnosis(
         verdict=verdict,
         findings=findings,
@@ -50,7 +50,7 @@ def conclude(
         noise_floor=last.noise_floor if last.complete else last.sensor_floor,
         sensor_floor=last.sensor_floor,
         disturbance=last.estimate_disturbance() if last.complete else None,  # else structure is in it
-        structure=last.structure,
+        structure=selection.structure,
         undetectable=hidden,
         suggested_experiment=suggestion,
         before=base.held,
@@ -142,20 +142,21 @@ def find_nearest(kept: Selection, base: float) -> Nearest | None:
 
 
 def decide(
-    findings: Sequence[Finding], last: Model, hidden: tuple[str, ...], undetermined: tuple[str, ...] = ()
+    findings: Sequence[Finding], selection: Selection, hidden: tuple[str, ...], undetermined: tuple[str, ...] = ()
 ) -> tuple[Verdict, str]:
     """Decide how it ended, and the profile to record next."""
-    if undetermined and not (findings and last.complete):  # beside what explains everything it is only told
+    complete, last = selection.complete, selection.model
+    if undetermined and not (findings and complete):  # beside what explains everything it is only told
         return Verdict.UNDECIDED, EFFECT_BY_NAME[undetermined[0]].shown_by
     unclear = next((finding.suggested_experiment for finding in findings if finding.ambiguous_with), "")
-    if not last.complete and last.held.confirms:
+    if not complete and last.held.confirms:
         return Verdict.UNEXPLAINED, unclear or ("rich" if hidden else "")
     if unclear:
         return Verdict.UNDECIDED, unclear
-    if not findings and last.complete and find_ignored(last.held) is not None:
+    if not findings and complete and find_ignored(last.held) is not None:
         return Verdict.UNDECIDED, ""  # no experiment tells more before its columns belong together
     if hidden and not findings:
         return Verdict.UNDECIDED, EFFECT_BY_NAME[hidden[0]].shown_by  # the table begins with what is most common
-    if not last.held.confirms and (findings or not last.complete):
+    if not last.held.confirms and (findings or not complete):
         return Verdict.UNDECIDED, EFFECT_BY_NAME[findings[0].effect].shown_by if findings else "rich"
     return (Verdict.EXPLAINED if findings else Verdict.NOTHING_MISSING), ""

@@ -38,11 +38,12 @@ class Structure:
     variable: str
     share: float  # of the power of what is left in held-out speed, beyond the sensor's
     significance: float  # [nat] log likelihood ratio on held-out motion
+    relevant: bool = False  # however small its share, because an effect that does no more was
 
     @property
     def certain(self) -> bool:
         """Whether it is there, and more than a sensor's pattern."""
-        return self.significance > CERTAIN and self.share > LEAST_SHARE
+        return self.significance > CERTAIN and (self.relevant or self.share > LEAST_SHARE)
 
 
 def find_structure(own: Sequence[Rest], others: Sequence[Rest], model: ErrorModel, lag: Lag) -> tuple[Structure, ...]:

@@ -280,6 +280,7 @@ def test_of_two_that_do_each_others_work_the_needless_one_goes(monkeypatch: pyte
     monkeypatch.setattr(
         determination, "_find_unknown", lambda model: ("ks", "bias_voltage") if len(model.effects) == 2 else ()
     )
+    monkeypatch.setattr(determination, "is_chance_size", lambda *_: False)
     for order in (steps, (replace(steps[1], found=replace(steps[1].found, before=bare)), steps[0])):
         left, names = drop_undetermined(Selection(order, last, hold_out, 1), SILENT)
         assert names == ("load_bias",) and left.model.effects == ("coulomb_friction",)

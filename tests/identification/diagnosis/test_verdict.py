@@ -7,13 +7,21 @@ from stub_models import short_by, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.result import Finding, Nearest, Verdict
+from motor_identification.diagnosis.selection import Selection
 from motor_identification.diagnosis.verdict import decide, find_missed_edges, find_nearest
+from motor_identification.discrepancy.structure import Structure
 from motor_model.effects import EFFECT_BY_NAME
 
 
 def finding(*rivals: str) -> Finding:
     return Finding("coulomb_friction", 5.0, 1.0, 100.0, "", {}, (), rivals, "coast" if rivals else "")
+
+
+def chosen(model: Model, building_up: Structure | None = None) -> Selection:
+    """A selection that ended with a model, and maybe without a backlash that stood in for something."""
+    return replace(selection_of(model), building_up=building_up)
 
 
 AT, OVER = 0.999 * thresholds.EXPLAINED_GAP, 1.001 * thresholds.EXPLAINED_GAP
@@ -36,7 +44,7 @@ AT, OVER = 0.999 * thresholds.EXPLAINED_GAP, 1.001 * thresholds.EXPLAINED_GAP
 def test_how_it_ended(
     gap: float, findings: tuple[Finding, ...], hidden: tuple[str, ...], verdict: Verdict, profile: str
 ) -> None:
-    assert decide(findings, stub_model(gap, 0.0), hidden) == (verdict, profile)
+    assert decide(findings, chosen(stub_model(gap, 0.0)), hidden) == (verdict, profile)
 
 
 @pytest.mark.parametrize(
@@ -45,21 +53,31 @@ def test_how_it_ended(
 def test_one_response_explains_nothing(confirms: bool, verdict: Verdict, profile: str) -> None:
     model = stub_model(AT, 0.0)
     model = replace(model, held=replace(model.held, confirms=confirms))
-    assert decide((finding(),), model, ()) == (verdict, profile)
-    assert decide((), model, ()) == (Verdict.NOTHING_MISSING, "")
+    assert decide((finding(),), chosen(model), ()) == (verdict, profile)
+    assert decide((), chosen(model), ()) == (Verdict.NOTHING_MISSING, "")
     more = stub_model(OVER, 0.0)
-    left = decide((), replace(more, held=replace(more.held, confirms=confirms)), ())
+    left = decide((), chosen(replace(more, held=replace(more.held, confirms=confirms))), ())
     assert left == ((Verdict.UNDECIDED, "rich") if not confirms else (Verdict.UNEXPLAINED, ""))
 
 
 @pytest.mark.parametrize(("gap", "found"), [(AT, False), (OVER, False), (OVER, True)])
 def test_what_is_not_determined_is_undecided_and_no_finding(gap: float, found: bool) -> None:
-    verdict, profile = decide((finding(),) * found, stub_model(gap, 0.0), (), ("transport_delay",))
+    verdict, profile = decide((finding(),) * found, chosen(stub_model(gap, 0.0)), (), ("transport_delay",))
     assert verdict is Verdict.UNDECIDED and profile == EFFECT_BY_NAME["transport_delay"].shown_by
 
 
 def test_what_is_not_determined_takes_nothing_from_what_explains_everything() -> None:
-    assert decide((finding(),), stub_model(AT, 0.0), (), ("warm_up",)) == (Verdict.EXPLAINED, "")
+    assert decide((finding(),), chosen(stub_model(AT, 0.0)), (), ("warm_up",)) == (Verdict.EXPLAINED, "")
+
+
+@pytest.mark.parametrize("findings", [(), (finding(),)])
+def test_a_backlash_that_stood_in_for_a_friction_that_builds_up_leaves_that_unexplained(
+    findings: tuple[Finding, ...],
+) -> None:
+    building_up = Structure("past", 0.005, 25.0, relevant=True)
+    selection = chosen(stub_model(AT, 0.0), building_up)
+    assert building_up.certain and selection.structure == (building_up,) and not selection.complete
+    assert decide(findings, selection, ()) == (Verdict.UNEXPLAINED, "")
 
 
 @pytest.mark.parametrize("count", [thresholds.LEAST_MISSED_EDGES - 1, thresholds.LEAST_MISSED_EDGES])

@@ -78,6 +78,8 @@ def test_what_is_missing_is_found_in_its_variable(
 )
 def test_structure_is_large_and_significant(share: float, significance: float, certain: bool) -> None:
     assert Structure("speed", share, significance).certain == certain
+    # What takes an effect's place is relevant, as that was, however small its share is.
+    assert Structure("past", 0.1 * share, significance, relevant=True).certain == (significance > CERTAIN)
 
 
 @pytest.mark.parametrize(("motion", "first"), [(0.83, "past"), (0.52, "past"), (0.48, "time"), (0.08, "time")])

@@ -19,9 +19,10 @@ import numpy as np
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
-from motor_identification.discrepancy.free_curves import KNOTS, TRAVEL, respond
+from motor_identification.discrepancy.free_curves import KNOTS, PAST, TRAVEL, respond
 from motor_identification.discrepancy.motion_history import MotionHistory, make_history
 from motor_identification.discrepancy.rest import ROBUST
+from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_data import ErrorData, log_likelihood
 from motor_identification.noise.error_learning import learn_error_model
 from motor_identification.recording import Floats
@@ -37,15 +38,26 @@ class _Rest:
     motion: MotionHistory
 
 
-def stands_in_for_presliding(current: Model, without: Model) -> bool:
-    """Decide whether a friction that builds up explains much of what a backlash of a model does, of fitted motion.
+def find_presliding(without: Model, current: Model) -> Structure | None:
+    """Find the friction that builds up and explains much of what a backlash of a model does, of fitted motion.
 
-    without: the model that lacks the backlash.
+    without: the model that lacks the backlash. None where the backlash does not stand in for such a friction.
     """
     rests = _list_rests(without)
     before = _score_refitted(without, rests)
     backlash = _score_refitted(current, _list_rests(current)) - before
-    return _score(without, _refit_presliding(without, rests)) - before > thresholds.PRESLIDING_SHARE * backlash
+    left = _refit_presliding(without, rests)
+    gain = _score(without, left) - before
+    if gain <= thresholds.PRESLIDING_SHARE * backlash:
+        return None
+    share = 1.0 - _sum_squares(left) / _sum_squares([rest.errors for rest in rests])
+    white_share = 2.0 * gain / sum(len(errors.increments) for errors in left)  # where the sensor hides it
+    return Structure(PAST, max(share, white_share), gain, relevant=True)
+
+
+def _sum_squares(left: Sequence[ErrorData]) -> float:
+    """Sum up the squared mean speeds [rad²/s] that are left, over time."""
+    return sum(float(np.sum(errors.increments**2 / errors.duration)) for errors in left)
 
 
 def _score_refitted(model: Model, rests: Sequence[_Rest]) -> float:

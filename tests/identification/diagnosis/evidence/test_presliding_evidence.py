@@ -7,21 +7,25 @@ from plant import profiles, record
 
 from motor_identification.diagnose import fit_known
 from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.candidate_fit import refit_without
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.evidence.presliding_evidence import stands_in_for_presliding
-from motor_identification.diagnosis.selection import begin_beside_torque
+from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.evidence.presliding_evidence import find_presliding
+from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_beside_torque
 from motor_identification.estimation.request import Request
+from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check
 from motor_identification.validation.hold_out import make_hold_out
 
+SILENT = ProgressReporter(lambda stage: None, lambda: False)
 PRESLIDING = {"ks": 0.4, "presliding_angle": 0.4}
 BACKLASH = {"ks": 0.4, "backlash_angle": 0.3, "load_fraction": 0.5}
 
 
 @cache
-def fitted(hidden: str) -> tuple[Model, Model]:
-    """A model with a friction and a backlash of a motor beside a random torque, and the one without the backlash."""
+def selected(hidden: str) -> Selection:
+    """What is found of a motor with a friction beside a random torque: a backlash."""
     values = {"presliding": PRESLIDING, "backlash": BACKLASH}[hidden]
     motor = {"kv": 0.07, "ka": 0.0055, "random_torque": 0.1, "random_torque_time": 0.05, "random_torque_seed": 3.0}
     recording = check(
@@ -30,12 +34,28 @@ def fitted(hidden: str) -> tuple[Model, Model]:
     hold_out = make_hold_out([recording], [])
     known, _search = fit_known([recording], Request(effects=("coulomb_friction", "backlash")), hold_out)
     model = begin_beside_torque(known.model, known.hold_out, 1).model
-    return model, refit_without(model, "backlash", known.hold_out)
+    without = refit_without(model, "backlash", known.hold_out)
+    test = CandidateTest("backlash", without, model)
+    return Selection((SelectionStep(without, test, (test,), (), 1.0),), model, known.hold_out, 1)
+
+
+def fitted(hidden: str) -> tuple[Model, Model]:
+    """The models without and with the backlash."""
+    (step,) = selected(hidden).steps
+    return step.before, step.found.model
 
 
 @pytest.mark.parametrize(("hidden", "stands_in"), [("presliding", True), ("backlash", False)])
 def test_a_backlash_stands_in_for_a_friction_that_builds_up(hidden: str, stands_in: bool) -> None:
-    assert stands_in_for_presliding(*fitted(hidden)) is stands_in
+    found = find_presliding(*fitted(hidden))
+    assert (found is not None) is stands_in
+    if found is not None:
+        assert (
+            found.variable == "past"
+            and found.certain
+            and 0.5 < found.share < 0.9
+            and 100.0 < found.significance < 150.0
+        )
 
 
 @pytest.mark.parametrize(("hidden", "low", "high"), [("presliding", 0.8, 2.0), ("backlash", -0.2, 0.2)])
@@ -43,9 +63,17 @@ def test_the_limit_lies_far_from_both(monkeypatch: pytest.MonkeyPatch, hidden: s
     """What the friction gains, over what the backlash does: the limit of 0.4 is far from either."""
     for limit, stands_in in ((low, True), (high, False)):
         monkeypatch.setattr(thresholds, "PRESLIDING_SHARE", limit)
-        assert stands_in_for_presliding(*fitted(hidden)) is stands_in
+        assert (find_presliding(*fitted(hidden)) is not None) is stands_in
+
+
+@pytest.mark.parametrize("hidden", ["presliding", "backlash"])
+def test_elimination_takes_a_stand_in_back_and_leaves_it_unexplained(hidden: str) -> None:
+    left = eliminate_backward(selected(hidden), SILENT)
+    stands_in = hidden == "presliding"
+    assert (not left.steps and left.building_up is not None and not left.complete) is stands_in
+    assert (len(left.steps) == 1 and left.building_up is None) is not stands_in
 
 
 def test_both_are_judged_beside_the_torque_that_is_there() -> None:
-    model, without = fitted("backlash")
+    without, model = fitted("backlash")
     assert model.beside_torque and without.beside_torque and model.likelihood > without.likelihood + 50.0
