@@ -13,7 +13,7 @@ from time import perf_counter
 from motor_identification.diagnosis.backward_elimination import add_rivals_beside_torque, eliminate_backward
 from motor_identification.diagnosis.candidate_test import fits_torque
 from motor_identification.diagnosis.determination import drop_undetermined
-from motor_identification.diagnosis.forward_selection import retry_with_another_first, select_forward
+from motor_identification.diagnosis.forward_selection import retry_with_another_first, retry_with_pair, select_forward
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection import Selection, begin_selection
 from motor_identification.diagnosis.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
@@ -152,7 +152,7 @@ def _select_in_time(start: Selection, reporter: ProgressReporter, limit: TimeLim
 def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tuple[str, ...]]:
     """Select forward and eliminate backward, beside a random torque where there is one; and what is undetermined."""
     first = select_forward(start, reporter)
-    selection = retry_with_another_first(first, reporter)
+    selection = retry_with_pair(retry_with_another_first(first, reporter), reporter)
     reporter.report("checking", 0.9, "", selection.model.held.gap)
     beside = select_beside_torque(start, selection, reporter)
     if beside is None:

@@ -24,6 +24,7 @@ from motor_identification.diagnosis.effect_test import (
 )
 from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_selection
 from motor_identification.progress import ProgressReporter
+from motor_identification.validation.instants import needs_instant
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -166,6 +167,26 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
             rest = tuple(name for name in head.rivals if name != test.effect)
             selection = replace(selection, steps=(replace(head, rivals=rest), *tail))
     return selection
+
+
+def retry_with_pair(selection: Selection, reporter: ProgressReporter) -> Selection:
+    """Select forward again from two effects together, where what needs an instant came first and leaves a gap.
+
+    An instant is found for whatever bends a motion; of steps one way a load step takes more than friction or drag alone
+    does, neither of which is then a finding beside it.
+    """
+    if not selection.steps or not selection.model.above_floor or not selection.model.held.confirms:
+        return selection
+    first = selection.steps[0]
+    if not needs_instant(first.found.effect):
+        return selection
+    start = begin_selection(first.before.estimate, selection.hold_out, selection.workers)
+    pair = _find_pair(start, [test for test in first.tests if not needs_instant(test.effect)], reporter)
+    if not pair:
+        return selection
+    other = select_forward(start.add(pair), reporter, pairs=False)
+    better = other.model.likelihood > selection.model.likelihood and other.model.held.gap < selection.model.held.gap
+    return other if better else selection
 
 
 def _is_simpler(other: Selection, many: Selection) -> bool:

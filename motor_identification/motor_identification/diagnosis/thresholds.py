@@ -105,8 +105,9 @@ FROM_THE_START = 0.02
 # not there. Measured: 1.8 for the constant load of a real motor in a speed loop.
 ON_ITS_WAY = 2.0
 # Standard errors that the size of an effect is beyond none at least: one of some twenty effects is two off by chance.
-# Measured: beside a torque of 0.1 V a load step of 0.04 ± 0.13 V in a motor with backlash, a delay of 1.5 ± 2.1 ms, a
-# sagging supply of 0.049 ± 0.023 beside a slow torque; right ones 4.6 and more.
+# Measured: beside a torque of 0.1 V a load step of 0.04 ± 0.13 V in a motor with backlash, a delay of 1.5 ± 2.1 ms;
+# 2.2 of a sagging supply beside a slow torque, 2.7 of a load in a motor whose friction goes with the angle; right ones
+# 3.2 and more.
 SURE_SIZE = 3.0
 # The same of what repeats with the angle: there are many lines. Measured: 2.1 of an eccentricity of a tachogenerator,
 # which has no disc.

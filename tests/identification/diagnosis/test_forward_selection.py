@@ -1,6 +1,7 @@
 """Forward selection: what is selected, what is tried in pairs, and where it begins once more."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from motor_identification.diagnosis.forward_selection import (
     list_partners,
     may_hide_pair,
     retry_with_another_first,
+    retry_with_pair,
     select_forward,
     verify_findings,
 )
@@ -26,6 +28,7 @@ from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter, Stage
 
 BELOW, ABOVE = 0.999, 1.001
+AT, OVER = 0.999 * thresholds.EXPLAINED_GAP, 1.2 * thresholds.EXPLAINED_GAP  # of a gap, the floor being 1
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
 
 
@@ -197,6 +200,45 @@ def test_of_two_complete_models_the_one_with_fewer_findings_is_taken(
     monkeypatch.setattr(forward_selection, "begin_selection", lambda *rest: many)
     monkeypatch.setattr(forward_selection, "select_forward", lambda *rest, **how: fewer)
     assert (retry_with_another_first(many, SILENT) is fewer) is taken
+
+
+@pytest.mark.parametrize(
+    ("first", "gap", "confirms", "likelier", "smaller", "taken"),
+    [
+        ("load_step", OVER, True, 1.0, 0.9, True),
+        ("load_bias", OVER, True, 1.0, 0.9, False),  # which needs no instant
+        ("load_step", AT, True, 1.0, 0.9, False),  # nothing is left
+        ("load_step", OVER, False, 1.0, 0.9, False),  # one response tells no two
+        ("load_step", OVER, True, -1.0, 0.9, False),
+        ("load_step", OVER, True, 1.0, 1.1, False),
+    ],
+)
+def test_two_effects_together_are_tried_instead_of_an_instant_that_leaves_a_gap(
+    monkeypatch: pytest.MonkeyPatch,
+    first: str,
+    gap: float,
+    confirms: bool,
+    likelier: float,
+    smaller: float,
+    taken: bool,
+) -> None:
+    """In steps one way a load step takes more than a friction or a drag, each alone."""
+    before, model = stub_model(9.0), stub_model(gap, 0.0)
+    model = replace(model, held=replace(model.held, confirms=confirms))
+    friction, again = (stub_test(name, before, 8.0, 50.0) for name in ("coulomb_friction", "load_step"))
+    begun = selection_of(model, step_of(stub_test(first, before, gap, 100.0), friction, again))
+    other = selection_of(rescored(stub_model(smaller * gap, 0.0), likelihood=model.likelihood + likelier))
+    tried: list[list[str]] = []
+
+    def find_pair(start: Any, tests: list[CandidateTest], reporter: Any) -> list[SelectionStep]:
+        tried.append([test.effect for test in tests])
+        return [step_of(friction)]
+
+    monkeypatch.setattr(forward_selection, "_find_pair", find_pair)
+    monkeypatch.setattr(forward_selection, "begin_selection", lambda *rest: SimpleNamespace(add=lambda pair: None))
+    monkeypatch.setattr(forward_selection, "select_forward", lambda *rest, **how: other)
+    assert retry_with_pair(begun, SILENT) is (other if taken else begun)
+    assert all(names == ["coulomb_friction"] for names in tried)
 
 
 def test_friction_is_selected_from_a_recording_that_hides_it(monkeypatch: pytest.MonkeyPatch) -> None:
