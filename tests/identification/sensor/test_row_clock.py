@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from motor_identification.sensor.row_clock import lay_clocks
+from motor_identification.sensor.row_clock import MOST_NEIGHBOURS, NEIGHBOURS, count_neighbours, lay_clocks
 
 ROWS, PERIOD = 800, 0.01  # [s]
 
@@ -31,6 +31,25 @@ def test_lacking_rows_are_gaps_of_the_first_clock() -> None:
     steps = np.diff(lay_clocks(np.delete(stamps, [200, 500, 501]))[0].time) / PERIOD
     assert np.allclose(steps[[199, 498]], [2.0, 3.0], atol=0.01)
     assert np.allclose(np.delete(steps, [199, 498]), 1.0, atol=0.01)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_row_is_lacking_where_each_is_just_very_late(seed: int) -> None:
+    """Of ten rows 0.3 rows late, once in a thousand the medians before and after differ by more than half a row."""
+    late = 0.3 * np.random.default_rng(seed).exponential(size=6000)
+    stamps = PERIOD * (np.arange(6000) + late)
+    assert np.ptp(np.diff(lay_clocks(stamps)[0].time)) < 1e-12
+    steps = np.diff(lay_clocks(np.delete(stamps, 3000))[0].time) / PERIOD
+    (at,) = np.flatnonzero(steps > 1.5)
+    assert abs(at - 2999) < 5 and steps[at] == pytest.approx(2.0, abs=0.01)
+
+
+def test_the_later_rows_are_the_more_of_them_tell_a_lacking_one() -> None:
+    assert count_neighbours(0.0) == count_neighbours(0.17) == NEIGHBOURS < count_neighbours(0.19)
+    assert count_neighbours(0.56) <= MOST_NEIGHBOURS < count_neighbours(0.57)
+    late = 0.75 * np.random.default_rng(5).exponential(size=6000)
+    stamps = np.delete(PERIOD * (np.arange(6000) + late), 3000)
+    assert np.ptp(np.diff(lay_clocks(stamps)[0].time)) < 1e-12  # so late that one row does not show
 
 
 def test_exact_stamps_and_few_have_none() -> None:
