@@ -140,6 +140,8 @@ class Driver:
         if session and self.runs and now - session.heard > self.config.silence * 1e9:
             session.silent = True
             self._halt(f"no telemetry from {session.port} for {self.config.silence * 1e3:.0f} ms")
+        elif session:
+            self._check_lateness(session, now)
         (stop, motor), self._stop, self._by_motor = (self._stop, self._by_motor), "", False
         wish = wish and not stop
         duty = self._readout.duty(voltage) if self._readout else 0
@@ -164,9 +166,15 @@ class Driver:
             return self._hear_telemetry(session, event.frame, now)
         elif isinstance(event.frame, Pong) and session.exchange and session.latest and self._readout:
             session.exchange.hear_pong(event.frame, self._readout.clock, now)
-            if session.exchange.late and session.latest.enabled:
-                self._halt(self._lateness(session.port))
+            self._check_lateness(session, now)
         return []
+
+    def _check_lateness(self, session: Session, now: int) -> None:
+        if session.exchange is None or session.latest is None:
+            return
+        session.exchange.look(now)
+        if session.exchange.late and session.latest.enabled:
+            self._halt(self._lateness(session.port))
 
     def _hear_hello(self, session: Session, hello: Hello, now: int) -> None:
         if session.handshake.reset_in(hello):
