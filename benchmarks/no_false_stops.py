@@ -47,7 +47,7 @@ hours were run at 1 kHz, but not on one state of the rules. At 200 Hz it is 1.5 
 Some 30 % of the time at 200 Hz was the simulated board's, which looked at each of up to 300,000 edges a second in
 Python and does so in compiled code now, the same to the bit; what is left is controller and motor, which are tested.
 A sample at 1 kHz is 0.1 ms of an idle core (six minutes an hour); under a profiler a fifth of it is the board's and the
-motor's, a third the fault checks', a sixth goes into copies of frozen records, and no function is more than 9 % by itself.
+motor's, a third the fault checks', a sixth copies of frozen records, and no function is more than 9 % by itself.
 
 | commit | seeds | rate | discs | motors | hours | false stops |
 |---|---|---:|---|---:|---:|---|
