@@ -56,13 +56,13 @@ class Stage:
         values = ("-p", f"name:={name}", "-p", f"model:={self.model}", "-p", "single_channel:=false")
         self.run("motor_sim", "motor_sim", "--ros-args", *options, *values)
 
-    def controller(self, namespace: str = "") -> None:
-        """Start a controller, and listen to it."""
+    def controller(self, namespace: str = "", *others: str) -> None:
+        """Start a controller, with other arguments of ROS, and listen to it."""
         topic = f"{namespace}/motor/control_state" if namespace else "motor/control_state"
         self.bench.node.create_subscription(ControlState, topic, self._on_state, qos.CONTROL_STATE)
         options = ["-r", f"__ns:=/{namespace}"] if namespace else []
         values = ("-p", "latency_limit:=0.5", "-p", "reference_timeout:=2.0")
-        self.run("motor_control", "motor_control", "--ros-args", *options, *values)
+        self.run("motor_control", "motor_control", "--ros-args", *options, *others, *values)
 
     def run(self, package: str, command: str, *arguments: object) -> Any:
         """Start a program."""

@@ -1,6 +1,7 @@
 """Publish what the controller answers: the voltage, its terms, once a second a diagnostic, and lines of the log."""
 
 import time
+from collections import Counter
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
@@ -11,12 +12,13 @@ from std_msgs.msg import Header
 from motor_control.announcements import Told, announce
 from motor_control.controller.controller import WAITING
 from motor_control.controller.output import Output
-from motor_control.controller.reference.demand import Demand, Kind
+from motor_control.controller.reference.demand import Demand, Kind, Source
 from motor_control.controller.run import Config
 from motor_control.messages import control_state_message, diagnostics_message
 from motor_msgs.msg import ControlState, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import voltage_message
+from motor_ros.topics import publishers_of
 
 FAREWELL = Duration(seconds=0.3)  # what the last 0 V may take to arrive
 
@@ -44,11 +46,14 @@ class Answers:
         self._header.stamp = self._now()
         self._publish(output, config, demand)
 
-    def diagnose(self, config: Config) -> None:
-        """Publish the diagnostic of the second that is over."""
+    def diagnose(self, config: Config, demand: Demand | None) -> None:
+        """Publish the diagnostic of the second that is over; demand: what is obeyed."""
         name = f"{self._node.get_fully_qualified_name()}: {self._header.frame_id or 'no motor yet'}"
         rivals = self._node.count_publishers("motor/voltage")
-        told = diagnostics_message(self._output, config, self._answered, self._worst, rivals, name, self._now())
+        referrers = self._referrers() if demand is not None and demand.source is Source.REFERENCE else []
+        told = diagnostics_message(
+            self._output, config, self._answered, self._worst, rivals, referrers, name, self._now()
+        )
         self._diagnostics.publish(told)
         self._answered, self._worst = 0, 0.0
 
@@ -56,6 +61,11 @@ class Answers:
         """Leave the motor at 0 V, and see that it arrives."""
         self._send(0.0, self._now())
         self._voltage.wait_for_all_acked(FAREWELL)
+
+    def _referrers(self) -> list[str]:
+        """Name the nodes that publish references; one that publishes both kinds counts once."""
+        speeds, angles = (publishers_of(self._node, f"motor/{name}") for name in ("reference", "position_reference"))
+        return sorted((Counter(speeds) | Counter(angles)).elements())
 
     def _publish(self, output: Output, config: Config, demand: Demand | None) -> None:
         stamp = self._header.stamp

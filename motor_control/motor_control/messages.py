@@ -1,5 +1,7 @@
 """Turn what the controller says into messages."""
 
+from collections.abc import Sequence
+
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import JointState
@@ -19,6 +21,7 @@ LEVELS = {
     STOPPED: DiagnosticStatus.ERROR,
 }
 RIVALS = "More than one node publishes motor/voltage, and the plant may obey any of them: end the others."
+REFERRERS = "Several nodes publish references ({}), and the latest is obeyed, whosever it is: end all but one."
 
 
 def control_state_message(output: Output, header: Header) -> ControlState:
@@ -53,10 +56,20 @@ def joint_demand_of(message: JointState, config: Config) -> Demand | str | None:
 
 
 def diagnostics_message(
-    output: Output, config: Config, answered: int, worst: float, publishers: int, name: str, stamp: Time
+    output: Output,
+    config: Config,
+    answered: int,
+    worst: float,
+    publishers: int,
+    referrers: Sequence[str],
+    name: str,
+    stamp: Time,
 ) -> DiagnosticArray:
-    """Make one status: state, samples `answered` in the last second, their `worst` latency [s], publishers."""
-    problem = RIVALS if publishers > 1 else ""
+    """Make one status: state, samples `answered` in the last second, their `worst` latency [s], publishers, referrers.
+
+    Referrers: the nodes that publish a reference that is in force.
+    """
+    problem = RIVALS if publishers > 1 else REFERRERS.format(", ".join(referrers)) if len(referrers) > 1 else ""
     values = {
         "state": output.state,
         "samples per second": str(answered),

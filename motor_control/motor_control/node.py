@@ -45,7 +45,7 @@ class MotorControl(Node):
         self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
         self.create_service(Trigger, "motor/release", lambda _, response: self._on_release(response))
         steady_timer(self, WATCH_EVERY, self._on_watch)
-        steady_timer(self, 1.0, lambda: self._answers.diagnose(self._settings.config))
+        steady_timer(self, 1.0, lambda: self._answers.diagnose(self._settings.config, self._state.demand))
         self.add_on_set_parameters_callback(self._on_parameters)
         self._hold_ups = HoldUps(self)
         self.get_logger().info(describe_start(self._settings.config))

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import inf
 
 from motor_driver.current_limits import CurrentLimits
 from motor_driver.frames.codes import BAUD, Decay, Pwm
@@ -18,6 +19,7 @@ OLDEST = (1, 1)
 SETUP = (1, 2)  # of the firmware: knows setup, and counts both channels
 PROTECT = (1, 4)  # of the firmware: watches the motor's current
 USUAL_TICK = 500  # [ns] of the boards there are, before one has said so
+MOST_TOP = 32_767  # what a command's duty can say
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +107,8 @@ class Config:
     def refusal(self, board: Hello) -> str:
         """Why this board cannot be used as configured; empty if it can."""
         pulses, channels = self.edges_per_revolution // self.quadrature, 1 if self.single_channel else 2
+        if impossible := _find_impossible(board):
+            return impossible
         if _firmware(board) < OLDEST:
             return (
                 f"The board runs firmware {board.firmware_major}.{board.firmware_minor}, and this driver needs "
@@ -167,3 +171,14 @@ class Config:
 
 def _firmware(board: Hello) -> tuple[int, int]:
     return board.firmware_major, board.firmware_minor
+
+
+def _find_impossible(board: Hello) -> str:
+    """Find what a board says of itself and cannot be, as a sentence; "" if nothing: all times and voltages need it."""
+    for name, value, most in (("tick_ns", board.tick_ns, inf), ("pwm_top", board.pwm_top, MOST_TOP)):
+        if not 1 <= value <= most:
+            return (
+                f"The board says {name} = {value}, which cannot be: its firmware is another one or broken; flash it "
+                "again (ros2 run motor_board flash)."
+            )
+    return ""

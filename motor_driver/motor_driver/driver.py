@@ -4,7 +4,7 @@ The output is on only while the user wants it. Whatever ends the board's running
 time-out) is a stop: the user's wish is void then, and nothing but the user's next wish switches the output on again.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from motor_driver.config import Config
 from motor_driver.exchange import Exchange
@@ -23,6 +23,7 @@ LATE = (
     "the board on {} answers later than {:.0f} ms, so that the motor does what was right a while ago: the link holds "
     "bytes back (a wireless adapter, a network, a hub)"
 )
+ASKED = ("sample_period", "command_timeout", "decay", "latch", "reset_cause")  # of a hello: they change without a reset
 LOST = "the link to the board on {} was lost"
 
 
@@ -139,6 +140,8 @@ class Driver:
         if session and self.runs and now - session.heard > self.config.silence * 1e9:
             session.silent = True
             self._halt(f"no telemetry from {session.port} for {self.config.silence * 1e3:.0f} ms")
+        elif session:
+            self._check_lateness(session, now)
         (stop, motor), self._stop, self._by_motor = (self._stop, self._by_motor), "", False
         wish = wish and not stop
         duty = self._readout.duty(voltage) if self._readout else 0
@@ -163,15 +166,21 @@ class Driver:
             return self._hear_telemetry(session, event.frame, now)
         elif isinstance(event.frame, Pong) and session.exchange and session.latest and self._readout:
             session.exchange.hear_pong(event.frame, self._readout.clock, now)
-            if session.exchange.late and session.latest.enabled:
-                self._halt(self._lateness(session.port))
+            self._check_lateness(session, now)
         return []
+
+    def _check_lateness(self, session: Session, now: int) -> None:
+        if session.exchange is None or session.latest is None:
+            return
+        session.exchange.look(now)
+        if session.exchange.late and session.latest.enabled:
+            self._halt(self._lateness(session.port))
 
     def _hear_hello(self, session: Session, hello: Hello, now: int) -> None:
         if session.handshake.reset_in(hello):
             self._reset(session, reset_cause(hello))
         if session.handshake.hear(hello):
-            self._anew = self.board is not None and self.board.boot != hello.boot
+            self._anew = self.board is not None and _is_other(self.board, hello)
             self.board = hello
             self.runs_begun += 1
             session.begin(Exchange(self.config.baud, self._drift, self.config.round_trip), now)
@@ -212,3 +221,8 @@ class Driver:
         if self.motion.stop and frame.enabled:
             self._halt(self.motion.stop, motor=True)
         return Reading(sample, host, restarted)
+
+
+def _is_other(board: Hello, hello: Hello) -> bool:
+    """Tell whether a hello is of a board that was reset since, or of another one on the same port."""
+    return replace(hello, **{name: getattr(board, name) for name in ASKED}) != board

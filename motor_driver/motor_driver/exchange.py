@@ -16,7 +16,10 @@ from motor_driver.protocol import LEAST
 
 PING_EVERY = 20_000_000  # [ns]
 MEMORY = 64  # pings that may still be answered
-LATE = 5  # late answers in a row; a driver that was held up finds one or two
+# Answers that took too long in a row; a driver that was held up finds one or two. Those that take too long already
+# count beside two that have come: who waits for all five stops a motor a third later. Alone they do not, for a noisy
+# line loses some; what it does not lose comes in time.
+LATE, COME = 5, 2
 BITS = 10  # a byte on the line, start and stop bit included
 
 
@@ -33,18 +36,23 @@ class Exchange:
 
     def __init__(self, baud: int, drift: float = 0.0, longest: float = inf) -> None:
         """`longest` [s]: what an answer may take."""
-        self._longest, self._late = longest * 1e9, 0
+        self._longest, self._late, self._overdue = longest * 1e9, 0, 0
         self._byte = BITS * 1e9 / baud  # [ns]
         self.fit = ClockFit(drift)
         self.board = BoardCounters()
         self.round_trip: int | None = None  # [ns] latest
         self._sent: dict[int, int] = {}
         self._token, self._latest = 0, -PING_EVERY
+        self._answered = 0  # the token of the newest answer
 
     @property
     def late(self) -> bool:
         """Whether the link holds back what goes over it."""
-        return self._late >= LATE
+        return self._late >= COME and self._late + self._overdue >= LATE
+
+    def look(self, now: int) -> None:
+        """Look which pings after the newest answer take too long at `now` already."""
+        self._overdue = sum(token > self._answered and now - at > self._longest for token, at in self._sent.items())
 
     def asks(self, now: int) -> Ping | None:
         """A ping, if one is due at `now`, which is taken for when it is written."""
@@ -59,6 +67,8 @@ class Exchange:
     def hear_pong(self, pong: Pong, clock: BoardClock, host: int) -> None:
         """Take an answer read at `host`."""
         sent = self._sent.pop(pong.token, None)
+        self._answered = pong.token
+        self.look(host)
         self.board = BoardCounters(pong.bad_frames, pong.dropped_samples)
         if sent is None:
             self._late += pong.token <= self._token  # of ours, and given up long ago

@@ -43,6 +43,9 @@ class Handshake:
             if not self._refusal and not self._roll_call:
                 self._go(Phase.SETUP if self._config.setup(frame) else self._after_setup(frame))
         elif self.phase is Phase.CONFIGURE and self.hello is not None:
+            self._refusal = self._config.refusal(frame)
+            if self._refusal:  # of a board that says otherwise now
+                return False
             done = (frame.sample_period, frame.command_timeout, frame.decay) == self._wanted()
             if done and frame.latch != self.hello.latch:  # not an old answer: to configure is to switch off
                 self.hello, self.phase = frame, Phase.RUN

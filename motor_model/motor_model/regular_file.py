@@ -22,6 +22,8 @@ def check_regular(path: str | Path) -> None:
         OSError: there is nothing that can be looked at.
         Unfit: it is no regular file.
     """
+    if "\0" in str(path):
+        raise Unfit(f"{str(path)!r} is no file's name: a NUL character ends it; correct it.")
     if not stat.S_ISREG(os.stat(path).st_mode):
         raise Unfit(f"{path} is no regular file: name a file on a disk.")
 

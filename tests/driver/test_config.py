@@ -65,3 +65,9 @@ def test_info_is_what_the_board_does_and_before_it_speaks_what_was_asked() -> No
 def test_no_more_than_the_motors_voltage_nor_than_the_supply(motor: float, supply: float, most: float) -> None:
     info = Config(max_voltage=motor, supply_voltage=supply).info(HELLO)
     assert (info.max_voltage, info.full_voltage) == (most, supply or motor)
+
+
+@pytest.mark.parametrize(("name", "bad", "good"), [("tick_ns", 0, 1), ("pwm_top", 0, 1), ("pwm_top", 32_768, 32_767)])
+def test_a_board_that_says_what_cannot_be_is_refused(name: str, bad: int, good: int) -> None:
+    assert f"says {name} = {bad}, which cannot be" in Config().refusal(replace(HELLO, **{name: bad}))
+    assert Config().refusal(replace(HELLO, **{name: good})) == ""

@@ -139,3 +139,12 @@ def test_a_board_that_cannot_watch_the_current_is_refused() -> None:
     shaken.hear(replace(HELLO, firmware_minor=3))
     assert "runs firmware 1.3, and current_limit needs 1.4: flash" in shaken.problem(0)
     assert shaken.phase is Phase.IDENTIFY
+
+
+@pytest.mark.parametrize("change", [{"tick_ns": 0}, {"pwm_top": 0}, {"edges_per_revolution": 12}])
+def test_an_answer_that_says_otherwise_than_the_hello_before_is_refused(change: dict[str, int]) -> None:
+    shaken = handshake()
+    shaken.hear(HELLO)
+    assert not shaken.hear(replace(ANSWER, **change)) and shaken.phase is Phase.CONFIGURE
+    assert shaken.problem(0)
+    assert shaken.hear(ANSWER) and shaken.problem(0) == ""

@@ -70,3 +70,8 @@ def test_the_limit_is_the_largest_that_is_read(tmp_path: Path) -> None:
     (tmp_path / "file").write_bytes(bytes(2**20 + 1))
     with pytest.raises(Unfit, match=r"is larger than 1 MiB"):
         read_bytes(tmp_path / "file", 2**20)
+
+
+def test_a_name_with_a_nul_in_it_is_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(Unfit, match="NUL"):
+        read_bytes(f"{tmp_path}/model\0.yaml", 10)

@@ -7,9 +7,11 @@ from math import isnan
 from pathlib import Path
 
 import pytest
+import rclpy
 from controller_bench import PATIENT, FakePlant
 from diagnostic_msgs.msg import DiagnosticStatus
 from rcl_interfaces.srv import DescribeParameters
+from std_msgs.msg import Float64
 from workbench import PATIENCE, end, start
 
 from motor_model.model_file import save
@@ -152,6 +154,13 @@ def test_diagnostics_once_a_second(plant: FakePlant) -> None:
     rival = plant.node.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
     plant.wait(lambda: status().level == DiagnosticStatus.WARN, "a warning about the second publisher")
     plant.node.destroy_publisher(rival)
+    plant.wait(lambda: status().level == DiagnosticStatus.OK, "the end of that")
+    plant.publisher(Float64, "motor/position_reference")  # of the node that publishes the other kind
+    other = rclpy.create_node("forgotten", context=plant.node.context)
+    other.create_publisher(Float64, "motor/reference", qos.REFERENCE)
+    plant.wait(lambda: status().level == DiagnosticStatus.WARN, "a warning about the second node")
+    assert "publish references (/bench, /forgotten)" in plant.diagnostics[-1].status[0].message
+    other.destroy_node()
     assert plant.set("motor_control", "sample_timeout", 0.1) == (True, "")
     count = len(plant.diagnostics)
     plant.wait(lambda: len(plant.diagnostics) >= count + 2, "diagnostics in silence")

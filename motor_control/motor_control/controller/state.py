@@ -23,6 +23,13 @@ OTHER_PLANT = "The plant says on motor/info that it is another one than before."
 OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call motor/release."
 TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
 BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
+BEGIN_REFERENCE = (
+    "References are not obeyed until they begin again, with 0 or after a silence of {:g} s: the plant applied nothing "
+    "of what was asked for. See whether its output is off, and whether it is the plant that hears this motor/voltage."
+)
+# [s] without a reference after which one begins again; the longer one where that was ignored as well, as one of those
+# that `ros2 topic pub` sends every second
+SILENCES = 0.5, 2.0
 NAMES = "(names)"  # stands for who publishes motor/speed, which may be known a moment later
 
 
@@ -41,6 +48,8 @@ class State:
     refused: str = ""  # why a demand was not taken
     refused_at: float = 0.0
     referred: float = 0.0  # when it came
+    unheard: float | None = None  # when the latest of those came that the plant ignored, or that went on after it
+    ignored: int = 0  # how often it has ignored some, one after the other
     dropped: str = ""  # why there is none any more
     held: float | None = None  # since when something has held the motor at 0 V although there is one
     held_by: str = ""  # what, as a sentence
@@ -58,7 +67,18 @@ class State:
 
 
 def refer(state: State, reference: float, now: float, kind: Kind = Kind.SPEED) -> State:
-    """Take a fresh reference, [rad/s] or as `kind` says; while a stop is latched it is not taken."""
+    """Take a fresh reference, [rad/s] or as `kind` says; while a stop is latched it is not taken.
+
+    References that go on coming while the plant ignores them are not taken either, until they begin again: the motor
+    that hears our voltages may be another one than that whose samples we hear.
+    """
+    if state.unheard is not None:
+        stops = kind is Kind.SPEED and reference == 0.0
+        silence, needed = now - state.unheard, SILENCES[min(state.ignored, 2) - 1]
+        if silence <= needed and not stops:
+            return refuse(replace(state, unheard=now), BEGIN_REFERENCE.format(needed), now)
+        again = state.ignored if silence <= SILENCES[1] and not stops else 0
+        state = replace(state, unheard=None, ignored=again)
     return _take(state, Demand(reference, kind), now)
 
 

@@ -214,3 +214,18 @@ def test_what_holds_the_motor_for_long_ends_the_reference(name: str, seconds: fl
     if not resumes:
         assert name in output.reason and "held at 0 V for more than 1 s. The motor waits for a fresh" in output.reason
         assert controller.refer(state, 20.0, 9.0).demand is not None
+
+
+@pytest.mark.parametrize("period", [50, 1000])  # [ms] a joystick's, and `ros2 topic pub`'s
+def test_references_that_go_on_while_the_plant_ignores_them_are_not_obeyed(period: int) -> None:
+    """As where `motor/voltage` goes to another plant than that whose samples come: it turned at its top speed."""
+    state, driven = State(), 0
+    for time in range(0, 6000, 5):
+        output, state = feed(state, [time], 60.0 if time % period == 0 else None, on=False)
+        driven += output.terms.voltage != 0.0
+    assert driven <= (101 if period == 50 else 202) and output.state == DISABLED and state.demand is None
+    assert "until they begin again" in state.refused
+    assert feed(state, [6005], 0.0)[0].state == RUNNING
+    late = 6000 - period + (500 if period == 50 else 2000)
+    assert feed(state, [late - 5], 60.0)[0].state == DISABLED
+    assert feed(state, [late + 5], 60.0)[0].state == RUNNING

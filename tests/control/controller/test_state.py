@@ -149,3 +149,14 @@ def test_a_reference_that_is_refused_is_said_and_changes_nothing() -> None:
     output = loop.run(0.1)
     assert (output.state, output.reason, output.warning) == (DISABLED, "It may be an old one.", True)
     assert loop.run(0.5).reason != "It may be an old one."
+
+
+@pytest.mark.parametrize("kind", [Kind.SPEED, Kind.VOLTAGE])
+def test_a_stream_whose_voltages_have_no_effect_ends(kind: Kind) -> None:
+    """As where they go to another plant, whose motor would turn for as long as the stream lasts."""
+    loop, driven, stream = Loop(effort_as_voltage=kind is Kind.VOLTAGE), 0.0, Demand(6.0, kind, Source.JOINT)
+    loop.run(1.0, STOP)
+    for _ in range(600):
+        output = loop.run(DT, stream)
+        driven, loop.voltage = driven + DT * (output.terms.voltage != 0.0), 0.0
+    assert output.state == DISABLED and driven < 0.52 and "until it begins again" in loop.state.refused

@@ -35,8 +35,8 @@ def drop_old_reference(config: Config, state: State, plant: PlantWatch, now: flo
         return drop(state, SILENT_JOINT.format(config.joint_timeout))
     if config.reference_timeout and now - state.referred > config.reference_timeout:
         return drop(state, TIMED_OUT.format(config.reference_timeout))
-    if state.run is not None and state.run.ignored > OFF and now - state.referred > OFF:
-        return drop(state, WAS_OFF)
+    if state.run is not None and state.run.ignored > OFF:
+        return replace(drop(state, WAS_OFF), unheard=state.referred, ignored=state.ignored + 1)
     return state
 
 

@@ -61,8 +61,8 @@ def ignoring(enabled: list[bool]) -> list[Output]:
 
 
 def test_an_output_that_is_off_does_not_wind_up_the_integral() -> None:
-    outputs = ignoring([True] * 5 + [False] * 200 + [True] * 5)
-    off, on = outputs[20:205], outputs[206:]
+    outputs = ignoring([True] * 5 + [False] * 90 + [True] * 5)
+    off, on = outputs[20:95], outputs[96:]
     assert len({output.terms.integral for output in off}) == 1
     assert 0.5 < off[0].terms.integral < 5.5
     assert all("motor/enable" in output.reason and output.warning for output in off)
