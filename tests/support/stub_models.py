@@ -13,6 +13,8 @@ from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.intervals import index_intervals
 from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.noise.likelihood import Noise
+from motor_identification.uncertainty.result import Whiteness
+from motor_identification.uncertainty.standard_errors import Uncertainty
 from motor_identification.validation.held_out import HeldOut
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
 
@@ -44,6 +46,12 @@ class StubModel(Model):
     """A model without an estimate; all that is left above the floor is structure, unless it is said to be random."""
 
     random: bool = False
+    not_identifiable: tuple[str, ...] = ()
+
+    @property
+    def uncertainty(self) -> Uncertainty:  # type: ignore[override]
+        nothing = np.zeros(0)
+        return Uncertainty(nothing, nothing, self.not_identifiable, cast(Whiteness, None))
 
     @property
     def errors(self) -> ErrorModel:  # type: ignore[override]

@@ -154,7 +154,9 @@ def test_a_line_that_was_fitted_to_all_there_is_has_to_be_sure(
     )
     at = model.whitened.problem.unknowns.names.index("eccentricity")
     errors = np.full(len(model.whitened.theta), abs(model.whitened.theta[at]) / (sigma * thresholds.SURE_LINE))
-    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
+    monkeypatch.setattr(
+        candidate_model, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors, not_identifiable=())
+    )
     seen = replace(model, held=replace(model.held, seen=True))
     assert is_chance_size("encoder_eccentricity", seen) == chance
     assert not is_chance_size("encoder_eccentricity", model)  # held-out motion has confirmed it
@@ -208,6 +210,8 @@ def test_what_the_gap_shows_is_needed_though_its_errors_are_wide(
     monkeypatch.setattr(determination, "find_limits_hit", lambda model: limits)
     model, without = stub_model(2.0, 0.0), stub_model(2.0 * times * thresholds.WORSE_GAP, 0.0)
     assert is_needed(found_step(without, model, effect, rivals), model, without) is needed
+    at_sea = replace(model, not_identifiable=("kv",))
+    assert not is_needed(found_step(without, at_sea, effect, rivals), at_sea, without)  # as anything is there
 
 
 def test_an_exchange_of_rivals_in_a_circle_ends(monkeypatch: pytest.MonkeyPatch) -> None:
