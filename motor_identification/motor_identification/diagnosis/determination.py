@@ -22,6 +22,7 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
     has a size by chance, predicts no better with it and leaves a complete model, is not named.
     """
     dropped: list[str] = []
+    gone: set[str] = set()  # of which some is not worth telling
     settled: set[tuple[frozenset[str], str]] = set()  # in which company an effect stays, or was exchanged once
     while weak := _list_weak(selection, settled):
         reporter.report("checking what is determined", 0.95, "", selection.model.held.gap)
@@ -35,10 +36,11 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
             continue
         if is_needed(step, selection.model, smaller.model):
             continue
+        gone |= {step.found.effect, *step.rivals}
         if not (smaller.model.complete and is_chance_size(step.found.effect, selection.model)):
             dropped += [step.found.effect, *step.rivals]
         selection = _eliminate_unless_seen(smaller, reporter)
-        if any(one.found.effect in dropped for one in selection.steps):  # back in the place of another: no circles
+        if any(one.found.effect in gone for one in selection.steps):  # back in the place of another: no circles
             selection = smaller
     return selection, sort_by_table(set(dropped) - set(selection.model.effects))
 

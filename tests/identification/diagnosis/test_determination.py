@@ -237,6 +237,30 @@ def test_an_exchange_of_rivals_in_a_circle_ends(monkeypatch: pytest.MonkeyPatch)
     assert names == () and asked == ["coulomb_friction", "dead_zone"] and left.model.effects == ("dead_zone",)
 
 
+@pytest.mark.parametrize("complete", [True, False])
+def test_what_was_dropped_does_not_come_back_in_the_place_of_another(
+    monkeypatch: pytest.MonkeyPatch, complete: bool
+) -> None:
+    """An eccentricity of unknown size explains more than the friction; whether it is told or not, friction stays."""
+    plain, gap = with_effects(stub_model(9.0)), 1.0 if complete else 5.0
+    one = with_effects(stub_model(gap, 0.0), "coulomb_friction")
+    line = with_effects(stub_model(gap, 0.0), "encoder_eccentricity")
+    both = with_effects(stub_model(gap, 0.0), "coulomb_friction", "encoder_eccentricity")
+    friction, eccentricity = found_step(plain, one, "coulomb_friction"), found_step(one, both, "encoder_eccentricity")
+    begun = Selection((friction, eccentricity), both, fitted()[1], 1)
+    smaller = Selection((friction,), one, fitted()[1], 1)
+    exchanged = Selection((found_step(plain, line, "encoder_eccentricity"),), line, fitted()[1], 1)
+    monkeypatch.setattr(
+        determination, "find_undetermined", lambda model: model.effects[-1:] if line.effects[0] in model.effects else ()
+    )
+    monkeypatch.setattr(determination, "drop_step", lambda *_: smaller)
+    monkeypatch.setattr(determination, "is_chance_size", lambda *_: True)
+    monkeypatch.setattr(determination, "is_needed", lambda *_: False)
+    monkeypatch.setattr(determination, "eliminate_backward", lambda *_: exchanged)
+    left, names = drop_undetermined(begun, SILENT)
+    assert left is smaller and names == (() if complete else ("encoder_eccentricity",))
+
+
 def found_step(before: Model, after: Model, effect: str, rivals: tuple[str, ...] = ()) -> SelectionStep:
     test = CandidateTest(effect, before, after)
     return SelectionStep(before, test, (test,), rivals, 1.0)
