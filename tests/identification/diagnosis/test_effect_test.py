@@ -184,3 +184,8 @@ def test_a_line_comes_back_a_few_times(waves: float, found: bool) -> None:
     assert count_waves(few, "torque_ripple") == pytest.approx(waves * thresholds.LEAST_WAVES)
     assert count_waves(few, "coulomb_friction") == np.inf == count_waves(test.before, "torque_ripple")
     assert (choose_finding([replace(test, model=few)]) is not None) is found
+    disc = tried("encoder_eccentricity", eccentricity=0.05, eccentricity_phase=0.5)
+    assert choose_finding([disc]) is disc and count_waves(disc.model, "encoder_eccentricity") == disc.model.turns
+    within = replace(disc.model)  # a third of a turn, to and fro, is no disc that comes back
+    within.__dict__["turns"] = waves * thresholds.LEAST_WAVES
+    assert (choose_finding([replace(disc, model=within)]) is not None) is found

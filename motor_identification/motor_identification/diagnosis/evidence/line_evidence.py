@@ -15,7 +15,11 @@ def count_waves(model: Model, effect: str) -> float:
 
     Infinitely many of one that has none, or of which no line was found to fit. What is on the disc has one in a turn.
     """
-    cycles = _find_cycles(model, effect) if effect in model.effects else None
+    if effect not in model.effects:
+        return inf
+    if EFFECT_BY_NAME[effect].on_disc:
+        return model.turns
+    cycles = _find_cycles(model, effect)
     return inf if cycles is None else cycles * model.turns
 
 
