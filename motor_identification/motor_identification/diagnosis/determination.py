@@ -96,10 +96,17 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
     """Find the effects of a model none of whose own parameters its training data determine.
 
     Size and time constant of one effect may each be unsure, because the other is, where both together are not. A
-    parameter that belongs to a recording, such as an instant, says nothing of the motor.
+    parameter that belongs to a recording, such as an instant, says nothing of the motor. A size that ended at a limit
+    of the search is none.
     """
-    unknown = _find_unknown(model) if model.effects else ()
-    return tuple(name for name in model.effects if is_undetermined(name, unknown) or is_chance_size(name, model))
+    unknown, limits = (_find_unknown(model), find_limits_hit(model)) if model.effects else ((), ())
+    return tuple(
+        name
+        for name in model.effects
+        if is_undetermined(name, unknown)
+        or EFFECT_BY_NAME[name].parameters[0].name in limits
+        or is_chance_size(name, model)
+    )
 
 
 def is_chance_size(effect: str, model: Model) -> bool:

@@ -294,6 +294,18 @@ def test_a_limit_of_the_search_is_no_value_but_one_of_physics_is(effect: str, at
     assert find_limits_hit(model) == ((name,) if at_limit else ())
 
 
+@pytest.mark.parametrize("at_limit", [True, False])
+def test_a_size_at_a_limit_of_the_search_is_none_though_the_rest_is_determined(
+    monkeypatch: pytest.MonkeyPatch, at_limit: bool
+) -> None:
+    """A backlash of 1 rad, the largest that is looked for, with a share of the load that is sure."""
+    model = with_effects(stub_model(1.0, 0.0), "backlash")
+    limits = ("backlash_angle",) if at_limit else ("load_fraction",)
+    monkeypatch.setattr(determination, "find_limits_hit", lambda model: limits)
+    monkeypatch.setattr(determination, "is_chance_size", lambda *_: False)
+    assert find_undetermined(model) == (("backlash",) if at_limit else ())
+
+
 def test_of_two_that_do_each_others_work_the_needless_one_goes(monkeypatch: pytest.MonkeyPatch) -> None:
     """A load that is not there beside the friction that is: without the load the friction is determined."""
     estimate, hold_out = fitted(ks=0.4)
