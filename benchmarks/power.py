@@ -116,9 +116,9 @@ def entry(effect: str, halvings: int | None) -> str:
 
 
 def halvings_of(effect: str, entry: str) -> int | None:
-    """How often the size was halved that an entry of the page says; None where it says none."""
+    """How often the size was halved that an entry of the page says; None where it says none that was found."""
     name, none = SIZE[effect]
-    said = re.search(rf"{name} ([0-9.e-]+)", entry)
+    said = None if entry.startswith("not found") else re.search(rf"{name} ([0-9.e-]+)", entry)
     return said and round(math.log2(abs(sized(effect, 0)[name] - none) / float(said[1])))
 
 
