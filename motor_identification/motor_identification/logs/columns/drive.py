@@ -1,5 +1,6 @@
 """Which column drives the motor, and how it becomes volts: voltages, duties of a supply, a battery beside them."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,6 +8,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.heading import Heading
 from motor_identification.logs.columns.vocabulary import UNITS, Quantity, words_of
+from motor_identification.logs.csv.table import Table
 
 Floats = NDArray[np.float64]
 
@@ -31,6 +33,7 @@ _MOST_VOLTS = 12.0  # of a command that never is larger: a duty of so few per ce
 _CUT_OFF = 3  # rows at the largest command
 _STEADY_SUPPLY = 0.5  # of its largest value: a supply stays above, a motor's voltage passes 0
 MILLIVOLTS_FROM = 100.0  # such a supply is given in mV
+_EFFORT = "effort"  # of joint states
 REACHED = 0.5  # of a register of 16 bits, below which a largest duty tells nothing of it: 5,299 is of 5,319 or of 6,000
 FEWEST_MILLIVOLTS = 2000.0  # of what is called a voltage: fewer may be a duty of 255 or 1,023
 VOLTAGE_WORDS = frozenset({"voltage", "volt", "volts", "voltaje", "spannung", "tension", "tensión"})
@@ -123,6 +126,17 @@ def is_supply(values: Floats, duty: Floats) -> bool:
 def drives(heading: Heading) -> bool:
     """Whether a name is that of what drives a motor."""
     return heading.quantity in (Quantity.VOLTAGE, Quantity.DUTY)
+
+
+def leave_out_idle_efforts(table: Table, headings: Sequence[Heading]) -> list[Heading]:
+    """Leave out efforts that are zero in every row, where another column drives: most robots' joint states have such.
+
+    Of other names a drive that is zero is that of a motor which is not driven.
+    """
+    idle = [one for one in headings if drives(one) and _EFFORT in one.words and not np.any(table.numbers(one.name))]
+    if all(one in idle for one in headings if drives(one)):  # a log of a motor that nobody drove
+        return list(headings)
+    return [one for one in headings if one not in idle]
 
 
 def find_same_levels(drive: Floats, motion: Floats) -> int:

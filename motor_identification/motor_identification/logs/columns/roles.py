@@ -19,7 +19,7 @@ from motor_identification.logs.columns.behaviour import (
     speeds_called_v,
 )
 from motor_identification.logs.columns.clock import find_clock, read_clock, runs_forward, since_1970
-from motor_identification.logs.columns.drive import drives, is_supply
+from motor_identification.logs.columns.drive import drives, is_supply, leave_out_idle_efforts
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_column, ask_drive, ask_motion, miss_drive, miss_motion
 from motor_identification.logs.columns.said import Pair, Said
@@ -69,7 +69,7 @@ def find_roles(table: Table, said: Said) -> Roles:
     free = ends_of_a_loop(
         [one for one in others if one.quantity is not None or not _is_clock_of(table, one.name, time)]
     )
-    free = commands_beside_control(table, free)
+    free = commands_beside_control(table, leave_out_idle_efforts(table, free))
     free = share_one_drive(
         table, numbered_motors(speeds_called_v(table, present_values(pulses_that_drive(table, free))))
     )

@@ -8,6 +8,7 @@ import numpy as np
 from motor_identification.logs.columns.clock import read_clock, runs_forward
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING, Quantity
+from motor_identification.logs.csv.sparse import mark_empty, mark_rare_senders
 from motor_identification.logs.csv.table import GARBLED, Table
 
 _WITH_UNIT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) ?([^\W\d_][\w/]{0,9}|%|°)$")
@@ -36,10 +37,10 @@ def mend_table(table: Table) -> Table:
 
 
 def _leave_out_garbled(table: Table) -> Table:
-    good = np.ones(len(table), np.bool_)
+    good, of_others = np.ones(len(table), np.bool_), mark_rare_senders(table)
     first: tuple[int, str] | None = None
     for name in filter(lambda one: _holds_numbers(table, one), table.names):
-        readable = table.readable(name)
+        readable = table.readable(name) | (of_others & mark_empty(table.column(name)))
         if not 0 < int((~readable).sum()) <= GARBLED * len(table):
             continue
         good &= readable

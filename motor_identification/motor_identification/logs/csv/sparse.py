@@ -70,11 +70,13 @@ class Filled:
 def fill_gaps(table: Table) -> Filled:
     """Hold the values of columns that are empty in more rows than a serial line garbles; leave out columns of none."""
     cells, told = dict(table.cells), {}
+    of_others = mark_rare_senders(table)
     for name in table.names:
         quantity = read_heading(name).quantity
-        empty = _empty_cells(table.column(name))
+        empty = mark_empty(table.column(name))
         words = np.asarray(table.column(name)).dtype.kind != "f"
-        if (quantity is Quantity.OTHER and words) or np.count_nonzero(empty) <= GARBLED * len(table):
+        few = np.count_nonzero(empty) <= GARBLED * len(table)
+        if (quantity is Quantity.OTHER and words) or (few and not np.any(empty & of_others)):
             continue
         if empty.all():
             del cells[name]
@@ -90,7 +92,20 @@ def fill_gaps(table: Table) -> Filled:
     return Filled(replace(table, cells=cells), told)
 
 
-def _empty_cells(cells: Cells) -> Bools:
+def mark_rare_senders(table: Table) -> Bools:
+    """Mark the rows, shape (K,), that one who seldom says anything sent: what others say all the time is empty there.
+
+    A command that is given once or twice stands in so few rows that they look garbled.
+    """
+    rare = np.zeros(len(table), np.bool_)
+    for name in table.names:
+        empty = mark_empty(table.column(name))
+        if read_heading(name).quantity is not Quantity.OTHER and 0.5 * len(table) < np.count_nonzero(empty):
+            rare |= ~empty & table.readable(name)
+    return rare & (np.count_nonzero(rare) <= GARBLED * len(table))
+
+
+def mark_empty(cells: Cells) -> Bools:
     """Mark the cells, shape (K,), in which nothing stands."""
     array = np.asarray(cells)
     if array.dtype.kind not in "SU":

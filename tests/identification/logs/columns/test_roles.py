@@ -39,6 +39,16 @@ def test_by_their_names() -> None:
     )
 
 
+def test_an_effort_that_is_zero_all_the_time_gives_way_to_what_drives() -> None:
+    """Joint states have an effort, which most robots leave at zero, beside the command on another topic."""
+    assert find_roles(table(t="t", velocity="y", effort="0", command="u"), Said()).pairs == (
+        Pair("", "command", "velocity"),
+    )
+    assert find_roles(table(t="t", velocity="y", effort="0"), Said()).pairs == (Pair("", "effort", "velocity"),)
+    with pytest.raises(RecordingError, match="Say --voltage and one of effort, command"):
+        find_roles(table(t="t", velocity="y", effort="r", command="u"), Said())
+
+
 def test_what_was_counted_comes_before_what_was_computed() -> None:
     assert find_roles(table(t="t", speed="y", ticks="y", angle="y", pwm="u"), Said()).pairs[0].motion == "ticks"
     assert find_roles(table(t="t", speed="y", angle="y", pwm="u"), Said()).pairs[0].motion == "angle"

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from motor_identification.logs.csv.mending import mend_table
 from motor_identification.logs.csv.sparse import Filled, fill_gaps
 from motor_identification.logs.csv.table import Table
 
@@ -81,3 +82,17 @@ def test_a_command_holds_from_the_row_that_it_is_nearer_to(after: int, from_row:
     assert rows.numbers("ms")[changed] == 10.0 * from_row
     by_order = filled.rows_of(None, "speed", "duty", None)  # without times: the row after it
     assert by_order.numbers("ms")[np.flatnonzero(by_order.numbers("duty") == 5.0)[0]] == 110.0
+
+
+def test_a_command_that_was_given_twice_holds() -> None:
+    """Its rows are so few that they look garbled: what others say all the time is empty there."""
+    said = {120: "4.0", 300: "4.0"}
+    command = [said.get(k, "") for k in range(400)]
+    angle = ["" if k in said else str(k) for k in range(400)]
+    table = made(t=[str(k) for k in range(400)], command=command, position=angle)
+    mended = mend_table(table)
+    assert len(mended) == 400 and not mended.notes
+    rows = fill_gaps(mended).rows_of("t", "position", "command", None)
+    assert len(rows) == 400 - 121 - 1 and set(rows.numbers("command")) == {4.0}
+    garbled = made(t=[str(k) for k in range(400)], command=["4.0"] * 400, position=angle)
+    assert len(mend_table(garbled)) == 398
