@@ -4,6 +4,7 @@ import gc
 import itertools
 import os
 import signal
+from collections.abc import Generator
 from pathlib import Path
 
 import pytest
@@ -18,6 +19,16 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 # A machine may be busy: no test asserts a time.
 settings.register_profile("any machine", deadline=None)
 settings.load_profile("any machine")
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Spare the garbage collector what is collected: all of it stays, and every worker collects everything."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -146,7 +146,7 @@ def test_standard_errors_are_true(case: str) -> None:
     """Over many small recordings the errors, in units of their standard errors, scatter by about 1."""
     values, drive, effects, how = SMALL[case]
     scores, request = [], Request(effects, SearchConfig(particles=30, epochs=40))
-    for seed in range(30):
+    for seed in range(20):
         fit = identify([made(values, drive, seed=seed, disc_seed=seed, **how)], request)
         scores.append(how_sure(fit, values))
     spread = np.std(scores, axis=0)

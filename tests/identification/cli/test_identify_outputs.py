@@ -10,13 +10,14 @@ import pytest
 from motor_identification.cli.identify import main
 from motor_model.model_file import load
 
+QUICK = ["--particles", "8", "--epochs", "4"]  # how good a fit is, is not asked for here
 COMMAND = [sys.executable, "-u", "-m", "motor_identification.cli.identify"]  # not buffered
 
 
 @pytest.mark.parametrize(("where", "status"), [("| true", 0), ("> /dev/full", 1), (">&-", 0)])
 def test_the_model_is_written_wherever_the_words_go(bags: Path, tmp_path: Path, where: str, status: int) -> None:
     """`identify … --output x | true` wrote no file and ended with 0."""
-    words = " ".join([*COMMAND, str(bags / "staircase"), "--output", str(tmp_path / "model.yaml")])
+    words = " ".join([*COMMAND, str(bags / "staircase"), *QUICK, "--output", str(tmp_path / "model.yaml")])
     done = subprocess.run(
         ["bash", "-c", f"{words} {where}; exit ${{PIPESTATUS[0]}}"], capture_output=True, text=True, timeout=120.0
     )
@@ -41,7 +42,7 @@ def test_a_file_that_cannot_be_written_costs_neither_the_fit_nor_the_others(
     bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     files = ["--output", "/dev/full", "--json", str(tmp_path / "fit.json")]
-    assert main([str(bags / "staircase"), *files, "--force"]) == 1
+    assert main([str(bags / "staircase"), *QUICK, *files, "--force"]) == 1
     said = capsys.readouterr()
     assert "kv" in said.out and (tmp_path / "fit.json").is_file()
     assert said.err == "cannot write the model file /dev/full: No space left on device.\n"
@@ -53,7 +54,7 @@ def test_a_name_with_odd_characters_is_drawn_as_it_is(
     """A $ in a bag's name was a formula that could not be read, and there was no report."""
     name = "$\\frac{a$b$c\x1b[2J<script>"
     (tmp_path / name).symlink_to(bags / "staircase")
-    assert main([str(tmp_path / name), "--report", str(tmp_path / "report")]) == 0
+    assert main([str(tmp_path / name), *QUICK, "--report", str(tmp_path / "report")]) == 0
     assert {path.name for path in (tmp_path / "report").iterdir()} == {
         "report.html",
         "fit.png",

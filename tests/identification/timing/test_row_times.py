@@ -17,7 +17,7 @@ from motor_identification.timing.speed_filter import MEMORY, SpeedFilter
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import ASSUMED, Timing, read_again
 
-PERIOD, ROWS = 0.02, 1200  # [s]
+PERIOD, ROWS = 0.02, 600  # [s]
 KV, LAG = 0.05, 0.1  # [V·s/rad], [s]
 
 
@@ -98,10 +98,10 @@ def test_counts_of_their_own_rows_are_not_divided_again() -> None:
 def test_a_row_after_a_gap_keeps_its_speed() -> None:
     """Nobody knows what was counted in it."""
     lengths = EVEN.copy()
-    lengths[[400, 800]] = LONGEST - 1.0, LONGEST + 1.0
+    lengths[[200, 400]] = LONGEST - 1.0, LONGEST + 1.0
     recording = logged(lengths, ON_TIME)
     timed = RowTimes(nominal=True).set_on(recording)
-    factors = timed.speed[[399, 400, 800]] / recording.speed[[399, 400, 800]]
+    factors = timed.speed[[199, 200, 400]] / recording.speed[[199, 200, 400]]
     assert factors == pytest.approx([1.0, 1.0 / (LONGEST - 1.0), 1.0], rel=1e-6)
 
 

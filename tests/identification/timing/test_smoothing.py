@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -28,6 +29,7 @@ from motor_identification.timing.smoothing import CLIMB, _climb, _find_peak, _li
 from motor_identification.timing.speed_filter import MEAN, MEMORY, SpeedFilter, parse_filter
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import INSTANT, Timing
+from motor_identification.uncertainty.result import Fit
 from motor_model.errors import ModelError
 from motor_model.model_file import load, load_errors, load_residual_rms, load_speed_filter
 
@@ -144,12 +146,13 @@ def test_hardly_smoothed_or_held_speeds_are_left_as_they_are() -> None:
     assert memory_of(check(held_late(smoothed(noisy(0.5), 0.8), 4, 0))) == 0.0  # shown four times each
 
 
-@pytest.mark.parametrize(("limit", "value"), [("LEAST_GAIN", 1e4), ("LEAST_PART", 10.0), ("LEAST_SPEEDS", 2000)])
-def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_limit_decides(monkeypatch: pytest.MonkeyPatch) -> None:
     logged = smoothed(noisy(0.5), 0.7)
     assert memory_of(logged) > 0.0
-    monkeypatch.setattr(smoothing, limit, value)
-    assert memory_of(logged) == 0.0
+    for limit, value in (("LEAST_GAIN", 1e4), ("LEAST_PART", 10.0), ("LEAST_SPEEDS", 2000)):
+        with monkeypatch.context() as patched:
+            patched.setattr(smoothing, limit, value)
+            assert memory_of(logged) == 0.0, limit
 
 
 def test_a_climb_ends_at_the_first_top() -> None:
@@ -183,11 +186,19 @@ def test_a_few_values_lie_on_any_lattice() -> None:
     assert _list_lattices([few], MEMORY) == []
 
 
+@cache
+def fit_of_smoothed() -> Fit:
+    return identify([smoothed(noisy(0.5), 0.8)], Request(("coulomb_friction",)))
+
+
+@cache
+def diagnosis_of_smoothed() -> Diagnosis:
+    return diagnose([smoothed(noisy(0.5), 0.8)])
+
+
 def test_a_model_is_watched_on_speeds_that_are_smoothed_the_same_way(tmp_path: Path) -> None:
     """By fit and by diagnosis, through its file: no change is seen where there is none."""
-    fit = identify([smoothed(noisy(0.5), 0.8)], Request(("coulomb_friction",)))
-    found = diagnose([smoothed(noisy(0.5), 0.8)]).model
-    for number, one in enumerate((fit, found)):
+    for number, one in enumerate((fit_of_smoothed(), diagnosis_of_smoothed().model)):
         path = tmp_path / f"model_{number}.yaml"
         save_model(path, one, "2026-01-01T00:00:00")
         passed = parse_filter(load_speed_filter(path))
@@ -206,12 +217,11 @@ def test_a_model_is_watched_on_speeds_that_are_smoothed_the_same_way(tmp_path: P
 
 def test_a_fit_and_a_diagnosis_use_what_was_smoothed() -> None:
     """Read as they are, the motor would be slower by the filter, and a lag missing."""
-    logged = smoothed(noisy(0.5), 0.8)
-    fit = identify([logged], Request(("coulomb_friction",)))
+    fit = fit_of_smoothed()
     for name, value in RUBBING.items():
         assert fit.parameters.values[name] == pytest.approx(value, rel=0.03)
     assert any(note.startswith("The speeds are smoothed: each keeps 0.8") for note in fit.notes)
-    assert_only_friction(diagnose([logged]))
+    assert_only_friction(diagnosis_of_smoothed())
 
 
 def test_what_a_tutorial_filters_by_is_no_inductance() -> None:
