@@ -131,10 +131,10 @@ def drives(heading: Heading) -> bool:
 def leave_out_idle_efforts(table: Table, headings: Sequence[Heading]) -> list[Heading]:
     """Leave out efforts that are zero in every row, where another column drives: most robots' joint states have such.
 
-    Of other names a drive that is zero is that of a motor which is not driven.
+    Of other names a drive that is zero is that of a motor which is not driven; so is an effort beside efforts alone.
     """
     idle = [one for one in headings if drives(one) and _EFFORT in one.words and not np.any(table.numbers(one.name))]
-    if all(one in idle for one in headings if drives(one)):  # a log of a motor that nobody drove
+    if all(_EFFORT in one.words for one in headings if drives(one)):
         return list(headings)
     return [one for one in headings if one not in idle]
 

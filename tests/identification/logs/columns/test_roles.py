@@ -49,6 +49,21 @@ def test_an_effort_that_is_zero_all_the_time_gives_way_to_what_drives() -> None:
         find_roles(table(t="t", velocity="y", effort="r", command="u"), Said())
 
 
+@pytest.mark.parametrize("name", ["pwm_left pwm_right", "pwm1 pwm2", "effort_left effort_right"])
+def test_a_motor_that_stands_keeps_its_drive(name: str) -> None:
+    """Zeros that are the drive of one motor beside another one's."""
+    still, other = name.split()
+    moving = {f"speed{one.removeprefix('pwm').removeprefix('effort')}": "y" for one in (still, other)}
+    pairs = find_roles(table(t="t", **{still: "0", other: "u"}, **moving), Said()).pairs
+    assert [pair.voltage for pair in pairs] == [still, other]
+
+
+def test_efforts_of_two_wheels_give_way_to_their_commands() -> None:
+    columns = {"effort_left": "0", "effort_right": "0", "command_left": "u", "command_right": "r"}
+    pairs = find_roles(table(t="t", **columns, speed_left="y", speed_right="y"), Said()).pairs
+    assert [pair.voltage for pair in pairs] == ["command_left", "command_right"]
+
+
 def test_what_was_counted_comes_before_what_was_computed() -> None:
     assert find_roles(table(t="t", speed="y", ticks="y", angle="y", pwm="u"), Said()).pairs[0].motion == "ticks"
     assert find_roles(table(t="t", speed="y", angle="y", pwm="u"), Said()).pairs[0].motion == "angle"
