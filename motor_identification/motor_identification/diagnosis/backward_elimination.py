@@ -7,7 +7,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import fit_again, fit_constant, judge_beside_torque, refit_without
+from motor_identification.diagnosis.candidate_fit import (
+    fit_again,
+    fit_constant,
+    fit_from,
+    judge_beside_torque,
+    refit_without,
+)
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
@@ -89,7 +95,8 @@ def _try_in_place(
         reporter.report(f"{test.effect} in place of {effect}", 0.9, effect, current.held.gap)
 
     tried = try_effects(without, selection.hold_out, others, selection.workers, heard)
-    settled = [_settle(test, current, selection.hold_out) for test in drop_chance_harmonics(tried)]
+    tried = [_start_where_found(test, step, current, selection.hold_out) for test in drop_chance_harmonics(tried)]
+    settled = [_settle(test, current, selection.hold_out) for test in tried]
     tests = sorted(settled, key=lambda test: test.evidence, reverse=True)
     current = _catch_up(current, tests, selection.hold_out)
     better = choose_better(_drop_without_own_evidence(tests, effect, without, current), effect, current)
@@ -147,6 +154,23 @@ def _judge_by_errors_of(other: ErrorModel, model: Model, hold_out: HoldOut) -> M
     """Judge a model again from the errors of one without an effect, which describe its own at least as well."""
     again = judge_beside_torque(model, hold_out, other, thresholds.FINAL_EVALUATIONS)
     return again if again.likelihood > model.likelihood else model
+
+
+def _start_where_found(test: CandidateTest, step: SelectionStep, current: Model, hold_out: HoldOut) -> CandidateTest:
+    """Fit a rival of a step beside a random torque from where it did as well without one, too.
+
+    The torque that a model leaves without both is most of what they explain: from there a fit may end far away.
+    """
+    alike = find_loss(test, current) < thresholds.RIVAL_MARGIN
+    if not current.beside_torque or test.effect not in step.rivals or alike:
+        return test
+    effects = set(test.model.effects)
+    found = (one.model for one in step.tests if one.effect == test.effect and set(one.model.effects) == effects)
+    begin = next(found, None)
+    if begin is None or begin.beside_torque:
+        return test
+    model = replace(test.model, learned=current.learned)
+    return replace(test, model=fit_from(model, begin.estimate, hold_out))
 
 
 def _settle(test: CandidateTest, current: Model, hold_out: HoldOut) -> CandidateTest:

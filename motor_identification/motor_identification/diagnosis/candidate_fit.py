@@ -76,6 +76,14 @@ def fit_again(model: Model, hold_out: HoldOut) -> Model:
     return judge_beside_torque(validate_model(hold_out, fitted), hold_out, None, thresholds.FINAL_EVALUATIONS)
 
 
+def fit_from(model: Model, begin: Estimate, hold_out: HoldOut) -> Model:
+    """Fit a model beside a random torque again from an estimate of the same effects, where that is more likely."""
+    assert model.learned is not None
+    fitted = fit_beside_torque(begin.on(model.estimate.problem), model.learned)
+    again = judge_beside_torque(validate_model(hold_out, fitted), hold_out, None, thresholds.FINAL_EVALUATIONS)
+    return again if again.likelihood > model.likelihood else model
+
+
 def fit_constant(model: Model, effect: str, constant: str, hold_out: HoldOut) -> Model:
     """Fit a model again with a constant effect in the place of one that began, of the same size to begin with."""
     bare, size = _drop_effect(model.estimate, effect), EFFECT_BY_NAME[effect].parameters[0].name

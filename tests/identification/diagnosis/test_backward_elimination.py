@@ -189,6 +189,34 @@ def test_the_model_is_fitted_to_the_end_before_another_is_called_likelier(
 
 
 @pytest.mark.parametrize(
+    ("loss", "beside", "rivals", "begun"),
+    [
+        (ABOVE * thresholds.RIVAL_MARGIN, True, ("coulomb_friction",), True),
+        (BELOW * thresholds.RIVAL_MARGIN, True, ("coulomb_friction",), False),  # it is a rival already
+        (ABOVE * thresholds.RIVAL_MARGIN, False, ("coulomb_friction",), False),
+        (ABOVE * thresholds.RIVAL_MARGIN, True, (), False),
+    ],
+)
+def test_a_rival_is_fitted_beside_a_torque_from_where_it_did_as_well_without(
+    monkeypatch: pytest.MonkeyPatch, loss: float, beside: bool, rivals: tuple[str, ...], begun: bool
+) -> None:
+    """The torque that is left without both is most of what they explain: from there the motor ran away."""
+    before, plain, better = stub_model(9.0), with_effects(stub_model(1.0), "coulomb_friction"), stub_model(1.0)
+    found = CandidateTest("dead_zone", before, with_effects(stub_model(1.0), "dead_zone"))
+    step = SelectionStep(before, found, (found, CandidateTest("coulomb_friction", before, plain)), rivals, 0.99)
+    astray = with_effects(stub_model(1.0, likelihood=-loss), "coulomb_friction")
+    current = replace(stub_model(1.0), learned=ErrorModel(0.0, 0.0, 0.1, 0.1) if beside else None)
+    monkeypatch.setattr(backward_elimination, "find_loss", lambda test, model: loss)
+    monkeypatch.setattr(backward_elimination, "fit_from", lambda model, begin, hold_out: (model.learned, begin, better))
+    test = CandidateTest("coulomb_friction", before, astray)
+    left = backward_elimination._start_where_found(test, step, current, cast(HoldOut, None))
+    if begun:
+        assert left.model == (current.learned, plain.estimate, better)
+    else:
+        assert left is test
+
+
+@pytest.mark.parametrize(
     ("effect", "instead", "loss", "alike"),
     [
         ("coulomb_friction", "load_bias", BELOW * thresholds.RIVAL_MARGIN, True),  # the same, where nothing turns back
