@@ -107,7 +107,7 @@ ON_ITS_WAY = 2.0
 # Standard errors that the size of an effect is beyond none at least: one of some twenty effects is two off by chance.
 # Measured: beside a torque of 0.1 V a load step of 0.04 ± 0.13 V in a motor with backlash, a delay of 1.5 ± 2.1 ms;
 # 2.2 of a sagging supply beside a slow torque, 2.7 of a load in a motor whose friction goes with the angle; right ones
-# 3.2 and more.
+# 3.2 and more, but for one of 2.6: a dead zone beside the friction that takes its place in part.
 SURE_SIZE = 3.0
 # The same of what repeats with the angle: there are many lines. Measured: 2.1 of an eccentricity of a tachogenerator,
 # which has no disc.
