@@ -20,6 +20,7 @@ from motor_identification.diagnosis.effect_test import (
     are_alike,
     count_parameters,
     find_rivals,
+    is_there_from_the_start,
     list_candidates,
     sort_by_table,
     try_effects,
@@ -95,7 +96,8 @@ def _try_in_place(
         reporter.report(f"{test.effect} in place of {effect}", 0.9, effect, current.held.gap)
 
     tried = try_effects(without, selection.hold_out, others, selection.workers, heard)
-    tried = [_start_where_found(test, step, current, selection.hold_out) for test in drop_chance_harmonics(tried)]
+    tried = [test for test in drop_chance_harmonics(tried) if not is_there_from_the_start(test)]
+    tried = [_start_where_found(test, step, current, selection.hold_out) for test in tried]
     settled = [_settle(test, current, selection.hold_out) for test in tried]
     tests = sorted(settled, key=lambda test: test.evidence, reverse=True)
     current = _catch_up(current, tests, selection.hold_out)

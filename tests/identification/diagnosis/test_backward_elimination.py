@@ -6,7 +6,7 @@ from typing import cast
 import pytest
 from diagnosed import fitted, with_effect
 from stub_models import rescored, stub_model, stub_test, with_effects
-from stub_selections import stub_selection
+from stub_selections import step_of, stub_selection
 
 from motor_identification.diagnosis import backward_elimination, thresholds
 from motor_identification.diagnosis.backward_elimination import (
@@ -255,3 +255,20 @@ def test_what_is_seen_to_hold_the_motor_is_replaced_by_what_holds_it(
     monkeypatch.setattr(backward_elimination, "has_same_evidence", lambda other, *_: other is tests[1].model)
     kept = backward_elimination._drop_without_own_evidence(tests, effect, without, current)
     assert [test.effect for test in kept] == left
+
+
+@pytest.mark.parametrize("at_once", [True, False])
+def test_what_is_there_from_the_start_takes_no_place(monkeypatch: pytest.MonkeyPatch, at_once: bool) -> None:
+    """In a motion one way a load step at its beginning does the work of a friction, and is likelier by chance."""
+    without = with_effects(stub_model(5.0, likelihood=-900.0))
+    current = with_effects(stub_model(2.0, likelihood=-200.0), "coulomb_friction")
+    step = step_of(CandidateTest("coulomb_friction", without, current), stub_test("load_step", without, 2.0, 600.0))
+    load = CandidateTest("load_step", without, with_effects(stub_model(1.5, likelihood=-100.0), "load_step"))
+    monkeypatch.setattr(backward_elimination, "_catch_up", lambda current, *_: current)
+    monkeypatch.setattr(backward_elimination, "try_effects", lambda *_: [load])
+    monkeypatch.setattr(backward_elimination, "is_there_from_the_start", lambda test: at_once)
+    monkeypatch.setattr(backward_elimination, "is_own_evidence", lambda *_: False)
+    monkeypatch.setattr(backward_elimination, "_is_as_likely_from_there", lambda *_: False)
+    selection = replace(stub_selection(2.0, step), model=current)
+    (left,) = backward_elimination._try_in_place(selection, step, without, current, SILENT).steps
+    assert left.found.effect == ("coulomb_friction" if at_once else "load_step")
