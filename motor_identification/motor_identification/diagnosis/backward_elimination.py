@@ -10,8 +10,8 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import (
     fit_again,
     fit_constant,
-    fit_from,
     judge_beside_torque,
+    refine_beside_torque,
     refit_without,
 )
 from motor_identification.diagnosis.candidate_model import Model
@@ -172,7 +172,7 @@ def _start_where_found(test: CandidateTest, step: SelectionStep, current: Model,
     if begin is None or begin.beside_torque:
         return test
     model = replace(test.model, learned=current.learned)
-    return replace(test, model=fit_from(model, begin.estimate, hold_out))
+    return replace(test, model=refine_beside_torque(model, hold_out, begin.estimate))
 
 
 def _settle(test: CandidateTest, current: Model, hold_out: HoldOut) -> CandidateTest:

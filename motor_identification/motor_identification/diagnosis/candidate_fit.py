@@ -60,10 +60,14 @@ def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | Non
     return replace(model, learned=errors, score=score)
 
 
-def refine_beside_torque(model: Model, hold_out: HoldOut) -> Model:
-    """Fit a model again beside the torque that it leaves itself, less than was left before, where that is better."""
+def refine_beside_torque(model: Model, hold_out: HoldOut, begin: Estimate | None = None) -> Model:
+    """Fit a model again beside the torque that it leaves itself, less than was left before, where that is better.
+
+    begin: an estimate of the same effects to fit from; from where it is, without.
+    """
     assert model.learned is not None
-    plain = validate_model(hold_out, fit_beside_torque(model.estimate, model.learned))
+    start = model.estimate if begin is None else begin.on(model.estimate.problem)
+    plain = validate_model(hold_out, fit_beside_torque(start, model.learned))
     again = judge_beside_torque(plain, hold_out, None, thresholds.FINAL_EVALUATIONS)
     return again if again.likelihood > model.likelihood else model
 
@@ -74,14 +78,6 @@ def fit_again(model: Model, hold_out: HoldOut) -> Model:
         return validate_model(hold_out, fit_speeds(model.estimate))
     fitted = fit_beside_torque(model.estimate, model.learned, END_ITERATIONS, END_TOLERANCE)
     return judge_beside_torque(validate_model(hold_out, fitted), hold_out, None, thresholds.FINAL_EVALUATIONS)
-
-
-def fit_from(model: Model, begin: Estimate, hold_out: HoldOut) -> Model:
-    """Fit a model beside a random torque again from an estimate of the same effects, where that is more likely."""
-    assert model.learned is not None
-    fitted = fit_beside_torque(begin.on(model.estimate.problem), model.learned)
-    again = judge_beside_torque(validate_model(hold_out, fitted), hold_out, None, thresholds.FINAL_EVALUATIONS)
-    return again if again.likelihood > model.likelihood else model
 
 
 def fit_constant(model: Model, effect: str, constant: str, hold_out: HoldOut) -> Model:

@@ -19,6 +19,7 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.diagnosis.selection import Selection, SelectionStep
+from motor_identification.estimation.estimate import Estimate
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
@@ -202,12 +203,15 @@ def test_a_rival_is_fitted_beside_a_torque_from_where_it_did_as_well_without(
 ) -> None:
     """The torque that is left without both is most of what they explain: from there the motor ran away."""
     before, plain, better = stub_model(9.0), with_effects(stub_model(1.0), "coulomb_friction"), stub_model(1.0)
+    plain = replace(plain, estimate=cast(Estimate, object()))
     found = CandidateTest("dead_zone", before, with_effects(stub_model(1.0), "dead_zone"))
     step = SelectionStep(before, found, (found, CandidateTest("coulomb_friction", before, plain)), rivals, 0.99)
     astray = with_effects(stub_model(1.0, likelihood=-loss), "coulomb_friction")
     current = replace(stub_model(1.0), learned=ErrorModel(0.0, 0.0, 0.1, 0.1) if beside else None)
     monkeypatch.setattr(backward_elimination, "find_loss", lambda test, model: loss)
-    monkeypatch.setattr(backward_elimination, "fit_from", lambda model, begin, hold_out: (model.learned, begin, better))
+    monkeypatch.setattr(
+        backward_elimination, "refine_beside_torque", lambda model, hold_out, begin: (model.learned, begin, better)
+    )
     test = CandidateTest("coulomb_friction", before, astray)
     left = backward_elimination._start_where_found(test, step, current, cast(HoldOut, None))
     if begun:

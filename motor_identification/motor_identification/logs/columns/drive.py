@@ -133,10 +133,10 @@ def leave_out_idle_efforts(table: Table, headings: Sequence[Heading]) -> list[He
 
     Of other names a drive that is zero is that of a motor which is not driven; so is an effort beside efforts alone.
     """
-    idle = [one for one in headings if drives(one) and _EFFORT in one.words and not np.any(table.numbers(one.name))]
-    if all(_EFFORT in one.words for one in headings if drives(one)):
+    efforts = [one for one in headings if drives(one) and _EFFORT in one.words]
+    if len(efforts) == sum(map(drives, headings)):
         return list(headings)
-    return [one for one in headings if one not in idle]
+    return [one for one in headings if one not in efforts or np.any(table.numbers(one.name))]
 
 
 def find_same_levels(drive: Floats, motion: Floats) -> int:
