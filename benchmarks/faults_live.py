@@ -4,6 +4,7 @@ One motor (174 rad/s, 12 V) at 200 Hz. Time is the wall clock's, as a listener h
 late by is in it; speeds are those that the plants report.
 """
 
+import re
 import subprocess
 import sys
 import time
@@ -22,6 +23,7 @@ from motor_ros import qos
 
 # [s] from when it could be known; where a plant that does nothing is believed for 0.5 s to be off; and watched
 KNOWN, KNOWN_BY_TIME, WATCHED = 0.15, 0.6, 3.0
+LOGGED = re.compile(r"^\[\w+\] \[[\d.]+\] \[\w+\]: ")  # what begins a line of a log
 HEAD = "| fault | may take | ms | speed | voltage | what was said |\n|---|---|---|---|---|---|"
 
 
@@ -138,7 +140,7 @@ def run_live(fault: LiveFault) -> Outcome:
         one.hear(WATCHED)
     found = outcome(one.moments, begin)
     said = next((text for text in one.said if fault.words in text), "").replace(f"{one.folder}/", "")
-    return Outcome(found.after, found.speed, found.voltage, said)
+    return Outcome(found.after, found.speed, found.voltage, LOGGED.sub("", said))
 
 
 def live() -> list[tuple[str, bool]]:
