@@ -49,8 +49,13 @@ def eliminate_backward(selection: Selection, reporter: ProgressReporter) -> Sele
     return selection
 
 
-def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressReporter) -> Selection:
-    """Test one finding against the model without it, and against others instead of it."""
+def _check_step(
+    selection: Selection, step: SelectionStep, reporter: ProgressReporter, compared: bool = True
+) -> Selection:
+    """Test one finding against the model without it, and against others instead of it.
+
+    compared: with others where it was found, if nothing was found after it.
+    """
     effect, current = step.found.effect, selection.model
     without = refit_without(current, effect, selection.hold_out)
     if without.learned is not None and without.likelihood > current.likelihood:  # by errors that it does not know
@@ -63,10 +68,10 @@ def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressRep
     constant = _find_constant(effect, without, current, selection.hold_out)
     if constant is not None:
         by = replace(step, found=constant, rivals=tuple(name for name in step.rivals if name != constant.effect))
-        return _check_step(selection.replace_step(step, by, constant.model), by, reporter)
+        return _check_step(selection.replace_step(step, by, constant.model), by, reporter, compared=False)
     judged_alike = step.found.model.beside_torque == current.beside_torque
     lost = list_lost(step, current.effects)
-    if step is selection.steps[-1] and judged_alike and not lost:  # what could be in its place was tried beside it
+    if compared and step is selection.steps[-1] and judged_alike and not lost:
         return selection
     return _try_in_place(selection, step, without, current, reporter)
 

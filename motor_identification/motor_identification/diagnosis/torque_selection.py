@@ -60,14 +60,21 @@ def _choose_more(selection: Selection, plain: Selection, disturbed: bool) -> Sel
 def _select_both_ways(begun: Selection, reporter: ProgressReporter) -> Selection:
     """Select forward and eliminate backward beside a random torque, again where that changed what there is.
 
-    What stood in for two effects hides both; what is found in its place may be one of them.
+    What stood in for two effects hides both; what is found in its place may be one of them. What is added and taken
+    away again goes round in a circle: what it was added to is left, with the rivals that were tried for it.
     """
-    selection = select_forward(begun, reporter)
+    selection, before = select_forward(begun, reporter), None
     for _ in range(thresholds.ROUNDS):
         left = eliminate_backward(selection, reporter)
-        if set(left.model.effects) == set(selection.model.effects):
+        if _have_same_effects(left, selection):
             return left
-        selection = select_forward(left, reporter)
-        if set(selection.model.effects) == set(left.model.effects):
+        if before is not None and _have_same_effects(left, before):
+            return before
+        before, selection = left, select_forward(left, reporter)
+        if _have_same_effects(selection, left):
             return selection
     return eliminate_backward(selection, reporter)
+
+
+def _have_same_effects(one: Selection, other: Selection) -> bool:
+    return set(one.model.effects) == set(other.model.effects)

@@ -123,6 +123,26 @@ def test_a_load_that_came_before_the_motion_is_constant(hidden: dict[str, float]
     assert left.model.estimate.parameters.value(size) == pytest.approx(hidden[size], rel=1e-3)
 
 
+def test_a_load_that_proves_constant_is_compared_with_what_does_its_work(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Motion one way: a load step was found alone, and neither friction nor dead zone was tried as its constant."""
+    bare, loaded = stub_model(2.0, 0.0, likelihood=-500.0), stub_model(1.0, 0.0, likelihood=-400.0)
+    constant = CandidateTest("load_bias", bare, with_effects(loaded, "load_bias"))
+    given = iter([constant, None])
+    monkeypatch.setattr(backward_elimination, "_find_constant", lambda *_: next(given))
+    monkeypatch.setattr(backward_elimination, "refit_without", lambda *_: bare)
+    tried: list[str] = []
+
+    def try_in_place(selection: Selection, step: SelectionStep, *_: object) -> Selection:
+        tried.append(step.found.effect)
+        return selection
+
+    monkeypatch.setattr(backward_elimination, "_try_in_place", try_in_place)
+    found = CandidateTest("load_step", bare, loaded)
+    step = SelectionStep(bare, found, (found,), (), 1.0)
+    left = eliminate_backward(Selection((step,), loaded, cast(HoldOut, None), 1), SILENT)
+    assert [one.found.effect for one in left.steps] == ["load_bias"] == tried
+
+
 @pytest.mark.parametrize(
     ("gap", "likelihood", "settled"),
     [(1.09, -600.0, True), (1.11, -600.0, False), (1.09, -499.0, False)],

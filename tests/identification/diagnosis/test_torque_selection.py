@@ -102,14 +102,25 @@ def test_what_elimination_changed_is_selected_on_from(monkeypatch: pytest.Monkey
     assert module._select_both_ways(limit, SILENT) is (both if dropped else limit)
 
 
-def test_a_selection_that_swings_ends(monkeypatch: pytest.MonkeyPatch) -> None:
-    one, other = selection_of(stub_model(2.0)), selection_of(stub_model(3.0))
-    effects = {id(one.model): ("dead_zone",)}
+@pytest.mark.parametrize("circle", [True, False])
+def test_a_selection_that_swings_ends(monkeypatch: pytest.MonkeyPatch, circle: bool) -> None:
+    """What was added to a load goes again, and the load stays as it was found, with its rivals; else it ends, too."""
+    names = (
+        "load_step",
+        "load_bias",
+        "dead_zone",
+        "load_bias" if circle else "coast_drive",
+        "warm_up",
+        "static_friction",
+    )
+    several = [selection_of(stub_model(2.0)) for _ in names]
+    effects = {id(one.model): (name,) for one, name in zip(several, names, strict=True)}
     monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
-    rounds = []
-    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: one)
-    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: rounds.append(0) or other)
-    assert module._select_both_ways(other, SILENT) is other and len(rounds) == thresholds.ROUNDS + 1
+    steps = iter(several)
+    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: next(steps))
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: next(steps))
+    found = module._select_both_ways(several[0], SILENT)
+    assert found is several[1 if circle else 2 * thresholds.ROUNDS + 1]
 
 
 @pytest.mark.parametrize(("gaps", "chosen"), [((0.999, 1.001), 1), ((1.001, 1.5), 0), ((0.999, 0.998), 0)])
