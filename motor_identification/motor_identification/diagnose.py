@@ -10,14 +10,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 
-from motor_identification.diagnosis.backward_elimination import add_rivals_beside_torque, eliminate_backward
 from motor_identification.diagnosis.candidate_test import fits_torque
-from motor_identification.diagnosis.determination import drop_undetermined
-from motor_identification.diagnosis.forward_selection import retry_with_another_first, retry_with_pair, select_forward
 from motor_identification.diagnosis.result import Diagnosis, Verdict
-from motor_identification.diagnosis.selection import Selection, begin_selection
-from motor_identification.diagnosis.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
-from motor_identification.diagnosis.torque_selection import select_beside_torque
+from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
+from motor_identification.diagnosis.selection.determination import drop_undetermined
+from motor_identification.diagnosis.selection.forward_selection import select_forward
+from motor_identification.diagnosis.selection.restarts import retry_with_another_first, retry_with_pair
+from motor_identification.diagnosis.selection.rivals import add_rivals_beside_torque
+from motor_identification.diagnosis.selection.selection import Selection, begin_selection
+from motor_identification.diagnosis.selection.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
+from motor_identification.diagnosis.selection.torque_selection import select_beside_torque
 from motor_identification.diagnosis.verdict import conclude, find_nearest
 from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem

@@ -8,7 +8,7 @@ import pytest
 from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.selection import begin_selection
+from motor_identification.diagnosis.selection.selection import begin_selection
 from motor_identification.discrepancy import structure
 from motor_identification.discrepancy.free_curves import OF_SPEED, Reach
 from motor_identification.discrepancy.motion_history import MotionHistory

@@ -11,11 +11,13 @@ from plant import profiles, record
 from stub_models import stub_model, with_effects
 
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis import candidate_model, determination, thresholds
+from motor_identification.diagnosis import candidate_model, thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
-from motor_identification.diagnosis.determination import (
+from motor_identification.diagnosis.result import Verdict
+from motor_identification.diagnosis.selection import determination
+from motor_identification.diagnosis.selection.determination import (
     drop_undetermined,
     find_limits_hit,
     find_undetermined,
@@ -24,8 +26,7 @@ from motor_identification.diagnosis.determination import (
     is_needed,
     is_undetermined,
 )
-from motor_identification.diagnosis.result import Verdict
-from motor_identification.diagnosis.selection import Selection, SelectionStep
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta

@@ -4,11 +4,11 @@ Forward selection and backward elimination as without a torque, on models that a
 """
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse, takes_away_more
 from motor_identification.diagnosis.evidence.line_evidence import count_waves
-from motor_identification.diagnosis.forward_selection import select_forward
-from motor_identification.diagnosis.selection import Selection, begin_beside_torque
+from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
+from motor_identification.diagnosis.selection.forward_selection import select_forward
+from motor_identification.diagnosis.selection.selection import Selection, begin_beside_torque
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 

@@ -8,10 +8,10 @@ from stub_models import StubModel, rescored, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis import torque_selection as module
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
-from motor_identification.diagnosis.selection import Selection
+from motor_identification.diagnosis.selection import torque_selection as module
+from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 

@@ -4,11 +4,11 @@ from dataclasses import replace
 from math import inf, isfinite, isnan
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse
 from motor_identification.diagnosis.effect_test import sort_by_table, try_effects
-from motor_identification.diagnosis.selection import Selection, SelectionStep
+from motor_identification.diagnosis.selection.backward_elimination import drop_step, eliminate_backward
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
 from motor_identification.uncertainty.summary import find_bounds_hit
 from motor_identification.validation.instants import list_instant_columns, needs_instant
