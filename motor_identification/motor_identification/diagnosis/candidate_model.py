@@ -1,30 +1,25 @@
 """Hold a candidate model, and judge what it leaves: noise, structure or a random torque."""
 
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property
 from math import exp, sqrt, tau
 
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.fits.disturbed_fit import list_error_data, whiten_beside_torque
-from motor_identification.discrepancy.motion_history import make_history
-from motor_identification.discrepancy.rest import Rest
+from motor_identification.discrepancy.rests import list_held_rests, list_other_rests
 from motor_identification.discrepancy.structure import Structure, find_structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.measurement.time_blocks import TimeBlocks
-from motor_identification.noise.error_data import make_error_data
 from motor_identification.noise.error_learning import estimate_disturbance, learn_error_model
 from motor_identification.noise.error_model import Disturbance, ErrorModel, Lag
 from motor_identification.noise.likelihood import Noise
-from motor_identification.recording import Bools, Floats, Recording
+from motor_identification.recording import Bools, Floats
 from motor_identification.uncertainty.standard_errors import Uncertainty, estimate_uncertainty
 from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME
-
-CURVE_BLOCKS = TimeBlocks(4)  # that curves are judged by where nothing is held out
 
 
 @dataclass(frozen=True)
@@ -136,7 +131,10 @@ class Model:
     @cached_property
     def structure(self) -> tuple[Structure, ...]:
         """What free curves predict of what is left, the most telling variable first; nothing at the sensor's floor."""
-        return self._find_structure() if self.above_floor else ()
+        if not self.above_floor:
+            return ()
+        rests = list_held_rests(self.estimate, self.held), list_other_rests(self.estimate, self.held)
+        return find_structure(*rests, self.errors, self.lag)
 
     @property
     def complete(self) -> bool:
@@ -194,31 +192,6 @@ class Model:
         """Compute what the random torque leaves [rad²/s²] in each interval that counts."""
         duration = np.concatenate([data.duration for data in held.intervals])[held.counted]
         return self.errors.speed_variance(duration, self.lag)
-
-    def _find_structure(self) -> tuple[Structure, ...]:
-        values, held, problem = self.estimate.parameters.values, self.held, self.estimate.problem
-        same = all(a is b for a, b in zip(held.recordings, problem.recordings, strict=False))
-
-        def rest(recording: Recording, data: Intervals, angle: Floats, increments: Floats, judged: Bools) -> Rest:
-            motor = values["kv"], values.get("delay", 0.0)
-            history = make_history(recording, data, angle, *motor)
-            speeds = data.speed + increments / data.duration  # of the model
-            simulated = partial(make_history, recording, data, angle, *motor, speeds)
-            errors, slot = make_error_data(data, increments), data.slot * data.gear if data.tells_of_disc else 0.0
-            return Rest(errors, history, simulated, ~judged, judged, slot)
-
-        judged = held.scored
-        if held.seen:  # by the fit, not by a curve
-            blocks = CURVE_BLOCKS.mark_each(held.intervals, problem.sample_period)
-            judged = tuple(block & scored for block, scored in zip(blocks, held.scored, strict=True))
-        rows = zip(held.recordings, held.intervals, held.angles, held.increments, judged, strict=True)
-        own = [rest(*row) for row in rows]
-        nothing = [np.zeros(len(data.first), dtype=bool) for data in problem.intervals]
-        training = zip(
-            problem.recordings, problem.intervals, self.estimate.angles, self.estimate.increments, nothing, strict=True
-        )
-        others = [] if same else [rest(*row) for row in training]
-        return find_structure(own, others, self.errors, self.lag)
 
 
 def find_lasting_interval(held: HeldOut) -> float:
