@@ -13,6 +13,8 @@ from pathlib import Path
 
 from faults_board import BOARD_FAULTS, run_on_board
 from faults_encoders import encoders
+from faults_kill import HEAD as KILLED_HEAD
+from faults_kill import killed
 from faults_limits import limits
 from faults_live import HEAD, live
 from faults_loop import Loop, Outcome, outcome
@@ -108,8 +110,8 @@ def known() -> Iterable[tuple[str, bool]]:
 
 def page(board: list[tuple[str, bool]], of_board: str) -> str:
     """The whole page; the sentences around the tables stand in `faults_page.md`; of_board: what its rows are of."""
-    between, sim = live(), list(simulated())
-    met = [ok for _, ok in sim + board + between]
+    between, dead, sim = live(), killed(), list(simulated())
+    met = [ok for _, ok in sim + board + between + dead]
     return TEMPLATE.read_text(encoding="utf-8").format(
         commit=commit(),
         machine=machine(),
@@ -118,6 +120,7 @@ def page(board: list[tuple[str, bool]], of_board: str) -> str:
         simulated=table(MOTORS, (line for line, _ in sim)),
         of_board=of_board,
         live="\n".join([HEAD, *(line for line, _ in between)]),
+        killed="\n".join([KILLED_HEAD, *(line for line, _ in dead)]),
         emulated=table(BOARD_MOTORS, (line for line, _ in board)),
         encoders="\n".join(encoders()),
         limits="\n".join(limits()),

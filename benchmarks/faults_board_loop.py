@@ -133,6 +133,8 @@ class BoardLoop:
 
     def _take(self, output) -> None:  # type: ignore[no-untyped-def]
         self._reason = output.reason if output.state != "running" else ""
+        if output.begins:
+            self._command(0.0)
         if output.drives:
             self._command(output.terms.voltage)
 

@@ -2,10 +2,10 @@
 
 from math import tau
 
+from faults_injected import block, swap
 from faults_line import CableOff
 from faults_loop import Loop, Outcome, outcome
 from faults_motor import Motor
-from faults_rows import block, swap
 
 RATE = 200.0  # [Hz]
 EDGES = (8, 24, 96, 2880)

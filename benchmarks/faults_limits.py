@@ -5,10 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 from faults_board_loop import BoardLoop
+from faults_injected import block
 from faults_line import Swapped
 from faults_loop import Line, Loop
 from faults_motor import MOTORS
-from faults_rows import block
 
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 

@@ -9,10 +9,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import tau
 
+from faults_injected import block, repeat, swap
 from faults_line import CableOff
 from faults_loop import Loop, Outcome, outcome
 from faults_motor import Motor
-from faults_rows import block, repeat, swap
 
 from motor_model.parameters import Parameters
 from motor_model.sample import Info

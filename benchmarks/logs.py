@@ -13,7 +13,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before NumPy: small matric
 
 from machine import commit
 
-from motor_identification.cli.options.log import add_log_options, read_log_options
+from motor_identification.cli.options.log import add_log_options
+from motor_identification.cli.options.log_said import read_log_options
 from motor_identification.logs.imported import Imported, import_log
 
 RESULTS = Path(__file__).with_name("results")

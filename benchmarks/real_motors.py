@@ -19,7 +19,8 @@ from machine import commit, machine
 from real_motors_figure import draw
 from real_motors_known import fit_like_sysid, fit_static_curve
 
-from motor_identification.cli.options.log import add_log_options, read_log_options
+from motor_identification.cli.options.log import add_log_options
+from motor_identification.cli.options.log_said import read_log_options
 from motor_identification.diagnose import Request, diagnose
 from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.logs.imported import import_log

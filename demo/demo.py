@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from contextlib import ExitStack
 from pathlib import Path
 
@@ -26,9 +27,11 @@ from motor_ros.loopback import stay_on_this_machine
 
 ROOT = Path(__file__).resolve().parents[1]
 OUT = ROOT / "out" / "demo"
+CLOSED_LOOP = OUT / "closed_loop"
 REAL_MOTOR = ROOT / "tests" / "data" / "undc" / "prbs_2026-08-14.csv"
 REFERENCE = 100.0  # [rad/s]
 HELD_WITHIN = 2.0  # [rad/s] mean of the last second
+LAST = 200  # samples of that second
 FITTED_WITHIN = 0.01  # relative
 
 # What the identification is not told: the paper's motor with Coulomb friction, on a disc with slots 1 % off.
@@ -117,7 +120,7 @@ def table() -> bool:
 
 def held() -> bool:
     """Whether the speed was held over the last second."""
-    recording = read_recording(str(OUT / "closed_loop"))
+    recording = read_recording(str(CLOSED_LOOP))
     last = recording.speed[recording.time > recording.duration - 1.0]
     print(
         f"  reference {REFERENCE:g} rad/s; over the last second the encoder read "
@@ -128,10 +131,23 @@ def held() -> bool:
 
 def references() -> list[tuple[float, float]]:
     """When [s since the closed loop's first sample] the controller worked with which reference [rad/s]."""
-    path = str(OUT / "closed_loop")
-    first = next(deserialize_message(row[3], MotorSpeed) for row in messages(path, ["/motor/speed"]))
-    states = (deserialize_message(row[3], ControlState) for row in messages(path, ["/motor/control_state"]))
-    return [(_seconds(state.header.stamp) - _seconds(first.header.stamp), state.reference) for state in states]
+    first = next(deserialize_message(row[3], MotorSpeed) for row in messages(str(CLOSED_LOOP), ["/motor/speed"]))
+    return [(_seconds(state.header.stamp) - _seconds(first.header.stamp), state.reference) for state in states()]
+
+
+def states() -> list[ControlState]:
+    """What the controller said in the closed loop."""
+    rows = messages(str(CLOSED_LOOP), ["/motor/control_state"])
+    return [deserialize_message(row[3], ControlState) for row in rows]
+
+
+def say_not_held(reasons: list[str]) -> str:
+    """Say why the speed was not held, by what the controller said at the samples of the last second ("": nothing)."""
+    said = Counter(" ".join(reason.split()) for reason in reasons if reason)
+    if not said:
+        return f"the speed was not held within {HELD_WITHIN:g} rad/s."
+    share, (most, _) = said.total() / len(reasons), said.most_common(1)[0]
+    return f"the speed was not held: at {share:.0%} of the last samples the controller says '{most}' Then run it again."
 
 
 def _seconds(stamp: Time) -> float:
@@ -165,7 +181,9 @@ def main() -> int:
     draw_demo(OUT, load(OUT / "model.yaml"), references(), picture)
     print(f"  picture: {picture.relative_to(ROOT)}")
     print(f"  took {time.monotonic() - begun:.0f} s")
-    return 0 if fitted and holds else 1
+    if not holds:
+        raise MotorError(say_not_held([state.reason for state in states()[-LAST:]]))
+    return 0 if fitted else 1
 
 
 if __name__ == "__main__":

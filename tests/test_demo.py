@@ -1,5 +1,6 @@
 """The demo itself: exits with 0, with the right motor in its table and its picture drawn."""
 
+import importlib
 import re
 import subprocess
 import sys
@@ -8,6 +9,17 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
+
+
+def test_a_speed_that_was_not_held_has_its_reason(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on a busy machine, where samples are late; the status alone told a newcomer nothing."""
+    monkeypatch.syspath_prepend(str(ROOT / "demo"))
+    say = importlib.import_module("demo").say_not_held
+    late = "The sample is 24 ms old and latency_limit is 20 ms: give the controller more processor time."
+    assert say([late] * 50 + [""] * 150) == (
+        f"the speed was not held: at 25% of the last samples the controller says '{late}' Then run it again."
+    )
+    assert say([""] * 200) == "the speed was not held within 2 rad/s."
 
 
 @pytest.mark.long

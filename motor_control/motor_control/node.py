@@ -17,6 +17,7 @@ from motor_control.controller.reference.demand import Demand, Kind
 from motor_control.messages import joint_demand_of
 from motor_control.parameters import PROGRAM, ROWS
 from motor_control.settings import Settings
+from motor_control.speakers import Speakers
 from motor_model.errors import MotorError
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
@@ -35,7 +36,7 @@ class MotorControl(Node):
         super().__init__("motor_control")
         self._settings = Settings(declare(self, ROWS))
         self._state = controller.State(since=time.monotonic())
-        self._speakers = 0  # who publish motor/speed
+        self._speakers = Speakers(self)
         self._answers = Answers(self)
         self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
@@ -56,14 +57,14 @@ class MotorControl(Node):
 
     def _on_speed(self, message: MotorSpeed) -> None:
         sample, now = sample_of(message), time.monotonic()
+        if self._state.arrival is None or self._state.silent is not None:  # samples begin, or begin again
+            self._state = self._speakers.meet(self._state)
         output, self._state = controller.update(self._settings.config, self._state, sample, None, now)
         self._answers.answer(output, message.header, self._settings.config, self._state.demand)
 
     def _on_watch(self) -> None:
         self._settings.refresh()
-        if (count := self.count_publishers("motor/speed")) != self._speakers:
-            names = ", ".join(publishers_of(self, "motor/speed"))
-            self._speakers, self._state = count, replace(self._state, speakers=f"({names})")
+        self._state = self._speakers.name(self._state)
         several = self.count_publishers("motor/joint_command") > 1
         if several != bool(self._state.joint_senders):
             names = ", ".join(publishers_of(self, "motor/joint_command"))

@@ -29,7 +29,7 @@ from motor_model.errors import ModelError
 from motor_model.parameters import Parameters
 from motor_model.physical.quantities import CONSTANT, PHYSICAL_BY_NAME, RESISTANCE, physical_values_of
 from motor_model.printable import escape
-from motor_model.regular_file import Unfit, write_text
+from motor_model.regular_file import Unfit, say_refusal, write_text
 
 
 def load(path: str | Path) -> Parameters:
@@ -41,7 +41,7 @@ def load(path: str | Path) -> Parameters:
     try:
         content = yaml_file.read(path)
     except OSError as error:
-        raise ModelError(f"cannot read the model file {path}: {error.strerror}.") from error
+        raise ModelError(f"cannot read the model file {path} ({error.strerror}): name one that can be read.") from error
     except Unfit as error:
         raise ModelError(str(error)) from error
     except yaml_file.NotYaml as error:
@@ -189,7 +189,7 @@ def save(
     try:
         write_text(path, yaml.safe_dump(content, sort_keys=False, allow_unicode=True))
     except OSError as error:
-        raise ModelError(f"cannot write the model file {path}: {error.strerror}.") from error
+        raise ModelError(f"cannot write the model file {path} {say_refusal(error)}.") from error
 
 
 def _physical_section(parameters: Parameters, errors: Mapping[str, float]) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """Read and write regular files whole: reading is bounded, and writing replaces a file at once or not at all."""
 
+import errno
 import os
 import stat
 import tempfile
@@ -8,7 +9,11 @@ from pathlib import Path
 
 from motor_model.errors import MotorError
 
-_CHUNK = 1 << 16  # bytes
+_CURES = {
+    **dict.fromkeys((errno.ENOSPC, errno.EDQUOT, errno.EFBIG), "make room, or choose another place"),
+    **dict.fromkeys((errno.EACCES, errno.EPERM, errno.EROFS), "choose a place that you may write to"),
+    **dict.fromkeys((errno.ENOENT, errno.ENOTDIR), "choose a directory that exists"),
+}
 
 
 class Unfit(MotorError):
@@ -80,6 +85,11 @@ def write_text(path: str | Path, text: str) -> None:
         OSError: it cannot be written.
     """
     write_bytes(path, text.encode("utf-8", errors="backslashreplace"))
+
+
+def say_refusal(error: OSError) -> str:
+    """Say what a disk refuses, and what to do, for the end of a sentence: `(No space left on device): make room, …`."""
+    return f"({error.strerror}): {_CURES.get(error.errno or 0, 'choose another place')}"
 
 
 def _mode(path: Path) -> int | None:

@@ -77,10 +77,11 @@ class Gate:
     rival_at: int = 0  # [ns] when the two had both been heard
     refused: int = 0  # commands that were not numbers
 
-    def take(self, voltage: float, now: int, name: str = "", number: int | None = None) -> "Gate":
-        """A command [V] of a sender arrives at `now` [ns]; one that is not a number stops the motor.
+    def take(self, voltage: float, now: int, name: str = "", number: int | None = None, waited: int = 0) -> "Gate":
+        """A command [V] of a sender is taken at `now` [ns]; one that is not a number stops the motor.
 
-        `name` is the message's frame_id, `number` how many messages its publisher has sent, None if unknown.
+        `name` is the message's frame_id, `number` how many messages its publisher has sent, None if unknown; `waited`
+        [ns] how long ago it was received: a plant that is held up takes it late, and it is as old as it is.
         """
         if not isfinite(voltage):
             return replace(self, command=0.0, received=None, refused=self.refused + 1)
@@ -89,14 +90,15 @@ class Gate:
         if holder is not None and now - holder.at <= HOLD and not ours:
             return replace(self, aside=Sender(name, number, now))
         if holder is not None and self._goes_on_unheard(holder, ours, number, now):
-            return replace(self.come_up(holder.at), sender=None, away=True).take(voltage, now, name, number)
+            return replace(self.come_up(holder.at), sender=None, away=True).take(voltage, now, name, number, waited)
         told = self._tell_senders(number, now) if ours else replace(self, aside=None)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
         first = self.first if ours and self.first is not None else sender
         handed = voltage != 0.0 and (self.handed or (not ours and self.conflict(now)))
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
         begun = begun and not handed
-        return replace(told, command=voltage, received=now, sender=sender, first=first, begun=begun, handed=handed)
+        told = replace(told, command=voltage, received=now - waited)
+        return replace(told, sender=sender, first=first, begun=begun, handed=handed)
 
     def _goes_on_unheard(self, holder: Sender, ours: bool, number: int | None, now: int) -> bool:
         """Whether a sender, the latest or another, has sent for long while nothing was heard, and the motor stood."""

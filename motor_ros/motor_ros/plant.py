@@ -106,9 +106,9 @@ class Plant:
         )
         self._diagnostics.publish(told)
 
-    def _on_voltage(self, voltage: float, sender: str, number: int | None) -> None:
+    def _on_voltage(self, voltage: float, sender: str, number: int | None, waited: int) -> None:
         now, before = time.monotonic_ns(), self.gate
-        self.gate = before.take(voltage, now, sender, number)
+        self.gate = before.take(voltage, now, sender, number, waited)
         if self.gate.refused > before.refused:
             self._node.get_logger().error(
                 f"{voltage} on motor/voltage is not a number: the motor gets 0 V.", throttle_duration_sec=1.0

@@ -75,3 +75,8 @@ def publishers_of(node: Node, topic: str) -> list[str]:
     """Name the nodes that publish a topic, in alphabetical order; one with two publishers stands there twice."""
     found = node.get_publishers_info_by_topic(topic)
     return sorted(f"{one.node_namespace.rstrip('/')}/{one.node_name}" for one in found)
+
+
+def publisher_ids(node: Node, topic: str) -> frozenset[tuple[int, ...]]:
+    """List the publishers of a topic by what the middleware knows them by: one that is started again is another one."""
+    return frozenset(tuple(one.endpoint_gid) for one in node.get_publishers_info_by_topic(topic))

@@ -1,12 +1,13 @@
 """Files are read within bounds, and replaced at once or not at all."""
 
+import errno
 import os
 import resource
 from pathlib import Path
 
 import pytest
 
-from motor_model.regular_file import Unfit, check_regular, read_bytes, write_bytes, write_text
+from motor_model.regular_file import Unfit, check_regular, read_bytes, say_refusal, write_bytes, write_text
 
 
 def test_what_is_written_is_read(tmp_path: Path) -> None:
@@ -50,6 +51,20 @@ def test_a_device_is_written_to_as_it_is() -> None:
     write_text("/dev/null", "x")
     with pytest.raises(OSError, match="No space left"):
         write_text("/dev/full", "x")
+
+
+@pytest.mark.parametrize(
+    ("number", "cure"),
+    [
+        (errno.ENOSPC, "make room, or choose another place"),
+        (errno.EROFS, "choose a place that you may write to"),
+        (errno.ENOENT, "choose a directory that exists"),
+        (errno.EIO, "choose another place"),
+    ],
+)
+def test_what_a_disk_refuses_has_a_cure(number: int, cure: str) -> None:
+    error = OSError(number, os.strerror(number))
+    assert say_refusal(error) == f"({os.strerror(number)}): {cure}"
 
 
 def test_what_blocks_or_never_ends_is_refused(tmp_path: Path) -> None:

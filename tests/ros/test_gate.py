@@ -26,6 +26,15 @@ def stream(plant: Gate, voltage: float, times: range, first: int, name: str = ""
     return plant
 
 
+@pytest.mark.parametrize(("waited", "acts"), [(0, True), (59, True), (61, False), (200, False)])
+def test_a_command_is_as_old_as_it_is_when_it_is_taken(waited: int, acts: bool) -> None:
+    """A plant that was held up found the last words of a controller that had died, and obeyed them for 0.1 s more."""
+    plant = gate().take(0.0, T0, "", 1).take(6.0, T0 + 10 * MS, "", 2, waited * MS)
+    assert plant.voltage(T0 + 50 * MS) == (6.0 if acts else 0.0)
+    other = plant.take(-6.0, T0 + 20 * MS, "another", 900, 90 * MS)  # left aside: it makes the first no older
+    assert other.voltage(T0 + 50 * MS) == (6.0 if acts else 0.0)
+
+
 @pytest.mark.parametrize("numbered", [True, False])
 def test_voltages_that_flowed_before_the_plant_came_up_wait_for_0_volt_or_enable(numbered: bool) -> None:
     plant, at = gate(), 0

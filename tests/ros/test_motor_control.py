@@ -135,6 +135,27 @@ def test_a_model_at_the_start_is_ready_for_the_first_sample(plant: FakePlant, mo
         end(process)
 
 
+@pytest.mark.parametrize("another", [True, False])
+def test_after_a_silence_only_the_same_plant_goes_on(plant: FakePlant, another: bool) -> None:
+    """A driver that was started again goes on with the board's clock; one that was held up is still the same."""
+    process = start("motor_control", "motor_control", "--ros-args", "-p", "latency_limit:=10.0")
+    try:
+        plant.meet()
+        plant.refer(50.0)
+        plant.wait(lambda: plant.states[-1].state == "no_samples", "the silence")
+        if another:
+            plant.start_again()
+        sent = len(plant.voltages)
+        state = plant.answer(20.0)
+        assert (state.state, "The plant was restarted" in state.reason) == (
+            ("disabled", True) if another else ("running", False)
+        )
+        assert any(one.voltage for one in plant.voltages[sent:]) is not another
+        plant.refer(50.0)  # a fresh one is obeyed
+    finally:
+        end(process)
+
+
 @pytest.mark.on_time
 @pytest.mark.usefixtures("process")
 def test_diagnostics_once_a_second(plant: FakePlant) -> None:

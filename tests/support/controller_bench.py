@@ -45,6 +45,12 @@ class FakePlant(Bench):
         self.wait(heard, "an answer")
         self.answer(0.0)
 
+    def start_again(self) -> None:
+        """Publish samples as another process would, which goes on with the board's clock."""
+        self.node.destroy_publisher(self._speed)
+        self._speed = self.publisher(MotorSpeed, "motor/speed", qos.SPEED)
+        self.heard(self._speed)
+
     def refer(self, reference: float) -> None:
         """One message on `motor/reference`, and the first sample that is answered with it in force."""
         self._reference.publish(Float64(data=reference))

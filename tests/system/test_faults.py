@@ -57,6 +57,25 @@ def test_a_killed_controller(driver: "Popen[str]", live: LiveBoard, user: User, 
     assert seconds_to_rest(live) < MOST
 
 
+def test_driver_and_controller_are_killed_at_full_voltage(
+    driver: "Popen[str]", live: LiveBoard, user: User, start: Start
+) -> None:
+    """As the kernel does for want of memory (`benchmarks/faults_kill.py`): nobody is left who could say 0 V."""
+    user.sending = False  # the controller does
+    reference = user.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+    controller = start("motor_control", "motor_control", *LATE)
+    user.bench.heard(reference)
+    user.until_moving(reference, "motion")
+    reference.publish(Float64(data=400.0))  # faster than it can
+    user.until_on(lambda sample: sample.voltage == 12.0, "full voltage")
+    driver.kill()
+    controller.kill()
+    assert 0.05 < seconds_to_rest(live) < MOST
+    for _ in range(300):  # and for good
+        assert live.truth().voltage == 0.0
+        time.sleep(0.001)
+
+
 def test_a_killed_driver_and_its_successor(driver: "Popen[str]", live: LiveBoard, user: User, start: Start) -> None:
     user.voltage = 6.0
     user.until_on(lambda sample: sample.speed > 50.0, "motion")

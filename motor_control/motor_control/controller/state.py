@@ -20,6 +20,7 @@ from motor_model.sensing.repeated_stops import RepeatedStops
 RELEASED = "The motor was released."
 CLEARED = "The stop was cleared."
 OTHER_PLANT = "The plant says on motor/info that it is another one than before."
+RESTARTED = "The plant was restarted."
 OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call motor/release."
 TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
 BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
@@ -148,7 +149,7 @@ def drop(state: State, why: str) -> State:
     return replace(state, run=None, demand=None, dropped=why)
 
 
-def meet_other_plant(state: State) -> State:
+def meet_other_plant(state: State, why: str = OTHER_PLANT) -> State:
     """Forget what was asked of a plant that is another one now: edges, limits, all that a reference was for."""
     state = replace(state, motion=None, faults=None, place=None, rhythm=Rhythm())
-    return drop(state, OTHER_PLANT) if state.demand is not None else state
+    return drop(state, why) if state.demand is not None else state

@@ -9,7 +9,7 @@ import numpy as np
 from motor_control.tuning.design import Tuning
 from motor_control.tuning.simulated_loop import Rehearsal
 from motor_model.errors import MotorError
-from motor_model.regular_file import write_bytes
+from motor_model.regular_file import say_refusal, write_bytes
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -46,8 +46,12 @@ def draw_tuning(tuning: Tuning, rehearsal: Rehearsal, title: str, path: Path) ->
         figure.savefig(drawn := BytesIO(), format=path.suffix[1:] or "png", dpi=120)
         write_bytes(path, drawn.getvalue())
     except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "its name must end in .png, .pdf or .svg"
-        raise MotorError(f"cannot write {path}: {reason}.") from error
+        why = (
+            say_refusal(error)
+            if isinstance(error, OSError)
+            else "(its name must end in .png, .pdf or .svg): correct it"
+        )
+        raise MotorError(f"cannot write {path} {why}.") from error
     finally:
         plt.close(figure)
 

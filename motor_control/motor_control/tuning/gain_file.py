@@ -6,7 +6,7 @@ from pathlib import Path
 from motor_control.tuning.design import Tuning
 from motor_control.tuning.speed_feedback import OBSERVER
 from motor_model.errors import MotorError
-from motor_model.regular_file import write_text
+from motor_model.regular_file import say_refusal, write_text
 
 NODE = "/**/motor_control"  # in any namespace
 
@@ -52,7 +52,7 @@ def save_gains(path: Path, tuning: Tuning, model: Path, force: bool = False) -> 
     try:
         write_text(path, gain_text(tuning, model))
     except OSError as error:
-        raise MotorError(f"cannot write {path}: {error.strerror}.") from error
+        raise MotorError(f"cannot write {path} {say_refusal(error)}.") from error
 
 
 def _number(value: float) -> str:

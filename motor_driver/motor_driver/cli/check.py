@@ -16,7 +16,7 @@ from motor_driver.link import candidates
 from motor_driver.ports.port_error import COMMAND, PortError
 from motor_driver.ports.search import the_only
 from motor_model.errors import MotorError
-from motor_model.regular_file import write_text
+from motor_model.regular_file import say_refusal, write_text
 from motor_ros.command.shell import shell
 from motor_ros.output_files import check_outputs
 
@@ -82,7 +82,7 @@ def _write(path: Path, text: str) -> None:
     try:
         write_text(path, text)
     except OSError as error:
-        raise MotorError(f"cannot write {path}: {error.strerror}.") from error
+        raise MotorError(f"cannot write {path} {say_refusal(error)}.") from error
 
 
 if __name__ == "__main__":

@@ -1,16 +1,11 @@
 """What a disk refuses, in one sentence: full, write-protected, not ours, or broken."""
 
-import errno
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from motor_model.errors import RecordingError
-
-_CURES = {
-    **dict.fromkeys((errno.ENOSPC, errno.EDQUOT, errno.EFBIG), "make room, or choose another place"),
-    **dict.fromkeys((errno.EACCES, errno.EPERM, errno.EROFS), "choose a place that you may write to"),
-}
+from motor_model.regular_file import say_refusal
 
 
 @contextmanager
@@ -24,5 +19,4 @@ def told(path: Path) -> Iterator[None]:
 
 def refused(path: Path, error: OSError, rest: str = "") -> RecordingError:
     """Return what was refused, what to do, and the rest of the sentence."""
-    cure = _CURES.get(error.errno or 0, "choose another place")
-    return RecordingError(f"{path} cannot be written ({error.strerror}): {cure}{rest}.")
+    return RecordingError(f"{path} cannot be written {say_refusal(error)}{rest}.")

@@ -38,13 +38,14 @@ class BagWriter:
     """A new bag, open for messages until `close`; a context manager.
 
     Where the disk refuses something, everything up to the last flush stays readable, and nothing is written any more.
-    With `replace`, a bag that is there already is removed first; what is no bag never is.
+    With `replace`, a bag that is there already is removed first; what is no bag never is. Where a `part` of it is of no
+    use, because it can be written anew, nobody is told that one is kept: whoever writes it discards it.
 
     Raises:
         RecordingError: something exists at the path already (it stays untouched), or it cannot be created or written.
     """
 
-    def __init__(self, path: str | Path, replace: bool = False) -> None:
+    def __init__(self, path: str | Path, replace: bool = False, part: bool = True) -> None:
         self.path = Path(path)
         self.counts: Counter[str] = Counter()  # messages by topic
         self._stream = _create(self.path, replace)
@@ -56,6 +57,7 @@ class BagWriter:
         self._flushed = time.monotonic()
         self._whole, self._kept = 0, 0  # bytes, and messages in them, that the operating system has
         self._refusal: RecordingError | None = None
+        self._part = part
         self._closed = False
         self._writer = Writer(self._stream, chunk_size=_CHUNK_SIZE, compression=CompressionType.ZSTD)
         with self._writing():
@@ -164,7 +166,7 @@ class BagWriter:
 
     def _give_up(self, error: OSError) -> None:
         """Leave the file as it was when it was last whole: half a chunk behind it helps nobody."""
-        kept = f"; the {self._kept} messages recorded until then are kept" if self._kept else ""
+        kept = f"; the {self._kept} messages recorded until then are kept" if self._kept and self._part else ""
         self._refusal = refused(self.path, error, kept)
         with suppress(OSError):  # a disk that refuses this too leaves a file that is cut off, which can be read
             os.ftruncate(self._stream.fileno(), self._whole)

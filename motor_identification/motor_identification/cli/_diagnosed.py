@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from motor_model.errors import MotorError
+from motor_model.regular_file import say_refusal
 from motor_ros.command.shell import ended_by_interrupt
 from motor_ros.output_files import check_outputs
 
@@ -103,7 +104,7 @@ class Files:
             try:
                 Path(self.report).mkdir(parents=True, exist_ok=True)
             except OSError as error:
-                return [], [f"cannot make the directory {self.report}: {error.strerror}."]
+                return [], [f"cannot make the directory {self.report} {say_refusal(error)}."]
         for name, write, path in self.rows():
             try:
                 write(diagnosis, path)

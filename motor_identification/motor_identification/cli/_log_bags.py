@@ -59,7 +59,7 @@ def write_bags(bags: "dict[Path, tuple[Run, Info]]", offset: int, force: bool = 
             )
     writers: list[BagWriter] = []
     try:
-        writers.extend(BagWriter(path, force) for path in bags)
+        writers.extend(BagWriter(path, force, part=False) for path in bags)
         total = sum(len(run.samples) for run, _ in bags.values())
         with tqdm(total=total, desc="writing", unit="row", delay=2.0, disable=None) as bar:
             for writer, (run, info) in zip(writers, bags.values(), strict=True):

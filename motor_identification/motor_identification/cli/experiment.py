@@ -78,7 +78,7 @@ def _offline(options: argparse.Namespace) -> int:
         slot_irregularity=options.slot_irregularity,
         seed=options.seed,
     )
-    count = _write(BagWriter(options.output, options.force), plan, model, config)
+    count = _write(BagWriter(options.output, options.force, part=False), plan, model, config)
     print(
         f"{options.output}: {count} samples, {plan.duration:.2f} s of '{plan.profile.name}' with '{model.name}', "
         f"peak {plan.voltage:g} V"

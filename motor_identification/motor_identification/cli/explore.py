@@ -103,13 +103,14 @@ def _diagnosed(bags: list[str], options: argparse.Namespace, files: "Files") -> 
 
 def _made(directory: Path) -> Path:
     from motor_model.errors import MotorError
+    from motor_model.regular_file import say_refusal
 
     try:
         directory.mkdir(parents=True, exist_ok=True)
         if any(directory.iterdir()):
             raise MotorError(f"{directory} is not empty: name a directory that does not exist yet.")
     except OSError as error:
-        raise MotorError(f"cannot make the directory {directory}: {error.strerror}.") from error
+        raise MotorError(f"cannot make the directory {directory} {say_refusal(error)}.") from error
     return directory
 
 

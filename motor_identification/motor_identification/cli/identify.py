@@ -13,6 +13,7 @@ from motor_identification.cli.options.physical import add_physical_options, read
 from motor_identification.estimation.request import Request, SearchConfig
 from motor_model.effects import EFFECT_BY_NAME, EFFECTS
 from motor_model.errors import MotorError
+from motor_model.regular_file import say_refusal
 from motor_ros.command.number_types import whole_between
 from motor_ros.command.parser import CommandParser, listed_names
 from motor_ros.command.shell import ended_by_interrupt, shell
@@ -151,7 +152,7 @@ def _report(directory: Path, fit: "Fit", options: argparse.Namespace, created: s
     try:
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise MotorError(f"cannot make the directory {directory}: {error.strerror}.") from error
+        raise MotorError(f"cannot make the directory {directory} {say_refusal(error)}.") from error
     source = make_source(options)
     recordings = [source.read(bag) for bag in source.uris]
     draw_fit(recordings[0], fit, directory / "fit.png")

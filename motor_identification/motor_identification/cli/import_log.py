@@ -5,7 +5,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from motor_identification.cli.options.log import add_log_options, read_log_options
+from motor_identification.cli.options.log import add_log_options
+from motor_identification.cli.options.log_said import read_log_options
 from motor_ros.command.parser import CommandParser
 from motor_ros.command.shell import shell
 

@@ -75,14 +75,14 @@ def _inspect(options: argparse.Namespace) -> int:
 def _write(output: "Path | None", text: str) -> str:
     """Write a mapping, or show what would be written; what is said of it."""
     from motor_model.errors import MotorError
-    from motor_model.regular_file import write_text
+    from motor_model.regular_file import say_refusal, write_text
 
     if output is None:
         return f"A first mapping (--output FILE writes it):\n{text.rstrip()}"
     try:
         write_text(output, text)
     except OSError as error:
-        raise MotorError(f"cannot write {output}: {error.strerror}.") from error
+        raise MotorError(f"cannot write {output} {say_refusal(error)}.") from error
     return f"mapping: {output} (check it, and let scale make volts of the command)"
 
 

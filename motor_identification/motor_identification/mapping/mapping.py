@@ -99,7 +99,9 @@ def load_mapping(path: str | Path) -> Mapping:
     except FileNotFoundError as error:
         raise RecordingError(f"There is no mapping {path}: check the path, or let `inspect BAG` write one.") from error
     except OSError as error:
-        raise RecordingError(f"The mapping {path} cannot be read: {error.strerror}.") from error
+        raise RecordingError(
+            f"The mapping {path} cannot be read ({error.strerror}): name a mapping that `inspect BAG` wrote."
+        ) from error
     except MotorError as error:
         raise RecordingError(f"The mapping {path} {error}." if not str(error).endswith(".") else str(error)) from error
     try:

@@ -15,7 +15,7 @@ from motor_identification.timing.timing import read_again
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
 from motor_model.parameters import Parameters
-from motor_model.regular_file import write_bytes
+from motor_model.regular_file import say_refusal, write_bytes
 from motor_model.simulate import simulate
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def draw_fit(recording: Recording, fit: Fit, path: Path) -> None:
         figure.savefig(drawn := BytesIO(), format="png", dpi=120)
         write_bytes(path, drawn.getvalue())
     except OSError as error:
-        raise MotorError(f"cannot write {path}: {error.strerror}.") from error
+        raise MotorError(f"cannot write {path} {say_refusal(error)}.") from error
     finally:
         plt.close(figure)
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
-from motor_model.regular_file import write_text
+from motor_model.regular_file import say_refusal, write_text
 
 
 def to_number(value: float) -> float | None:
@@ -38,4 +38,4 @@ def write_json(path: Path, content: dict[str, Any]) -> None:
     try:
         write_text(path, json.dumps(content, indent=1, ensure_ascii=False) + "\n")
     except OSError as error:
-        raise MotorError(f"cannot write {path}: {error.strerror}.") from error
+        raise MotorError(f"cannot write {path} {say_refusal(error)}.") from error

@@ -11,6 +11,8 @@ import pytest
 from motor_board.emulation.port import Port
 from motor_board.errors import BoardError
 
+NOBODY = 65534
+
 
 @pytest.fixture
 def port(tmp_path: Path) -> Iterator[Port]:
@@ -31,6 +33,23 @@ def test_it_is_there_while_it_is_plugged(port: Port, tmp_path: Path) -> None:
     assert port.plugged and (tmp_path / "port").is_char_device()
     port.unplug()
     assert not port.plugged and not os.path.lexists(tmp_path / "port")
+
+
+def test_a_place_that_is_read_only_is_a_sentence(tmp_path: Path) -> None:
+    """Also where a link is there that a killed emulator left, and may not be taken away."""
+    (tmp_path / "port").symlink_to("/dev/pts/none")
+    port = Port(tmp_path / "port")
+    tmp_path.chmod(0o555)
+    user = os.geteuid()
+    if user == 0:
+        os.seteuid(NOBODY)
+    try:
+        with pytest.raises(BoardError, match=r"cannot make .*port \(Permission denied\): set the parameter link"):
+            port.plug()
+        port.close()
+    finally:
+        os.seteuid(user)
+        tmp_path.chmod(0o755)
 
 
 def test_bytes_pass_both_ways_while_somebody_has_it_open(port: Port, tmp_path: Path) -> None:

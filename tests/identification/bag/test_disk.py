@@ -51,6 +51,15 @@ def test_a_full_disk_keeps_all_that_was_flushed(tmp_path: Path, size: int) -> No
     assert contents(tmp_path / "bag").message_count == kept
 
 
+def test_of_a_bag_that_can_be_written_anew_none_is_said_to_be_kept(tmp_path: Path) -> None:
+    """As of an import, or a simulation: what was begun is taken away."""
+    writer = BagWriter(tmp_path / "bag", part=False)
+    with files_up_to(20_000), pytest.raises(RecordingError, match=r"make room, or choose another place\.$"):
+        fill(writer)
+    writer.discard()
+    assert not (tmp_path / "bag").exists()
+
+
 def test_a_full_disk_at_the_end_keeps_everything(tmp_path: Path) -> None:
     size = next(write_bag(tmp_path / "whole", SAMPLES).glob("*.mcap")).stat().st_size
     writer = BagWriter(tmp_path / "bag")

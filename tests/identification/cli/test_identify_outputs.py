@@ -45,7 +45,9 @@ def test_a_file_that_cannot_be_written_costs_neither_the_fit_nor_the_others(
     assert main([str(bags / "staircase"), *QUICK, *files, "--force"]) == 1
     said = capsys.readouterr()
     assert "kv" in said.out and (tmp_path / "fit.json").is_file()
-    assert said.err == "cannot write the model file /dev/full: No space left on device.\n"
+    assert said.err == (
+        "cannot write the model file /dev/full (No space left on device): make room, or choose another place.\n"
+    )
 
 
 def test_a_name_with_odd_characters_is_drawn_as_it_is(

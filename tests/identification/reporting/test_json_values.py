@@ -23,5 +23,8 @@ def test_a_file_is_json_that_a_person_can_read(tmp_path: Path) -> None:
 
 
 def test_a_file_that_cannot_be_written_is_one_sentence(tmp_path: Path) -> None:
-    with pytest.raises(MotorError, match=r"cannot write .*missing/fit\.json: No such file or directory\."):
+    with pytest.raises(
+        MotorError,
+        match=r"cannot write .*missing/fit\.json \(No such file or directory\): choose a directory that exists\.",
+    ):
         write_json(tmp_path / "missing" / "fit.json", {})

@@ -3,14 +3,12 @@
 from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference.demand import Source
 from motor_control.controller.run import Config
-from motor_control.controller.state import State, drop
+from motor_control.controller.state import RESTARTED, State, drop, meet_other_plant
 from motor_model.frozen_record import replace
-from motor_model.sensing.mains_rhythm import Rhythm
 
 AWAY = 1.0  # [s] of silence, or of 0 V in doubt, after which the motor is not driven on by an old reference
 OFF = 0.5  # [s] for which a plant may ignore voltages before the reference is dropped: longer than any hiccup
 
-RESTARTED = "The plant was restarted."
 RETURNED = "The plant was away for more than 1 s."
 HELD = "{} The motor was held at 0 V for more than 1 s."
 WAS_OFF = "The plant's output is off: call motor/enable with data: true."
@@ -21,8 +19,7 @@ TIMED_OUT = "The last reference is older than reference_timeout ({:g} s)."
 def drop_old_reference(config: Config, state: State, plant: PlantWatch, now: float) -> State:
     """Drop a reference that the plant or time has ended; of a plant that was restarted nothing is known any more."""
     if plant.restarted:
-        state = replace(state, motion=None, faults=None, place=None, rhythm=Rhythm())
-        return state if state.demand is None else drop(state, RESTARTED)
+        return meet_other_plant(state, RESTARTED)
     if state.demand is None:
         return state
     if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:

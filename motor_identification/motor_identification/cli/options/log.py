@@ -1,4 +1,4 @@
-"""The options of the commands that import logs, and what a user says with them."""
+"""The options of the commands that import logs."""
 
 import argparse
 from collections.abc import Callable
@@ -6,9 +6,8 @@ from contextlib import suppress
 from fractions import Fraction
 from pathlib import Path
 
-from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.count_size import MOST_EDGES
-from motor_identification.logs.form import TIME_UNITS, UNITS, Kind
+from motor_identification.logs.form import TIME_UNITS, UNITS
 from motor_model.errors import MotorError
 from motor_model.gearing.gear import parse_gear_ratio
 from motor_model.sample import RANGES
@@ -46,6 +45,11 @@ def _add_columns(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help="rows are S seconds apart; the log has no times",
     )
+    _add_drive_and_motion(group)
+
+
+def _add_drive_and_motion(group: argparse._ArgumentGroup) -> None:
+    """Add what drives, what moves, and what stands beside them."""
     drive = group.add_mutually_exclusive_group()
     drive.add_argument("--voltage", metavar="COL", help="column of voltages or duties")
     drive.add_argument(
@@ -99,6 +103,14 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
     add("--voltage-scale", type=_scale, metavar="V", help="volts per unit of the voltage column (default 1)")
     add("--full-duty", type=positive, metavar="D", help="the voltage column holds duties: this one is full duty")
     add("--supply-voltage", type=positive, metavar="V", help="voltage at full duty")
+    _add_row_timing(add)
+    add("--max-voltage", type=positive, metavar="V", help="voltage at full duty (default: the largest in the log)")
+    _add_counts(add)
+    _add_speed_timing(add)
+
+
+def _add_row_timing(add: Callable[..., object]) -> None:
+    """When a row's voltage was applied, and when rows were made."""
     add(
         "--voltage-before",
         action=argparse.BooleanOptionalAction,
@@ -116,8 +128,10 @@ def _add_meaning(parser: argparse.ArgumentParser) -> None:
         help="speeds were computed with the period that rows should have had, not with their own (default: as the "
         "motion fits)",
     )
-    add("--max-voltage", type=positive, metavar="V", help="voltage at full duty (default: the largest in the log)")
-    _add_counts(add)
+
+
+def _add_speed_timing(add: Callable[..., object]) -> None:
+    """What a speed is the mean over, and when the motor began to move."""
     add("--speed-window", type=positive, metavar="S", help="[s] what a speed is the mean over (default: sample period)")
     add(
         "--speed-lag",
@@ -168,49 +182,3 @@ def _scale(text: str) -> float:
     if number == 0.0:
         raise argparse.ArgumentTypeError("0 V per unit is no voltage")
     return number
-
-
-def read_log_options(parser: argparse.ArgumentParser, options: argparse.Namespace) -> Said:
-    """The options as what a user said; what does not go together is a usage error."""
-    kind = next((kind for kind in Kind if getattr(options, kind.value) is not None), None)
-    motion = getattr(options, kind.value) if kind else None
-    if kind and options.unit and options.unit not in UNITS[kind]:
-        parser.error(f"--unit {options.unit} does not go with --{kind.value}: take one of {', '.join(UNITS[kind])}")
-    if kind not in (None, Kind.SPEED) and (options.speed_window or options.speed_lag is not None):
-        parser.error("--speed-window and --speed-lag go with --speed only")
-    if options.steady and (
-        kind not in (None, Kind.SPEED) or options.speed_lag is not None or options.voltage_before is not None
-    ):
-        parser.error("--steady goes with --speed, and without --speed-lag and --voltage-before")
-    if options.steady and options.rest_until is not None:
-        parser.error("--rest-until takes a time of the --time column")
-    if "count" in (kind.value if kind else "", options.unit) and options.edges_per_revolution is None:
-        parser.error("counts have a size only with --edges-per-revolution")
-    if options.sample_period and options.time_unit:
-        parser.error("--sample-period is in seconds, and takes no --time-unit")
-    _check_drive(parser, options)
-    if not options.output and not options.dry_run:
-        parser.error("say where the bag goes (--output BAG), or --dry-run")
-    same = set(Said.__dataclass_fields__) - {"motion", "kind", "motors"}
-    pairs = tuple(_pair(parser, text) for text in options.motor)
-    if len({pair.label for pair in pairs}) < len(pairs):
-        parser.error("every --motor needs a NAME of its own")
-    return Said(motion=motion, kind=kind, motors=pairs, **{name: getattr(options, name) for name in same})
-
-
-def _check_drive(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
-    """Refuse what does not go together of how a column of voltages or duties is to be read."""
-    if options.voltage_scale and (options.full_duty or options.supply or options.supply_voltage):
-        parser.error("--voltage-scale does not go with --full-duty, --supply and --supply-voltage")
-    of_columns = ("voltage_scale", "full_duty", "supply", "supply_voltage", "direction")
-    said = options.motor or options.steady or any(getattr(options, name) is not None for name in of_columns)
-    if options.constant_voltage is not None and said:
-        parser.error("--constant-voltage is in volts, of one motor in motion: leave out --motor, --steady and duties")
-
-
-def _pair(parser: argparse.ArgumentParser, text: str) -> Pair:
-    label, colon, columns = text.partition(":")
-    voltage, comma, motion = columns.partition(",")
-    if not (colon and comma and label and voltage and motion) or not label.replace("_", "").isalnum():
-        parser.error(f"--motor takes NAME:VOLTAGE_COLUMN,MOTION_COLUMN, and not {text!r}")
-    return Pair(label, voltage.strip(), motion.strip())

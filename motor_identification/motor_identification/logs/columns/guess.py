@@ -10,7 +10,7 @@ from motor_identification.logs.columns.clock import SLOWEST, guess_time_unit, ro
 from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.motor_form import STEPS_BETWEEN, Rows, make_form, share_of_changes
 from motor_identification.logs.columns.notes import Notes
-from motor_identification.logs.columns.roles import Roles, find_roles
+from motor_identification.logs.columns.roles.roles import Roles, find_roles
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import TIME_UNITS, CsvForm, time_unit_size

@@ -6,14 +6,15 @@ from math import tau
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.behaviour import begins_at_rest, is_speed_by_drive
+from motor_identification.logs.columns.behaviour.following import is_speed_by_drive
+from motor_identification.logs.columns.behaviour.standing_start import begins_at_rest
 from motor_identification.logs.columns.direction import guess_direction
 from motor_identification.logs.columns.drive import Drive, duty_drive, find_same_levels, supply_scale, voltage_drive
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.increments import count_anew
 from motor_identification.logs.columns.movement import ASKED, Unit, guess_kind, guess_position_unit, guess_speed_unit
 from motor_identification.logs.columns.notes import Notes
-from motor_identification.logs.columns.roles import Roles
+from motor_identification.logs.columns.roles.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.columns.speed_beside import find_counted_position, tell_position_unit
 from motor_identification.logs.columns.turn_counts import say_turn_counts

@@ -18,11 +18,10 @@ from motor_identification.logs.csv.matrix import take_off_brackets, turn_lines_i
 from motor_identification.logs.csv.monitor import RECEIVED, Lines, take_apart
 from motor_identification.logs.csv.oscilloscope import give_times
 from motor_identification.logs.csv.quotes import unquote_rows
-from motor_identification.logs.csv.sparse import NO_VALUE
 from motor_identification.logs.csv.table import GARBLED, Table
+from motor_identification.logs.csv.table_end import NEARLY_ALL, cut_at_end
 from motor_model.errors import RecordingError
 
-_NEARLY_ALL = 0.95  # of the first rows: there a column has numbers that no row lacks
 _CHUNK = 50_000  # rows: lists of texts take ten times the memory of arrays
 
 
@@ -61,14 +60,8 @@ def table_of(path: Path, text: Sequence[str], notes: list[str], wanted: Sequence
     dialect = _named_by_lines(dialect, taken)
     for column in wanted:
         _check_column(path, dialect.header, column)
-    end = _end_of_table(lines, dialect)
-    if end < len(lines):
-        notes.append(f"Left out: the lines from {end + 1} on, which have fewer than half of the cells of those before.")
-        lines = lines[:end]
-    end = _end_of_rows(lines, dialect)
-    if end < len(lines):
-        notes.append(f"Left out: the lines from {end + 1} on, which lack numbers that all rows before have.")
-        lines = lines[:end]
+    lines, said = cut_at_end(lines, dialect)
+    notes += said
     notes += say_names_without_cells(lines[: dialect.first_row], dialect.delimiter, dialect.header)
     notes += _say_rows_above(lines, dialect)
     numbers, columns = _columns(path, lines, dialect, notes)
@@ -91,52 +84,6 @@ def _say_rows_above(lines: Sequence[str], dialect: Dialect) -> list[str]:
     return [f"Left out: {_lines(found)} above the rows, with other cells than they have."] if found else []
 
 
-def _end_of_table(lines: Sequence[str], dialect: Dialect) -> int:
-    """Where another table begins behind the rows, with at most half of their cells; the number of lines where none."""
-    first, short = len(lines), 0
-    for place in range(len(lines) - 1, dialect.first_row, -1):
-        cells = split_line(lines[place], dialect.delimiter)  # empty ones too: those of other senders
-        if 2 * len(cells) > len(dialect.header):
-            break
-        if any(is_number(cell, dialect.decimal_comma) for cell in cells):
-            first, short = place, short + 1
-    return first if short > 1 else len(lines)  # one alone is the last, cut off
-
-
-def _end_of_rows(lines: Sequence[str], dialect: Dialect) -> int:
-    """Where, behind all rows, lines begin that lack numbers which rows have, such as a controller's settings.
-
-    One line alone is a last row that was cut off, or a garbled one.
-    """
-    begin = [line for line in lines[dialect.first_row :][:LOOKED_AT] if line.strip()]
-    begin = begin[: (len(begin) + 1) // 2]  # of a short table, the others may be no rows
-    rows = [split_line(line, dialect.delimiter) for line in begin]
-    places = [
-        place
-        for place in range(len(dialect.header))
-        if sum(_says_number(row, place, dialect.decimal_comma) for row in rows) >= _NEARLY_ALL * len(rows)
-    ]
-    first, others = len(lines), 0
-    for place in range(len(lines) - 1, max(dialect.first_row, len(lines) - LOOKED_AT), -1):
-        if not lines[place].strip():
-            continue
-        cells = split_line(lines[place], dialect.delimiter)
-        if all(_says_number(cells, one, dialect.decimal_comma) or _is_empty(cells, one) for one in places):
-            return first if others > 1 and places else len(lines)
-        first = place
-        others += any(is_number(cell, dialect.decimal_comma) for cell in cells) and not COMMENT.match(lines[place])
-    return len(lines)
-
-
-def _says_number(cells: Sequence[str], place: int, comma: bool) -> bool:
-    return place < len(cells) and is_number(cells[place], comma)
-
-
-def _is_empty(cells: Sequence[str], place: int) -> bool:
-    """Whether a cell says that there is no value."""
-    return place < len(cells) and cells[place] in NO_VALUE
-
-
 def _named_by_lines(dialect: Dialect, taken: Lines) -> Dialect:
     """The dialect with the names of columns that a serial monitor's lines themselves tell."""
     if taken.names:
@@ -151,7 +98,7 @@ def _no_rows(path: Path, lines: Sequence[str]) -> str:
     if rows < 2:
         return f"{path} has {rows} rows below its column names: at least 2 samples are needed."
     alone = [is_number(line.strip(), comma=True) or is_number(line.strip(), comma=False) for line in lines[:LOOKED_AT]]
-    if sum(alone) > _NEARLY_ALL * len(alone) - 1:
+    if sum(alone) > NEARLY_ALL * len(alone) - 1:
         return (
             f"{path} has one column of numbers: give a table that has the voltage or duty and the motion side by side."
         )

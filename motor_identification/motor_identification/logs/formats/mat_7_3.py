@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.formats.hdf5 import Array, Hdf5, read_hdf5
+from motor_identification.logs.formats.hdf5.reader import Array, Hdf5, read_hdf5
 from motor_identification.logs.formats.mat_elements import MOST_NUMBERS, TooLargeError, Value
 
 MARK = b"MATLAB 7.3"

@@ -8,7 +8,7 @@ import numpy as np
 
 from motor_identification.logs.columns.clock import runs_forward
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.formats.hdf5 import SIGNATURE
+from motor_identification.logs.formats.hdf5.reader import SIGNATURE
 from motor_identification.logs.formats.mat_7_3 import MARK, read_variables_7_3
 from motor_identification.logs.formats.mat_elements import BrokenFileError, TooLargeError, Value, read_variables
 from motor_identification.logs.formats.mat_version_4 import is_version_4, read_matrices

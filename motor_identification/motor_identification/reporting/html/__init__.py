@@ -13,7 +13,7 @@ from motor_identification.reporting.html.fit_page import render_fit
 from motor_identification.reporting.html.next_steps import NO_FILES, Files
 from motor_identification.uncertainty.result import Fit
 from motor_model.errors import MotorError
-from motor_model.regular_file import write_text
+from motor_model.regular_file import say_refusal, write_text
 
 __all__ = ["Files", "write_fit_report", "write_report"]
 
@@ -44,5 +44,5 @@ def _write(text: str, target: str | Path) -> Path:
         path.parent.mkdir(parents=True, exist_ok=True)
         write_text(path, text)
     except OSError as error:
-        raise MotorError(f"cannot write {path}: {error.strerror}.") from error
+        raise MotorError(f"cannot write {path} {say_refusal(error)}.") from error
     return path

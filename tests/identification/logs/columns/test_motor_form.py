@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.behaviour import FIRST_ROWS
+from motor_identification.logs.columns.behaviour.standing_start import FIRST_ROWS
 from motor_identification.logs.columns.motor_form import Notes, Rows, make_form
-from motor_identification.logs.columns.roles import Roles
+from motor_identification.logs.columns.roles.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm, Kind

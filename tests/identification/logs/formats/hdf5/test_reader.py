@@ -1,4 +1,4 @@
-"""Arrays of HDF5 files, as MATLAB 7.3 writes them."""
+"""Arrays of HDF5 files, as MATLAB 7.3 writes them: paths, references, damage."""
 
 import random
 from contextlib import suppress
@@ -6,22 +6,11 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
-from motor_identification.logs.formats.hdf5 import read_hdf5
+from motor_identification.logs.formats.hdf5.reader import read_hdf5
 from motor_identification.logs.formats.mat_elements import BrokenFileError, TooLargeError
 from tests.support.hdf5_file import Stored, hdf5, text
 
 VALUES = np.arange(35.0).reshape(5, 7) / 3.0
-
-
-@pytest.mark.parametrize("kind", ["<f8", "<f4", "<i2", "<u2", "<i8", "<u1"])
-@pytest.mark.parametrize(("chunk", "shuffled"), [(None, False), ((2, 3), False), ((2, 3), True), ((5, 7), True)])
-def test_arrays_of_any_kind(kind: str, chunk: tuple[int, int] | None, shuffled: bool) -> None:
-    values = VALUES.astype(kind)
-    found = read_hdf5(hdf5({"one": {"deep": Stored(values, {"name": "it", "size": 7}, chunk, shuffled)}}))
-    assert list(found.arrays) == ["one/deep"]
-    array = found.arrays["one/deep"]
-    assert array.values.dtype == np.dtype(kind) and array.values.tolist() == values.tolist()
-    assert array.attributes == {"name": "it", "size": "7"} and not array.references
 
 
 def test_references_are_addresses_of_paths() -> None:

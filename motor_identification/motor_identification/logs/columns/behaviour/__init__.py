@@ -1,0 +1,1 @@
+"""What columns are by how their numbers behave, where their names tell nothing, or two things."""

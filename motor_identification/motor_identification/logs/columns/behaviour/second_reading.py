@@ -1,0 +1,101 @@
+"""Read headings again by what stands beside them and how their numbers behave: `v`, `current`, `pulse`, `input`."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from motor_identification.logs.columns.drive import drives, is_supply
+from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, WORDS, Quantity
+from motor_identification.logs.csv.table import Table
+
+FEWEST_OWN = 10  # changes of a velocity while its drive stays, from which on it is no voltage
+MOST_LEVELS = 3  # of a pulse that drives
+
+
+def present_values(headings: list[Heading]) -> list[Heading]:
+    """`current` beside a target, where nothing else moves and no unit says ampere, is what is present: it moves."""
+    if not any(one.quantity is Quantity.REFERENCE for one in headings) or _any_moves(headings):
+        return headings
+    return [replace(one, quantity=Quantity.POSITION) if _is_present(one) else one for one in headings]
+
+
+def _any_moves(headings: Sequence[Heading]) -> bool:
+    return any(one.quantity in MOVES for one in headings)
+
+
+def _is_present(heading: Heading) -> bool:
+    return heading.quantity is Quantity.CURRENT and not heading.unit and "current" in heading.words
+
+
+def speeds_called_v(table: Table, headings: list[Heading]) -> list[Heading]:
+    """`v` beside what drives, where nothing else moves or could, is the velocity: it changes where the drive stays.
+
+    A voltage that was measured changes as the duty does.
+    """
+    called = [one for one in headings if one.quantity is Quantity.VOLTAGE and not one.unit and "v" in one.words]
+    others = [one for one in headings if drives(one) and one not in called]
+    unnamed = any(one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0 for one in headings)
+    if not called or not others or _any_moves(headings) or unnamed:
+        return headings
+    stays = np.all([np.diff(table.numbers(one.name)) == 0.0 for one in others], axis=0)
+    alone = [np.count_nonzero(np.diff(table.numbers(one.name))[stays]) for one in called]
+    if any(is_supply(table.numbers(one.name), table.numbers(others[0].name)) for one in called):
+        return headings
+    if min(alone) < FEWEST_OWN:
+        return headings
+    return [replace(one, quantity=Quantity.SPEED) if one in called else one for one in headings]
+
+
+def pulses_that_drive(table: Table, headings: list[Heading]) -> list[Heading]:
+    """`pulse` of a few levels, where nothing else drives and something else moves, is what drives, and no count."""
+    if any(map(drives, headings)):
+        return headings
+    few = [
+        one
+        for one in headings
+        if one.quantity is Quantity.COUNT
+        and one.words in (("pulse",), ("pulses",))
+        and 2 <= len(np.unique(table.numbers(one.name))) <= MOST_LEVELS
+    ]
+    if len(few) != 1 or not any(one.quantity in MOVES for one in headings if one not in few):
+        return headings
+    return [replace(one, quantity=Quantity.VOLTAGE) if one in few else one for one in headings]
+
+
+def ends_of_a_loop(headings: list[Heading]) -> list[Heading]:
+    """Input and output side by side: of a controller where a set point stands there too, else of the motor.
+
+    An output beside what drives, where nothing else moves, is the motor's.
+    """
+    places = {_place(one) for one in headings} - {None}
+    drive_it = [one for one in headings if drives(one) and _place(one) is None]
+    if INPUTS in places and OUTPUTS in places:
+        moves = INPUTS if any(one.quantity is Quantity.REFERENCE for one in headings) else OUTPUTS
+    elif OUTPUTS in places and drive_it and not any(one.quantity in MOVES for one in headings):
+        moves = OUTPUTS
+    else:
+        return headings
+    sides = sum(_place(one) == moves for one in headings) > 1
+    found = Quantity.POSITION if sides else None  # of which kind, its numbers tell
+    return [replace(one, quantity=found) if _place(one) == moves else one for one in headings]
+
+
+def commands_beside_control(table: Table, headings: list[Heading]) -> list[Heading]:
+    """An input that nobody calls a voltage, beside a duty that changes, is what the controller is told: a set point."""
+    duties = [table.numbers(one.name) for one in headings if one.quantity is Quantity.DUTY]
+    if not any(np.any(duty != duty[0]) for duty in duties):
+        return headings
+    return [replace(one, quantity=Quantity.REFERENCE) if _is_bare_input(one) else one for one in headings]
+
+
+def _is_bare_input(heading: Heading) -> bool:
+    told = set(heading.words) & WORDS[Quantity.VOLTAGE]
+    return heading.quantity is Quantity.VOLTAGE and not heading.unit and bool(told) and told <= INPUTS
+
+
+def _place(heading: Heading) -> frozenset[str] | None:
+    """Which end of a system a name is of, but for which motor it belongs to: `outputL`; None where of none."""
+    words = [word for word in heading.words if word not in SIDES and word != "r"]
+    return next((place for place in (INPUTS, OUTPUTS) if len(words) == 1 and words[0] in place), None)

@@ -1,0 +1,30 @@
+"""Tell which columns of a table may have a role at all."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.vocabulary import Quantity
+from motor_identification.logs.csv.table import Table
+from motor_model.errors import RecordingError
+
+MOSTLY = 0.5  # of its cells are numbers: else it holds notes beside the table, whatever its name
+
+
+def is_numeric(table: Table, name: str) -> bool:
+    """Whether a column holds numbers, or is called one that should."""
+    try:
+        table.numbers(name)
+    except RecordingError:
+        # Garbage in a column of numbers is told when it is used; a column of words or times of day is none of ours.
+        heading = read_heading(name)
+        return heading.quantity not in (None, Quantity.OTHER) and (
+            heading.quantity is Quantity.TIME or float(np.mean(table.readable(name))) > MOSTLY
+        )
+    return True
+
+
+def list_unnamed(table: Table, headings: Sequence[Heading]) -> list[str]:
+    """Columns whose names tell nothing, without those of nothing but zeros: a log of one step has a constant drive."""
+    return [one.name for one in headings if one.quantity is None and np.any(table.numbers(one.name))]

@@ -1,0 +1,78 @@
+"""Find the column that drives a motor, and the supply's beside it."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from motor_identification.logs.columns.drive import is_supply
+from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.notes import ask_column, ask_drive, miss_drive
+from motor_identification.logs.columns.roles.candidates import is_numeric, list_unnamed
+from motor_identification.logs.columns.said import Pair
+from motor_identification.logs.columns.vocabulary import Quantity
+from motor_identification.logs.csv.table import Table
+
+Floats = NDArray[np.float64]
+
+STEADY = 0.7  # of its largest value: a battery stays above
+BOTH_WAYS = 0.2  # of the largest speed, which a motor has the other way
+FEWEST_CHANGES = 10  # of a battery's voltage, which sags; what changes in fewer rows is set
+
+
+def find_drive_column(table: Table, headings: Sequence[Heading], side: str, others: tuple[str, ...]) -> str:
+    """Find the column that drives a motor on a side; where there are others, one without a telling name may do.
+
+    Raises:
+        RecordingError: none does, or several may.
+    """
+    duties = [one.name for one in headings if one.quantity is Quantity.DUTY]
+    for quantity in (Quantity.VOLTAGE, Quantity.DUTY):
+        found = [one.name for one in headings if one.quantity is quantity]
+        own = [one.name for one in headings if one.quantity is quantity and one.side == side and side]
+        found = own or found
+        if quantity is Quantity.VOLTAGE and duties:
+            found = [name for name in found if not is_supply(table.numbers(name), table.numbers(duties[0]))]
+        if quantity is Quantity.VOLTAGE and not duties:
+            found = [name for name in found if not _is_battery(table, name)]
+        if len(found) > 1:
+            raise ask_column(table, quantity.value, "--voltage", found)
+        if found:
+            return found[0]
+    swinging = [one.name for one in headings if one.quantity is Quantity.SUPPLY and _swings(table.numbers(one.name))]
+    if len(swinging) == 1:
+        return swinging[0]  # Vin, which is no supply then
+    unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
+    if len(unnamed) == 1 and others:
+        return unnamed[0]
+    candidates = list_unnamed(table, headings)
+    if not candidates:
+        raise miss_drive(table)
+    raise ask_drive(table, candidates)
+
+
+def _is_battery(table: Table, name: str) -> bool:
+    """Whether a voltage is a battery's: it stays, of one sign, once it is there, while a motor turns both ways."""
+    volts = table.numbers(name)
+    there = volts[volts != 0.0]
+    beside = [read_heading(one) for one in table.names if is_numeric(table, one)]
+    speeds = [table.numbers(one.name) for one in beside if one.quantity is Quantity.SPEED]
+    both = any(np.min(speed) < -BOTH_WAYS * np.max(speed) < 0.0 for speed in speeds)
+    turned = any({"dir", "direction"} & set(one.words) for one in beside)  # by a pin of its own
+    steady = len(there) > 0 and np.min(there) > STEADY * np.max(there) > 0.0
+    return bool(both and not turned and steady and np.count_nonzero(np.diff(volts)) > FEWEST_CHANGES)
+
+
+def _swings(values: Floats) -> bool:
+    """Whether voltages, shape (K,), come to 0 or change their sign, as no supply's do."""
+    return bool(np.min(values) <= 0.0 < np.max(np.abs(values)))
+
+
+def find_supply_column(table: Table, headings: Sequence[Heading], pairs: Sequence[Pair]) -> str | None:
+    """Find the column of the supply's voltage among those that neither drive nor move."""
+    taken = {pair.voltage for pair in pairs} | {pair.motion for pair in pairs}
+    free = [one for one in headings if one.name not in taken]
+    named = [one.name for one in free if one.quantity is Quantity.SUPPLY]
+    duty = table.numbers(pairs[0].voltage)
+    volts = [one.name for one in free if one.quantity is Quantity.VOLTAGE and is_supply(table.numbers(one.name), duty)]
+    return next(iter(named + volts), None)

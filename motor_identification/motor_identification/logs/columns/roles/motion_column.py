@@ -1,0 +1,86 @@
+"""Find the column of motion among those of one motor: the best by its name, and of several one that stands for all."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from motor_identification.logs.columns.behaviour.position import find_position
+from motor_identification.logs.columns.drive import drives
+from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.notes import ask_column, ask_motion, miss_motion
+from motor_identification.logs.columns.vocabulary import FILTERED, MEASURED, RAW, UNITS, Quantity
+from motor_identification.logs.correlation import correlate
+from motor_identification.logs.csv.table import Table
+from motor_identification.logs.rows.constant_voltage import CONSTANT
+
+SAME_MOTION = 0.9995  # correlation of a motion with itself in another unit, which is rounded
+SUMMED_UP = 0.9  # of the rows in motion: there a count goes on by just what another column says
+FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
+_BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
+
+
+def find_motion_column(
+    table: Table, headings: Sequence[Heading], side: str, time: str | None = None, unit: str | None = None
+) -> str:
+    """Name the column of motion; a unit that was said is one of its kind, if there is one."""
+    told = UNITS[unit][0] if unit in UNITS else None
+    for quantity in sorted(_BEST_FIRST, key=lambda one: one is not told):
+        found = [one.name for one in headings if one.quantity is quantity and one.side == side]
+        found = found or [one.name for one in headings if one.quantity is quantity]
+        if len(found) > 1:  # what was made of another one comes later, and is smoother than the motor
+            found = [name for name in found if not FILTERED & set(read_heading(name).words)] or found
+            found = [name for name in found if RAW & set(read_heading(name).words)] or found
+            found = [name for name in found if _is_summed_up(table, name, found)] or found
+            found = _in_one_unit(table, _each_once(table, found))
+            with_unit = [name for name in found if read_heading(name).unit]
+            found = with_unit if quantity is Quantity.SPEED and len(with_unit) == 1 else found
+        if len(found) > 1:
+            raise ask_motion(table, headings, quantity, found)
+        if found:
+            return found[0]
+    unnamed = [one.name for one in headings if one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0]
+    measured = [one.name for one in headings if one.name in unnamed and MEASURED & set(one.words)]
+    if not measured and {one.name for one in headings if drives(one)} == {"u"}:
+        measured = [name for name in unnamed if name == "y"]  # a system's input and output, as textbooks call them
+    if len(unnamed) == 1 or len(measured) == 1:
+        return (measured or unnamed)[0]
+    if len(unnamed) == 2 and (position := find_position(table, unnamed, time)):
+        return position
+    still = [one.name for one in headings if one.quantity is None and one.name != CONSTANT]
+    if still and not unnamed:
+        raise miss_motion(table, still[0])
+    if len(unnamed) > 1:
+        raise ask_motion(table, headings, None, unnamed)
+    names = [name for name in table.names if name != time] or table.names
+    raise ask_column(table, "motion", "--speed, --position or --count", names)
+
+
+def _is_summed_up(table: Table, name: str, others: Sequence[str]) -> bool:
+    """Whether a column is the sum of another one, such as counts of those since the row before."""
+    ways = np.diff(table.numbers(name))
+    told = ways != 0.0
+    return np.count_nonzero(told) > FEWEST_CHANGES and any(
+        np.mean(ways[told] == table.numbers(other)[1:][told]) > SUMMED_UP for other in others if other != name
+    )
+
+
+def _each_once(table: Table, names: Sequence[str]) -> list[str]:
+    """Leave out columns with the name and the numbers of one before, as where a program lists a signal twice."""
+    kept: list[str] = []
+    for name in names:
+        alike = [one for one in kept if name.partition(" #")[0] == one]
+        if not any(np.array_equal(table.numbers(name), table.numbers(one)) for one in alike):
+            kept.append(name)
+    return kept
+
+
+def _in_one_unit(table: Table, names: Sequence[str]) -> list[str]:
+    """Keep one of several columns that are the same in other units, `rpm` beside `rad/s`: one whose unit has a size."""
+    units = {name: read_heading(name).unit for name in names}
+    first, *others = sorted(names, key=lambda name: not units[name] or UNITS[units[name]][1] is None)
+    values = table.numbers(first)
+    for name in others:
+        same = units[name] != units[first] and correlate(values, table.numbers(name)) > SAME_MOTION
+        if not same or not units[first]:
+            return list(names)
+    return [first]

@@ -1,0 +1,44 @@
+"""Pair a drive and a motion whose names tell nothing: by how often they change, and which of them follows the other."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from motor_identification.logs.columns.behaviour.following import follows
+from motor_identification.logs.columns.behaviour.position import find_position
+from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.notes import ask_drive, miss_drive, miss_motion
+from motor_identification.logs.columns.roles.candidates import list_unnamed
+from motor_identification.logs.columns.roles.motion_column import FEWEST_CHANGES
+from motor_identification.logs.columns.said import Pair
+from motor_identification.logs.columns.vocabulary import MOVES, Quantity
+from motor_identification.logs.csv.table import Table
+
+
+def pair_by_behaviour(table: Table, headings: Sequence[Heading], time: str | None) -> Pair:
+    """Columns without telling names: a drive beside a motion, or beside a position and its speed."""
+    unnamed = list_unnamed(table, headings)
+    changes = {name: np.count_nonzero(np.diff(table.numbers(name))) for name in unnamed}
+    drive, *others = sorted(unnamed, key=lambda name: changes[name]) or [""]
+    fewest = min((changes[name] for name in others), default=0)
+    position = (find_position(table, others, time) if len(others) == 2 else others[0]) if len(others) in (1, 2) else ""
+    if not position or fewest < max(2 * changes[drive] + 1, FEWEST_CHANGES):
+        for one, other in ((drive, *others), (*others, drive)) if len(others) == 1 else ():
+            if follows(table, other, one):
+                return Pair("", one, other)
+        still = [one.name for one in headings if one.quantity is None and not np.any(table.numbers(one.name))]
+        if still and len(unnamed) == 1:
+            raise miss_motion(table, still[0], unnamed[0])
+        if len(unnamed) == 1 or (len(unnamed) == 2 and find_position(table, unnamed, time)):
+            raise miss_drive(table)
+        raise ask_drive(table, unnamed or table.names)
+    return Pair("", drive, position)  # what drives changes in fewer rows, and to fewer values
+
+
+def pair_channels(table: Table, headings: Sequence[Heading]) -> Pair | None:
+    """Of two voltages, as an oscilloscope records them, the drive and the tachogenerator's that follows it."""
+    volts = [one.name for one in headings if one.quantity is Quantity.VOLTAGE]
+    others = [one for one in headings if one.quantity in MOVES or one.quantity in (None, Quantity.DUTY)]
+    if len(volts) != 2 or others:
+        return None
+    return next((Pair("", one, other) for one, other in (volts, volts[::-1]) if follows(table, other, one)), None)

@@ -1,0 +1,78 @@
+"""Names that mean two things, by what stands beside them."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from log_columns import TIME, answer, table
+
+from motor_identification.logs.columns.roles.roles import find_roles
+from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.csv.table import Table
+from motor_model.errors import RecordingError
+
+
+def test_the_outputs_of_one_input() -> None:
+    both = find_roles(table(t="t", input="u", outputL="y", outputR="y"), Said())
+    assert both.pairs == (Pair("left", "input", "outputL"), Pair("right", "input", "outputR"))
+    loop = find_roles(table(t="t", setpoint="r", input="y", output="u"), Said())
+    assert loop.pairs == (Pair("", "output", "input"),)
+    spanish = find_roles(table(Tiempo="t", Referencia="r", Entrada="y", Salida="u"), Said())
+    assert spanish.pairs == (Pair("", "Salida", "Entrada"),)
+    plant = find_roles(table(Zeit="t", Eingang="u", Ausgang="y"), Said())
+    assert plant.pairs == (Pair("", "Eingang", "Ausgang"),)
+
+
+def test_an_output_beside_what_drives_is_the_motors() -> None:
+    effort = find_roles(table(Tempo="t", Saída="y", Erro="r", Esforço="u"), Said())
+    assert effort.pairs == (Pair("", "Esforço", "Saída"),)
+    assert find_roles(table(t="t", ref="r", output="y", pwm="u"), Said()).pairs == (Pair("", "pwm", "output"),)
+    assert find_roles(table(t="t", output="u", speed="y"), Said()).pairs == (Pair("", "output", "speed"),)
+    with pytest.raises(RecordingError, match="the duty\\? Say --voltage and one of output, pwm"):
+        find_roles(table(t="t", output="u", pwm="u", speed="y"), Said())
+
+
+def test_current_beside_a_target_is_what_is_present() -> None:
+    roles = find_roles(table(t="t", target="r", current="y", pwm="u"), Said())
+    assert (roles.pairs, roles.current) == ((Pair("", "pwm", "current"),), None)
+    four = find_roles(table(t="t", CURRENT_M1="y", CURRENT_M2="y", PWM_M1="u", PWM_M2="r", DESIRED_M1="r"), Said())
+    assert four.pairs == (Pair("1", "PWM_M1", "CURRENT_M1"), Pair("2", "PWM_M2", "CURRENT_M2"))
+    measured = find_roles(table(t="t", target="r", current="y", pwm="u", speed="y"), Said())
+    assert (measured.pairs[0].motion, measured.current) == ("speed", "current")
+    for columns in ({"current": "y", "loop": "r"}, {"target": "r", "current_mA": "y"}):
+        with pytest.raises(RecordingError, match="which column is the motion"):
+            find_roles(table(t="t", pwm="u", **columns), Said())
+
+
+def test_v_beside_a_drive_is_the_velocity() -> None:
+    """`vLeft` beside `powerPctLeft`: it changes while the drive stays; a voltage that was measured does not."""
+    both = find_roles(
+        table(t="t", powerPctLeft="u", powerPctRight="r", vLeft="y", vMouse="y", vRight="y"), Said()
+    ).pairs
+    assert both == (Pair("left", "powerPctLeft", "vLeft"), Pair("right", "powerPctRight", "vRight"))
+    assert find_roles(table(t="t", u="u", v="y"), Said()).pairs == (Pair("", "u", "v"),)
+    assert find_roles(table(t="t", pwm="u", v="u", x="y"), Said()).pairs == (Pair("", "v", "x"),)
+    assert find_roles(table(t="t", pwm="u", v="u", omega="y"), Said()).pairs == (Pair("", "v", "omega"),)
+    with pytest.raises(RecordingError, match="which column is the motion"):
+        find_roles(table(t="t", pwm="u", v="r"), Said())
+    with pytest.raises(RecordingError, match="which column is the motion"):
+        find_roles(table(t="t", pwm="u", v="b"), Said())
+
+
+def test_a_pulse_of_two_levels_drives_and_counts_nothing() -> None:
+    pulse = np.where(np.sin(TIME * 3.0) > 0.0, 12.0, 0.0)
+    cells = {"t": TIME, "pulse": pulse, "rad": answer(pulse)}
+    assert find_roles(Table(Path("log.csv"), np.arange(2, 202), cells), Said()).pairs == (Pair("", "pulse", "rad"),)
+    counted = {**cells, "pulse": np.arange(200.0)}
+    with pytest.raises(RecordingError):
+        find_roles(Table(Path("log.csv"), np.arange(2, 202), counted), Said())
+
+
+def test_a_bare_input_beside_a_control_signal_is_what_the_controller_is_told() -> None:
+    loop = find_roles(table(time="t", encoder="y", inputSignal="r", controlSignal="u"), Said())
+    assert loop.pairs == (Pair("", "controlSignal", "encoder"),)
+    assert find_roles(table(time="t", encoder="y", inputSignal="u"), Said()).pairs[0].voltage == "inputSignal"
+    volts = find_roles(table(time="t", encoder="y", **{"input voltage": "u"}, control="r"), Said())
+    assert volts.pairs[0].voltage == "input voltage"
+    still = find_roles(table(time="t", encoder="y", input="u", control="0"), Said())
+    assert still.pairs[0].voltage == "input"

@@ -1,0 +1,40 @@
+"""Which column drives, and which is the supply."""
+
+import numpy as np
+import pytest
+from log_columns import DRIVE, FOLLOWS, TIME, columns, table
+
+from motor_identification.logs.columns.roles.roles import find_roles
+from motor_identification.logs.columns.said import Pair, Said
+from motor_model.errors import RecordingError
+
+
+def test_a_voltage_beside_a_duty_may_be_the_supply() -> None:
+    supplied = find_roles(table(t="t", pwm="u", voltage="b", speed="y"), Said())
+    assert (supplied.pairs[0].voltage, supplied.supply) == ("pwm", "voltage")
+    driven = find_roles(table(t="t", pwm="u", voltage="u", speed="y"), Said())
+    assert (driven.pairs[0].voltage, driven.supply) == ("voltage", None)
+    named = find_roles(table(t="t", pwm="u", battery="b", speed="y"), Said())
+    assert (named.pairs[0].voltage, named.supply) == ("pwm", "battery")
+
+
+def test_what_is_called_a_supply_and_swings_drives() -> None:
+    assert find_roles(table(t="t", Vin="u", speed="y"), Said()).pairs == (Pair("", "Vin", "speed"),)
+    with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+        find_roles(table(t="t", Vin="b", speed="y"), Said())
+    assert find_roles(table(t="t", Vin="b", pwm="u", speed="y"), Said()).supply == "Vin"
+
+
+@pytest.mark.parametrize(("least", "battery"), [(22.0, True), (2.0, False)])
+def test_a_voltage_that_stays_while_the_motor_turns_both_ways_drives_nothing(least: float, battery: bool) -> None:
+    volts = np.where(np.arange(200) < 4, 0.0, np.linspace(25.0, least, 200))
+    table = columns(t=TIME, VOLT=volts, vel=FOLLOWS)
+    if battery:
+        with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+            find_roles(table, Said())
+        directed = columns(t=TIME, VOLT=volts, vel=FOLLOWS, dir=np.sign(DRIVE))  # a pin says which way
+        assert find_roles(directed, Said()).pairs[0].voltage == "VOLT"
+    else:
+        assert find_roles(table, Said()).pairs[0].voltage == "VOLT"
+    one_way = columns(t=TIME, VOLT=volts, vel=np.abs(FOLLOWS))
+    assert find_roles(one_way, Said()).pairs[0].voltage == "VOLT"

@@ -1,0 +1,104 @@
+"""Which column is which."""
+
+import numpy as np
+import pytest
+from log_columns import KINDS, table
+
+from motor_identification.logs.columns.roles.roles import find_roles
+from motor_identification.logs.columns.said import Pair, Said
+from motor_model.errors import RecordingError
+
+
+def test_by_their_names() -> None:
+    roles = find_roles(table(time="t", target="r", speed="y", voltage="u", current="y"), Said())
+    assert (roles.time, roles.pairs, roles.supply, roles.current) == (
+        "time",
+        (Pair("", "voltage", "speed"),),
+        None,
+        "current",
+    )
+
+
+def test_an_effort_that_is_zero_all_the_time_gives_way_to_what_drives() -> None:
+    """Joint states have an effort, which most robots leave at zero, beside the command on another topic."""
+    assert find_roles(table(t="t", velocity="y", effort="0", command="u"), Said()).pairs == (
+        Pair("", "command", "velocity"),
+    )
+    assert find_roles(table(t="t", velocity="y", effort="0"), Said()).pairs == (Pair("", "effort", "velocity"),)
+    with pytest.raises(RecordingError, match="Say --voltage and one of effort, command"):
+        find_roles(table(t="t", velocity="y", effort="r", command="u"), Said())
+
+
+@pytest.mark.parametrize("name", ["pwm_left pwm_right", "pwm1 pwm2", "effort_left effort_right"])
+def test_a_motor_that_stands_keeps_its_drive(name: str) -> None:
+    """Zeros that are the drive of one motor beside another one's."""
+    still, other = name.split()
+    moving = {f"speed{one.removeprefix('pwm').removeprefix('effort')}": "y" for one in (still, other)}
+    pairs = find_roles(table(t="t", **{still: "0", other: "u"}, **moving), Said()).pairs
+    assert [pair.voltage for pair in pairs] == [still, other]
+
+
+def test_efforts_of_two_wheels_give_way_to_their_commands() -> None:
+    columns = {"effort_left": "0", "effort_right": "0", "command_left": "u", "command_right": "r"}
+    pairs = find_roles(table(t="t", **columns, speed_left="y", speed_right="y"), Said()).pairs
+    assert [pair.voltage for pair in pairs] == ["command_left", "command_right"]
+
+
+def test_two_sides_are_two_motors() -> None:
+    both = find_roles(table(t="t", leftCommand="u", rightCommand="u", leftSpeed="y", rightSpeed="y"), Said())
+    assert both.pairs == (Pair("left", "leftCommand", "leftSpeed"), Pair("right", "rightCommand", "rightSpeed"))
+    shared = find_roles(table(t="t", command="u", l_speed="y", r_speed="y"), Said())
+    assert shared.pairs == (Pair("left", "command", "l_speed"), Pair("right", "command", "r_speed"))
+    one = find_roles(
+        table(t="t", leftCommand="u", rightCommand="r", leftSpeed="y", rightSpeed="y"),
+        Said(motion="leftSpeed", voltage="leftCommand"),
+    )
+    assert one.pairs == (Pair("", "leftCommand", "leftSpeed"),)
+    said = Said(motors=(Pair("a", "x1", "x2"),))
+    assert find_roles(table(t="t", x1="u", x2="y", x3="y"), said).pairs == said.motors
+
+
+@pytest.mark.parametrize(
+    ("columns", "complaint"),
+    [
+        ({"t": "t", "speed_a": "y", "speed_b": "y", "u": "u"}, "the speed? Say --speed and one of speed_a, speed_b."),
+        ({"t": "t", "w1": "y", "w2": "n", "pwm": "u"}, "w1, w2. For a motor of each: --motor 1:pwm,w1 --motor 2:"),
+        ({"t": "t", "Enc1": "y", "Enc2": "n", "pwm": "u"}, "the motion? Say --speed or --position and one of Enc1,"),
+        ({"t": "t", "x": "y", "z": "y", "u": "u"}, "one of x, z. For a motor of each: --motor 1:u,x --motor 2:u,z"),
+        ({"t": "t", "speed": "y"}, "is the voltage or duty: say which one of t, speed is (--voltage COL), or --c"),
+        ({"t": "t", "u": "u", "b": "0"}, "log.csv: b is 0 in every row: the motor never moves in it."),
+        ({"t": "t", "a": "u", "b": "0"}, "b is 0 in every row: the motor never moves in it, or a is its motion and"),
+        ({"a": "y", "b": "y", "c": "t"}, "which column is the voltage or duty? Say --voltage and one of a, b."),
+        ({"a": "y", "b": "y", "d": "t"}, "Where it is none of them, as in a log of one step: --constant-voltage V."),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_told_is_asked(columns: dict[str, str], complaint: str) -> None:
+    with pytest.raises(RecordingError) as caught:
+        find_roles(table(**columns), Said())
+    assert complaint in str(caught.value)
+
+
+def test_a_column_that_is_not_there() -> None:
+    for said in (Said(time="x"), Said(voltage="x"), Said(motion="x")):
+        with pytest.raises(RecordingError, match="log.csv has no column x: name one of t, u, speed"):
+            find_roles(table(t="t", u="u", speed="y"), said)
+
+
+def test_a_side_that_nothing_drives_is_left_out() -> None:
+    roles = find_roles(table(t="t", pwm_left="u", speed_left="y", speed_right="y"), Said())
+    assert (roles.pairs, roles.left_out) == ((Pair("", "pwm_left", "speed_left"),), ("speed_right",))
+    shared = find_roles(table(t="t", pwm="u", speed_left="y", speed_right="y"), Said())
+    assert (len(shared.pairs), shared.left_out) == (2, ())
+    other = find_roles(table(t="t", pwm_left="u", speed_right="y"), Said())
+    assert (other.pairs, other.left_out) == ((Pair("", "pwm_left", "speed_right"),), ())
+
+
+def test_a_way_without_times_is_no_clock() -> None:
+    """As a model prints voltage, angle and speed of a step; a clock that jitters, or whose rows are late, stays one."""
+    speed = 6.0 - 6.0 * np.exp(-np.arange(200) / 40.0)
+    KINDS.update(g=0.01 * np.cumsum(speed), s=speed, k=np.full(200, 12.0))
+    assert find_roles(table(**{"column 1": "k", "column 2": "g", "column 3": "s"}), Said()).time is None
+    jitter = 0.002 * np.random.default_rng(3).normal(size=200)
+    for late in (np.zeros(200), 0.05 * (np.arange(200) % 50 == 7)):
+        KINDS.update(j=np.cumsum(0.01 + jitter + late))
+        assert find_roles(table(**{"column 1": "j", "column 2": "u", "column 3": "y"}), Said()).time == "column 1"
