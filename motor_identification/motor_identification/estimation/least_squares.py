@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
+from motor_identification.estimation.reduced_residuals import ReducedResiduals
 from motor_identification.recording import Bools, Floats
 
 LEAST_GAIN = 4.0  # squared standard deviations: chance alone gains 1 by a parameter more, and 4 in one case of 20
@@ -76,6 +77,9 @@ def minimise_squares(
     span = box.high - box.low
     free = np.zeros(len(span), dtype=bool) if box.periodic is None else box.periodic
     robust = bool(np.isfinite(robust_scale))
+    if jacobian is not None and not robust:
+        reduced = ReducedResiduals(residuals, jacobian, tolerance.cost, tolerance.unknowns, tolerance.iterations)
+        residuals, jacobian = reduced.residuals, reduced.jacobian
     end = least_squares(
         residuals,
         np.clip(start, box.low + INNER_MARGIN * span, box.high - INNER_MARGIN * span),
