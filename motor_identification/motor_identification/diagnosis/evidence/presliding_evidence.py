@@ -24,7 +24,7 @@ from motor_identification.discrepancy.motion_history import MotionHistory, make_
 from motor_identification.discrepancy.rest import ROBUST
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_data import ErrorData, log_likelihood
-from motor_identification.noise.error_learning import learn_error_model
+from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.recording import Floats
 
 RIDGE = 1e-9  # of a column's power: in a motor that turns one way, friction and load are one column
@@ -68,7 +68,7 @@ def _score_refitted(model: Model, rests: Sequence[_Rest]) -> float:
 
 def _score(model: Model, left: Sequence[ErrorData]) -> float:
     """Compute the log likelihood of what is left, under errors that are learned of it."""
-    learned = learn_error_model(left, model.lag, model.errors, thresholds.CANDIDATE_EVALUATIONS)
+    learned = learn_errors_of_runs(left, model.lag, model.errors, thresholds.CANDIDATE_EVALUATIONS)
     return log_likelihood(left, learned, model.lag)
 
 
