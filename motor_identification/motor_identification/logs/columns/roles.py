@@ -171,8 +171,9 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
         return _by_behaviour(table, rest, time)
     if not voltage and not motion and (channels := _two_channels(table, rest)):
         return channels
-    motion = motion or _moving(table, rest, "", time, said.unit)
-    voltage = voltage or _driving(table, [one for one in rest if one.name != motion], "", ("",))
+    side = read_heading(motion or voltage).side  # of two motors, the one that was named
+    motion = motion or _moving(table, rest, side, time, said.unit)
+    voltage = voltage or _driving(table, [one for one in rest if one.name != motion], side, ("",))
     return Pair("", voltage, motion)
 
 

@@ -93,6 +93,13 @@ def test_two_sides_are_two_motors() -> None:
     assert find_roles(table(t="t", x1="u", x2="y", x3="y"), said).pairs == said.motors
 
 
+@pytest.mark.parametrize("said", [Said(motion="velL"), Said(voltage="pwmL"), Said(motion="velL", voltage="pwmL")])
+def test_of_two_motors_the_one_that_was_named(said: Said) -> None:
+    columns = {"t": "t", "velR": "y", "velL": "y", "pwmR": "u", "pwmL": "u"}
+    (pair,) = find_roles(table(**columns), said).pairs
+    assert (pair.voltage, pair.motion) == ("pwmL", "velL")
+
+
 def test_without_names_by_how_numbers_behave() -> None:
     roles = find_roles(table(**{"column 1": "t", "column 2": "y", "column 3": "u", "column 4": "0"}), Said())
     assert (roles.time, roles.pairs) == ("column 1", (Pair("", "column 3", "column 2"),))
