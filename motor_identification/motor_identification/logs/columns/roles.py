@@ -67,7 +67,7 @@ def find_roles(table: Table, said: Said) -> Roles:
         table.column(said.time)
     others = [heading for heading in headings if heading.name not in (time, said.supply)]
     free = ends_of_a_loop(
-        [one for one in others if one.quantity is not None or not _is_clock_of(table, one.name, time)]
+        [one for one in others if one.quantity is not None or not _numbers_rows(table, one.name, time)]
     )
     free = commands_beside_control(table, leave_out_idle_efforts(table, free))
     free = share_one_drive(
@@ -125,11 +125,16 @@ def _is_way(table: Table, name: str, columns: Mapping[str, Floats]) -> bool:
     return any(find_position(table, (name, other), None) == name for other in columns if other != name)
 
 
-def _is_clock_of(table: Table, name: str, time: str | None) -> bool:
-    """Whether a column is another clock's times of the same rows, as where each channel has an X of its own."""
+def _numbers_rows(table: Table, name: str, time: str | None) -> bool:
+    """Whether a column is another clock's times of the same rows, as where each channel has an X of its own.
+
+    Or their numbers, as programs write before each row.
+    """
     if time is None:
         return False
     values, times = table.numbers(name), read_clock(table, time)
+    if len(table) > FEWEST_CHANGES and np.array_equal(values, values[0] + np.arange(len(values))):
+        return True
     if len(times) != len(values) or not runs_forward(values) or np.ptp(times) <= 0.0:
         return False
     return correlate(values, times) > SAME_CLOCK and bool(abs(np.ptp(values) / np.ptp(times) - 1.0) < 0.01)
@@ -335,7 +340,10 @@ def _is_battery(table: Table, name: str) -> bool:
     both = any(np.min(speed) < -BOTH_WAYS * np.max(speed) < 0.0 for speed in speeds)
     turned = any({"dir", "direction"} & set(one.words) for one in beside)  # by a pin of its own
     steady = len(there) > 0 and np.min(there) > STEADY * np.max(there) > 0.0
-    return bool(both and not turned and steady and np.count_nonzero(np.diff(volts)) > FEWEST_CHANGES)
+    told = any(one.quantity is Quantity.REFERENCE and len(np.unique(table.numbers(one.name))) > 1 for one in beside)
+    if not both or turned or not steady:
+        return False
+    return told or bool(np.count_nonzero(np.diff(volts)) > FEWEST_CHANGES)  # few may be those of a drive
 
 
 def _swings(values: Floats) -> bool:

@@ -333,6 +333,28 @@ def test_a_voltage_that_stays_while_the_motor_turns_both_ways_drives_nothing(lea
     assert find_roles(one_way, Said()).pairs[0].voltage == "VOLT"
 
 
+@pytest.mark.parametrize("told", [True, False])
+def test_a_battery_of_few_levels_drives_nothing_where_a_set_point_is_told(told: bool) -> None:
+    volts = np.select([np.arange(200) < 4, np.arange(200) < 90], [0.0, 25.1], 24.9)
+    table = columns(t=TIME, setpoint=np.sign(DRIVE) if told else np.ones(200), VOLT=volts, vel=FOLLOWS)
+    if told:
+        with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+            find_roles(table, Said())
+    else:
+        assert find_roles(table, Said()).pairs[0].voltage == "VOLT"
+
+
+@pytest.mark.parametrize("first", [0.0, 1.0])
+def test_the_numbers_of_the_rows_drive_nothing(first: float) -> None:
+    numbers = first + np.arange(200.0)
+    with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+        find_roles(columns(**{"column 1": numbers, "time": TIME, "value": MOVED}), Said())
+    assert (
+        find_roles(columns(**{"": numbers, "time": TIME, "u": DRIVE, "value": MOVED}), Said()).pairs[0].motion
+        == "value"
+    )
+
+
 def test_a_speed_in_two_units_is_one_motion() -> None:
     rounded = np.rint(MOVED * 60.0 / (2.0 * np.pi))
     cells = {"t": TIME, "u": DRIVE, "pps": MOVED * 1303.8, "speed rpm": rounded, "omega [rad/s]": MOVED}
