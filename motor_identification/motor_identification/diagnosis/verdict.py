@@ -63,6 +63,7 @@ def conclude(
         trace=np.array([base.held.gap, *gaps]),
         duration=elapsed(),
         undetermined=undetermined,
+        gain_scatter=last.errors.gain,
     )
 
 

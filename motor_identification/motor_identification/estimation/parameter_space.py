@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, pi
+from math import inf, log1p, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -98,6 +98,15 @@ class Unknowns:
         vector = self.decode(theta[None])[0][0, 0]
         values = {spec: float(vector[INDEX[spec]]) for spec in self.names}
         return Parameters(values, self.effects, self.max_voltage, name, gear_ratio=self.gear)
+
+    def scale_supply(self, theta: Floats, by: float) -> Floats:
+        """θ (D,) of the motor that moves as this one does by a supply that is larger by a share: less of every volt."""
+        moved = theta.copy()
+        for i, spec in enumerate(self.specs):
+            if spec.unit.startswith("V"):
+                columns = self.columns[:, i]
+                moved[columns] = theta[columns] - log1p(by) if spec.logarithmic else theta[columns] / (1.0 + by)
+        return moved
 
     def value_errors(self, theta: Floats, theta_errors: Floats) -> dict[str, float]:
         """Standard errors of the parameters from those of θ: a logarithm's is a relative one."""

@@ -18,13 +18,14 @@ import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.discrepancy.free_curves import KNOTS, PAST, TRAVEL, respond
 from motor_identification.discrepancy.motion_history import MotionHistory
 from motor_identification.discrepancy.rest import ROBUST
 from motor_identification.discrepancy.rests import list_training_rests
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_data import ErrorData, log_likelihood
-from motor_identification.noise.error_learning import learn_error_model
+from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.recording import Floats
 
 RIDGE = 1e-9  # of a column's power: in a motor that turns one way, friction and load are one column
@@ -61,7 +62,7 @@ def _score_refitted(model: Model, rests: Sequence[Rest]) -> float:
 
 def _score(model: Model, left: Sequence[ErrorData]) -> float:
     """Compute the log likelihood of what is left, under errors that are learned of it."""
-    learned = learn_error_model(left, model.lag, model.errors, thresholds.CANDIDATE_EVALUATIONS)
+    learned = learn_errors_of_runs(left, model.lag, model.errors, thresholds.CANDIDATE_EVALUATIONS)
     return log_likelihood(left, learned, model.lag)
 
 
@@ -73,7 +74,8 @@ def _refit_presliding(model: Model, rests: Sequence[Rest]) -> list[ErrorData]:
 
 
 def _list_rests(model: Model) -> list[Rest]:
-    return [(rest.errors, rest.simulated()) for rest in list_training_rests(model.estimate)]
+    rests = list_training_rests(model.estimate, list_error_data(model.estimate))
+    return [(rest.errors, rest.simulated()) for rest in rests]
 
 
 def _refit(model: Model, rests: Sequence[Rest], angle: float) -> list[ErrorData]:

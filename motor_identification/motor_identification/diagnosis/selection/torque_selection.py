@@ -6,6 +6,7 @@ Forward selection and backward elimination as without a torque, on models that a
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse, takes_away_more
 from motor_identification.diagnosis.evidence.line_evidence import count_waves
+from motor_identification.diagnosis.run_gains import find_gap_less_gains, may_be_of_gains
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.selection.forward_selection import select_forward
 from motor_identification.diagnosis.selection.selection import Selection, begin_beside_torque
@@ -20,7 +21,7 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
     than it should, which is taken if the beginning leads nowhere. Where only something likely was refused, that is
     looked for beside a torque that is there, and nothing that was found is judged again.
     """
-    disturbed = _may_be_disturbed(plain)
+    disturbed = _may_be_disturbed(plain) or any(may_be_of_gains(step, plain.hold_out) for step in plain.steps)
     if not (disturbed or plain.refused):
         return None
     doubtful: list[Selection] = []
@@ -28,7 +29,7 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
         reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
         begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
         selection = _select_both_ways(begun, reporter)
-        worse = predicts_far_worse(selection.model.held.gap, plain.model.held.gap)
+        worse = predicts_far_worse(find_gap_less_gains(selection.model), plain.model.held.gap)
         if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
             worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
         if not selection.model.complete or worse:

@@ -26,6 +26,7 @@ def seen(model: Model, by_fit: bool) -> Model:
 def selected(monkeypatch: pytest.MonkeyPatch, plain: Selection, begun: Selection, ended: Selection) -> Selection | None:
     """What is selected where nothing is fitted: the selections beside a torque are given."""
     monkeypatch.setattr(Model, "complete", True)
+    monkeypatch.setattr(module, "may_be_of_gains", lambda step, hold_out: step.before.noise.drift > 0.0)
     monkeypatch.setattr(module, "begin_beside_torque", lambda *rest: begun)
     monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended)
@@ -137,3 +138,12 @@ def test_a_torque_that_leaves_less_than_it_should_is_taken_where_the_beginning_l
     monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended[selection is start])
     assert module.select_beside_torque(start, plain, SILENT) is ended[chosen]
+
+
+@pytest.mark.parametrize("differ", [True, False])
+def test_what_runs_may_differ_in_is_judged_again(differ: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An asymmetry of runs at the sensor's floor may be of their supplies."""
+    before = replace(stub_model(1.2), noise=replace(stub_model(1.2).noise, drift=1.0 if differ else 0.0))
+    plain = selection_of(stub_model(1.0), step_of(stub_test("direction_asymmetry", before, 1.0, 100.0)))
+    ended = selection_of(stub_model(1.2))
+    assert (selected(monkeypatch, plain, plain, ended) is ended) is differ
