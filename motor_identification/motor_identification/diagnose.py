@@ -21,9 +21,9 @@ from motor_identification.diagnosis.selection.selection import Selection, begin_
 from motor_identification.diagnosis.selection.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
 from motor_identification.diagnosis.selection.torque_selection import select_beside_torque
 from motor_identification.diagnosis.verdict import conclude, find_nearest
-from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import Request, SearchReport
+from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.progress import ProgressReporter, Stage, Stopped, TimeLimit
