@@ -56,6 +56,7 @@ def search(objective: Objective, config: SearchConfig, progress: Progress | None
         raise MotorError(
             "no parameters in the search range give a finite simulation: check the recording's voltages and times."
         )
+    tell(1.0)  # what is left of the budget is no swarm
     return log.report(objective, number, agreed=False)
 
 
