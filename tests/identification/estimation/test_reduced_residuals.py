@@ -36,7 +36,7 @@ def test_cost_gradient_and_curvature_are_those_of_all_residuals() -> None:
 def test_the_solver_goes_the_same_way(tolerance: float, iterations: int) -> None:
     """As many steps, and to the same end, whether it ends by the cost, by the step or by what it may ask."""
     how = Tolerance(tolerance, tolerance, 0.01 * tolerance, iterations)
-    end = minimise_squares(TARGET.residuals, TARGET.jacobian, START, BOX, how)
+    end = minimise_squares(TARGET.residuals, TARGET.jacobian, START, BOX, how, reduced=True)
     whole = least_squares(
         TARGET.residuals, START, TARGET.jacobian, (BOX.low, BOX.high), ftol=tolerance, xtol=tolerance,
         gtol=0.01 * tolerance, max_nfev=iterations, x_scale=BOX.high - BOX.low,
@@ -54,7 +54,7 @@ def count_derivatives(iterations: int, tolerance: float) -> tuple[int, int]:
         return TARGET.jacobian(theta)
 
     how = Tolerance(tolerance, tolerance, 1e-15, iterations)
-    end = minimise_squares(TARGET.residuals, jacobian, START, BOX, how)
+    end = minimise_squares(TARGET.residuals, jacobian, START, BOX, how, reduced=True)
     return len(asked), end.jacobian_calls
 
 
