@@ -79,9 +79,18 @@ def diagnose(
     found = replace(found, model=replace(found.model, timing=start.timing))
     if not selected.finished:
         return replace(found, verdict=Verdict.UNDECIDED, time_limit=limit.seconds)
-    if found.verdict is Verdict.UNEXPLAINED and not found.findings and limit.best is not None:
+    if _is_silent(found) and limit.best is not None:
         return replace(found, nearest=find_nearest(limit.best, found.gap_before))
     return found
+
+
+def _is_silent(found: Diagnosis) -> bool:
+    """Decide whether something is or may be missing, and nothing of the table is named for it.
+
+    Where the fits have seen what they are judged by, a gap that something takes away is no reason to tell of it.
+    """
+    open_ = found.verdict is Verdict.UNDECIDED and not found.after.seen
+    return not found.findings and (open_ or found.verdict is Verdict.UNEXPLAINED)
 
 
 def _has_smaller_gap(one: Selection, other: Selection) -> bool:

@@ -213,6 +213,9 @@ def _describe_no_finding(diagnosis: Diagnosis) -> str:
     ignored = find_ignored(diagnosis.after)
     if ignored is not None:
         return _describe_ignored(ignored)
+    if diagnosis.nearest is not None:
+        text = f"Something may be missing that this recording does not tell from chance: {_describe_gap(diagnosis)}."
+        return f"{text} {_describe_nearest(diagnosis)}"
     return f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."
 
 

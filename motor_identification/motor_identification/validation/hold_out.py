@@ -71,7 +71,8 @@ class HoldOut(ABC):
         scored = tuple(block & ~instant for block, instant in zip(counted, instants, strict=True))
         miscounted = int(sum(marks.sum() for marks in bad))
         motion = here.problem.recordings, intervals, here.angles
-        responses = here.supply_responses if len(intervals) >= FEWEST_RUNS else ()
+        several = max(len(intervals), len(fitted.problem.recordings)) >= FEWEST_RUNS
+        responses = here.supply_responses if several else ()
         return HeldOut(*motion, here.parameters, scored, miscounted, instants, self.seen, self.confirms, responses)
 
     def correct_directions(self: Self, fitted: Estimate) -> Self:

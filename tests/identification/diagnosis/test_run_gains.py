@@ -76,6 +76,13 @@ def test_a_gap_is_measured_without_what_the_gains_add() -> None:
     assert 0.7 < model.held.gap / model.noise_floor < 1.4  # of which the gains are the most
 
 
+def test_a_single_recording_to_validate_by_has_a_gain_of_its_own_too() -> None:
+    estimate, hold_out = true_motor(runs()[1:]), make_hold_out(runs()[1:], runs()[:1])
+    model = judge_beside_torque(validate_model(hold_out, estimate), hold_out, None, 120)
+    assert model.errors.gain == pytest.approx(np.std(GAINS), rel=0.3)
+    assert find_gap_less_gains(model) < 0.3 * model.held.gap < model.noise_floor
+
+
 @pytest.mark.parametrize(("count", "gains"), [(6, (1.0,) * 8), (4, tuple(GAINS))], ids=["agree", "few"])
 def test_runs_that_agree_and_few_runs_have_no_gains(count: int, gains: tuple[float, ...]) -> None:
     recordings = runs(0.0, gains)[:count]
