@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from paper_loop import FREE, HARDWARE, Bench
 
-from motor_identification.estimation.swarm import SwarmConfig, minimise
+from motor_identification.estimation.search.swarm import SwarmConfig, minimise
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import Recording, check, recording_of

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import differential_evolution, least_squares
 
-from motor_identification.estimation.objective import Objective
+from motor_identification.estimation.search.objective import Objective
 
 Floats = NDArray[np.float64]
 

@@ -20,12 +20,12 @@ from peers import Meter, Peer
 from search_figure import Floats, Run, Table, draw
 
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.global_search import COARSE_SAMPLES
 from motor_identification.estimation.least_squares import fit_speeds
-from motor_identification.estimation.multistart import search
-from motor_identification.estimation.objective import Objective, make_objective
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.search.global_search import COARSE_SAMPLES
+from motor_identification.estimation.search.multistart import search
+from motor_identification.estimation.search.objective import Objective, make_objective
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.recording import check, recording_of
 from motor_model.excitation import profile

@@ -20,9 +20,9 @@ import numpy as np
 from machine import machine
 from scipy.signal import lsim
 
-from motor_identification.estimation.global_search import COARSE_SAMPLES
 from motor_identification.estimation.problem import make_problem
-from motor_identification.estimation.swarm import SwarmConfig, minimise
+from motor_identification.estimation.search.global_search import COARSE_SAMPLES
+from motor_identification.estimation.search.swarm import SwarmConfig, minimise
 from motor_identification.recording import check, recording_of
 from motor_model.model_file import save
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters, paper_motor

@@ -10,18 +10,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 
-from motor_identification.diagnosis.backward_elimination import add_rivals_beside_torque, eliminate_backward
 from motor_identification.diagnosis.candidate_test import fits_torque
-from motor_identification.diagnosis.determination import drop_undetermined
-from motor_identification.diagnosis.forward_selection import retry_with_another_first, retry_with_pair, select_forward
 from motor_identification.diagnosis.result import Diagnosis, Verdict
-from motor_identification.diagnosis.selection import Selection, begin_selection
-from motor_identification.diagnosis.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
-from motor_identification.diagnosis.torque_selection import select_beside_torque
+from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
+from motor_identification.diagnosis.selection.determination import drop_undetermined
+from motor_identification.diagnosis.selection.forward_selection import select_forward
+from motor_identification.diagnosis.selection.restarts import retry_with_another_first, retry_with_pair
+from motor_identification.diagnosis.selection.rivals import add_rivals_beside_torque
+from motor_identification.diagnosis.selection.selection import Selection, begin_selection
+from motor_identification.diagnosis.selection.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
+from motor_identification.diagnosis.selection.torque_selection import select_beside_torque
 from motor_identification.diagnosis.verdict import conclude, find_nearest
-from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import Request, SearchReport
+from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.progress import ProgressReporter, Stage, Stopped, TimeLimit
@@ -77,9 +79,18 @@ def diagnose(
     found = replace(found, model=replace(found.model, timing=start.timing))
     if not selected.finished:
         return replace(found, verdict=Verdict.UNDECIDED, time_limit=limit.seconds)
-    if found.verdict is Verdict.UNEXPLAINED and not found.findings and limit.best is not None:
+    if _is_silent(found) and limit.best is not None:
         return replace(found, nearest=find_nearest(limit.best, found.gap_before))
     return found
+
+
+def _is_silent(found: Diagnosis) -> bool:
+    """Decide whether something is or may be missing, and nothing of the table is named for it.
+
+    Where the fits have seen what they are judged by, a gap that something takes away is no reason to tell of it.
+    """
+    open_ = found.verdict is Verdict.UNDECIDED and not found.after.seen
+    return not found.findings and (open_ or found.verdict is Verdict.UNEXPLAINED)
 
 
 def _has_smaller_gap(one: Selection, other: Selection) -> bool:

@@ -5,10 +5,10 @@ from dataclasses import replace
 from time import perf_counter
 
 from motor_identification.estimation.direction_correction import correct_directions
-from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.miscounts import exclude_miscounts
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.estimation.request import PhysicalRequest, Request, SearchConfig, SearchReport
+from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.request_checks import check_effects
 from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects

@@ -1,8 +1,9 @@
 """A recording: one motor's samples as arrays, checked, with what has to be known to read them."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from functools import wraps
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,8 @@ from motor_model.sample import RANGES, Info, Measurement, Sample
 
 MOST_VOLTAGE = RANGES["max_voltage"][1]  # [V]
 MOST_SPEED = 1e9  # [rad/s]; what is larger makes squares that mean nothing
+
+T = TypeVar("T")
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -92,6 +95,20 @@ class Recording:
             supply_voltage=self.supply_voltage[which],
             current=self.current[which],
         )
+
+
+def once(measure: Callable[[Recording], T]) -> Callable[[Recording], T]:
+    """Measure something of a recording once, and keep it with it: a diagnosis asks for it hundreds of times."""
+    name = f"{measure.__module__}.{measure.__qualname__}"
+
+    @wraps(measure)
+    def kept(recording: Recording) -> T:
+        if name not in vars(recording):
+            vars(recording)[name] = measure(recording)
+        value: T = vars(recording)[name]
+        return value
+
+    return kept
 
 
 def recording_of(samples: Sequence[Sample], info: Info, uri: str, notes: tuple[str, ...] = ()) -> Recording:

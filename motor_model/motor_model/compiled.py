@@ -10,12 +10,15 @@ kernel being compiled again. (Numba itself compiles a file's own kernels again w
 import ast
 import hashlib
 import inspect
+import json
+import os
 import shutil
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numba
 import numpy as np
@@ -77,12 +80,13 @@ def _content(module: str) -> bytes:
 @cache
 def _digest(module: str) -> str:
     """Digest all that the machine code of an imported module depends on; its own imports have been executed."""
-    tree = ast.parse(_source(module).read_bytes())
-    computing = _called_by_constants(tree)
+    outline = _outline_of(module)
     digest = hashlib.sha256(repr((sorted(_OPTIONS.items()), numba.__version__)).encode())
-    for node in _relevant(tree, computing):
-        digest.update(ast.dump(_without_docstring(node)).encode())
-    for name, origin, value in _imported(tree):
+    digest.update(outline.own.encode())
+    for name, origin in outline.imports:
+        if origin not in sys.modules:
+            continue
+        value = getattr(sys.modules[origin], name, None)
         if isinstance(value, numba.core.dispatcher.Dispatcher):
             digest.update(f"{name}:{_digest(value.py_func.__module__)}".encode())
         elif hasattr(value, "_fields"):  # a named tuple's layout is compiled into whatever takes it
@@ -91,9 +95,53 @@ def _digest(module: str) -> str:
             digest.update(name.encode() + value.tobytes())
         elif isinstance(value, _PLAIN):
             digest.update(f"{name}={value!r}".encode())
-        elif name in computing:
+        elif name in outline.computing:
             digest.update(_content(origin))
     return digest.hexdigest()[:16]
+
+
+class _Outline(NamedTuple):
+    """What the machine code of a module depends on, as far as its source says."""
+
+    own: str  # a digest of its compiled functions and constants
+    computing: list[str]  # functions that assignments call
+    imports: list[tuple[str, str]]  # each name that it imports from a module, and which
+
+
+def _outline_of(module: str) -> _Outline:
+    """Outline an imported module's source: to parse all sources takes a tenth of what a short command does.
+
+    So it is kept on disk, where that can be written, for exactly these bytes and rules.
+    """
+    source = _source(module)
+    text = source.read_bytes()
+    key = hashlib.sha256(sys.version.encode() + _content(__name__) + text).hexdigest()
+    file = source.parent / "__pycache__" / f"numba-{source.stem}.json"
+    with suppress(OSError, ValueError, TypeError):
+        kept, *outline = json.loads(file.read_bytes())
+        if kept == key:
+            return _Outline(*outline)
+    read = _outline(ast.parse(text))
+    with suppress(OSError):
+        file.parent.mkdir(exist_ok=True)
+        beside = file.with_suffix(f".{os.getpid()}")
+        beside.write_text(json.dumps([key, *read]))
+        beside.replace(file)  # at once: another process may read it
+    return read
+
+
+def _outline(tree: ast.Module) -> _Outline:
+    """Outline a module."""
+    computing, digest = _called_by_constants(tree), hashlib.sha256()
+    for node in _relevant(tree, computing):
+        digest.update(ast.dump(_without_docstring(node)).encode())
+    imports = [
+        (alias.name, node.module)
+        for node in tree.body
+        if isinstance(node, ast.ImportFrom) and node.module and node.level == 0
+        for alias in node.names
+    ]
+    return _Outline(digest.hexdigest(), sorted(computing), imports)
 
 
 def _relevant(tree: ast.Module, computing: set[str]) -> Iterator[ast.stmt]:
@@ -114,14 +162,6 @@ def _called_by_constants(tree: ast.Module) -> set[str]:
     assigned = (node.value for node in tree.body if isinstance(node, ast.Assign | ast.AnnAssign) and node.value)
     calls = (node.func for value in assigned for node in ast.walk(value) if isinstance(node, ast.Call))
     return {call.id for call in calls if isinstance(call, ast.Name)}
-
-
-def _imported(tree: ast.Module) -> Iterator[tuple[str, str, Any]]:
-    """List each name that a module imports from a module: the name, where from, its value."""
-    for node in tree.body:
-        if isinstance(node, ast.ImportFrom) and node.module and node.level == 0 and node.module in sys.modules:
-            for alias in node.names:
-                yield alias.name, node.module, getattr(sys.modules[node.module], alias.name, None)
 
 
 def _without_docstring(node: ast.stmt) -> ast.stmt:

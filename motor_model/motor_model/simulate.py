@@ -11,14 +11,15 @@ from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.current import current_at
 from motor_model.dynamics.forces import warmth
 from motor_model.dynamics.motor import advance
+from motor_model.dynamics.rippling import turn_on
 from motor_model.dynamics.state import State, at_rest, turning
-from motor_model.dynamics.straight import begin_lag, find_straight, find_torques, prepare_hold, turn, turn_lagging
+from motor_model.dynamics.straight import begin_lag, find_straight, find_torques, prepare_hold
 from motor_model.effects import INDEX
 from motor_model.errors import ModelError
 from motor_model.parameters import Parameters
 from motor_model.sensing.encoder import shaft_angle_at
 
-DELAY, LAG = INDEX["delay"], INDEX["electrical_time_constant"]
+DELAY = INDEX["delay"]
 STEP, STEP_TIME = INDEX["step_voltage"], INDEX["step_time"]
 
 Floats = NDArray[np.float64]
@@ -93,10 +94,7 @@ def roll_out_with_current(  # noqa: C901
                 then, travel, drive, h = 0.0, 0.0, s.drive, stop - t
                 if abs(s.speed) > straight.least and h <= straight.longest and s.play == 0.0:
                     w = warmth(p, t + 0.5 * h)
-                    if p[LAG] == 0.0:
-                        then, travel = turn(p, hold, s, h, w)
-                    else:
-                        then, drive, travel, lagging = turn_lagging(p, hold, s, h, w, straight.least, lagging)
+                    then, drive, travel, lagging = turn_on(p, hold, s, h, w, straight.least, lagging)
                 if then * s.speed > 0.0 and abs(then) > straight.least:
                     s = State(s.angle + travel, then, drive, s.play, 1.0 if s.speed > 0.0 else -1.0, s.turned)
                 else:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from handmade import PERIOD, turning
 
-from motor_identification.recording import Recording, check, recording_of
+from motor_identification.recording import Recording, check, once, recording_of
 from motor_model.errors import RecordingError
 from motor_model.sample import Info, Sample
 
@@ -77,3 +77,17 @@ def test_a_high_voltage_may_be() -> None:
 def test_two_channels_may_count_down() -> None:
     two = changed(edge_count=put(GOOD.edge_count, 50, GOOD.edge_count[50] - 2))
     assert check(two) is two
+
+
+def test_what_is_measured_once_is_kept_with_the_recording_and_with_no_other() -> None:
+    asked = []
+
+    @once
+    def length(recording: Recording) -> int:
+        asked.append(recording)
+        return len(recording)
+
+    other = GOOD.between(0.25, 0.5)
+    assert [length(one) for one in (GOOD, GOOD, other)] == [len(GOOD), len(GOOD), len(other)]
+    assert len(asked) == 2 and asked[0] is GOOD and asked[1] is other
+    assert length(replace(GOOD)) == len(GOOD) and len(asked) == 3  # a changed one is another

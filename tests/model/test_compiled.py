@@ -1,5 +1,6 @@
 """Machine code never outlives what it was made of, and a sentence that changes compiles nothing again."""
 
+import json
 import shutil
 import subprocess
 import sys
@@ -118,6 +119,20 @@ def test_edited_sentences_recompile_nothing(copy: Path, before: dict[str, str]) 
     for module, old, new in SENTENCES:
         edit(copy, module, old, new)
     assert changed(before, caches(copy)) == set()
+
+
+def test_what_was_read_of_a_source_is_kept_for_exactly_that_source(copy: Path, before: dict[str, str]) -> None:
+    assert caches(copy) == before
+    kept = copy / "motor_identification" / "noise" / "__pycache__" / "numba-viterbi.json"
+    key, own, *_ = json.loads(kept.read_text())
+    kept.write_text(kept.read_text().replace(own, "0" * 64))  # it is what is believed
+    assert changed(before, caches(copy)) == {"viterbi"}
+    kept.write_text(kept.read_text().replace(key, "0" * 64))  # of another source it is not
+    assert caches(copy) == before
+    edit(copy, "motor_identification.noise.viterbi", "-price", "-2.0 * price")
+    assert changed(before, caches(copy)) == {"viterbi"}
+    kept.write_text("[")
+    assert changed(before, caches(copy)) == {"viterbi"}
 
 
 def test_the_caches_in_use_are_those_of_the_present_sources() -> None:

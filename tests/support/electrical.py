@@ -5,9 +5,9 @@ from functools import cache
 from plant import profiles, record
 from plant.ammeter import Ammeter
 
-from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.recording import Recording, check
 from motor_model.physical.quantities import lumped_values

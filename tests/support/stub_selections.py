@@ -5,7 +5,7 @@ from stub_models import stub_model, stub_test
 
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
-from motor_identification.diagnosis.selection import Selection, SelectionStep
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 
 
 def selection_of(model: Model, *steps: SelectionStep) -> Selection:

@@ -106,16 +106,16 @@ class _Gap:
     """Lines a + d·t (t ≤ 0, the present at 0) below `after` and above `before`."""
 
     def __init__(self, after: tuple[Floats, Floats], before: tuple[Floats, Floats]) -> None:
-        self._s, self._y = after[0], after[1] + 0.5 * WANDER * after[0] ** 2
-        self._t, self._x = before[0], before[1] - 0.5 * WANDER * before[0] ** 2
+        self._after = _hull(after[0], after[1] + 0.5 * WANDER * after[0] ** 2)
+        self._before = _hull(before[0], -(before[1] - 0.5 * WANDER * before[0] ** 2))  # upside down
 
     def top(self, drift: float) -> float:
         """The highest line of this slope: its value now."""
-        return float(np.min(self._y - drift * self._s))
+        return min([y - drift * s for s, y in self._after])
 
     def bottom(self, drift: float) -> float:
         """The lowest one."""
-        return float(np.max(self._x - drift * self._t))
+        return -min([x + drift * t for t, x in self._before])
 
     def width(self, drift: float) -> float:
         """Room between both; a concave function of the slope, negative if there is none."""
@@ -132,6 +132,19 @@ class _Gap:
         bottom = self.bottom(_edge(lambda d: self.width(d) + lacking, drift, -MOST_DRIFT)) - 0.5 * lacking
         value = 0.5 * (self.top(drift) + self.bottom(drift))
         return value, max(top - value, value - bottom) + lacking
+
+
+def _hull(time: Floats, height: Floats) -> list[tuple[float, float]]:
+    """The few points, times ascending, that a line can touch from below (Andrew's monotone chain)."""
+    hull: list[tuple[float, float]] = []
+    for t, y in zip(time.tolist(), height.tolist(), strict=True):
+        while len(hull) > 1:
+            (a, at_a), (b, at_b) = hull[-2:]
+            if (b - a) * (y - at_a) > (at_b - at_a) * (t - a):
+                break
+            hull.pop()
+        hull.append((t, y))
+    return hull
 
 
 def _highest(function: Callable[[float], float]) -> float:

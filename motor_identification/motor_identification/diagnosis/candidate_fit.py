@@ -16,8 +16,8 @@ from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque,
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
-from motor_identification.noise.error_learning import learn_error_model
 from motor_identification.noise.error_model import ErrorModel
+from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.noise.likelihood import estimate_noise, log_likelihood
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME, normalised
@@ -48,7 +48,7 @@ def validate_model(hold_out: HoldOut, estimate: Estimate, like: Model | None = N
 def judge_beside_torque(model: Model, hold_out: HoldOut, guess: ErrorModel | None, evaluations: int) -> Model:
     """Judge a model beside a random torque: its errors are learned, from a guess if there is one."""
     rows, lag = list_error_data(model.estimate), model.estimate.lag
-    errors = learn_error_model(rows, lag, guess, evaluations)
+    errors = learn_errors_of_runs(rows, lag, guess, evaluations)
     held, training = score_held_out(hold_out, model.held, errors, lag), score_training(model.estimate, rows, errors)
     parts = (training,) if model.held.seen else (held, training)
     score = Score(

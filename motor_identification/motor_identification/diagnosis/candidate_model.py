@@ -1,30 +1,28 @@
 """Hold a candidate model, and judge what it leaves: noise, structure or a random torque."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property
 from math import exp, sqrt, tau
 
 import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.fits.disturbed_fit import list_error_data, whiten_beside_torque
-from motor_identification.discrepancy.motion_history import make_history
-from motor_identification.discrepancy.rest import Rest
+from motor_identification.discrepancy.rests import are_parts_held_out, list_held_rests, list_training_rests
 from motor_identification.discrepancy.structure import Structure, find_structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.whitened_fit import WhitenedFit, fit_whitened
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.measurement.time_blocks import TimeBlocks
-from motor_identification.noise.error_data import make_error_data
-from motor_identification.noise.error_learning import estimate_disturbance, learn_error_model
+from motor_identification.noise.error_data import ErrorData
+from motor_identification.noise.error_learning import estimate_disturbance
 from motor_identification.noise.error_model import Disturbance, ErrorModel, Lag
+from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.noise.likelihood import Noise
-from motor_identification.recording import Bools, Floats, Recording
+from motor_identification.recording import Bools, Floats
 from motor_identification.uncertainty.standard_errors import Uncertainty, estimate_uncertainty
-from motor_identification.validation.held_out import HeldOut
+from motor_identification.validation.held_out import HeldOut, list_held_errors
 from motor_model.effects import EFFECT_BY_NAME
-
-CURVE_BLOCKS = TimeBlocks(4)  # that curves are judged by where nothing is held out
 
 
 @dataclass(frozen=True)
@@ -84,9 +82,11 @@ class Model:
     def whitened(self) -> WhitenedFit:
         """The last stage of its fit, which its parameters and their standard errors are said from.
 
-        What repeats with the angle is fitted beside the random torque already, which hides its phase elsewhere.
+        What repeats with the angle is fitted beside the random torque already, which hides its phase elsewhere; and
+        what is common to runs whose gains differ, beside these.
         """
-        if self.learned is not None and any(EFFECT_BY_NAME[name].periodic for name in self.effects):
+        periodic = any(EFFECT_BY_NAME[name].periodic for name in self.effects)
+        if self.learned is not None and (periodic or self.learned.gain > 0.0):
             return whiten_beside_torque(self.estimate, self.learned)
         return fit_whitened(self.estimate)
 
@@ -136,7 +136,20 @@ class Model:
     @cached_property
     def structure(self) -> tuple[Structure, ...]:
         """What free curves predict of what is left, the most telling variable first; nothing at the sensor's floor."""
-        return self._find_structure() if self.above_floor else ()
+        if not self.above_floor:
+            return ()
+        own, others = self._less_gains(list_held_errors(self.held)), []
+        if not are_parts_held_out(self.estimate, self.held):
+            others = list_training_rests(self.estimate, self._less_gains(list_error_data(self.estimate)))
+        return find_structure(
+            list_held_rests(self.estimate, self.held, own), others, self.errors.without_gain, self.lag
+        )
+
+    def _less_gains(self, rows: Sequence[ErrorData]) -> list[ErrorData]:
+        """Take from what is left what the gain of each run adds, which goes with everything that the runs differ in."""
+        if self.errors.gain == 0.0:
+            return list(rows)
+        return [row.less(row.find_gain(self.errors, self.lag)) for row in rows]
 
     @property
     def complete(self) -> bool:
@@ -184,41 +197,17 @@ class Model:
     def scatter_of_travel(self) -> tuple[Floats, ...]:
         """Compute the scatter [rad] that sensor and random torque leave in the travel of every held-out interval."""
         scatter = []
-        for data in self.held.intervals:
+        for data, speed in zip(self.held.intervals, self.held.supply_speeds, strict=True):
             variance = data.floor_squared(self.errors.share * data.unit)
-            variance = variance + self.errors.speed_variance(data.duration, self.lag)
+            variance = variance + self.errors.speed_variance(data.duration, self.lag) + (self.errors.gain * speed) ** 2
             scatter.append(np.sqrt(variance) * data.duration)
         return tuple(scatter)
 
     def _random_variance(self, held: HeldOut) -> Floats:
-        """Compute what the random torque leaves [rad²/s²] in each interval that counts."""
+        """Compute what random torque and gains leave [rad²/s²] in each interval that counts."""
         duration = np.concatenate([data.duration for data in held.intervals])[held.counted]
-        return self.errors.speed_variance(duration, self.lag)
-
-    def _find_structure(self) -> tuple[Structure, ...]:
-        values, held, problem = self.estimate.parameters.values, self.held, self.estimate.problem
-        same = all(a is b for a, b in zip(held.recordings, problem.recordings, strict=False))
-
-        def rest(recording: Recording, data: Intervals, angle: Floats, increments: Floats, judged: Bools) -> Rest:
-            motor = values["kv"], values.get("delay", 0.0)
-            history = make_history(recording, data, angle, *motor)
-            speeds = data.speed + increments / data.duration  # of the model
-            simulated = partial(make_history, recording, data, angle, *motor, speeds)
-            errors, slot = make_error_data(data, increments), data.slot * data.gear if data.tells_of_disc else 0.0
-            return Rest(errors, history, simulated, ~judged, judged, slot)
-
-        judged = held.scored
-        if held.seen:  # by the fit, not by a curve
-            blocks = CURVE_BLOCKS.mark_each(held.intervals, problem.sample_period)
-            judged = tuple(block & scored for block, scored in zip(blocks, held.scored, strict=True))
-        rows = zip(held.recordings, held.intervals, held.angles, held.increments, judged, strict=True)
-        own = [rest(*row) for row in rows]
-        nothing = [np.zeros(len(data.first), dtype=bool) for data in problem.intervals]
-        training = zip(
-            problem.recordings, problem.intervals, self.estimate.angles, self.estimate.increments, nothing, strict=True
-        )
-        others = [] if same else [rest(*row) for row in training]
-        return find_structure(own, others, self.errors, self.lag)
+        speed = np.concatenate(held.supply_speeds)[held.counted]
+        return self.errors.speed_variance(duration, self.lag) + (self.errors.gain * speed) ** 2
 
 
 def find_lasting_interval(held: HeldOut) -> float:
@@ -236,4 +225,4 @@ def _measure_time(data: Intervals, marks: Bools) -> float:
 
 def learn_errors(estimate: Estimate) -> ErrorModel:
     """Learn what sensor and random torque leave of an estimate in its training data."""
-    return learn_error_model(list_error_data(estimate), estimate.lag, None, thresholds.FINAL_EVALUATIONS)
+    return learn_errors_of_runs(list_error_data(estimate), estimate.lag, None, thresholds.FINAL_EVALUATIONS)

@@ -49,7 +49,8 @@ class CandidateTest:
     @property
     def steadiness(self) -> float:
         """Evidence without the few moments that speak most for it, beside a random torque."""
-        return measure_steadiness(self.before.score.moments, self.model.score.moments, self._speaking)
+        runs = len(self.model.held.recordings)
+        return measure_steadiness(self.before.score.moments, self.model.score.moments, self._speaking, runs)
 
     @cached_property
     def _speaking(self) -> float:

@@ -61,7 +61,7 @@ class Diagnosis:
     model: Fit
     gap_before: float
     gap_after: float
-    noise_floor: float  # what sensor and random torque leave together
+    noise_floor: float  # what sensor, random torque and the gains of the runs leave together
     sensor_floor: float  # what the sensor alone leaves
     disturbance: Disturbance | None  # the random torque, where there is one
     structure: tuple[Structure, ...]  # what free curves still predict, the most telling variable first
@@ -78,4 +78,5 @@ class Diagnosis:
     duration: float  # [s]
     undetermined: tuple[str, ...] = ()  # effects that would explain more, of which this recording determines nothing
     nearest: Nearest | None = None  # where nothing explains the gap, but something takes away most of it
+    gain_scatter: float = 0.0  # standard deviation of the runs' gains, as of a supply that differs; 0 where they agree
     time_limit: float = 0.0  # [s] that ended the search before everything was tried; 0 where none did

@@ -11,7 +11,7 @@ from motor_identification.diagnosis.detectability import find_undetectable
 from motor_identification.diagnosis.evidence.command_evidence import find_ignored
 from motor_identification.diagnosis.evidence.missed_edges import count_missed_edges
 from motor_identification.diagnosis.result import Alternative, Diagnosis, Finding, Nearest, Verdict
-from motor_identification.diagnosis.selection import Selection, SelectionStep
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.discrepancy.region_text import describe_error
 from motor_identification.estimation.request import SearchReport
 from motor_identification.recording import Recording
@@ -63,6 +63,7 @@ def conclude(
         trace=np.array([base.held.gap, *gaps]),
         duration=elapsed(),
         undetermined=undetermined,
+        gain_scatter=last.errors.gain,
     )
 
 

@@ -7,6 +7,8 @@ from motor_identification.noise.error_model import Lag
 from motor_identification.recording import Floats
 from motor_model.parameters import Parameters
 
+SUPPLY_STEP = 0.01  # for derivatives: a battery is as far from another
+
 
 @dataclass(frozen=True)
 class Estimate:
@@ -30,6 +32,12 @@ class Estimate:
     def angles(self) -> tuple[Floats, ...]:
         """[rad] what the disc shows at the times of every recording's intervals."""
         return self.problem.angles(self.theta)
+
+    @property
+    def supply_responses(self) -> tuple[Floats, ...]:
+        """[rad] what a supply adds to those angles that is larger by its own size, to first order."""
+        more = self.problem.angles(self.problem.unknowns.scale_supply(self.theta, SUPPLY_STEP))
+        return tuple((after - before) / SUPPLY_STEP for before, after in zip(self.angles, more, strict=True))
 
     @property
     def parameters(self) -> Parameters:

@@ -3,13 +3,14 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf, pi
+from math import inf, log1p, pi
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.measurement.initial_speed import estimate_initial_speed
-from motor_identification.recording import Floats, Recording
+from motor_identification.recording import Floats, Recording, once
 from motor_model.effect import Extent, ParameterSpec
 from motor_model.effects import INDEX, normalised, specs_of
 from motor_model.parameters import Parameters, neutral
@@ -20,6 +21,15 @@ FEW_COUNTS = 4.0  # a mean speed over so many is wrong by a quarter at most; box
 BURSTS, FAR_BEYOND = 0.03, 3.0  # share of speeds that may be false for many rows, and how far beyond all others
 LEAST_REACH = 0.125  # of the largest speed: the box begins at a tenth of kv = voltage / speed
 TURNING_SPEED = 0.1  # of the largest speed: as slow as a motor turns for long enough to show a ripple
+
+
+class _Plan(NamedTuple):
+    """How θ becomes parameter vectors (P,): a fit asks thousands of times."""
+
+    neutral: Floats  # (P,) a motor with every effect off
+    places: NDArray[np.int64]  # in it, of every searched parameter
+    floors: tuple[tuple[int, int], ...]  # places of what is at least as large as another
+    starts: int  # where in θ initial speeds begin
 
 
 @dataclass(frozen=True)
@@ -63,21 +73,40 @@ class Unknowns:
     def decode(self, thetas: Floats) -> tuple[Floats, Floats]:
         """Decode θ (S, D) → parameter vectors (S, R, P) and initial speeds (S, R) [rad/s] in R recordings."""
         values = np.where(self.logarithmic, np.exp(np.where(self.logarithmic, thetas, 0.0)), thetas)
-        vectors = np.tile(neutral(self.max_voltage, gear_ratio=self.gear), (len(thetas), len(self.turning), 1))
-        vectors[:, :, [INDEX[name] for name in self.names]] = values[:, self.columns]
-        for spec in self.specs:
-            if spec.at_least is not None:
-                own, least = INDEX[spec.name], INDEX[spec.at_least]
-                vectors[:, :, own] = np.maximum(vectors[:, :, own], vectors[:, :, least])
+        plan = self._plan
+        vectors = np.empty((len(thetas), len(self.turning), len(plan.neutral)))
+        vectors[:] = plan.neutral
+        vectors[:, :, plan.places] = values[:, self.columns]
+        for own, least in plan.floors:
+            vectors[:, :, own] = np.maximum(vectors[:, :, own], vectors[:, :, least])
         starts = np.zeros((len(thetas), len(self.turning)))
-        starts[:, self.turning] = values[:, len(self.low) - int(self.turning.sum()) :]
+        starts[:, self.turning] = values[:, plan.starts :]
         return vectors, starts
+
+    @cached_property
+    def _plan(self) -> "_Plan":
+        floors = [(INDEX[spec.name], INDEX[spec.at_least]) for spec in self.specs if spec.at_least is not None]
+        return _Plan(
+            neutral(self.max_voltage, gear_ratio=self.gear),
+            np.array([INDEX[name] for name in self.names], dtype=np.int64),
+            tuple(floors),
+            len(self.low) - int(self.turning.sum()),
+        )
 
     def parameters(self, theta: Floats, name: str) -> Parameters:
         """The motor at θ (D,), as the first recording has it."""
         vector = self.decode(theta[None])[0][0, 0]
         values = {spec: float(vector[INDEX[spec]]) for spec in self.names}
         return Parameters(values, self.effects, self.max_voltage, name, gear_ratio=self.gear)
+
+    def scale_supply(self, theta: Floats, by: float) -> Floats:
+        """θ (D,) of the motor that moves as this one does by a supply that is larger by a share: less of every volt."""
+        moved = theta.copy()
+        for i, spec in enumerate(self.specs):
+            if spec.unit.startswith("V"):
+                columns = self.columns[:, i]
+                moved[columns] = theta[columns] - log1p(by) if spec.logarithmic else theta[columns] / (1.0 + by)
+        return moved
 
     def value_errors(self, theta: Floats, theta_errors: Floats) -> dict[str, float]:
         """Standard errors of the parameters from those of θ: a logarithm's is a relative one."""
@@ -97,6 +126,11 @@ def map_theta(old: Unknowns, theta: Floats, new: Unknowns, values: Mapping[str, 
     starts = int(new.turning.sum())
     moved[len(moved) - starts :] = theta[len(theta) - starts :]
     return np.clip(moved, new.low, new.high)
+
+
+@once
+def _reach_of(recording: Recording) -> float:
+    return _reach(recording.speed)
 
 
 def _reach(speed: Floats) -> float:
@@ -132,12 +166,15 @@ def _without_bursts(size: Floats) -> float:
 
 def _turning_speeds(recordings: Sequence[Recording]) -> Floats:
     """[rad/s] at the first sample of recordings that begin on a moving motor, 0 of the others, shape (R,)."""
-    return np.array([estimate_initial_speed(recording) for recording in recordings])
+    return np.array([_turning_speed(recording) for recording in recordings])
+
+
+_turning_speed = once(estimate_initial_speed)
 
 
 def measure_extent(recordings: Sequence[Recording]) -> Extent:
     """Measure how far recordings of one motor reach."""
-    speed = max(_reach(recording.speed) for recording in recordings)
+    speed = max(map(_reach_of, recordings))
     return Extent(
         max(float(np.abs(recording.voltage).max()) for recording in recordings),
         speed,

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from motor_model.sensing.encoder import show
 from motor_model.simulate import NOWHERE, roll_out
 
 SEARCH_COARSENESS = 4.0  # of the motion while a swarm searches
+AT_ONCE = 200_000  # residuals that are simulated in one call
 MOST_KEPT = 50_000  # intervals up to which the latest simulations are kept: models of an hour would fill the memory
 DERIVATIVE_STEP = 1e-7  # of the box, for derivatives: 1e-5 of it turns a ripple's phase by 0.3 rad within half a minute
 
@@ -99,8 +101,13 @@ class Problem:
 
     def split(self, rows: Floats) -> list[Floats]:
         """What is for all intervals, shape (I, …), recording by recording."""
-        ends = np.cumsum([len(data.first) for data in self.intervals])
-        return np.split(rows, ends[:-1])
+        return [rows[part] for part in self._parts]
+
+    @cached_property
+    def _parts(self) -> tuple[slice, ...]:
+        """Where each recording's intervals are among all."""
+        ends = np.cumsum([0, *(len(data.first) for data in self.intervals)]).tolist()
+        return tuple(slice(*both) for both in pairwise(ends))
 
     def to_travel(self, speeds: Floats) -> tuple[Floats, ...]:
         """[rad] of every recording, from mean speeds [rad/s] in all intervals, shape (I,)."""
@@ -193,12 +200,13 @@ class Problem:
         here = self.residuals(theta)
         vectors, starts = self.unknowns.decode(np.concatenate([theta[None], theta + np.diag(steps)]))
         columns = np.zeros((len(theta), len(here)))
-        share = max(self.workers, 1)  # a few unknowns at a time keep all cores busy and an hour's residuals in memory
         end = 0
         for r, data in enumerate(self.intervals):
             begin, end = end, end + len(data.first)
             moved = np.any(vectors[1:, r] != vectors[0, r], axis=1) | (starts[1:, r] != starts[0, r])
             concerned = np.flatnonzero(moved)
+            # A few unknowns at a time keep all cores busy and an hour's residuals in memory.
+            share = max(self.workers, AT_ONCE // len(data.first), 1)
             for some in (concerned[i : i + share] for i in range(0, len(concerned), share)):
                 aside = self._simulate(r, vectors[some + 1, r], starts[some + 1, r])
                 columns[some, begin:end] = (aside - here[begin:end]) / steps[some, None]

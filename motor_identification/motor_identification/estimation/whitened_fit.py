@@ -91,6 +91,11 @@ class WhitenedResiduals(FilteredResiduals[Encoder]):
         return ()
 
     @property
+    def gains_differ(self) -> bool:
+        """Whether each recording has a gain of its own, so that they need not agree."""
+        return False
+
+    @property
     def noise_floor(self) -> float:
         """[rad/s] time-weighted RMS of what timer tick (or count quantisation) and irregular slots alone leave."""
         rows = zip(self.problem.intervals, self.encoders, strict=True)

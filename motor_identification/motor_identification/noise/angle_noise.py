@@ -14,9 +14,8 @@ For q = 0 this is least squares on the angle with a free offset for every run, f
 ways to fit an encoder are the ends of one. Being linear, the filter is applied to Jacobians as well.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf, log
+from math import inf
 
 import numpy as np
 
@@ -150,20 +149,3 @@ def log_likelihood_of(noise: AngleNoise, drift: float, increments: Floats, clip:
         noise.fresh, noise.start, noise.end, noise.duration, drift, np.ascontiguousarray(increments), clip
     )
     return -0.5 * float(squares + logarithms)
-
-
-def estimate_drift(
-    noises: Sequence[AngleNoise], increments: Sequence[Floats], grid: Sequence[float], clip: float = inf
-) -> float:
-    """Estimate the drift q [rad²/s] of the simulated angle by maximum likelihood on a grid; 0 where none is needed.
-
-    A drift has to be worth its price, the logarithm of the number of intervals (as in the Bayesian information
-    criterion). Noises and increments [rad] are of every recording.
-    """
-    price = log(sum(map(len, increments)) + 1.0)
-
-    def score(drift: float) -> float:
-        rows = zip(noises, increments, strict=True)
-        return sum(log_likelihood_of(noise, drift, part, clip) for noise, part in rows) - price * (drift > 0.0)
-
-    return max((0.0, *grid), key=score)

@@ -13,13 +13,13 @@ from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.angle_noise import (
     AngleNoise,
     Whitening,
-    estimate_drift,
     make_angle_noise,
     make_whitening,
     whiten,
     whiten_adjoint,
 )
 from motor_identification.noise.likelihood import estimate_noise
+from motor_identification.noise.noise_grid import estimate_drift
 from motor_identification.noise.slots.alignment import align_slots
 from motor_identification.noise.slots.slot_table import Projection, SlotTable, estimate_slot_variance, index_slots
 from motor_identification.recording import Floats

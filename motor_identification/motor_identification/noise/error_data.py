@@ -1,7 +1,7 @@
 """Filter the increments that a model leaves in a recording under an error model: likelihood and white residuals."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
 
@@ -11,8 +11,10 @@ from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_filter import GAINS, fill_white, run_filter
 from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.noise.error_score import score_increments
+from motor_identification.noise.run_gain import RunGain, guess_deviation, make_projection, move_to_likeliest
 from motor_identification.recording import Bools, Floats
 
+GAIN_STEPS = 2  # to a run's most likely gain: one is exact where no interval is far off
 SLACK_BLUR = 0.05  # of a slot: how sharply a standing motor contradicts a simulated one that moves
 
 _NO_GAINS = np.empty((0, GAINS))
@@ -32,6 +34,7 @@ class ErrorData:
     window: float  # [s] of logged speeds, each of which has that error of its own; 0 where angles have it
     increments: Floats  # [rad] simulated minus measured
     counted: Bools
+    travel: Floats  # [rad] what a gain of the run adds to the increments
 
     def whiten(
         self, model: ErrorModel, lag: Lag, more: Floats | None = None, gains: Floats = _NO_GAINS
@@ -40,15 +43,24 @@ class ErrorData:
 
         lag: the motor. more: responses [rad] that pass the same filter, shape (C, I).
         """
+        if model.gain > 0.0:
+            return self._whiten_with_gain(model, lag, more, gains)
         value, white, _density = self._filter(model, lag, more, gains)
         return value, white
 
     def densities(self, model: ErrorModel, lag: Lag) -> Floats:
         """Compute the log likelihood of every interval, shape (I,); 0 where it does not count."""
+        if model.gain > 0.0:
+            gain = self.find_gain(model, lag)
+            price = gain.compute_price(model.gain) / len(self.fresh)
+            return self.less(gain).densities(model.without_gain, lag) - price * self.counted
         return self._filter(model, lag, None, _NO_GAINS)[2]
 
     def score(self, model: ErrorModel, lag: Lag) -> float:
         """Compute the log likelihood of what counts."""
+        if model.gain > 0.0:
+            gain, share = self.find_gain(model, lag), float(np.mean(self.counted))
+            return self.less(gain).score(model.without_gain, lag) - share * gain.compute_price(model.gain)
         own, process = self._describe(model, lag)
         return float(
             score_increments(
@@ -56,6 +68,29 @@ class ErrorData:
                 self.increments, self.counted,
             )
         )  # fmt: skip
+
+    def find_gain(self, model: ErrorModel, lag: Lag) -> RunGain:
+        """Find the most likely gain of the run beside what else an error model leaves."""
+        gain = RunGain(guess_deviation(self.increments, self.travel), 0.0)
+        for _ in range(GAIN_STEPS):
+            _value, white = self.less(gain).whiten(model.without_gain, lag, self.travel[None])
+            gain = move_to_likeliest(gain.deviation, white[0], white[1], model.gain)
+        return gain
+
+    def less(self, gain: RunGain) -> "ErrorData":
+        """The same without what a gain adds."""
+        return replace(self, increments=self.increments - gain.deviation * self.travel)
+
+    def _whiten_with_gain(
+        self, model: ErrorModel, lag: Lag, more: Floats | None, gains: Floats
+    ) -> tuple[float, Floats]:
+        gain = self.find_gain(model, lag)
+        rows = self.travel[None] if more is None else np.concatenate([self.travel[None], more])
+        value, white = self.less(gain).whiten(model.without_gain, lag, rows, gains)
+        response = white[1]
+        white = np.concatenate([white[:1] + gain.deviation * response, white[2:]])
+        along = make_projection(response, model.gain)
+        return value - gain.compute_price(model.gain), white - np.outer(white @ along, along)
 
     @cached_property
     def _blur_squared(self) -> Floats:
@@ -93,19 +128,24 @@ class TorqueWhitening:
     fresh: Bools
     still: Bools
     gains: Floats  # (I, GAINS)
+    along: Floats | None = None  # (I,) of a run whose gain is its own, see `make_projection`
 
     def white(self, increments: Floats) -> Floats:
         """Whiten angle increments [rad], shape (I,)."""
         white = np.empty(len(increments))
         fill_white(self.fresh, self.still, self.gains, np.ascontiguousarray(increments), white)
-        return white
+        return white if self.along is None else white - self.along * float(self.along @ white)
 
 
 def make_whitening(data: ErrorData, model: ErrorModel, lag: Lag) -> TorqueWhitening:
     """Make the whitening of increments like those of `data`."""
     gains = np.empty((len(data.fresh), GAINS))
-    data.whiten(model, lag, gains=gains)
-    return TorqueWhitening(data.fresh, data.still, gains)
+    if model.gain == 0.0:
+        data.whiten(model, lag, gains=gains)
+        return TorqueWhitening(data.fresh, data.still, gains)
+    data.less(data.find_gain(model, lag)).whiten(model.without_gain, lag, gains=gains)
+    plain = TorqueWhitening(data.fresh, data.still, gains)
+    return replace(plain, along=make_projection(plain.white(data.travel), model.gain))
 
 
 def unit_of(data: Intervals) -> float:
@@ -118,8 +158,14 @@ def measure_travel(data: Intervals) -> float:
     return float(np.median(np.abs(data.speed * data.duration))) or 1.0
 
 
-def make_error_data(data: Intervals, increments: Floats, counted: Bools | None = None) -> ErrorData:
-    """Prepare one recording's increments [rad] (I,) for the filter; `counted`: those whose likelihood is wanted."""
+def make_error_data(
+    data: Intervals, increments: Floats, counted: Bools | None = None, response: Floats | None = None
+) -> ErrorData:
+    """Prepare one recording's increments [rad] (I,) for the filter.
+
+    counted: those whose likelihood is wanted. response: [rad] of the simulated angle at `data.time` to a gain of the
+    run; without, nothing that goes with a gain is told.
+    """
     still = data.slack > 0.0
     start, end = data.time[data.first], data.time[data.last]
     pause = np.full(len(start), inf)
@@ -137,7 +183,14 @@ def make_error_data(data: Intervals, increments: Floats, counted: Bools | None =
         window=data.window,
         increments=np.ascontiguousarray(increments),
         counted=np.ones(len(still), dtype=bool) if counted is None else counted,
+        travel=np.zeros(len(still)) if response is None else measure_response(data, response),
     )
+
+
+def measure_response(data: Intervals, response: Floats) -> Floats:
+    """Measure what a response of the angle [rad] at `data.time` adds to the travel (I,) in each interval of motion."""
+    travel = response[data.last] - response[data.first]
+    return np.where(data.slack > 0.0, 0.0, travel)
 
 
 def log_likelihood(rows: Sequence[ErrorData], model: ErrorModel, lag: Lag) -> float:

@@ -6,7 +6,7 @@ anything can be called significant.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from math import sqrt
 
@@ -176,7 +176,7 @@ def estimate_disturbance(rows: Sequence[ErrorData], model: ErrorModel, lag: Lag)
 
     def value(x: Floats) -> float:
         share, rms, time = np.exp(x)
-        return log_likelihood(rows, ErrorModel(share, model.white, rms, time), lag)
+        return log_likelihood(rows, replace(model, share=share, rms_voltage=rms, correlation_time=time), lag)
 
     hessian = np.empty((3, 3))
     for i in range(3):

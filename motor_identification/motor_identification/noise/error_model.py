@@ -1,6 +1,6 @@
 """Describe what a model leaves: the sensor's error, and a random torque with strength and correlation time."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,6 +23,12 @@ class ErrorModel:
     white: float  # [rad²/s] growth of the angle's error by what is independent in every interval
     rms_voltage: float  # [V] of the random torque; 0 where there is none
     correlation_time: float  # [s] of it
+    gain: float = 0.0  # standard deviation of the runs' gains; 0 where they agree
+
+    @property
+    def without_gain(self) -> "ErrorModel":
+        """The same, of runs whose gains agree."""
+        return replace(self, gain=0.0)
 
     def speed_variance(self, duration: Floats, lag: Lag) -> Floats:
         """Compute the variance [rad²/s²] that the random torque leaves in mean speeds over durations [s], shape (I,).

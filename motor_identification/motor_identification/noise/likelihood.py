@@ -8,13 +8,14 @@ The noise is that of `angle_noise.py`: each edge off by timer and slots (varianc
 what the model does not know (q a second).
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.noise.angle_noise import AngleNoise, estimate_drift, log_likelihood_of, make_angle_noise
+from motor_identification.noise.angle_noise import AngleNoise, log_likelihood_of, make_angle_noise
+from motor_identification.noise.noise_grid import NoiseGrid, estimate_drift
 from motor_identification.recording import Floats
 
 OUTLIER_CLIP = 25.0  # squared standard deviations beyond which an interval says no more
@@ -55,12 +56,12 @@ def estimate_noise(rows: Sequence[tuple[Intervals, Floats]]) -> Noise:
     def noises(share: float) -> list[AngleNoise]:
         return [make_noise(data, share) for data, _ in rows]
 
-    def likeliest(shares: Iterable[float], drift: float) -> float:
-        def score(share: float) -> float:
-            pairs = zip(noises(share), increments, strict=True)
-            return sum(log_likelihood_of(noise, drift, part, OUTLIER_CLIP) for noise, part in pairs)
+    perfect = noises(0.0)
+    slots = [np.where(data.slack > 0.0, 0.0, data.slot**2) for data, _ in rows]
 
-        return max(shares, key=score)
+    def likeliest(shares: Sequence[float], drift: float) -> float:
+        grid = NoiseGrid(np.square(shares), np.full(len(shares), drift))
+        return shares[int(np.argmax(grid.score(perfect, slots, increments, OUTLIER_CLIP)))]
 
     shares = tuple(rows[0][0].unevenness * share for share in IRREGULARITIES) if rows[0][0].slot > 0.0 else (0.0,)
     share, drift = shares[-1], 0.0

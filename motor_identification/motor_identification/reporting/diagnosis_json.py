@@ -18,6 +18,7 @@ def diagnosis_to_json(diagnosis: Diagnosis) -> dict[str, Any]:
         "noise_floor": to_number(diagnosis.noise_floor),
         "sensor_floor": to_number(diagnosis.sensor_floor),
         "disturbance": _disturbance_to_json(diagnosis.disturbance),
+        "gain_scatter": to_number(diagnosis.gain_scatter) if diagnosis.gain_scatter > 0.0 else None,
         "structure": [_structure_to_json(one) for one in diagnosis.structure],
         "gap_before": to_number(diagnosis.gap_before),
         "gap_after": to_number(diagnosis.gap_after),

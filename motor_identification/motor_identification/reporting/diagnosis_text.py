@@ -21,6 +21,10 @@ SEEN = (
     "The command changes too seldom to hold any of it out: this gap is of the motion that was fitted; --validate BAG "
     "tests it on another."
 )
+GAINS = (
+    "From run to run the speed at the same voltage differed by {:.2g} % (RMS), as it does where the supply differs; if "
+    "that is a battery, log its voltage."
+)
 UNMODELLED = "Check for a load, a supply or a sensor that was not recorded; the report shows the residual torque."
 
 STRUCTURE_NAMES = {
@@ -38,7 +42,14 @@ STRUCTURE_NAMES = {
 def summarize_diagnosis(diagnosis: Diagnosis) -> str:
     """Say what was missing, what it explains and what is left, in one to three sentences, then what to do."""
     seen = SEEN if diagnosis.after.seen else ""
-    return " ".join(part for part in (_SUMMARIES[diagnosis.verdict](diagnosis), seen, _next_step(diagnosis)) if part)
+    parts = (_SUMMARIES[diagnosis.verdict](diagnosis), _describe_gains(diagnosis), seen, _next_step(diagnosis))
+    return " ".join(part for part in parts if part)
+
+
+def _describe_gains(diagnosis: Diagnosis) -> str:
+    """Say by how much the gain differs from run to run; empty where it does not."""
+    scatter = diagnosis.gain_scatter
+    return GAINS.format(100.0 * scatter) if scatter > 0.0 else ""
 
 
 def _describe_gap_reduction(diagnosis: Diagnosis) -> str:
@@ -202,6 +213,9 @@ def _describe_no_finding(diagnosis: Diagnosis) -> str:
     ignored = find_ignored(diagnosis.after)
     if ignored is not None:
         return _describe_ignored(ignored)
+    if diagnosis.nearest is not None:
+        text = f"Something may be missing that this recording does not tell from chance: {_describe_gap(diagnosis)}."
+        return f"{text} {_describe_nearest(diagnosis)}"
     return f"Nothing is missing that this recording could show: {_describe_gap(diagnosis)}."
 
 

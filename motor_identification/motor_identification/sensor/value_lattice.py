@@ -6,7 +6,7 @@ by −ln(σ·√(2πe)) each, which is compared with the number of steps that co
 """
 
 from functools import lru_cache
-from math import e, log, sqrt, tau
+from math import ceil, e, log, sqrt, tau
 
 import numpy as np
 
@@ -71,20 +71,35 @@ def _find_step(values: bytes) -> float:
 
 def _best_step(levels: Floats, tried: Floats, count: int) -> float:
     """The step with the least scatter among those near 1/tried whose lattice is no chance; 0 without."""
-    # In single precision, which is thirteen times as fast: phases are off by 1e-4 at most.
-    score = np.cos((tau * tried).astype(np.float32)[:, None] * levels.astype(np.float32)).mean(axis=1)
+    score = _mean_cosine(levels, tried)
     steps = dict.fromkeys(_refine(levels, 1.0 / float(one)) for one in tried[score > PEAK])  # neighbours end in one
     lattices = [step for step in steps if _is_lattice(levels, step, count)]
     return min(lattices, key=lambda step: max(_scatter(levels, step), LEAST_SCATTER), default=0.0)  # or the first
+
+
+def _mean_cosine(levels: Floats, tried: Floats) -> Floats:
+    """Average the cosines of the phases of levels (L,) on lattices of 1/tried (N,), which are evenly spaced: (N,).
+
+    By the cosine of a sum: each is one of √N coarse steps and one of √N fine ones. In single precision, which is
+    several times as fast: phases are off by 1e-3 at most.
+    """
+    size = max(ceil(sqrt(len(tried))), 1)
+    coarse, fine = tried[::size], tried[:size] - tried[:1]
+    (cos, cos_fine), (sin, sin_fine) = (
+        [function((tau * some[:, None] * levels).astype(np.float32)) for some in (coarse, fine)]
+        for function in (np.cos, np.sin)
+    )
+    return np.asarray((cos @ cos_fine.T - sin @ sin_fine.T).ravel()[: len(tried)] / len(levels))
 
 
 def _refine(levels: Floats, step: float) -> float:
     """Least squares of levels = number × step; numbers again until they stay."""
     for _ in range(5):
         numbers = np.rint(levels / step)
-        if not np.any(numbers):
+        squares = numbers @ numbers
+        if squares == 0.0:
             return step
-        before, step = step, float(numbers @ levels / (numbers @ numbers))
+        before, step = step, float(numbers @ levels / squares)
         if step == before:
             break
     return step

@@ -9,13 +9,12 @@ it is taken back with zeros that are pulled in to a radius r, so that both are f
 (1 − r)·(N² − 1)/12 rows.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 from math import atan, log, pi, tan
 
 import numpy as np
-from scipy.signal import lfilter
 
 from motor_identification.recording import Floats
 from motor_identification.sensor.running_mean import take_single_rows
@@ -101,7 +100,7 @@ class SpeedFilter:
     def undo(self, speed: Floats) -> Floats:
         """Compute the speeds (K,) that went in, of those that came out: the first one had long been as it is."""
         poles = self.poles
-        values = lfilter(poles, [np.sum(poles)], speed - speed[0]) + speed[0]
+        values = _filter(poles, [np.sum(poles)], speed - speed[0]) + speed[0]
         return reduce(undo_mean, KINDS[self.kind].means(self.number), np.asarray(values))
 
     @property
@@ -124,11 +123,18 @@ class SpeedFilter:
         """The response (LASTING,) to an impulse."""
         impulse = np.zeros(LASTING)
         impulse[0] = 1.0
-        return np.asarray(lfilter(self.zeros, self.poles, impulse))
+        return _filter(self.zeros, self.poles, impulse)
 
     def describe(self, row: float) -> str:
         """Say what it does in rows of some length [s]."""
         return KINDS[self.kind].describe(self.number, row)
+
+
+def _filter(zeros: Sequence[float] | Floats, poles: Sequence[float] | Floats, values: Floats) -> Floats:
+    """Pass values (K,) through a filter, powers of 1/z ascending; SciPy's takes long to import, and few need it."""
+    from scipy.signal import lfilter
+
+    return np.asarray(lfilter(zeros, poles, values))
 
 
 def undo_mean(values: Floats, rows: int) -> Floats:
@@ -148,7 +154,7 @@ def undo_mean(values: Floats, rows: int) -> Floats:
 def _undo_forgetting(values: Floats, rows: int, around: Floats) -> Floats:
     """Compute what went in (K,) with zeros that are pulled in; around: the mean around each row."""
     first = values[0]
-    went_in = lfilter([1.0], _make_zeros(rows), values - first) + first
+    went_in = _filter([1.0], _make_zeros(rows), values - first) + first
     if np.ptp(values[:rows]) == 0.0:  # it stood
         return np.asarray(went_in)
     left = (1.0 - FORGOTTEN) ** (np.arange(len(values)) / rows)

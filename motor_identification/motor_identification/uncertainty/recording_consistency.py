@@ -36,9 +36,9 @@ class Dissent:
 
 
 def compare_recordings(fit: WhitenedFit) -> tuple[Dissent, ...]:
-    """Compare every recording of a fit with the motor of all; nothing for a single recording."""
+    """Compare every recording of a fit with the motor of all; nothing for one, nor where each has a gain of its own."""
     problem, theta = fit.problem, fit.theta
-    if len(problem.recordings) < 2:
+    if len(problem.recordings) < 2 or fit.residuals.gains_differ:
         return ()
     parts = zip(problem.split(problem.jacobian(theta)), problem.split(problem.residuals(theta)), strict=True)
     return tuple(_compare_one(fit, r, *part) for r, part in enumerate(parts))

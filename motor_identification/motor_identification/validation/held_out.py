@@ -10,6 +10,7 @@ import numpy as np
 from motor_identification.estimation.residual import compute_residuals
 from motor_identification.measurement.edit_intervals import exclude_intervals, join_intervals
 from motor_identification.measurement.intervals import Intervals
+from motor_identification.noise.error_data import ErrorData, make_error_data, measure_response
 from motor_identification.noise.likelihood import Noise, log_likelihood
 from motor_identification.recording import Bools, Floats, Recording
 from motor_model.parameters import Parameters
@@ -36,11 +37,20 @@ class HeldOut:
     instants: tuple[Bools, ...] = ()  # left out of the gap: an instant is in these blocks, which nobody could foresee
     seen: bool = False  # the fit has seen what counts
     confirms: bool = True  # there is more than a step, by which a finding can be confirmed
+    responses: tuple[Floats, ...] = ()  # [rad] of these angles to the supply's size, where there are several recordings
 
     @cached_property
     def residuals_of(self) -> tuple[Floats, ...]:
         """[rad/s] simulated minus measured mean speed in every interval, counted or not, of every recording."""
         return tuple(compute_residuals(data, angle) for data, angle in zip(self.intervals, self.angles, strict=True))
+
+    @property
+    def supply_speeds(self) -> tuple[Floats, ...]:
+        """[rad/s] what the supply's size adds to the mean speed in every interval; 0 where nothing is known of it."""
+        if not self.responses:
+            return tuple(np.zeros(len(data.first)) for data in self.intervals)
+        rows = zip(self.intervals, self.responses, strict=True)
+        return tuple(measure_response(data, response) / data.duration for data, response in rows)
 
     @property
     def increments(self) -> tuple[Floats, ...]:
@@ -86,7 +96,7 @@ class HeldOut:
         old = zip(self.intervals, longer, self.angles, strict=True)
         angles = tuple(angle[np.searchsorted(data.time, after.time)] for data, after, angle in old)
         everything = tuple(np.ones(len(data.first), dtype=bool) for data in longer)
-        return replace(self, intervals=longer, angles=angles, scored=everything, instants=())
+        return replace(self, intervals=longer, angles=angles, scored=everything, instants=(), responses=())
 
     def leave_out(self, instants: Sequence[Bools]) -> "HeldOut":
         """Leave out of the gap what another model of the same motion does because of its instants."""
@@ -109,6 +119,13 @@ class HeldOut:
         own, slot = under(noise.drift), max(_find_slot(data) for data, _part in parts)
         larger = [under(share * slot**2) for share in UNFORESEEN_DRIFTS if share * slot**2 > noise.drift]
         return mix_likelihoods(own, larger)
+
+
+def list_held_errors(held: HeldOut, counted: Sequence[Bools] | None = None) -> list[ErrorData]:
+    """List what a motor leaves in each held-out recording, for the error filter; `counted`: what is to be scored."""
+    nothing = (None,) * len(held.intervals)
+    rows = zip(held.intervals, held.increments, counted or nothing, held.responses or nothing, strict=True)
+    return [make_error_data(*row) for row in rows]
 
 
 def _find_slot(data: Intervals) -> float:

@@ -17,6 +17,7 @@ from motor_identification.estimation.miscounts import mark_miscounts
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.measurement.command_swing import count_levels, measure_swings
 from motor_identification.measurement.time_blocks import TimeBlocks
+from motor_identification.noise.run_gain import FEWEST_RUNS
 from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.instants import list_instants
@@ -70,7 +71,9 @@ class HoldOut(ABC):
         scored = tuple(block & ~instant for block, instant in zip(counted, instants, strict=True))
         miscounted = int(sum(marks.sum() for marks in bad))
         motion = here.problem.recordings, intervals, here.angles
-        return HeldOut(*motion, here.parameters, scored, miscounted, instants, self.seen, self.confirms)
+        several = max(len(intervals), len(fitted.problem.recordings)) >= FEWEST_RUNS
+        responses = here.supply_responses if several else ()
+        return HeldOut(*motion, here.parameters, scored, miscounted, instants, self.seen, self.confirms, responses)
 
     def correct_directions(self: Self, fitted: Estimate) -> Self:
         """Read the held-out recordings again, with directions by the motion of a fitted motor."""

@@ -43,11 +43,15 @@ def warmth(p: Floats, t: float) -> float:
 
 
 @compiled
+def steady_load_at(p: Floats, t: float) -> float:
+    """Return the loads at a time [s] that are the same at every angle, in V, cold."""
+    return float(p[BIAS] + (p[STEP] if p[STEP] != 0.0 and t >= p[STEP_TIME] else 0.0))
+
+
+@compiled
 def loads_at(p: Floats, angle: float, t: float) -> float:
     """All loads at an angle [rad] of the output and a time [s], in V, cold; ripple has cycles of the encoder's turn."""
-    load = p[BIAS]
-    if p[STEP] != 0.0 and t >= p[STEP_TIME]:
-        load += p[STEP]
+    load = steady_load_at(p, t)
     if p[RIPPLE] != 0.0:
         load += p[RIPPLE] * sin(p[CYCLES] * p[GEAR] * angle + p[PHASE])
     return load

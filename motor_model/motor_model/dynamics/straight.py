@@ -17,9 +17,9 @@ from motor_model.dynamics.bridge import effective_voltage
 from motor_model.dynamics.forces import (
     drive_of,
     friction_slope_at,
-    loads_at,
     sliding_friction,
     sliding_speed,
+    steady_load_at,
 )
 from motor_model.dynamics.linear import Coefficients, Halves, halves_of, relaxed, second_order_by
 from motor_model.dynamics.pieces import longest_slide
@@ -29,7 +29,7 @@ from motor_model.effects import INDEX
 Floats = NDArray[np.float64]
 
 KA, LAG = INDEX["ka"], INDEX["electrical_time_constant"]
-DRAG, RIPPLE, COARSENESS = INDEX["drag"], INDEX["ripple_voltage"], INDEX["coarseness"]
+DRAG, COARSENESS = INDEX["drag"], INDEX["coarseness"]
 SAME_TIME = 1e-10  # of a step: what an even sample period is rounded by, far below what any stamp can tell
 
 
@@ -70,15 +70,17 @@ class Lagging(NamedTuple):
 
 @compiled
 def find_straight(p: Floats) -> Straight:
-    """Find where the equation is linear while the shaft turns one way at one voltage and load, its play taken up."""
-    bends = p[DRAG] != 0.0 or p[RIPPLE] != 0.0
-    return Straight(inf if bends else sliding_speed(p), longest_slide(p, p[KA]) * p[COARSENESS])
+    """Find where the equation is linear while the shaft turns one way at one voltage and load, its play taken up.
+
+    But for a ripple, see `rippling.py`.
+    """
+    return Straight(inf if p[DRAG] != 0.0 else sliding_speed(p), longest_slide(p, p[KA]) * p[COARSENESS])
 
 
 @compiled
 def find_torques(p: Floats, t: float) -> Torques:
-    """Find what friction and loads take from a time t [s] on, until the load step."""
-    loads = loads_at(p, 0.0, t)
+    """Find what friction and loads take from a time t [s] on, until the load step; without a ripple."""
+    loads = steady_load_at(p, t)
     return Torques(sliding_friction(p, 1.0) + loads, sliding_friction(p, -1.0) + loads, friction_slope_at(p, 0.0))
 
 

@@ -9,7 +9,7 @@ from stub_selections import selection_of, step_of
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.result import Finding, Nearest, Verdict
-from motor_identification.diagnosis.selection import Selection
+from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.diagnosis.verdict import decide, find_missed_edges, find_nearest
 from motor_identification.discrepancy.structure import Structure
 from motor_model.effects import EFFECT_BY_NAME

@@ -19,7 +19,9 @@ def test_a_made_up_disc_errs_by_its_share_turn_by_turn(slot: float) -> None:
     count, share = 960, 0.01
     angle = (np.arange(count) + 0.2) * tau / 96
     history = SimpleNamespace(angle=angle, at_start=np.arange(count), at_end=np.arange(1, count + 1))
-    errors = ErrorData(*(np.zeros(count),) * 6, tau / 96, 0.0, np.ones(count), np.ones(count, dtype=bool))  # type: ignore[arg-type]
+    errors = ErrorData(
+        *(np.zeros(count),) * 6, tau / 96, 0.0, np.ones(count), np.ones(count, dtype=bool), np.ones(count)
+    )  # type: ignore[arg-type]
     rest = Rest(
         errors, cast(MotionHistory, history), lambda: cast(MotionHistory, history), *(np.ones(1, bool),) * 2, slot
     )

@@ -8,7 +8,7 @@ import pytest
 from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.selection import begin_selection
+from motor_identification.diagnosis.selection.selection import begin_selection
 from motor_identification.discrepancy import structure
 from motor_identification.discrepancy.free_curves import OF_SPEED, Reach
 from motor_identification.discrepancy.motion_history import MotionHistory
@@ -21,9 +21,9 @@ from motor_identification.discrepancy.structure import (
     rank,
     solve_ridge,
 )
-from motor_identification.estimation.global_search import search_globally
-from motor_identification.estimation.multistart import SearchConfig
 from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.search.global_search import search_globally
+from motor_identification.estimation.search.multistart import SearchConfig
 from motor_identification.noise.error_data import ErrorData
 from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.recording import check

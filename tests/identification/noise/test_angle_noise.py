@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from motor_identification.noise.angle_noise import AngleNoise, estimate_drift, make_whitening, whiten, whiten_adjoint
+from motor_identification.noise.angle_noise import AngleNoise, make_whitening, whiten, whiten_adjoint
+from motor_identification.noise.noise_grid import estimate_drift
 
 COUNT = 400
 

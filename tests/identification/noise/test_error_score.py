@@ -28,6 +28,7 @@ def rows(counted: np.ndarray) -> ErrorData:
         window=0.0,
         increments=1e-3 * np.random.default_rng(3).normal(size=41),
         counted=counted,
+        travel=np.where(still, 0.0, 0.09),
     )
 
 
@@ -43,5 +44,6 @@ def test_a_score_is_the_likelihood_that_the_filter_gives(model: ErrorModel, wind
     many = ErrorData(
         *(np.tile(column, again) for column in (data.fresh, data.still, data.pause, data.duration, data.blur)),
         np.tile(data.slack, again), data.unit, window, np.tile(data.increments, again), np.tile(data.counted, again),
+        np.tile(data.travel, again),
     )  # fmt: skip
     assert many.score(model, LAG) == pytest.approx(many.whiten(model, LAG)[0], rel=1e-12)

@@ -11,8 +11,8 @@ from handmade import SLOTS
 from motor_identification.measurement.edit_intervals import append_standstills
 from motor_identification.measurement.intervals import Intervals, index_intervals
 from motor_identification.noise import likelihood
-from motor_identification.noise.angle_noise import estimate_drift
 from motor_identification.noise.likelihood import OUTLIER_CLIP, Noise, estimate_noise, log_likelihood, make_noise
+from motor_identification.noise.noise_grid import estimate_drift
 from motor_identification.recording import Floats
 
 SLOT = 2.0 * np.pi / SLOTS

@@ -16,9 +16,9 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
     nameless = replace(found, model=replace(found.model, standard_errors=found.model.standard_errors | {"ks": nan}))
     content = json.loads(json.dumps(diagnosis_to_json(nameless), allow_nan=False))
     assert list(content) == [
-        "bags", "validation", "noise_floor", "sensor_floor", "disturbance", "structure", "gap_before", "gap_after",
-        "held_out", "verdict", "undetectable", "not_testable", "undetermined", "nearest", "suggested_experiment",
-        "time_limit", "baseline", "findings", "model", "notes",
+        "bags", "validation", "noise_floor", "sensor_floor", "disturbance", "gain_scatter", "structure",
+        "gap_before", "gap_after", "held_out", "verdict", "undetectable", "not_testable", "undetermined", "nearest",
+        "suggested_experiment", "time_limit", "baseline", "findings", "model", "notes",
     ]  # fmt: skip
     assert content["bags"] == ["train.bag"] and content["validation"] == ["held_out.bag"]
     assert content["gap_before"] == found.gap_before and content["noise_floor"] == found.noise_floor
@@ -52,3 +52,5 @@ def test_a_random_torque_and_what_curves_predict(found: Diagnosis) -> None:
     assert [one["variable"] for one in content["structure"]] == ["drive", "speed"]
     assert content["structure"][1] == {"variable": "speed", "share": 0.2, "significance": 12.0}
     assert content["not_testable"] == content["undetectable"]
+    assert content["gain_scatter"] is None
+    assert diagnosis_to_json(replace(found, gain_scatter=0.021))["gain_scatter"] == 0.021

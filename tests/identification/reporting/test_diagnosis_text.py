@@ -119,3 +119,7 @@ def test_what_comes_nearest_is_told_where_nothing_is_named(
     said = f"{come} the gap would be 11.2 rad/s, but {they} may only stand in for what is missing."
     assert said in summarize_diagnosis(nothing)
     assert "nearest" not in summarize_diagnosis(replace(nothing, nearest=None))
+    undecided = summarize_diagnosis(replace(nothing, verdict=Verdict.UNDECIDED))
+    assert said in undecided and undecided.startswith("Something may be missing")
+    without = summarize_diagnosis(replace(nothing, verdict=Verdict.UNDECIDED, nearest=None))
+    assert without.startswith("Nothing is missing that this recording could show")

@@ -7,9 +7,9 @@ import pytest
 from scipy.signal import lfilter
 from swinging import noisy
 
-from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.recording import Floats, Recording, check
 from motor_identification.timing import speed_timing
 from motor_identification.timing.row_times import AS_STAMPED, LONGEST, RowTimes, list_row_times

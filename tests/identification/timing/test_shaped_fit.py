@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from swinging import noisy
 
-from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.recording import Recording, check
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.timing import ASSUMED

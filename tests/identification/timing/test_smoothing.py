@@ -13,9 +13,9 @@ from swinging import RUBBING, held_late, noisy, recorded
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Diagnosis, Verdict
-from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.identify import Request, identify
 from motor_identification.monitoring.health import Limits
 from motor_identification.monitoring.load_watch import load_watch

@@ -10,9 +10,9 @@ from swinging import RUBBING, noisy
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Verdict
-from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.identify import Request, identify
 from motor_identification.monitoring.model_gap import Model, measure_gap
 from motor_identification.recording import Recording, check

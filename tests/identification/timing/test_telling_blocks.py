@@ -7,9 +7,9 @@ import pytest
 from scipy.signal import lfilter
 from swinging import noisy
 
-from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_data import ErrorData, make_error_data
 from motor_identification.recording import Floats, Recording, check

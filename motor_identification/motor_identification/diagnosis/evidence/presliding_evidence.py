@@ -11,7 +11,7 @@ with it, and so they are in the models that it is compared with.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -20,22 +20,16 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.discrepancy.free_curves import KNOTS, PAST, TRAVEL, respond
-from motor_identification.discrepancy.motion_history import MotionHistory, make_history
+from motor_identification.discrepancy.motion_history import MotionHistory
 from motor_identification.discrepancy.rest import ROBUST
+from motor_identification.discrepancy.rests import list_training_rests
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_data import ErrorData, log_likelihood
-from motor_identification.noise.error_learning import learn_error_model
+from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.recording import Floats
 
 RIDGE = 1e-9  # of a column's power: in a motor that turns one way, friction and load are one column
-
-
-@dataclass(frozen=True)
-class _Rest:
-    """What a model leaves in one recording, and the motion that it simulates there, which no random torque is in."""
-
-    errors: ErrorData
-    motion: MotionHistory
+Rest = tuple[ErrorData, MotionHistory]  # what a model leaves in a recording, and the motion that it simulates there
 
 
 def find_presliding(without: Model, current: Model) -> Structure | None:
@@ -50,7 +44,7 @@ def find_presliding(without: Model, current: Model) -> Structure | None:
     gain = _score(without, left) - before
     if gain <= thresholds.PRESLIDING_SHARE * backlash:
         return None
-    share = 1.0 - _sum_squares(left) / _sum_squares([rest.errors for rest in rests])
+    share = 1.0 - _sum_squares(left) / _sum_squares([errors for errors, _ in rests])
     white_share = 2.0 * gain / sum(len(errors.increments) for errors in left)  # where the sensor hides it
     return Structure(PAST, max(share, white_share), gain, relevant=True)
 
@@ -60,46 +54,40 @@ def _sum_squares(left: Sequence[ErrorData]) -> float:
     return sum(float(np.sum(errors.increments**2 / errors.duration)) for errors in left)
 
 
-def _score_refitted(model: Model, rests: Sequence[_Rest]) -> float:
+def _score_refitted(model: Model, rests: Sequence[Rest]) -> float:
     """Compute the log likelihood of what a model leaves, refitted where that is likelier; standstills bend it."""
-    own = log_likelihood([rest.errors for rest in rests], model.errors, model.lag)
+    own = log_likelihood([errors for errors, _ in rests], model.errors, model.lag)
     return max(own, _score(model, _refit(model, rests, 0.0)))
 
 
 def _score(model: Model, left: Sequence[ErrorData]) -> float:
     """Compute the log likelihood of what is left, under errors that are learned of it."""
-    learned = learn_error_model(left, model.lag, model.errors, thresholds.CANDIDATE_EVALUATIONS)
+    learned = learn_errors_of_runs(left, model.lag, model.errors, thresholds.CANDIDATE_EVALUATIONS)
     return log_likelihood(left, learned, model.lag)
 
 
-def _refit_presliding(model: Model, rests: Sequence[_Rest]) -> list[ErrorData]:
+def _refit_presliding(model: Model, rests: Sequence[Rest]) -> list[ErrorData]:
     """Refit with the likeliest presliding friction in a model."""
-    reach = max(float(np.abs(rest.motion.speed).max(initial=0.0)) for rest in rests) / model.lag.rate
+    reach = max(float(np.abs(motion.speed).max(initial=0.0)) for _, motion in rests) / model.lag.rate
     fits = [_refit(model, rests, angle) for angle in np.geomspace(*TRAVEL, KNOTS) * reach]
     return max(fits, key=lambda left: log_likelihood(left, model.errors, model.lag))
 
 
-def _list_rests(model: Model) -> list[_Rest]:
-    estimate = model.estimate
-    problem, values = estimate.problem, estimate.parameters.values
-    rests = []
-    rows = zip(problem.recordings, problem.intervals, estimate.angles, list_error_data(estimate), strict=True)
-    for recording, data, angle, errors in rows:
-        speeds = data.speed + errors.increments / data.duration  # of the model
-        motion = make_history(recording, data, angle, values["kv"], values.get("delay", 0.0), speeds)
-        rests.append(_Rest(errors, motion))
-    return rests
+def _list_rests(model: Model) -> list[Rest]:
+    rests = list_training_rests(model.estimate, list_error_data(model.estimate))
+    return [(rest.errors, rest.simulated()) for rest in rests]
 
 
-def _refit(model: Model, rests: Sequence[_Rest], angle: float) -> list[ErrorData]:
+def _refit(model: Model, rests: Sequence[Rest], angle: float) -> list[ErrorData]:
     """Refit kv, friction, gain and load to white residuals; what is left then, recording by recording.
 
     angle: [rad] over which the friction builds up after a reversal; 0 of one that does not.
     """
     torques = partial(_list_torques, ks=model.estimate.parameters.values.get("ks", 0.0), angle=angle)
-    responses = [respond(rest.motion, torques(rest.motion), model.lag) for rest in rests]
+    responses = [respond(motion, torques(motion), model.lag) for _, motion in rests]
     known = [
-        replace(one.errors, increments=one.errors.increments - r[0]) for one, r in zip(rests, responses, strict=True)
+        replace(errors, increments=errors.increments - response[0])
+        for (errors, _), response in zip(rests, responses, strict=True)
     ]
     normal, moment = np.zeros((4, 4)), np.zeros(4)
     for row, response in zip(known, responses, strict=True):

@@ -16,15 +16,17 @@ import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.measurement.intervals import Intervals
-from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data, measure_travel
+from motor_identification.noise.error_data import ErrorData, log_likelihood, measure_travel
 from motor_identification.noise.error_model import ErrorModel, Lag
+from motor_identification.noise.run_gain import FEWEST_RUNS
 from motor_identification.recording import Bools, Floats, Integers
-from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, HeldOut, mix_likelihoods
+from motor_identification.validation.held_out import UNFORESEEN_DRIFTS, HeldOut, list_held_errors, mix_likelihoods
 from motor_identification.validation.hold_out import HoldOut
 
 UNFORESEEN_TORQUES = (1.5, 3.0)  # times the training data's: held-out motion may be rougher
 MOMENTS = 60  # of a recording: one is about as long as what a restart, met or missed, leaves behind
 FEW = 0.05  # of the moments, which no evidence may rest on alone
+FEW_RUNS = 0.2  # of the runs, the same
 
 
 @dataclass(frozen=True)
@@ -56,8 +58,7 @@ def score_held_out(hold_out: HoldOut, held: HeldOut, errors: ErrorModel, lag: La
     Under the training data's torque, or one of a few larger ones, or an angle that drifts: one restart that nobody
     could predict must not refute a model.
     """
-    parts = zip(held.intervals, held.increments, mark_common_set(hold_out), strict=True)
-    rows = [make_error_data(*part) for part in parts]
+    rows = list_held_errors(held, mark_common_set(hold_out))
     unit = max(max(data.slot or measure_travel(data), row.unit) for data, row in zip(held.intervals, rows, strict=True))
     others = [replace(errors, white=share * unit**2) for share in UNFORESEEN_DRIFTS]
     if errors.rms_voltage > 0.0:
@@ -84,14 +85,25 @@ def _moment_of(data: Intervals) -> Integers:
     return np.asarray(np.clip((share * MOMENTS).astype(np.int64), 0, MOMENTS - 1))
 
 
-def measure_steadiness(before: Floats, after: Floats, speaking: float = 1.0) -> float:
+def measure_steadiness(before: Floats, after: Floats, speaking: float = 1.0, runs: int = 1) -> float:
     """Measure by how much the log likelihood rises without the few moments (M,) that speak most for the rise.
 
     A restart that is met by luck is worth tens of nats, and there are few of them; what is there speaks all the time.
-    speaking: the share of the moments in which it can.
+    Or in most of many runs, in each of which it may show at the beginning alone. speaking: the share of the moments in
+    which it can. runs: recordings, whose moments follow each other, of held-out and of training motion.
     """
-    gains = np.sort(after - before)
-    return float(gains[: len(gains) - ceil(FEW * speaking * len(gains))].sum())
+    gains = after - before
+    steady = _add_all_but_best(gains, FEW * speaking)
+    if runs < FEWEST_RUNS:
+        return steady
+    parts = gains.reshape(-1, MOMENTS).sum(axis=1)
+    of_runs = parts.reshape(-1, runs).sum(axis=0) if len(parts) % runs == 0 else parts
+    return max(steady, _add_all_but_best(of_runs, FEW_RUNS))
+
+
+def _add_all_but_best(gains: Floats, share: float) -> float:
+    """Add up gains (M,) without the best, a share of them."""
+    return float(np.sort(gains)[: len(gains) - ceil(share * len(gains))].sum())
 
 
 def measure_speaking(before: Floats, after: Floats) -> float:

@@ -20,6 +20,7 @@ from motor_identification.estimation.whitened_fit import (
 )
 from motor_identification.noise.error_data import ErrorData, TorqueWhitening, make_error_data, make_whitening
 from motor_identification.noise.error_model import ErrorModel
+from motor_identification.noise.run_gain import FEWEST_RUNS
 from motor_identification.recording import Floats
 
 ITERATIONS, TOLERANCE = 8, 1e-6  # it begins at the minimum of ordinary least squares
@@ -33,6 +34,11 @@ class WhitenedBesideTorque(WhitenedResiduals):
 
     whitenings: tuple[TorqueWhitening, ...]
 
+    @property
+    def gains_differ(self) -> bool:
+        """Whether each recording has a gain of its own, so that they need not agree."""
+        return any(one.along is not None for one in self.whitenings)
+
     def on(self, problem: Problem) -> "WhitenedBesideTorque":
         """The same whitening of another model's motion in the same recordings."""
         return replace(self, problem=problem)
@@ -45,8 +51,11 @@ class WhitenedBesideTorque(WhitenedResiduals):
 
 def list_error_data(estimate: Estimate) -> list[ErrorData]:
     """List what an estimate leaves in its training data, recording by recording, for the error filter."""
-    rows = zip(estimate.problem.intervals, estimate.increments, strict=True)
-    return [make_error_data(intervals, increments) for intervals, increments in rows]
+    intervals = estimate.problem.intervals
+    several = len(intervals) >= FEWEST_RUNS
+    responses = estimate.supply_responses if several else (None,) * len(intervals)
+    rows = zip(intervals, estimate.increments, responses, strict=True)
+    return [make_error_data(data, increments, None, response) for data, increments, response in rows]
 
 
 def make_disturbed_residuals(estimate: Estimate, errors: ErrorModel) -> DisturbedResiduals:

@@ -24,7 +24,8 @@ TWO_WAYS = frozenset(
     [("fwd", "rev"), ("forward", "reverse"), ("forward", "backward"), ("fwd", "bwd"), ("rpwm", "lpwm"), ("cw", "ccw")]
 )
 TOGETHER = 0.01  # of the rows
-NEITHER = words_of("stop stopped brake coast idle halt none off 0 0.0")  # 0 is one beside 1 and -1
+STANDS = words_of("stop stopped brake coast idle halt none off n neutral")
+NEITHER = STANDS | words_of("0 0.0")  # 0 is one beside 1 and -1
 
 
 @dataclass(frozen=True)
@@ -78,10 +79,12 @@ def read_direction(table: Table, column: str, drive: Floats, speed: Floats) -> D
         speed: signed, in any unit, shape (K,).
     """
     values = _values(table, column)
-    backward = [one for one in values if one.lower() in BACKWARD]
-    if len(values) == 3:
-        backward = [one for one in backward if one.lower() not in NEITHER]
+    ways = [one for one in values if one.lower() not in (NEITHER if len(values) == 3 else STANDS)]
+    backward = [one for one in ways if one.lower() in BACKWARD]
     known = all(one.lower() in FORWARD | BACKWARD | NEITHER for one in values)
+    if len(ways) == 1 and known:
+        against = bool(backward) and float(np.sum(drive * speed)) < 0.0
+        return Direction(column, tuple(ways) if against else (), f"one way, where {column} is {ways[0]}")
     if len(backward) != 1 or not known or not (np.any(speed < 0.0) and np.any(speed > 0.0)):
         return None
     sign = np.where(is_backward(table, column, backward), -1.0, 1.0)

@@ -7,7 +7,7 @@ from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.movement import guess_kind
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.vocabulary import words_of
+from motor_identification.logs.columns.vocabulary import Quantity, words_of
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
@@ -30,8 +30,8 @@ def count_anew(table: Table, pair: Pair, said: Said, notes: Notes) -> bool:
     """Whether a column counts anew in every row; where that is open, the notes ask."""
     if said.increments is not None:
         return said.increments
-    why = ""
-    if _PER_ROW & set(read_heading(pair.motion).words):
+    why, heading = "", read_heading(pair.motion)
+    if _PER_ROW & set(heading.words) or heading.quantity is Quantity.SPEED:  # counts that are called a speed
         why = "by its name"
     elif _follow_drive(table.numbers(pair.motion), table.numbers(pair.voltage), notes, pair.motion):
         why = "it follows the drive, as speeds do"

@@ -56,14 +56,22 @@ def _noise_floor(diagnosis: Diagnosis) -> list[str]:
     elif diagnosis.slot_share > 0.0 and info.edges_per_revolution:
         rest = max(diagnosis.sensor_floor**2 - sensor**2, 0.0) ** 0.5
         parts.append(f"{rest:.3g} rad/s from slots that are irregular by {100 * diagnosis.slot_share:.2g} %")
-    if diagnosis.disturbance is not None:
+    random = _list_random(diagnosis)
+    if random:
         rest = max(diagnosis.noise_floor**2 - diagnosis.sensor_floor**2, 0.0) ** 0.5
-        parts.append(f"{rest:.3g} rad/s from a random torque of {diagnosis.disturbance.rms_voltage:.2g} V RMS")
+        parts.append(f"{rest:.3g} rad/s from {' and '.join(random)}")
     if not parts:
         return [NO_NOISE]
     if len(parts) == 1:
         return [f"The noise floor is {parts[0]}."]
     return [f"The noise floor is {diagnosis.noise_floor:.3g} rad/s: {' and '.join(parts)} (root sum of squares)."]
+
+
+def _list_random(diagnosis: Diagnosis) -> list[str]:
+    """List what leaves the motion scattered whatever the sensor: a random torque, and gains that differ."""
+    torque, scatter = diagnosis.disturbance, diagnosis.gain_scatter
+    gains = [f"gains that differ by {100 * scatter:.2g} % from run to run"] if scatter > 0.0 else []
+    return [*([] if torque is None else [f"a random torque of {torque.rms_voltage:.2g} V RMS"]), *gains]
 
 
 def _validated_by(diagnosis: Diagnosis) -> str:

@@ -7,12 +7,12 @@ from plant import profiles, record
 
 from motor_identification.diagnose import fit_known
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.candidate_fit import refit_without
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.evidence.presliding_evidence import find_presliding
-from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_beside_torque
+from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_beside_torque
 from motor_identification.estimation.request import Request
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check

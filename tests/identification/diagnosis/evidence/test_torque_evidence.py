@@ -73,6 +73,18 @@ def test_what_can_speak_in_few_moments_is_judged_by_those() -> None:
     assert measure_steadiness(nothing, once, measure_speaking(nothing, once)) == 0.0
 
 
+def test_what_shows_at_the_beginning_of_most_runs_is_steady() -> None:
+    """Of six runs the two best are left out; of fewer than five they are no measure."""
+    nothing, each = np.zeros((2, 6, MOMENTS)), np.zeros((2, 6, MOMENTS))
+    each[1, :, 0] = [1.0, 2.0, 3.0, 4.0, 50.0, 60.0]
+    assert measure_steadiness(nothing.ravel(), each.ravel()) == 0.0
+    assert measure_steadiness(nothing.ravel(), each.ravel(), runs=6) == pytest.approx(10.0)
+    assert measure_steadiness(nothing.ravel(), each.ravel(), runs=5) == pytest.approx(6.0)  # of twelve others
+    assert measure_steadiness(nothing[:, :4].ravel(), each[:, :4].ravel(), runs=4) == 0.0
+    steady = measure_steadiness(nothing.ravel(), np.full(720, 0.1), runs=6)
+    assert steady == pytest.approx(0.95 * 72.0)  # not less than by moments
+
+
 @pytest.mark.parametrize(
     ("effect", "stood", "steadiness"),
     [

@@ -35,11 +35,23 @@ def test_which_value_is_backward() -> None:
         (["0", "0", "1", "1"], ("1",)),  # as the motion turns with it
         (["0", "1", "-1", "-1"], ("-1",)),
         (["stop", "fwd", "rev", "rev"], ("rev",)),
+        (["N", "F", "R", "R"], ("R",)),
     ):
         found = read_direction(made(way), "dir", DRIVE, SPEED)
         assert found is not None and found.backward == backward
     assert read_direction(made(["A", "A", "B", "B"]), "dir", DRIVE, SPEED) is None
     assert read_direction(made(["1", "1", "0", "0"]), "dir", DRIVE, np.abs(SPEED)) is None
+
+
+@pytest.mark.parametrize(
+    ("way", "speed", "backward"),
+    [("F", SPEED, ()), ("R", -np.abs(SPEED), ("R",)), ("R", np.abs(SPEED), ()), ("F", -np.abs(SPEED), ())],
+)
+def test_a_run_of_one_way_goes_as_the_motion(way: str, speed: NDArray[np.float64], backward: tuple[str, ...]) -> None:
+    """A speed without a sign turns with the drive, whichever way that is."""
+    found = read_direction(made(["N", way, way, way]), "dir", np.abs(DRIVE), speed)
+    assert found is not None and found.backward == backward
+    assert read_direction(made(["N", "A", "A", "A"]), "dir", np.abs(DRIVE), speed) is None
 
 
 @pytest.mark.parametrize(

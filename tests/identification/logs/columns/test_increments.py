@@ -22,6 +22,8 @@ RATE = np.rint(np.convolve(DRIVE, np.exp(-np.arange(60) / 9.0) / 3.0)[: len(DRIV
         ("ticks", FAST, None, True),
         ("ticks", np.cumsum(RATE), None, False),
         ("delta_ticks", np.cumsum(RATE), None, True),
+        ("velL", np.cumsum(RATE), None, True),
+        ("velL", RATE, False, False),
         ("ticks", RATE, False, False),
         ("ticks", np.cumsum(RATE), True, True),
         ("ticks", 0 * RATE, None, False),

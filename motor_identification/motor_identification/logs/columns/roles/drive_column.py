@@ -60,7 +60,10 @@ def _is_battery(table: Table, name: str) -> bool:
     both = any(np.min(speed) < -BOTH_WAYS * np.max(speed) < 0.0 for speed in speeds)
     turned = any({"dir", "direction"} & set(one.words) for one in beside)  # by a pin of its own
     steady = len(there) > 0 and np.min(there) > STEADY * np.max(there) > 0.0
-    return bool(both and not turned and steady and np.count_nonzero(np.diff(volts)) > FEWEST_CHANGES)
+    told = any(one.quantity is Quantity.REFERENCE and len(np.unique(table.numbers(one.name))) > 1 for one in beside)
+    if not both or turned or not steady:
+        return False
+    return told or bool(np.count_nonzero(np.diff(volts)) > FEWEST_CHANGES)  # few may be those of a drive
 
 
 def _swings(values: Floats) -> bool:

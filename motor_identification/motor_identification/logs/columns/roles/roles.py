@@ -32,6 +32,7 @@ from motor_identification.logs.csv.table import Table
 Floats = NDArray[np.float64]
 
 SAME_CLOCK = 0.9999  # correlation of two columns of times
+FEWEST_ROWS = 10  # that numbers of rows are told by
 UNEVEN = 0.2  # of their mean: steps of a column that may be a motor's way
 
 
@@ -59,7 +60,7 @@ def find_roles(table: Table, said: Said) -> Roles:
         table.column(said.time)
     others = [heading for heading in headings if heading.name not in (time, said.supply)]
     free = ends_of_a_loop(
-        [one for one in others if one.quantity is not None or not _is_clock_of(table, one.name, time)]
+        [one for one in others if one.quantity is not None or not _numbers_rows(table, one.name, time)]
     )
     free = commands_beside_control(table, leave_out_idle_efforts(table, free))
     free = share_one_drive(
@@ -105,11 +106,16 @@ def _is_way(table: Table, name: str, columns: Mapping[str, Floats]) -> bool:
     return any(find_position(table, (name, other), None) == name for other in columns if other != name)
 
 
-def _is_clock_of(table: Table, name: str, time: str | None) -> bool:
-    """Whether a column is another clock's times of the same rows, as where each channel has an X of its own."""
+def _numbers_rows(table: Table, name: str, time: str | None) -> bool:
+    """Whether a column is another clock's times of the same rows, as where each channel has an X of its own.
+
+    Or their numbers, as programs write before each row.
+    """
     if time is None:
         return False
     values, times = table.numbers(name), read_clock(table, time)
+    if len(table) > FEWEST_ROWS and np.array_equal(values, values[0] + np.arange(len(values))):
+        return True
     if len(times) != len(values) or not runs_forward(values) or np.ptp(times) <= 0.0:
         return False
     return correlate(values, times) > SAME_CLOCK and bool(abs(np.ptp(values) / np.ptp(times) - 1.0) < 0.01)
@@ -153,8 +159,9 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
         return pair_by_behaviour(table, rest, time)
     if not voltage and not motion and (channels := pair_channels(table, rest)):
         return channels
-    motion = motion or find_motion_column(table, rest, "", time, said.unit)
-    voltage = voltage or find_drive_column(table, [one for one in rest if one.name != motion], "", ("",))
+    side = read_heading(motion or voltage).side  # of two motors, the one that was named
+    motion = motion or find_motion_column(table, rest, side, time, said.unit)
+    voltage = voltage or find_drive_column(table, [one for one in rest if one.name != motion], side, ("",))
     return Pair("", voltage, motion)
 
 

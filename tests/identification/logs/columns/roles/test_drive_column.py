@@ -38,3 +38,14 @@ def test_a_voltage_that_stays_while_the_motor_turns_both_ways_drives_nothing(lea
         assert find_roles(table, Said()).pairs[0].voltage == "VOLT"
     one_way = columns(t=TIME, VOLT=volts, vel=np.abs(FOLLOWS))
     assert find_roles(one_way, Said()).pairs[0].voltage == "VOLT"
+
+
+@pytest.mark.parametrize("told", [True, False])
+def test_a_battery_of_few_levels_drives_nothing_where_a_set_point_is_told(told: bool) -> None:
+    volts = np.select([np.arange(200) < 4, np.arange(200) < 90], [0.0, 25.1], 24.9)
+    table = columns(t=TIME, setpoint=np.sign(DRIVE) if told else np.ones(200), VOLT=volts, vel=FOLLOWS)
+    if told:
+        with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+            find_roles(table, Said())
+    else:
+        assert find_roles(table, Said()).pairs[0].voltage == "VOLT"

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from log_columns import KINDS, table
+from log_columns import DRIVE, KINDS, MOVED, TIME, columns, table
 
 from motor_identification.logs.columns.roles.roles import find_roles
 from motor_identification.logs.columns.said import Pair, Said
@@ -56,6 +56,22 @@ def test_two_sides_are_two_motors() -> None:
     assert one.pairs == (Pair("", "leftCommand", "leftSpeed"),)
     said = Said(motors=(Pair("a", "x1", "x2"),))
     assert find_roles(table(t="t", x1="u", x2="y", x3="y"), said).pairs == said.motors
+
+
+@pytest.mark.parametrize("said", [Said(motion="velL"), Said(voltage="pwmL"), Said(motion="velL", voltage="pwmL")])
+def test_of_two_motors_the_one_that_was_named(said: Said) -> None:
+    sides = {"t": "t", "velR": "y", "velL": "y", "pwmR": "u", "pwmL": "u"}
+    (pair,) = find_roles(table(**sides), said).pairs
+    assert (pair.voltage, pair.motion) == ("pwmL", "velL")
+
+
+@pytest.mark.parametrize("first", [0.0, 1.0])
+def test_the_numbers_of_the_rows_drive_nothing(first: float) -> None:
+    numbers = first + np.arange(200.0)
+    with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+        find_roles(columns(**{"column 1": numbers, "time": TIME, "value": MOVED}), Said())
+    named = columns(**{"": numbers, "time": TIME, "u": DRIVE, "value": MOVED})
+    assert find_roles(named, Said()).pairs[0].motion == "value"
 
 
 @pytest.mark.parametrize(

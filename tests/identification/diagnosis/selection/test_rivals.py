@@ -1,49 +1,30 @@
-"""Backward elimination: what stands in is dropped, what is not needed goes, what is better replaces it."""
+"""What is tried in the place of a finding: what replaces it, and what is its rival."""
 
 from dataclasses import replace
 from typing import cast
 
 import pytest
-from diagnosed import fitted, with_effect
-from stub_models import rescored, stub_model, stub_test, with_effects
+from diagnosed import fitted
+from stub_models import stub_model, stub_test, with_effects
 from stub_selections import step_of, stub_selection
 
-from motor_identification.diagnosis import backward_elimination, thresholds
-from motor_identification.diagnosis.backward_elimination import (
-    add_rivals_beside_torque,
-    eliminate_backward,
-    list_replacements,
-)
+from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
-from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
-from motor_identification.diagnosis.selection import Selection, SelectionStep
+from motor_identification.diagnosis.selection import rivals as module
+from motor_identification.diagnosis.selection.rivals import (
+    add_rivals_beside_torque,
+    list_replacements,
+)
+from motor_identification.diagnosis.selection.selection import SelectionStep
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
-from motor_model.effects import EFFECT_BY_NAME
 
 BELOW, ABOVE = 0.999, 1.001
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
-
-
-@pytest.mark.parametrize(("likelihood", "better"), [(90.0, False), (110.0, True)])
-def test_a_model_is_judged_by_the_errors_of_one_without_an_effect_too(
-    monkeypatch: pytest.MonkeyPatch, likelihood: float, better: bool
-) -> None:
-    """Their search may end in another place, where the larger model is likelier, too."""
-    model, other = stub_model(2.0, likelihood=100.0), ErrorModel(0.003, 0.0, 0.1, 0.05)
-    again, asked = rescored(model, likelihood=likelihood), []
-
-    def judged(one: Model, hold_out: HoldOut, guess: ErrorModel, evaluations: int) -> Model:
-        asked.append((one, guess))
-        return again
-
-    monkeypatch.setattr(backward_elimination, "judge_beside_torque", judged)
-    chosen = backward_elimination._judge_by_errors_of(other, model, fitted()[1])
-    assert chosen is (again if better else model) and asked == [(model, other)]
 
 
 def test_replacements_were_likely_where_it_was_found_and_are_not_there_already() -> None:
@@ -72,57 +53,6 @@ def test_replacements_were_likely_where_it_was_found_and_are_not_there_already()
     assert list_replacements(beside, (), ("coulomb_friction",)) == ["load_bias", "dead_zone", "quadratic_drag"]
 
 
-def test_what_is_not_needed_beside_the_others_is_taken_back() -> None:
-    """A dead zone was selected where friction was missing; beside friction it explains nothing."""
-    estimate, hold_out = fitted(ks=0.4)
-    bare = validate_model(hold_out, estimate)
-    first = fit_with_effect(estimate, "dead_zone")
-    assert first is not None
-    with_zone = validate_model(hold_out, first)
-    both = fit_with_effect(first, "coulomb_friction")
-    assert both is not None
-    last = validate_model(hold_out, both)
-    zone, friction = CandidateTest("dead_zone", bare, with_zone), CandidateTest("coulomb_friction", with_zone, last)
-    assert zone.evidence > likelihood_threshold()
-    steps = (
-        SelectionStep(bare, zone, (zone,), (), zone.explains),
-        SelectionStep(with_zone, friction, (friction,), (), friction.explains),
-    )
-    left = eliminate_backward(Selection(steps, last, hold_out, 1), SILENT)
-    assert [step.found.effect for step in left.steps] == ["coulomb_friction"]
-    assert left.model.effects == ("coulomb_friction",) and left.model.at_floor
-    assert left.model.estimate.parameters.value("ks") == pytest.approx(0.4, rel=1e-3)
-
-
-@pytest.mark.parametrize(
-    ("hidden", "step_time", "named"),
-    [
-        ({"bias_voltage": 0.3}, 1e-3, "load_bias"),
-        ({"step_voltage": 0.6, "step_time": 2.5}, 2.5, "load_step"),
-    ],
-)
-def test_a_load_that_came_before_the_motion_is_constant(hidden: dict[str, float], step_time: float, named: str) -> None:
-    """It was selected without friction, which held the motor until it was driven; no other was likely there."""
-    estimate, hold_out = fitted(ks=0.4, **hidden)
-    bare = validate_model(hold_out, estimate)
-    first = with_effect(estimate, "load_step", {"step_voltage": 0.3, "step_time": step_time})
-    with_load = validate_model(hold_out, first)
-    both = fit_with_effect(first, "coulomb_friction")
-    assert both is not None and both.parameters.value("step_time") == pytest.approx(step_time, abs=0.01)
-    last = validate_model(hold_out, both)
-    load, friction = CandidateTest("load_step", bare, with_load), CandidateTest("coulomb_friction", with_load, last)
-    steps = (
-        SelectionStep(bare, load, (load,), ("quadratic_drag",), load.explains),
-        SelectionStep(with_load, friction, (friction,), (), friction.explains),
-    )
-    left = eliminate_backward(Selection(steps, last, hold_out, 1), SILENT)
-    assert [step.found.effect for step in left.steps] == [named, "coulomb_friction"]
-    assert (left.steps[0].found is load) is (named == "load_step")  # which is not given away and found again
-    assert left.model.effects == tuple(sorted((named, "coulomb_friction"))) and left.model.at_floor
-    size = EFFECT_BY_NAME[named].parameters[0].name
-    assert left.model.estimate.parameters.value(size) == pytest.approx(hidden[size], rel=1e-3)
-
-
 @pytest.mark.parametrize(
     ("gap", "likelihood", "settled"),
     [(1.09, -600.0, True), (1.11, -600.0, False), (1.09, -499.0, False)],
@@ -134,8 +64,8 @@ def test_what_moves_nearly_alike_is_fitted_to_the_end_before_it_is_called_less_l
     tried = CandidateTest("load_bias", stub_model(2.0, 0.0), stub_model(gap, 0.0, likelihood=likelihood))
     for end, better in ((-500.5, True), (-600.5, False)):
         again = stub_model(1.0, 0.0, likelihood=end)
-        monkeypatch.setattr(backward_elimination, "fit_again", lambda model, hold_out, again=again: again)
-        found = backward_elimination._settle(tried, current, cast(HoldOut, None)).model
+        monkeypatch.setattr(module, "fit_again", lambda model, hold_out, again=again: again)
+        found = module._settle(tried, current, cast(HoldOut, None)).model
         assert found is (again if settled and better else tried.model)
 
 
@@ -159,10 +89,10 @@ def test_what_does_as_well_beside_the_torque_that_is_left_is_a_rival(
     selection = stub_selection(2.0, SelectionStep(before, found, (found, other), (), 0.99))
     begun = replace(selection, model=with_effects(stub_model(2.0, likelihood=loss), "dead_zone"))
     without = with_effects(stub_model(4.0, likelihood=-evidence))
-    monkeypatch.setattr(backward_elimination, "begin_beside_torque", lambda *_: begun)
-    monkeypatch.setattr(backward_elimination, "refit_without", lambda model, *_: without if model is begun.model else 0)
+    monkeypatch.setattr(module, "begin_beside_torque", lambda *_: begun)
+    monkeypatch.setattr(module, "refit_without", lambda model, *_: without if model is begun.model else 0)
     monkeypatch.setattr(
-        backward_elimination,
+        module,
         "try_effects",
         lambda model, hold_out, names, *_: [CandidateTest(name, model, friction) for name in names],
     )
@@ -184,8 +114,8 @@ def test_the_model_is_fitted_to_the_end_before_another_is_called_likelier(
 ) -> None:
     current, fitted_again = stub_model(1.0, 0.0, likelihood=-500.0), stub_model(1.0, 0.0, likelihood=again)
     test = CandidateTest("load_step", stub_model(9.0), stub_model(gap, 0.0, likelihood=likelihood))
-    monkeypatch.setattr(backward_elimination, "fit_again", lambda *_: fitted_again)
-    left = backward_elimination._catch_up(current, [test], cast(HoldOut, None))
+    monkeypatch.setattr(module, "fit_again", lambda *_: fitted_again)
+    left = module._catch_up(current, [test], cast(HoldOut, None))
     assert left is (fitted_again if caught_up else current)
 
 
@@ -208,12 +138,10 @@ def test_a_rival_is_fitted_beside_a_torque_from_where_it_did_as_well_without(
     step = SelectionStep(before, found, (found, CandidateTest("coulomb_friction", before, plain)), rivals, 0.99)
     astray = with_effects(stub_model(1.0, likelihood=-loss), "coulomb_friction")
     current = replace(stub_model(1.0), learned=ErrorModel(0.0, 0.0, 0.1, 0.1) if beside else None)
-    monkeypatch.setattr(backward_elimination, "find_loss", lambda test, model: loss)
-    monkeypatch.setattr(
-        backward_elimination, "refine_beside_torque", lambda model, hold_out, begin: (model.learned, begin, better)
-    )
+    monkeypatch.setattr(module, "find_loss", lambda test, model: loss)
+    monkeypatch.setattr(module, "refine_beside_torque", lambda model, hold_out, begin: (model.learned, begin, better))
     test = CandidateTest("coulomb_friction", before, astray)
-    left = backward_elimination._start_where_found(test, step, current, cast(HoldOut, None))
+    left = module._start_where_found(test, step, current, cast(HoldOut, None))
     if begun:
         assert left.model == (current.learned, plain.estimate, better)
     else:
@@ -233,12 +161,10 @@ def test_what_is_replaced_is_a_rival_if_it_is_as_likely_from_where_the_other_lea
 ) -> None:
     bare, better = stub_model(5.0, likelihood=-900.0), stub_model(1.0, likelihood=-100.0)
     again = stub_model(1.0, likelihood=-100.0 - loss)
-    monkeypatch.setattr(backward_elimination, "refit_without", lambda *_: bare)
-    monkeypatch.setattr(
-        backward_elimination, "try_effects", lambda model, _, names, *__: [CandidateTest(*names, model, again)]
-    )
+    monkeypatch.setattr(module, "refit_without", lambda *_: bare)
+    monkeypatch.setattr(module, "try_effects", lambda model, _, names, *__: [CandidateTest(*names, model, again)])
     test = CandidateTest(instead, bare, better)
-    assert backward_elimination._is_as_likely_from_there(effect, test, stub_selection(2.0)) is alike
+    assert module._is_as_likely_from_there(effect, test, stub_selection(2.0)) is alike
 
 
 @pytest.mark.parametrize(
@@ -255,9 +181,9 @@ def test_what_is_seen_to_hold_the_motor_is_replaced_by_what_holds_it(
     """A delay bends the transients of a robot more than its friction does, but it moves where that stood."""
     without, current = stub_model(5.0), stub_model(4.0)
     tests = [stub_test(name, without, 3.0, 200.0) for name in ("transport_delay", "dead_zone")]
-    monkeypatch.setattr(backward_elimination, "is_own_evidence", lambda name, one, other: seen)
-    monkeypatch.setattr(backward_elimination, "has_same_evidence", lambda other, *_: other is tests[1].model)
-    kept = backward_elimination._drop_without_own_evidence(tests, effect, without, current)
+    monkeypatch.setattr(module, "is_own_evidence", lambda name, one, other: seen)
+    monkeypatch.setattr(module, "has_same_evidence", lambda other, *_: other is tests[1].model)
+    kept = module._drop_without_own_evidence(tests, effect, without, current)
     assert [test.effect for test in kept] == left
 
 
@@ -268,11 +194,11 @@ def test_what_is_there_from_the_start_takes_no_place(monkeypatch: pytest.MonkeyP
     current = with_effects(stub_model(2.0, likelihood=-200.0), "coulomb_friction")
     step = step_of(CandidateTest("coulomb_friction", without, current), stub_test("load_step", without, 2.0, 600.0))
     load = CandidateTest("load_step", without, with_effects(stub_model(1.5, likelihood=-100.0), "load_step"))
-    monkeypatch.setattr(backward_elimination, "_catch_up", lambda current, *_: current)
-    monkeypatch.setattr(backward_elimination, "try_effects", lambda *_: [load])
-    monkeypatch.setattr(backward_elimination, "is_there_from_the_start", lambda test: at_once)
-    monkeypatch.setattr(backward_elimination, "is_own_evidence", lambda *_: False)
-    monkeypatch.setattr(backward_elimination, "_is_as_likely_from_there", lambda *_: False)
+    monkeypatch.setattr(module, "_catch_up", lambda current, *_: current)
+    monkeypatch.setattr(module, "try_effects", lambda *_: [load])
+    monkeypatch.setattr(module, "is_there_from_the_start", lambda test: at_once)
+    monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
+    monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
     selection = replace(stub_selection(2.0, step), model=current)
-    (left,) = backward_elimination._try_in_place(selection, step, without, current, SILENT).steps
+    (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
     assert left.found.effect == ("coulomb_friction" if at_once else "load_step")

@@ -1,19 +1,10 @@
-"""Eliminate backward: take back selected effects that are not needed beside all that were selected later.
-
-Backward elimination is the second half of a stepwise selection.
-"""
+"""Try other effects in the place of one that was found: what does better replaces it, what does as well is a rival."""
 
 from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import (
-    fit_again,
-    fit_constant,
-    judge_beside_torque,
-    refine_beside_torque,
-    refit_without,
-)
+from motor_identification.diagnosis.candidate_fit import fit_again, refine_beside_torque, refit_without
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
@@ -26,64 +17,15 @@ from motor_identification.diagnosis.effect_test import (
     try_effects,
 )
 from motor_identification.diagnosis.evidence.line_evidence import drop_chance_harmonics
-from motor_identification.diagnosis.evidence.presliding_evidence import find_presliding
-from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss, is_better
-from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_beside_torque
-from motor_identification.diagnosis.stand_ins import has_same_evidence, is_own_evidence
-from motor_identification.noise.error_model import ErrorModel
+from motor_identification.diagnosis.evidence.replacement import choose_better, find_loss
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_beside_torque
+from motor_identification.diagnosis.selection.stand_ins import has_same_evidence, is_own_evidence
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
 from motor_model.effects import EFFECT_BY_NAME
 
 
-def eliminate_backward(selection: Selection, reporter: ProgressReporter) -> Selection:
-    """Keep the findings that are needed beside all others, or what does better instead of them; and their rivals now.
-
-    The last one too: fitted once more, the model may come to the same motion without it.
-    """
-    for step in selection.steps:
-        if any(one is step for one in selection.steps):
-            gap = selection.model.held.gap
-            reporter.report(f"checking {step.found.effect}", 0.9, step.found.effect, gap)
-            selection = _check_step(selection, step, reporter)
-    return selection
-
-
-def _check_step(selection: Selection, step: SelectionStep, reporter: ProgressReporter) -> Selection:
-    """Test one finding against the model without it, and against others instead of it."""
-    effect, current = step.found.effect, selection.model
-    without = refit_without(current, effect, selection.hold_out)
-    if without.learned is not None and without.likelihood > current.likelihood:  # by errors that it does not know
-        current = _judge_by_errors_of(without.learned, current, selection.hold_out)
-    if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
-        return selection.replace_step(step, None, without)
-    building_up = find_presliding(without, current) if EFFECT_BY_NAME[effect].after_reversals else None
-    if building_up is not None:
-        return replace(selection.replace_step(step, None, without), building_up=building_up)
-    constant = _find_constant(effect, without, current, selection.hold_out)
-    if constant is not None:
-        by = replace(step, found=constant, rivals=tuple(name for name in step.rivals if name != constant.effect))
-        return _check_step(selection.replace_step(step, by, constant.model), by, reporter)
-    judged_alike = step.found.model.beside_torque == current.beside_torque
-    lost = list_lost(step, current.effects)
-    if step is selection.steps[-1] and judged_alike and not lost:  # what could be in its place was tried beside it
-        return selection
-    return _try_in_place(selection, step, without, current, reporter)
-
-
-def _find_constant(effect: str, without: Model, current: Model, hold_out: HoldOut) -> CandidateTest | None:
-    """Find the constant effect that one of the current model is, as it began before the motion did; None if it is none.
-
-    From the very motion: without a load, friction stands in for it, and a fit from there may end far away.
-    """
-    constant = EFFECT_BY_NAME[effect].constant
-    if constant is None or constant in current.effects:
-        return None
-    test = CandidateTest(constant, without, fit_constant(current, effect, constant, hold_out))
-    return test if is_better(test, effect, current) else None
-
-
-def _try_in_place(
+def try_in_place(
     selection: Selection, step: SelectionStep, without: Model, current: Model, reporter: ProgressReporter
 ) -> Selection:
     """Try others in the place of a finding: what is better replaces it, and what does as well is a rival."""
@@ -152,12 +94,6 @@ def _list_rivals(tests: Sequence[CandidateTest], effect: str, current: Model) ->
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
 
 
-def _judge_by_errors_of(other: ErrorModel, model: Model, hold_out: HoldOut) -> Model:
-    """Judge a model again from the errors of one without an effect, which describe its own at least as well."""
-    again = judge_beside_torque(model, hold_out, other, thresholds.FINAL_EVALUATIONS)
-    return again if again.likelihood > model.likelihood else model
-
-
 def _start_where_found(test: CandidateTest, step: SelectionStep, current: Model, hold_out: HoldOut) -> CandidateTest:
     """Fit a rival of a step beside a random torque from where it did as well without one, too.
 
@@ -222,9 +158,3 @@ def list_replacements(step: SelectionStep, without: Sequence[str], current: Sequ
 def list_lost(step: SelectionStep, current: Sequence[str]) -> list[str]:
     """List the effects that a step was found beside and that are not among the current model's any more."""
     return [name for name in step.before.effects if name not in current]
-
-
-def drop_step(selection: Selection, step: SelectionStep) -> Selection:
-    """Take one finding back, and fit the model again without it."""
-    without = refit_without(selection.model, step.found.effect, selection.hold_out)
-    return selection.replace_step(step, None, without)

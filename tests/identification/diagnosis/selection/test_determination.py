@@ -11,20 +11,22 @@ from plant import profiles, record
 from stub_models import stub_model, with_effects
 
 from motor_identification.diagnose import diagnose
-from motor_identification.diagnosis import candidate_model, determination, thresholds
+from motor_identification.diagnosis import candidate_model, thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
-from motor_identification.diagnosis.determination import (
+from motor_identification.diagnosis.result import Verdict
+from motor_identification.diagnosis.selection import determination
+from motor_identification.diagnosis.selection.determination import (
     drop_undetermined,
     find_limits_hit,
     find_undetermined,
+    has_vague_instant,
     is_chance_size,
     is_needed,
     is_undetermined,
 )
-from motor_identification.diagnosis.result import Verdict
-from motor_identification.diagnosis.selection import Selection, SelectionStep
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
@@ -96,6 +98,34 @@ def test_a_size_within_its_errors_is_chance(
     errors = np.full(len(model.whitened.theta), abs(model.whitened.theta[at]) / (sigma * thresholds.SURE_SIZE))
     monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: SimpleNamespace(errors=errors))
     assert is_chance_size(effect, model) == chance
+
+
+@pytest.mark.parametrize(("share", "vague"), [(0.99, False), (1.01, True), (np.nan, False)])
+def test_a_load_that_may_come_on_at_any_time_is_none(
+    monkeypatch: pytest.MonkeyPatch, share: float, vague: bool
+) -> None:
+    """A slow torque is one; what cannot be told where a motor stands still is not."""
+    estimate, hold_out = fitted()
+    model = validate_model(hold_out, with_effect(estimate, "load_step", {"step_voltage": 0.3, "step_time": 0.3}))
+    names, (recording, *_) = model.whitened.problem.unknowns.names, model.whitened.problem.recordings
+    errors = np.zeros(len(model.whitened.theta))
+    errors[names.index("step_time")] = share * thresholds.VAGUE_INSTANT * recording.duration
+    known = SimpleNamespace(errors=errors, not_identifiable=())
+    monkeypatch.setattr(candidate_model, "estimate_uncertainty", lambda *_: known)
+    assert has_vague_instant("load_step", model) == vague
+    assert find_undetermined(model) == (("load_step",) if vague else ())
+    worse = stub_model(10.0 * model.held.gap, 0.0)  # which a torque that was learned may leave
+    assert is_needed(found_step(model, model, "load_step"), model, worse) != vague
+
+
+def test_an_instant_that_one_of_several_recordings_places_is_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    errors = np.array([0.9, 1.1]) * thresholds.VAGUE_INSTANT
+    known = SimpleNamespace(errors=errors)
+    model = cast(Model, SimpleNamespace(whitened=SimpleNamespace(problem=None), uncertainty=known))
+    monkeypatch.setattr(determination, "list_instant_columns", lambda *_: [(0, 1.0), (1, 1.0)])
+    assert not has_vague_instant("load_step", model)
+    errors[0] = errors[1]
+    assert has_vague_instant("load_step", model)
 
 
 @pytest.mark.parametrize(
@@ -196,7 +226,7 @@ def test_a_step_that_predicts_is_no_chance(monkeypatch: pytest.MonkeyPatch) -> N
         ("coulomb_friction", ("dead_zone",), (), 1.001, False),
         ("coulomb_friction", (), ("ks",), 1.001, False),  # a limit of the search is no value
         ("coulomb_friction", (), ("drag",), 1.001, True),
-        ("load_step", ("coulomb_friction",), ("step_voltage",), 1.001, True),
+        ("warm_up", ("coulomb_friction",), ("resistance_rise",), 1.001, True),
     ],
 )
 def test_what_the_gap_shows_is_needed_though_its_errors_are_wide(

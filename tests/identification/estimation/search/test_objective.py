@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from small import THETA, small_problem, small_recording
 
-from motor_identification.estimation.objective import NEGLIGIBLE, USUAL_IRREGULARITY, make_objective
 from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.search.objective import NEGLIGIBLE, USUAL_IRREGULARITY, make_objective
 
 
 def test_costs_are_the_sums_of_squared_residuals() -> None:

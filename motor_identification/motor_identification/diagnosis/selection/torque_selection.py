@@ -4,11 +4,12 @@ Forward selection and backward elimination as without a torque, on models that a
 """
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse, takes_away_more
 from motor_identification.diagnosis.evidence.line_evidence import count_waves
-from motor_identification.diagnosis.forward_selection import select_forward
-from motor_identification.diagnosis.selection import Selection, begin_beside_torque
+from motor_identification.diagnosis.run_gains import find_gap_less_gains, may_be_of_gains
+from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
+from motor_identification.diagnosis.selection.forward_selection import select_forward
+from motor_identification.diagnosis.selection.selection import Selection, begin_beside_torque
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -20,7 +21,7 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
     than it should, which is taken if the beginning leads nowhere. Where only something likely was refused, that is
     looked for beside a torque that is there, and nothing that was found is judged again.
     """
-    disturbed = _may_be_disturbed(plain)
+    disturbed = _may_be_disturbed(plain) or any(may_be_of_gains(step, plain.hold_out) for step in plain.steps)
     if not (disturbed or plain.refused):
         return None
     doubtful: list[Selection] = []
@@ -28,7 +29,7 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
         reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
         begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
         selection = _select_both_ways(begun, reporter)
-        worse = predicts_far_worse(selection.model.held.gap, plain.model.held.gap)
+        worse = predicts_far_worse(find_gap_less_gains(selection.model), plain.model.held.gap)
         if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
             worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
         if not selection.model.complete or worse:
@@ -60,14 +61,21 @@ def _choose_more(selection: Selection, plain: Selection, disturbed: bool) -> Sel
 def _select_both_ways(begun: Selection, reporter: ProgressReporter) -> Selection:
     """Select forward and eliminate backward beside a random torque, again where that changed what there is.
 
-    What stood in for two effects hides both; what is found in its place may be one of them.
+    What stood in for two effects hides both; what is found in its place may be one of them. What is added and taken
+    away again goes round in a circle: what it was added to is left, with the rivals that were tried for it.
     """
-    selection = select_forward(begun, reporter)
+    selection, before = select_forward(begun, reporter), None
     for _ in range(thresholds.ROUNDS):
         left = eliminate_backward(selection, reporter)
-        if set(left.model.effects) == set(selection.model.effects):
+        if _have_same_effects(left, selection):
             return left
-        selection = select_forward(left, reporter)
-        if set(selection.model.effects) == set(left.model.effects):
+        if before is not None and _have_same_effects(left, before):
+            return before
+        before, selection = left, select_forward(left, reporter)
+        if _have_same_effects(selection, left):
             return selection
     return eliminate_backward(selection, reporter)
+
+
+def _have_same_effects(one: Selection, other: Selection) -> bool:
+    return set(one.model.effects) == set(other.model.effects)

@@ -9,9 +9,10 @@ import pytest
 from stub_models import stub_model, with_effects
 from stub_selections import stub_selection, stub_step
 
-from motor_identification.diagnosis import stand_ins, thresholds
+from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.stand_ins import (
+from motor_identification.diagnosis.selection import stand_ins
+from motor_identification.diagnosis.selection.stand_ins import (
     drop_stand_ins,
     drop_stand_ins_of_either,
     drop_unneeded,

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from motor_identification.estimation.least_squares import Box, Tolerance, minimise_squares
-from motor_identification.estimation.multistart_stop import meets_stopping_rule, select_agreeing
-from motor_identification.estimation.objective import Objective
 from motor_identification.estimation.request import Descent, SearchConfig, SearchReport
-from motor_identification.estimation.swarm import SwarmConfig, SwarmResult, minimise
+from motor_identification.estimation.search.multistart_stop import meets_stopping_rule, select_agreeing
+from motor_identification.estimation.search.objective import Objective
+from motor_identification.estimation.search.swarm import SwarmConfig, SwarmResult, minimise
 from motor_model.errors import MotorError
 
 Floats = NDArray[np.float64]
@@ -56,6 +56,7 @@ def search(objective: Objective, config: SearchConfig, progress: Progress | None
         raise MotorError(
             "no parameters in the search range give a finite simulation: check the recording's voltages and times."
         )
+    tell(1.0)  # what is left of the budget is no swarm
     return log.report(objective, number, agreed=False)
 
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from small import THETA, TRUE, small_problem
 
-from motor_identification.estimation.global_search import search_globally
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.request import Request, SearchConfig
+from motor_identification.estimation.search.global_search import search_globally
 
 
 def test_it_ends_where_least_squares_from_the_truth_does() -> None:

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from motor_identification.estimation.multistart_stop import (
+from motor_identification.estimation.request import Descent
+from motor_identification.estimation.search.multistart_stop import (
     SAME_COST,
     UNSEEN_SHARE,
     meets_stopping_rule,
     select_agreeing,
 )
-from motor_identification.estimation.objective import Objective
-from motor_identification.estimation.request import Descent
+from motor_identification.estimation.search.objective import Objective
 
 
 def objective(noise_cost: float = 0.0, negligible: float = 0.0) -> Objective:

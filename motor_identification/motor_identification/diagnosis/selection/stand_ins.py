@@ -9,7 +9,7 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import share_explained
 from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
 from motor_identification.diagnosis.evidence.standstill_evidence import explains_standstills
-from motor_identification.diagnosis.selection import Selection
+from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.discrepancy.free_curves import PAST, REPEATING
 from motor_model.effects import EFFECT_BY_NAME
 

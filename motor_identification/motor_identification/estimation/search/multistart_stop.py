@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from motor_identification.estimation.objective import Objective
 from motor_identification.estimation.request import Descent
+from motor_identification.estimation.search.objective import Objective
 
 SAME_COST = 0.01  # of the cost: descents this close ended in one local minimum
 UNSEEN_SHARE = 0.05  # of further descents that would end in a local minimum not seen yet, at which the search is over

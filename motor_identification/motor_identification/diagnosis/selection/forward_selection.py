@@ -9,7 +9,6 @@ from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refit_without
-from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, share_explained
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
@@ -17,14 +16,11 @@ from motor_identification.diagnosis.effect_test import (
     count_parameters,
     find_rivals,
     is_supported,
-    is_there_from_the_start,
     list_candidates,
-    sort_by_table,
     try_effects,
 )
-from motor_identification.diagnosis.selection import Selection, SelectionStep, begin_selection
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
-from motor_identification.validation.instants import needs_instant
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -43,7 +39,7 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
             continue
         refused = any(is_supported(test) and not test.relevant for test in tests)
         selection = replace(selection, refused=refused)
-        pair = _find_pair(selection, tests, reporter) if pairs and may_hide_pair(selection) else []
+        pair = find_pair(selection, tests, reporter) if pairs and may_hide_pair(selection) else []
         if not pair:
             return selection
         further = select_forward(selection.add(pair), reporter, pairs=False)
@@ -118,7 +114,7 @@ def list_partners(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
     return likely[: thresholds.PAIR_PARTNERS]
 
 
-def _find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: ProgressReporter) -> list[SelectionStep]:
+def find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: ProgressReporter) -> list[SelectionStep]:
     """Find the two effects that explain most together where neither does alone, as two steps, if there are such."""
     current, found = selection.model, []
     for i, first in enumerate(list_partners(tests)):
@@ -138,82 +134,3 @@ def _find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: P
         ]
         found.append((round(second.model.likelihood / thresholds.TIE_LIKELIHOOD), -i, steps))  # of equals the first
     return max(found)[2] if found else []
-
-
-def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -> Selection:
-    """Select forward again from another first effect that was nearly as likely, where the gap stays above the floor.
-
-    Or where a complete model took many findings: fewer may do as well. While others are missing too, one effect can do
-    as well as another, and the wrong one ends in a local minimum of the selection, or with more than are there.
-    """
-    if not selection.steps or (selection.model.complete and len(selection.steps) < thresholds.MANY_STEPS):
-        return selection
-    first = selection.steps[0]
-    for test in list_other_firsts(first):
-        rivals = tuple(name for name in first.rivals if name != test.effect)
-        begun = SelectionStep(first.before, test, first.tests, rivals, test.explains)
-        start = begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
-        other = select_forward(start, reporter, pairs=False)
-        if selection.model.complete:
-            selection = other if _is_simpler(other, selection) else selection
-            continue
-        if _are_alike(other.model, selection.model):
-            selection = _add_rival(selection, other)  # the one that was more likely stays
-            continue
-        if other.model.held.gap < selection.model.held.gap:
-            selection = other if other.model.likelihood > selection.model.likelihood else _add_rival(other, selection)
-        else:
-            head, *tail = selection.steps
-            rest = tuple(name for name in head.rivals if name != test.effect)
-            selection = replace(selection, steps=(replace(head, rivals=rest), *tail))
-    return selection
-
-
-def retry_with_pair(selection: Selection, reporter: ProgressReporter) -> Selection:
-    """Select forward again from two effects together, where what needs an instant came first and leaves a gap.
-
-    An instant is found for whatever bends a motion; of steps one way a load step takes more than friction or drag alone
-    does, neither of which is then a finding beside it.
-    """
-    if not selection.steps or not selection.model.above_floor or not selection.model.held.confirms:
-        return selection
-    first = selection.steps[0]
-    if not needs_instant(first.found.effect):
-        return selection
-    start = begin_selection(first.before.estimate, selection.hold_out, selection.workers)
-    pair = _find_pair(start, [test for test in first.tests if not needs_instant(test.effect)], reporter)
-    if not pair:
-        return selection
-    other = select_forward(start.add(pair), reporter, pairs=False)
-    better = other.model.likelihood > selection.model.likelihood and other.model.held.gap < selection.model.held.gap
-    return other if better else selection
-
-
-def _is_simpler(other: Selection, many: Selection) -> bool:
-    """Decide whether fewer findings explain everything, and the motion is as likely."""
-    fewer = other.model.complete and len(other.steps) < len(many.steps)
-    return fewer and other.model.likelihood >= many.model.likelihood
-
-
-def _are_alike(one: Model, other: Model) -> bool:
-    """Decide whether two models are the same motion in other words: neither their likelihood nor their gap differs."""
-    low, high = sorted((one.held.gap, other.held.gap))
-    return abs(one.likelihood - other.likelihood) < thresholds.TIE_LIKELIHOOD and high < thresholds.SAME_GAP * low
-
-
-def _add_rival(selection: Selection, likelier: Selection) -> Selection:
-    """Add the first finding of a likelier selection to the rivals of the first: gap and likelihood disagree."""
-    head, *tail = selection.steps
-    rivals = sort_by_table({*head.rivals, likelier.steps[0].found.effect} - {head.found.effect})
-    return replace(selection, steps=(replace(head, rivals=rivals), *tail))
-
-
-def list_other_firsts(first: SelectionStep) -> list[CandidateTest]:
-    """List the tests, best first, that were nearly as likely as a first step.
-
-    Not what begins at an instant but is there from the start: it is no finding, whatever comes beside it.
-    """
-    likely = max(thresholds.SECOND_START_EVIDENCE * first.found.evidence, likelihood_threshold())
-    others = [test for test in first.tests if test is not first.found and test.evidence > likely]
-    others = [test for test in others if not is_there_from_the_start(test)]
-    return others[: thresholds.SECOND_STARTS]

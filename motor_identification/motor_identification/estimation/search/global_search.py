@@ -3,12 +3,12 @@
 from collections.abc import Callable
 
 from motor_identification.estimation.estimate import Estimate
-from motor_identification.estimation.excerpt import take_excerpt
 from motor_identification.estimation.least_squares import fit_speeds
-from motor_identification.estimation.multistart import search
-from motor_identification.estimation.objective import make_objective
 from motor_identification.estimation.problem import Problem
 from motor_identification.estimation.request import SearchConfig, SearchReport
+from motor_identification.estimation.search.excerpt import take_excerpt
+from motor_identification.estimation.search.multistart import search
+from motor_identification.estimation.search.objective import make_objective
 
 COARSE_SAMPLES = 4.0  # in the intervals that a search compares: many slots at speed, a part of a time constant
 

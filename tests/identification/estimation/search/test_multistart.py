@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from motor_identification.estimation.multistart import search
-from motor_identification.estimation.objective import Objective, make_objective
 from motor_identification.estimation.problem import Problem, make_problem
 from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.search.multistart import search
+from motor_identification.estimation.search.objective import Objective, make_objective
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.recording import check, recording_of
 from motor_model.errors import MotorError

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from motor_identification.estimation.swarm import SwarmConfig, minimise
+from motor_identification.estimation.search.swarm import SwarmConfig, minimise
 
 Floats = NDArray[np.float64]
 Cost = Callable[[Floats], Floats]

@@ -4,13 +4,14 @@ from dataclasses import replace
 from math import inf, isfinite, isnan
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.backward_elimination import drop_step, eliminate_backward
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse
 from motor_identification.diagnosis.effect_test import sort_by_table, try_effects
-from motor_identification.diagnosis.selection import Selection, SelectionStep
+from motor_identification.diagnosis.selection.backward_elimination import drop_step, eliminate_backward
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
 from motor_identification.uncertainty.summary import find_bounds_hit
+from motor_identification.validation.instants import list_instant_columns, needs_instant
 from motor_model.effects import EFFECT_BY_NAME, SPEC_BY_NAME
 
 
@@ -37,7 +38,7 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
         if is_needed(step, selection.model, smaller.model):
             continue
         gone |= {step.found.effect, *step.rivals}
-        if not (smaller.model.complete and is_chance_size(step.found.effect, selection.model)):
+        if not (smaller.model.complete and is_chance(step.found.effect, selection.model)):
             dropped += [step.found.effect, *step.rivals]
         selection = _eliminate_unless_seen(smaller, reporter)
         if any(one.found.effect in gone for one in selection.steps):  # back in the place of another: no circles
@@ -68,10 +69,12 @@ def is_needed(step: SelectionStep, model: Model, without: Model) -> bool:
     Such as an instant, a warming-up of which only the product of rise and rate shows, or a friction that one slow step
     of a staircase tells; not where that is one of several effects, or ended at a limit of the search. A line that
     repeats with the angle makes any gap smaller that it was fitted to; and beside a motor whose own back-EMF is not
-    determined, anything does.
+    determined, anything does. What came at no instant was no step.
     """
     effect = EFFECT_BY_NAME[step.found.effect]
     if (model.held.seen and effect.periodic) or "kv" in model.uncertainty.not_identifiable:
+        return False
+    if has_vague_instant(effect.name, model):
         return False
     told = effect.anywhere or not (
         step.rivals or any(spec.name in find_limits_hit(model) for spec in effect.parameters)
@@ -96,17 +99,29 @@ def find_undetermined(model: Model) -> tuple[str, ...]:
     """Find the effects of a model none of whose own parameters its training data determine.
 
     Size and time constant of one effect may each be unsure, because the other is, where both together are not. A
-    parameter that belongs to a recording, such as an instant, says nothing of the motor. A size that ended at a limit
-    of the search is none.
+    parameter that belongs to a recording, such as an instant, says nothing of the motor; but one that may be anywhere
+    is a slow torque's. A size that ended at a limit of the search is none.
     """
     unknown, limits = (_find_unknown(model), find_limits_hit(model)) if model.effects else ((), ())
     return tuple(
         name
         for name in model.effects
-        if is_undetermined(name, unknown)
-        or EFFECT_BY_NAME[name].parameters[0].name in limits
-        or is_chance_size(name, model)
+        if is_undetermined(name, unknown) or EFFECT_BY_NAME[name].parameters[0].name in limits or is_chance(name, model)
     )
+
+
+def is_chance(effect: str, model: Model) -> bool:
+    """Decide whether an effect has a size, or an instant, that chance may have given it."""
+    return is_chance_size(effect, model) or has_vague_instant(effect, model)
+
+
+def has_vague_instant(effect: str, model: Model) -> bool:
+    """Decide whether what begins at an instant does so at none that any recording places."""
+    if not needs_instant(effect):
+        return False
+    columns = list_instant_columns(model.whitened.problem, [effect])
+    vague = (model.uncertainty.errors[at] > thresholds.VAGUE_INSTANT * duration for at, duration in columns)
+    return all(vague)
 
 
 def is_chance_size(effect: str, model: Model) -> bool:

@@ -8,10 +8,10 @@ from stub_models import StubModel, rescored, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis import torque_selection as module
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
-from motor_identification.diagnosis.selection import Selection
+from motor_identification.diagnosis.selection import torque_selection as module
+from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 
@@ -26,6 +26,7 @@ def seen(model: Model, by_fit: bool) -> Model:
 def selected(monkeypatch: pytest.MonkeyPatch, plain: Selection, begun: Selection, ended: Selection) -> Selection | None:
     """What is selected where nothing is fitted: the selections beside a torque are given."""
     monkeypatch.setattr(Model, "complete", True)
+    monkeypatch.setattr(module, "may_be_of_gains", lambda step, hold_out: step.before.noise.drift > 0.0)
     monkeypatch.setattr(module, "begin_beside_torque", lambda *rest: begun)
     monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended)
@@ -102,14 +103,25 @@ def test_what_elimination_changed_is_selected_on_from(monkeypatch: pytest.Monkey
     assert module._select_both_ways(limit, SILENT) is (both if dropped else limit)
 
 
-def test_a_selection_that_swings_ends(monkeypatch: pytest.MonkeyPatch) -> None:
-    one, other = selection_of(stub_model(2.0)), selection_of(stub_model(3.0))
-    effects = {id(one.model): ("dead_zone",)}
+@pytest.mark.parametrize("circle", [True, False])
+def test_a_selection_that_swings_ends(monkeypatch: pytest.MonkeyPatch, circle: bool) -> None:
+    """What was added to a load goes again, and the load stays as it was found, with its rivals; else it ends, too."""
+    names = (
+        "load_step",
+        "load_bias",
+        "dead_zone",
+        "load_bias" if circle else "coast_drive",
+        "warm_up",
+        "static_friction",
+    )
+    several = [selection_of(stub_model(2.0)) for _ in names]
+    effects = {id(one.model): (name,) for one, name in zip(several, names, strict=True)}
     monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
-    rounds = []
-    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: one)
-    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: rounds.append(0) or other)
-    assert module._select_both_ways(other, SILENT) is other and len(rounds) == thresholds.ROUNDS + 1
+    steps = iter(several)
+    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: next(steps))
+    monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: next(steps))
+    found = module._select_both_ways(several[0], SILENT)
+    assert found is several[1 if circle else 2 * thresholds.ROUNDS + 1]
 
 
 @pytest.mark.parametrize(("gaps", "chosen"), [((0.999, 1.001), 1), ((1.001, 1.5), 0), ((0.999, 0.998), 0)])
@@ -126,3 +138,12 @@ def test_a_torque_that_leaves_less_than_it_should_is_taken_where_the_beginning_l
     monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended[selection is start])
     assert module.select_beside_torque(start, plain, SILENT) is ended[chosen]
+
+
+@pytest.mark.parametrize("differ", [True, False])
+def test_what_runs_may_differ_in_is_judged_again(differ: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """An asymmetry of runs at the sensor's floor may be of their supplies."""
+    before = replace(stub_model(1.2), noise=replace(stub_model(1.2).noise, drift=1.0 if differ else 0.0))
+    plain = selection_of(stub_model(1.0), step_of(stub_test("direction_asymmetry", before, 1.0, 100.0)))
+    ended = selection_of(stub_model(1.2))
+    assert (selected(monkeypatch, plain, plain, ended) is ended) is differ

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from diagnosed import fitted, with_effect
 
-from motor_identification.diagnosis import selection, thresholds
+from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
-from motor_identification.diagnosis.selection import SelectionStep, begin_selection, may_be_miscounted
+from motor_identification.diagnosis.selection import selection
+from motor_identification.diagnosis.selection.selection import SelectionStep, begin_selection, may_be_miscounted
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.validation.hold_out import HoldOut
 

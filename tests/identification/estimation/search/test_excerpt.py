@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from motor_identification.estimation.excerpt import MOST_SEARCHED, PIECES_PER_RECORDING, take_excerpt
 from motor_identification.estimation.problem import Problem, make_problem
+from motor_identification.estimation.search.excerpt import MOST_SEARCHED, PIECES_PER_RECORDING, take_excerpt
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import Recording, check, recording_of
 from motor_model.excitation import profile

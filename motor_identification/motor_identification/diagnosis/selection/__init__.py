@@ -1,0 +1,1 @@
+"""The selection of what is missing: added, taken back, exchanged, dropped."""

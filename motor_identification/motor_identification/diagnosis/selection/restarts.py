@@ -1,0 +1,91 @@
+"""Restart a selection where its first effect leads nowhere: from another first one, or from two together."""
+
+from dataclasses import replace
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
+from motor_identification.diagnosis.effect_test import is_there_from_the_start, sort_by_table
+from motor_identification.diagnosis.selection.forward_selection import find_pair, select_forward
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_selection
+from motor_identification.progress import ProgressReporter
+from motor_identification.validation.instants import needs_instant
+
+
+def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -> Selection:
+    """Select forward again from another first effect that was nearly as likely, where the gap stays above the floor.
+
+    Or where a complete model took many findings: fewer may do as well. While others are missing too, one effect can do
+    as well as another, and the wrong one ends in a local minimum of the selection, or with more than are there.
+    """
+    if not selection.steps or (selection.model.complete and len(selection.steps) < thresholds.MANY_STEPS):
+        return selection
+    first = selection.steps[0]
+    for test in list_other_firsts(first):
+        rivals = tuple(name for name in first.rivals if name != test.effect)
+        begun = SelectionStep(first.before, test, first.tests, rivals, test.explains)
+        start = begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
+        other = select_forward(start, reporter, pairs=False)
+        if selection.model.complete:
+            selection = other if _is_simpler(other, selection) else selection
+            continue
+        if _are_alike(other.model, selection.model):
+            selection = _add_rival(selection, other)  # the one that was more likely stays
+            continue
+        if other.model.held.gap < selection.model.held.gap:
+            selection = other if other.model.likelihood > selection.model.likelihood else _add_rival(other, selection)
+        else:
+            head, *tail = selection.steps
+            rest = tuple(name for name in head.rivals if name != test.effect)
+            selection = replace(selection, steps=(replace(head, rivals=rest), *tail))
+    return selection
+
+
+def retry_with_pair(selection: Selection, reporter: ProgressReporter) -> Selection:
+    """Select forward again from two effects together, where what needs an instant came first and leaves a gap.
+
+    An instant is found for whatever bends a motion; of steps one way a load step takes more than friction or drag alone
+    does, neither of which is then a finding beside it.
+    """
+    if not selection.steps or not selection.model.above_floor or not selection.model.held.confirms:
+        return selection
+    first = selection.steps[0]
+    if not needs_instant(first.found.effect):
+        return selection
+    start = begin_selection(first.before.estimate, selection.hold_out, selection.workers)
+    pair = find_pair(start, [test for test in first.tests if not needs_instant(test.effect)], reporter)
+    if not pair:
+        return selection
+    other = select_forward(start.add(pair), reporter, pairs=False)
+    better = other.model.likelihood > selection.model.likelihood and other.model.held.gap < selection.model.held.gap
+    return other if better else selection
+
+
+def _is_simpler(other: Selection, many: Selection) -> bool:
+    """Decide whether fewer findings explain everything, and the motion is as likely."""
+    fewer = other.model.complete and len(other.steps) < len(many.steps)
+    return fewer and other.model.likelihood >= many.model.likelihood
+
+
+def _are_alike(one: Model, other: Model) -> bool:
+    """Decide whether two models are the same motion in other words: neither their likelihood nor their gap differs."""
+    low, high = sorted((one.held.gap, other.held.gap))
+    return abs(one.likelihood - other.likelihood) < thresholds.TIE_LIKELIHOOD and high < thresholds.SAME_GAP * low
+
+
+def _add_rival(selection: Selection, likelier: Selection) -> Selection:
+    """Add the first finding of a likelier selection to the rivals of the first: gap and likelihood disagree."""
+    head, *tail = selection.steps
+    rivals = sort_by_table({*head.rivals, likelier.steps[0].found.effect} - {head.found.effect})
+    return replace(selection, steps=(replace(head, rivals=rivals), *tail))
+
+
+def list_other_firsts(first: SelectionStep) -> list[CandidateTest]:
+    """List the tests, best first, that were nearly as likely as a first step.
+
+    Not what begins at an instant but is there from the start: it is no finding, whatever comes beside it.
+    """
+    likely = max(thresholds.SECOND_START_EVIDENCE * first.found.evidence, likelihood_threshold())
+    others = [test for test in first.tests if test is not first.found and test.evidence > likely]
+    others = [test for test in others if not is_there_from_the_start(test)]
+    return others[: thresholds.SECOND_STARTS]

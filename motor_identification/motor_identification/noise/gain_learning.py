@@ -1,0 +1,50 @@
+"""Learn what a model leaves of several runs: sensor, random torque, and by how much the runs' gains differ.
+
+In turns: the gains, each with the prior of all, and what else is left without what they add. A supply that differs from
+run to run is no slow torque: it is as large a share of every voltage, and effects that go with the voltage have to be
+told from it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import sqrt
+
+import numpy as np
+
+from motor_identification.noise.error_data import ErrorData, log_likelihood
+from motor_identification.noise.error_learning import PRICE, learn_error_model
+from motor_identification.noise.error_model import ErrorModel, Lag
+from motor_identification.noise.run_gain import FEWEST_RUNS, RunGain, estimate_scatter, guess_deviation
+
+LEAST_SCATTER = 1e-6  # of the gains to begin with
+ROUNDS, SCATTER_STEPS = 2, 3  # of gains and what else is left in turns; and of the gains' scatter in each
+
+
+def learn_errors_of_runs(
+    rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel | None = None, evaluations: int = 120
+) -> ErrorModel:
+    """Find the error model under which the increments of runs are most likely; their gains differ if that is likelier.
+
+    lag: the motor. guess: where to begin, of a similar model; else a grid tells. Gains that agree there, do.
+    """
+    agreeing = learn_error_model(rows, lag, guess, evaluations)
+    if len(rows) < FEWEST_RUNS or (guess is not None and guess.gain == 0.0):
+        return agreeing
+    differing = _learn_with_gains(rows, lag, guess, evaluations)
+    gained = log_likelihood(rows, differing, lag) - log_likelihood(rows, agreeing, lag)
+    return differing if gained > PRICE else agreeing
+
+
+def _learn_with_gains(rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel | None, evaluations: int) -> ErrorModel:
+    """Find the likeliest error model of runs whose gains differ."""
+    gains = [RunGain(guess_deviation(row.increments, row.travel), 0.0) for row in rows]
+    scatter = sqrt(float(np.mean([gain.deviation**2 for gain in gains]))) + LEAST_SCATTER
+    model = guess
+    for _ in range(ROUNDS):
+        rest = [row.less(gain) for row, gain in zip(rows, gains, strict=True)]
+        model = learn_error_model(rest, lag, model, evaluations)
+        for _ in range(SCATTER_STEPS):
+            gains = [row.find_gain(replace(model, gain=scatter), lag) for row in rows]
+            scatter = estimate_scatter(gains, scatter)
+    assert model is not None
+    return replace(model, gain=scatter)

@@ -1,0 +1,74 @@
+"""Estimate the gain of every run: a supply that differs from run to run, more or less, as all runs of a battery do.
+
+The travel of a run is 1 + δ times what the motor would do under the voltages that were logged, and δ is none of the
+motor: a nuisance of each run with a normal prior of a standard deviation s that all runs have in common. Around its
+most likely value the likelihood without it is Laplace's (exact where everything is normal),
+
+    log p(e) = log p(e − δ a) − δ²/2s² − log(1 + s² |g|²)/2
+
+with increments e, the travel a that a gain of 1 adds, and g what the filter makes of a. White residuals lose √ of it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import log, sqrt
+
+import numpy as np
+
+from motor_identification.recording import Floats
+
+FEWEST_RUNS = 5  # from which on the scatter of their gains is more than a guess
+
+
+@dataclass(frozen=True)
+class RunGain:
+    """How far the gain of a run is from that of all, and what is known of it."""
+
+    deviation: float  # δ
+    information: float  # |g|²
+
+    def compute_price(self, scatter: float) -> float:
+        """Compute what it costs in log likelihood under a prior of that standard deviation."""
+        return 0.5 * (self.deviation / scatter) ** 2 + 0.5 * log(1.0 + scatter**2 * self.information)
+
+    def second_moment(self, scatter: float) -> float:
+        """Compute the mean square of δ after the run was seen."""
+        return self.deviation**2 + 1.0 / (self.information + scatter**-2)
+
+
+def guess_deviation(increments: Floats, response: Floats) -> float:
+    """Guess δ by least squares from increments [rad] and the travel [rad] that a gain of 1 adds, both (I,).
+
+    Of the angles that they add up to, of which a sensor's error is the least part: from increments alone a guess would
+    be as far off as makes the filter take whole runs for outliers.
+    """
+    angle, added = np.cumsum(increments), np.cumsum(response)
+    angle, added = angle - angle.mean(), added - added.mean()
+    power = float(added @ added)
+    return float(added @ angle) / power if power > 0.0 else 0.0
+
+
+def move_to_likeliest(guess: float, white: Floats, response: Floats, scatter: float) -> RunGain:
+    """Move a guess of δ to where it is most likely.
+
+    white: residuals (I,) of increments less what the guess adds. response: whitened, of a gain of 1, shape (I,).
+    """
+    information, prior = float(response @ response), scatter**-2
+    step = (float(response @ white) - guess * prior) / (information + prior)
+    return RunGain(guess + step, information)
+
+
+def make_projection(response: Floats, scatter: float) -> Floats:
+    """Make p (I,) of a whitened response g (I,): w − p (p·w) is white where w has a gain of its own.
+
+    (1 + s² g gᵀ) to the power of −1/2 is 1 − p pᵀ.
+    """
+    power = float(response @ response)
+    if power == 0.0:
+        return np.zeros_like(response)
+    return np.asarray(response * sqrt((1.0 - 1.0 / sqrt(1.0 + scatter**2 * power)) / power))
+
+
+def estimate_scatter(gains: Sequence[RunGain], scatter: float) -> float:
+    """Estimate the standard deviation of the gains anew from one: a step of expectation maximisation."""
+    return sqrt(float(np.mean([gain.second_moment(scatter) for gain in gains])))

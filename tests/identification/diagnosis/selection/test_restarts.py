@@ -1,0 +1,144 @@
+"""A selection begins anew where its first effect leads nowhere."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from stub_models import rescored, stub_model, stub_test
+from stub_selections import selection_of, step_of
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
+from motor_identification.diagnosis.selection import restarts as module
+from motor_identification.diagnosis.selection.restarts import (
+    list_other_firsts,
+    retry_with_another_first,
+    retry_with_pair,
+)
+from motor_identification.diagnosis.selection.selection import SelectionStep
+from motor_identification.progress import ProgressReporter
+
+BELOW, ABOVE = 0.999, 1.001
+AT, OVER = 0.999 * thresholds.EXPLAINED_GAP, 1.2 * thresholds.EXPLAINED_GAP  # of a gap, the floor being 1
+SILENT = ProgressReporter(lambda stage: None, lambda: False)
+
+
+def test_other_first_effects_are_nearly_as_likely() -> None:
+    before, share = stub_model(9.0), thresholds.SECOND_START_EVIDENCE
+    found = stub_test("load_bias", before, 5.0, 100.0)
+    names = ("dead_zone", "supply_sag", "quadratic_drag")
+    near = [stub_test(name, before, 5.0, 100.0 * share * ABOVE) for name in names]
+    far = stub_test("coulomb_friction", before, 5.0, 100.0 * share * BELOW)
+    assert list_other_firsts(step_of(found, *near, far)) == near[: thresholds.SECOND_STARTS]
+    assert list_other_firsts(step_of(found, near[0], far)) == near[:1]
+    weak = stub_test("load_bias", before, 5.0, likelihood_threshold() * 1.1)
+    by_chance = stub_test("dead_zone", before, 5.0, likelihood_threshold() * BELOW)
+    assert list_other_firsts(step_of(weak, by_chance)) == []
+
+
+def test_a_load_that_is_there_from_the_start_is_no_first_step_either(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a speed loop it was no finding, was tried as another first one, and stayed: a load step at no known time."""
+    before = stub_model(9.0)
+    found, others = stub_test("transport_delay", before, 5.0, 100.0), ("load_step", "load_bias")
+    tests = [stub_test(name, before, 5.0, 95.0) for name in others]
+    assert list_other_firsts(step_of(found, *tests)) == tests
+    monkeypatch.setattr(module, "is_there_from_the_start", lambda test: test is tests[0])
+    assert list_other_firsts(step_of(found, *tests)) == tests[1:]
+
+
+def test_nothing_begins_anew_without_a_step_or_at_the_floor() -> None:
+    nothing = selection_of(stub_model(9.0))
+    assert retry_with_another_first(nothing, SILENT) is nothing
+    found = selection_of(stub_model(1.1, 0.0), step_of(stub_test("load_bias", stub_model(9.0), 1.0, 100.0)))
+    assert retry_with_another_first(found, SILENT) is found
+
+
+@pytest.mark.parametrize(
+    ("likelier", "gap", "named", "rivals"),
+    [
+        (0.4, 0.9995, "coulomb_friction", ("load_bias",)),  # the same motion in other words: both, the first as it was
+        (0.6, 0.9995, "load_bias", ()),
+        (0.4, 0.998, "load_bias", ()),
+        (-0.4, 1.0005, "coulomb_friction", ("load_bias",)),
+        (-0.6, 1.0005, "coulomb_friction", ()),
+        (-0.4, 1.002, "coulomb_friction", ()),
+    ],
+)
+def test_another_first_effect_that_leads_to_the_same_motion_is_a_rival(
+    monkeypatch: pytest.MonkeyPatch, likelier: float, gap: float, named: str, rivals: tuple[str, ...]
+) -> None:
+    before, after = stub_model(9.0), stub_model(4.0)
+    first = stub_test("coulomb_friction", before, 4.0, 100.0)
+    other = stub_test("load_bias", before, 4.0, 99.0)
+    step = replace(step_of(first), tests=(first, other), rivals=("load_bias",), explains=0.5)
+    begun = replace(selection_of(after, step), model=after)
+    again = rescored(replace(after, held=stub_model(4.0 * gap).held), likelihood=after.likelihood + likelier)
+    second = replace(step_of(other), rivals=())
+    monkeypatch.setattr(module, "begin_selection", lambda *rest: begun)
+    monkeypatch.setattr(module, "select_forward", lambda *rest, **how: replace(begun, steps=(second,), model=again))
+    found = retry_with_another_first(begun, SILENT)
+    assert found.steps[0].found.effect == named and found.steps[0].rivals == rivals
+
+
+@pytest.mark.parametrize(
+    ("steps", "further", "gap", "likelier", "taken"),
+    [
+        (thresholds.MANY_STEPS, 2, 1.0, 0.0, True),
+        (thresholds.MANY_STEPS - 1, 1, 1.0, 0.0, False),  # a few findings are not doubted
+        (thresholds.MANY_STEPS, thresholds.MANY_STEPS, 1.0, 9.0, False),  # the same in another order
+        (thresholds.MANY_STEPS, 2, 1.0, -0.1, False),
+        (thresholds.MANY_STEPS, 2, 4.0, 9.0, False),  # it explains less
+    ],
+)
+def test_of_two_complete_models_the_one_with_fewer_findings_is_taken(
+    monkeypatch: pytest.MonkeyPatch, steps: int, further: int, gap: float, likelier: float, taken: bool
+) -> None:
+    before = stub_model(9.0)
+    first, other = stub_test("dead_zone", before, 4.0, 100.0), stub_test("coulomb_friction", before, 4.0, 99.0)
+    later = step_of(stub_test("load_bias", before, 1.0, 50.0))
+    many = selection_of(stub_model(1.0, 0.0), step_of(first, other), *[later] * (steps - 1))
+    model = stub_model(gap, 0.0 if gap == 1.0 else None, likelier)
+    fewer = replace(many, steps=(step_of(other), *[later] * (further - 1)), model=model)
+    monkeypatch.setattr(module, "begin_selection", lambda *rest: many)
+    monkeypatch.setattr(module, "select_forward", lambda *rest, **how: fewer)
+    assert (retry_with_another_first(many, SILENT) is fewer) is taken
+
+
+@pytest.mark.parametrize(
+    ("first", "gap", "confirms", "likelier", "smaller", "taken"),
+    [
+        ("load_step", OVER, True, 1.0, 0.9, True),
+        ("load_bias", OVER, True, 1.0, 0.9, False),  # which needs no instant
+        ("load_step", AT, True, 1.0, 0.9, False),  # nothing is left
+        ("load_step", OVER, False, 1.0, 0.9, False),  # one response tells no two
+        ("load_step", OVER, True, -1.0, 0.9, False),
+        ("load_step", OVER, True, 1.0, 1.1, False),
+    ],
+)
+def test_two_effects_together_are_tried_instead_of_an_instant_that_leaves_a_gap(
+    monkeypatch: pytest.MonkeyPatch,
+    first: str,
+    gap: float,
+    confirms: bool,
+    likelier: float,
+    smaller: float,
+    taken: bool,
+) -> None:
+    """In steps one way a load step takes more than a friction or a drag, each alone."""
+    before, model = stub_model(9.0), stub_model(gap, 0.0)
+    model = replace(model, held=replace(model.held, confirms=confirms))
+    friction, again = (stub_test(name, before, 8.0, 50.0) for name in ("coulomb_friction", "load_step"))
+    begun = selection_of(model, step_of(stub_test(first, before, gap, 100.0), friction, again))
+    other = selection_of(rescored(stub_model(smaller * gap, 0.0), likelihood=model.likelihood + likelier))
+    tried: list[list[str]] = []
+
+    def find_pair(start: Any, tests: list[CandidateTest], reporter: Any) -> list[SelectionStep]:
+        tried.append([test.effect for test in tests])
+        return [step_of(friction)]
+
+    monkeypatch.setattr(module, "find_pair", find_pair)
+    monkeypatch.setattr(module, "begin_selection", lambda *rest: SimpleNamespace(add=lambda pair: None))
+    monkeypatch.setattr(module, "select_forward", lambda *rest, **how: other)
+    assert retry_with_pair(begun, SILENT) is (other if taken else begun)
+    assert all(names == ["coulomb_friction"] for names in tried)

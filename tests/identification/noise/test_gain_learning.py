@@ -1,0 +1,64 @@
+"""The scatter of the runs' gains is learned beside sensor and torque, and is none where runs agree."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from motor_identification.measurement.intervals import index_intervals
+from motor_identification.noise.error_data import ErrorData, log_likelihood, make_error_data, make_whitening
+from motor_identification.noise.error_learning import learn_error_model
+from motor_identification.noise.error_model import ErrorModel, Lag
+from motor_identification.noise.gain_learning import learn_errors_of_runs
+from motor_identification.noise.run_gain import FEWEST_RUNS
+
+LAG = Lag(12.0, 0.0055)
+SLOT, SHARE = 0.06, 0.02  # [rad], of it
+GAINS = 1.0 + 0.03 * np.array([1.0, -1.2, 0.4, 0.9, -0.6, -1.0, 1.3, 0.2])
+
+
+def leave(gains: np.ndarray) -> list[ErrorData]:
+    """What a true motor leaves of runs of 2 s in which it gets faster, with gains of their own."""
+    random, start = np.random.default_rng(1), 0.01 * np.arange(200)
+    simulated = 20.0 * (1.0 - np.exp(-LAG.rate * start))
+    rows = []
+    for gain in gains:
+        error = np.diff(SHARE * SLOT * random.normal(size=201)) / 0.01
+        data = index_intervals(start, start + 0.01, gain * simulated + error, np.full(200, 1e-6))
+        angle = np.interp(data.time, np.append(start, 2.0), np.append(0.0, np.cumsum(0.01 * simulated)))
+        rows.append(make_error_data(replace(data, slot=SLOT), 0.01 * (simulated - data.speed), None, angle))
+    return rows
+
+
+def test_gains_are_learned_with_their_scatter() -> None:
+    rows = leave(GAINS)
+    model = learn_errors_of_runs(rows, LAG)
+    assert model.gain == pytest.approx(np.std(GAINS - 1.0), rel=0.1) and model.share == pytest.approx(SHARE, rel=0.1)
+    assert model.rms_voltage == 0.0 < learn_error_model(rows, LAG).rms_voltage  # which a slow torque stood in for
+    found = [row.find_gain(model, LAG).deviation for row in rows]
+    assert found == pytest.approx(1.0 - GAINS, abs=2e-3)
+    assert make_whitening(rows[0], model, LAG).white(rows[0].increments).std() == pytest.approx(1.0, abs=0.15)
+
+
+@pytest.mark.parametrize("gains", [np.ones(8), GAINS[: FEWEST_RUNS - 1]], ids=["agree", "few"])
+def test_runs_that_agree_and_few_runs_are_as_without_gains(gains: np.ndarray) -> None:
+    rows = leave(gains)
+    assert learn_errors_of_runs(rows, LAG) == learn_error_model(rows, LAG)
+
+
+def test_gains_agree_where_those_of_a_similar_model_do() -> None:
+    rows, guess = leave(GAINS), ErrorModel(SHARE, 0.0, 0.05, 0.1)
+    assert learn_errors_of_runs(rows, LAG, guess) == learn_error_model(rows, LAG, guess)
+    assert learn_errors_of_runs(rows, LAG, replace(guess, gain=0.01)).gain > 0.02
+
+
+def test_likelihood_white_residuals_and_densities_say_the_same() -> None:
+    row, model = leave(GAINS)[1], ErrorModel(SHARE, 0.0, 0.05, 0.1, 0.03)
+    value, white = row.whiten(model, LAG, row.travel[None])
+    assert log_likelihood([row], model, LAG) == pytest.approx(value) == pytest.approx(row.densities(model, LAG).sum())
+    assert value > row.score(model.without_gain, LAG)
+    assert make_whitening(row, model, LAG).white(row.increments) == pytest.approx(
+        white[0], abs=0.05
+    )  # outliers weigh less
+    half = replace(row, counted=np.arange(200) < 100)
+    assert half.score(model, LAG) == pytest.approx(half.densities(model, LAG).sum())
