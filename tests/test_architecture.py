@@ -50,7 +50,7 @@ BAGS = re.compile(r"motor_identification/bag/((mcap|fields)/)?\w+\.py$")
 # Inside a package too: its rooms (folders, or files beside them) from the ground up; each may import those before it.
 ROOMS = {
     "motor_model": (
-        "compiled frozen_record printable errors gearing program regular_file yaml_file text_table effect effects "
+        "printable errors regular_file compiled frozen_record gearing program yaml_file text_table effect effects "
         "sample parameters physical model_file excitation dynamics sensing simulate warm_up"
     ),
     "motor_control": (

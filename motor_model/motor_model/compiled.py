@@ -11,7 +11,6 @@ import ast
 import hashlib
 import inspect
 import json
-import os
 import shutil
 import sys
 from collections.abc import Callable, Iterator
@@ -23,6 +22,8 @@ from typing import Any, NamedTuple, TypeVar
 import numba
 import numpy as np
 from numba import njit
+
+from motor_model.regular_file import write_text
 
 F = TypeVar("F", bound=Callable[..., object])
 
@@ -124,9 +125,7 @@ def _outline_of(module: str) -> _Outline:
     read = _outline(ast.parse(text))
     with suppress(OSError):
         file.parent.mkdir(exist_ok=True)
-        beside = file.with_suffix(f".{os.getpid()}")
-        beside.write_text(json.dumps([key, *read]))
-        beside.replace(file)  # at once: another process may read it
+        write_text(file, json.dumps([key, *read]))
     return read
 
 

@@ -1,8 +1,8 @@
 """What `tune` predicts is what a simulated motor does: steps, margins and swings, each held from both sides."""
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-import control
 import numpy as np
 import pytest
 
@@ -17,6 +17,9 @@ from motor_model.errors import MotorError
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters, paper_motor
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 from motor_model.simulate import simulate
+
+if TYPE_CHECKING:
+    import control
 
 Floats = np.ndarray[tuple[int], np.dtype[np.float64]]
 BOUNDLESS = 1e7  # [V] a motor without a voltage limit is linear
@@ -92,6 +95,8 @@ def test_the_predicted_step_is_the_step(rate: float, delay: float, lag: float) -
 
 def state_space(plant: Plant, gains: Gains) -> "control.StateSpace":
     """The open loop as python-control holds it: the motor, the voltages on their way, the law."""
+    import control  # a second of imports, which every worker of the tests would take
+
     motor = sampled(plant)
     size, states = len(motor.new), len(motor.new) + motor.whole + 1
     a, b = np.zeros((states, states)), np.zeros(states)
@@ -110,6 +115,8 @@ def test_python_control_agrees(rate: float, delay: float, lag: float) -> None:
     loop, ours = state_space(plant, gains), small_step(plant, gains, 0.0)
     z = np.exp(1j * np.array([1e-3, 0.1, 1.0, 3.0]))
     assert open_loop(plant, gains, z) == pytest.approx(loop(z), rel=1e-6)
+    import control
+
     theirs = control.step_response(control.feedback(loop, 1), ours.time)
     assert ours.speed == pytest.approx(np.squeeze(theirs.outputs), abs=1e-9)
     assert 0.02 < ours.overshoot < 0.08
