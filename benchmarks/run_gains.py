@@ -154,12 +154,9 @@ def page(outcomes: list[Outcome], first: int) -> str:
         f"| logs | number | {' | '.join(KINDS)} | scatter told, over true (number) | error of kv where right |",
         "|---|---:|" + "---:|" * (len(KINDS) + 2),
         *(row(title, some) for title, some in groups.items() if some),
-        "",
-        "What was not right:",
-        "",
     ]
-    wrong = [one for one in outcomes if one.kind != "right"]
-    return "\n".join([*lines, *(f"- {say(one)}" for one in wrong), ""])
+    wrong = [f"- {say(one)}" for one in outcomes if one.kind != "right"]
+    return "\n".join([*lines, *(["", "What was not right:", "", *wrong] if wrong else []), ""])
 
 
 def say(one: Outcome) -> str:

@@ -1,15 +1,22 @@
 """Find undetectable effects: of a size that matters, but with a trace that the model's own parameters imitate."""
 
+from collections.abc import Sequence
+from math import log1p
+
 import numpy as np
 
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
 from motor_identification.diagnosis.effect_test import list_candidates
+from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.diagnosis.fits.effect_fit import add_noticeable_effect
+from motor_identification.noise.error_data import make_whitening
 from motor_identification.noise.likelihood import log_likelihood
+from motor_identification.noise.run_gain import move_to_likeliest
 from motor_identification.recording import Floats
 from motor_model.effects import EFFECT_BY_NAME
 
+ANY_GAIN = 1e3  # a prior that says nothing of a gain
 LEAST_TURNS = 2.0  # of the encoder's shaft: what comes once in a turn, or more often, has not come back before
 
 
@@ -45,7 +52,25 @@ def remove_imitation(columns: Floats, trace: Floats, weight: Floats) -> Floats:
 def _expect_evidence(model: Model, left: Floats) -> float:
     """Compute the log likelihood ratio that a trace [rad/s] would bring."""
     problem = model.estimate.problem
+    if model.errors.gain > 0.0:
+        return _expect_evidence_beside_gains(model, problem.to_travel(left))
     rows = zip(problem.intervals, problem.to_travel(left), strict=True)
     return sum(
         log_likelihood(data, 0.0 * part, model.noise) - log_likelihood(data, part, model.noise) for data, part in rows
     )
+
+
+def _expect_evidence_beside_gains(model: Model, traces: Sequence[Floats]) -> float:
+    """Compute what traces of travel [rad], of each run, would bring beside gains that differ.
+
+    What of them is like a gain only makes the runs' gains scatter more: of n gains n/2 ln(1 + mean c²/s²).
+    """
+    errors, lag = model.errors, model.lag
+    evidence, like_gains = 0.0, []
+    for row, trace in zip(list_error_data(model.estimate), traces, strict=True):
+        whitening = make_whitening(row.less(row.find_gain(errors, lag)), errors.without_gain, lag)
+        white, response = whitening.white(trace), whitening.white(row.travel)
+        gain = move_to_likeliest(0.0, white, response, ANY_GAIN)
+        evidence += 0.5 * float(np.sum((white - gain.deviation * response) ** 2))
+        like_gains.append(gain.deviation)
+    return evidence + 0.5 * len(like_gains) * log1p(float(np.mean(np.square(like_gains))) / errors.gain**2)

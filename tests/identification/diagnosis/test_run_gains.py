@@ -12,6 +12,7 @@ from stub_selections import step_of
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
+from motor_identification.diagnosis.detectability import find_undetectable
 from motor_identification.diagnosis.result import Diagnosis
 from motor_identification.diagnosis.run_gains import find_gap_less_gains, gains_may_differ, may_be_of_gains
 from motor_identification.estimation.estimate import Estimate
@@ -74,6 +75,15 @@ def test_a_gap_is_measured_without_what_the_gains_add() -> None:
     assert find_gap_less_gains(model) < 0.3 * model.held.gap
     assert find_gap_less_gains(model) < 1.3 * model.sensor_floor
     assert 0.7 < model.held.gap / model.noise_floor < 1.4  # of which the gains are the most
+
+
+@pytest.mark.parametrize(("scatter", "hidden"), [(0.003, False), (0.05, True)])
+def test_gains_hide_what_is_like_them(scatter: float, hidden: bool) -> None:
+    """A friction in steps of one level each; a delay is like no gain."""
+    estimate, hold_out = true_motor(runs()), make_hold_out(runs(), ())
+    model = judge_beside_torque(validate_model(hold_out, estimate), hold_out, None, 120)
+    told = find_undetectable(replace(model, learned=replace(model.errors, gain=scatter)))
+    assert ("coulomb_friction" in told) is hidden and "transport_delay" not in told
 
 
 def test_a_single_recording_to_validate_by_has_a_gain_of_its_own_too() -> None:
