@@ -13,7 +13,7 @@ from scipy.optimize import least_squares
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
-from motor_identification.estimation.solver.reduced_residuals import ReducedResiduals
+from motor_identification.estimation.reduced_residuals import ReducedResiduals
 from motor_identification.recording import Bools, Floats
 
 LEAST_GAIN = 4.0  # squared standard deviations: chance alone gains 1 by a parameter more, and 4 in one case of 20

@@ -6,7 +6,7 @@ from scipy.optimize import least_squares
 from small import THETA, small_estimate
 
 from motor_identification.estimation.least_squares import Box, SpeedResiduals, Tolerance, minimise_squares
-from motor_identification.estimation.solver.reduced_residuals import ReducedResiduals
+from motor_identification.estimation.reduced_residuals import ReducedResiduals
 from motor_identification.recording import Floats
 
 START = THETA + [0.2, -0.2, 0.3]
