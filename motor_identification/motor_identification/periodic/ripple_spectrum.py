@@ -33,6 +33,9 @@ LEAST_TURNS = 0.01  # of travel: less is no turning
 SPILLED = 2.0  # times the sum of a block's white squares: no more of it is explained, as whitening mixes neighbours
 # Numbers of cycles, from the most on, of which the finest that could be seen is; and what is tried beside each.
 FINEST_TRIED, FINEST_NEAR = 24, np.array([1.0, 0.97, 0.93])
+# Cycles a turn from which on a ripple comes through a gear, and how large it is there at most, as a share of the largest
+# that is looked for at all: a fine sensor on a slow shaft would show thousands of cycles of a third of the voltage.
+MANY_CYCLES, FINE_SIZE = 200.0, 0.1
 # Of the sum of white squares, for each counted run and so many more: slips explain by chance.
 SLIP_CHANCE, SLIP_CHANCE_BASE = 4.0, 12
 # The same of what cannot slip, for each run that has a phase of its own, and for the best of all lines: of 10,000 it
@@ -97,8 +100,15 @@ def measure_line(turns: float) -> float:
 def find_finest(runs: Sequence[WhitenedRun], low: float, high: float, most: float) -> float:
     """Find the most cycles a turn, from low to high, of which a ripple of `most` [V] would stand out of the noise.
 
-    A motor hardly follows a finer one, and rows of a fast motor take its mean.
+    A motor hardly follows a finer one, and rows of a fast motor take its mean. Of many cycles, a smaller one.
     """
+    finest = _find_visible(runs, low, high, most)
+    if finest <= MANY_CYCLES:
+        return finest
+    return max(MANY_CYCLES, _find_visible(runs, low, finest, FINE_SIZE * most))
+
+
+def _find_visible(runs: Sequence[WhitenedRun], low: float, high: float, most: float) -> float:
     for cycles in np.geomspace(high, low, FINEST_TRIED):
         for near in cycles * FINEST_NEAR:  # one alone may be where whole waves pass from row to row
             sums = [run.sum_products(near, np.zeros_like(run.course.run)) for run in runs]

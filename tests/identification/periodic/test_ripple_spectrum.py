@@ -128,6 +128,19 @@ def test_no_finer_ripple_than_could_be_seen_is_searched(volts: float) -> None:
     assert {1.0: 100.0, 0.1: 20.0, 0.01: 1.0}[volts] <= finest <= {1.0: 400.0, 0.1: 100.0, 0.01: 20.0}[volts]
 
 
+def test_of_many_cycles_a_smaller_ripple_is_searched(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They come through a gear; what is seen of few cycles is searched as it was."""
+    runs = whiten_runs(*lacking())
+    large, small = (find_finest(runs, 1.0, 400.0, volts) for volts in (1.0, ripple_spectrum.FINE_SIZE))
+    assert small < 0.6 * large < 0.6 * ripple_spectrum.MANY_CYCLES
+    monkeypatch.setattr(ripple_spectrum, "MANY_CYCLES", 0.99 * large)
+    assert find_finest(runs, 1.0, 400.0, 1.0) == 0.99 * large  # not as fine, but many
+    monkeypatch.setattr(ripple_spectrum, "MANY_CYCLES", 2.0)
+    assert find_finest(runs, 1.0, 400.0, 1.0) == pytest.approx(small, rel=0.3)
+    monkeypatch.setattr(ripple_spectrum, "MANY_CYCLES", 1.01 * large)
+    assert find_finest(runs, 1.0, 400.0, 1.0) == large
+
+
 def test_no_block_explains_much_more_than_is_there() -> None:
     """Whitening mixes neighbours; a block of hardly any response has no more than twice its own squares explained."""
     runs = whiten_runs(*lacking(**RIPPLE))
