@@ -13,7 +13,6 @@ from scipy.optimize import least_squares
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
-from motor_identification.estimation.reduced_residuals import ReducedResiduals
 from motor_identification.recording import Bools, Floats
 
 LEAST_GAIN = 4.0  # squared standard deviations: chance alone gains 1 by a parameter more, and 4 in one case of 20
@@ -68,20 +67,15 @@ def minimise_squares(
     tolerance: Tolerance,
     step: float | None = None,
     robust_scale: float = np.inf,
-    reduced: bool = False,
 ) -> LocalMinimum:
     """Minimise a sum of squares within a box from a start (D,), by trust region reflective least squares.
 
     Without a `jacobian` it is had by forward differences of relative size `step`. Residuals far above `robust_scale`
-    count by their size, not by its square (soft L1 loss): a few false ones do not pull. reduced: on as many rows as
-    there are unknowns, which is quicker; on a plateau, where rounding decides, it goes another way.
+    count by their size, not by its square (soft L1 loss): a few false ones do not pull.
     """
     span = box.high - box.low
     free = np.zeros(len(span), dtype=bool) if box.periodic is None else box.periodic
     robust = bool(np.isfinite(robust_scale))
-    if reduced and jacobian is not None and not robust:
-        few = ReducedResiduals(residuals, jacobian, tolerance.cost, tolerance.unknowns, tolerance.iterations)
-        residuals, jacobian = few.residuals, few.jacobian
     end = least_squares(
         residuals,
         np.clip(start, box.low + INNER_MARGIN * span, box.high - INNER_MARGIN * span),
@@ -141,7 +135,6 @@ def fit_residuals(
         Box(unknowns.low, unknowns.high),
         Tolerance(tolerance, tolerance, 0.01 * tolerance, iterations),
         robust_scale=robust_scale,
-        reduced=True,
     )
     better = np.isfinite(robust_scale) or minimum.cost <= before
     simulations = minimum.residual_calls + 2 * len(theta) * minimum.jacobian_calls + 1

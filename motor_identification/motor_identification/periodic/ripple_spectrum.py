@@ -33,8 +33,8 @@ LEAST_TURNS = 0.01  # of travel: less is no turning
 SPILLED = 2.0  # times the sum of a block's white squares: no more of it is explained, as whitening mixes neighbours
 # Numbers of cycles, from the most on, of which the finest that could be seen is; and what is tried beside each.
 FINEST_TRIED, FINEST_NEAR = 24, np.array([1.0, 0.97, 0.93])
-# Cycles a turn from which on a ripple comes through a gear, and how large it is there at most, as a share of the largest
-# that is looked for at all: a fine sensor on a slow shaft would show thousands of cycles of a third of the voltage.
+# Cycles a turn from which on a ripple comes through a gear, and how large it is there at most, as a share of the
+# largest that is looked for: a fine sensor on a slow shaft would show thousands of cycles of a third of the voltage.
 MANY_CYCLES, FINE_SIZE = 200.0, 0.1
 # Of the sum of white squares, for each counted run and so many more: slips explain by chance.
 SLIP_CHANCE, SLIP_CHANCE_BASE = 4.0, 12

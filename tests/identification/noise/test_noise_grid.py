@@ -45,7 +45,7 @@ def test_each_score_is_the_log_likelihood_under_its_noise(clip: float) -> None:
     assert both == pytest.approx(np.add(alone, one_by_one(noise, 2.0 * INCREMENTS, clip)), rel=1e-12)
 
 
-@pytest.mark.parametrize("gain", [-0.1, 0.1])
+@pytest.mark.parametrize("gain", [-5e-5, 5e-5])  # less than what the price is worth
 def test_a_drift_has_its_price(gain: float) -> None:
     """The logarithm of the number of intervals: a log likelihood that is more by less is chance."""
     grid = NoiseGrid(np.zeros(2), np.array([0.0, 0.02]))

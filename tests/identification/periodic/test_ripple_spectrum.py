@@ -112,8 +112,9 @@ def test_a_line_of_given_cycles(off: float, share: float) -> None:
 
 
 @pytest.mark.parametrize("volts", [1.0, 0.1, 0.01])
-def test_no_finer_ripple_than_could_be_seen_is_searched(volts: float) -> None:
+def test_no_finer_ripple_than_could_be_seen_is_searched(monkeypatch: pytest.MonkeyPatch, volts: float) -> None:
     """What one of so many volts would explain, of the sum of white squares: as much as chance, and not finer."""
+    monkeypatch.setattr(ripple_spectrum, "MANY_CYCLES", 400.0)
     runs = whiten_runs(*lacking())
     finest = find_finest(runs, 1.0, 400.0, volts)
 
@@ -128,17 +129,16 @@ def test_no_finer_ripple_than_could_be_seen_is_searched(volts: float) -> None:
     assert {1.0: 100.0, 0.1: 20.0, 0.01: 1.0}[volts] <= finest <= {1.0: 400.0, 0.1: 100.0, 0.01: 20.0}[volts]
 
 
-def test_of_many_cycles_a_smaller_ripple_is_searched(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("many", [2.0, 150.0, 400.0])
+def test_of_many_cycles_a_smaller_ripple_is_searched(monkeypatch: pytest.MonkeyPatch, many: float) -> None:
     """They come through a gear; what is seen of few cycles is searched as it was."""
     runs = whiten_runs(*lacking())
+    monkeypatch.setattr(ripple_spectrum, "MANY_CYCLES", 400.0)
     large, small = (find_finest(runs, 1.0, 400.0, volts) for volts in (1.0, ripple_spectrum.FINE_SIZE))
-    assert small < 0.6 * large < 0.6 * ripple_spectrum.MANY_CYCLES
-    monkeypatch.setattr(ripple_spectrum, "MANY_CYCLES", 0.99 * large)
-    assert find_finest(runs, 1.0, 400.0, 1.0) == 0.99 * large  # not as fine, but many
-    monkeypatch.setattr(ripple_spectrum, "MANY_CYCLES", 2.0)
-    assert find_finest(runs, 1.0, 400.0, 1.0) == pytest.approx(small, rel=0.3)
-    monkeypatch.setattr(ripple_spectrum, "MANY_CYCLES", 1.01 * large)
-    assert find_finest(runs, 1.0, 400.0, 1.0) == large
+    assert small < 100.0 < 150.0 < large
+    monkeypatch.setattr(ripple_spectrum, "MANY_CYCLES", many)
+    wanted = {2.0: small, 150.0: 150.0, 400.0: large}[many]
+    assert find_finest(runs, 1.0, 400.0, 1.0) == pytest.approx(wanted, rel=0.3 if many == 2.0 else 0.0)
 
 
 def test_no_block_explains_much_more_than_is_there() -> None:
