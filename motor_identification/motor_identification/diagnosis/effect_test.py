@@ -163,12 +163,12 @@ def find_rivals(found: CandidateTest, tests: Sequence[CandidateTest]) -> tuple[s
 
 
 def is_alike(gain: float, of_all: float, by_recording: Floats) -> bool:
-    """Decide whether a finding is told from another effect by little, against all data, or against most recordings.
+    """Decide whether a finding is told from another effect by little, by unseen or by all data, or by few recordings.
 
     Where both models are off, one part of the motion chooses between them: the held-out one, or a few of many runs.
     gain, of_all: of log likelihood, of unseen and of all data; by_recording: of those it was fitted to, shape (K,).
     """
-    return gain < thresholds.RIVAL_MARGIN or of_all < 0.0 or is_against_most(by_recording)
+    return min(gain, of_all) < thresholds.RIVAL_MARGIN or is_against_most(by_recording)
 
 
 def are_alike(other: Model, found: Model) -> bool:

@@ -134,11 +134,12 @@ def test_what_most_of_many_recordings_prefer_is_a_rival(gains: list[float], riva
 
 
 @SIDES
-def test_what_all_data_prefer_is_a_rival(times: float, passes: bool) -> None:
+def test_what_all_data_hardly_tell_is_a_rival(times: float, passes: bool) -> None:
+    """However unlike they are in the few that are held out."""
     before = stub_model(5.0)
     found = stub_test("transport_delay", before, 1.0, 100.0)
     other = stub_test("armature_inductance", before, 1.0, 80.0)
-    other = replace(other, model=rescored(other.model, training=20.0 * times))
+    other = replace(other, model=rescored(other.model, training=(20.0 - thresholds.RIVAL_MARGIN) * times))
     assert find_rivals(found, [found, other]) == (("armature_inductance",) if passes else ())
 
 
