@@ -7,11 +7,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from read_only import read_only
 
 from motor_board.emulation.port import Port
 from motor_board.errors import BoardError
-
-NOBODY = 65534
 
 
 @pytest.fixture
@@ -39,17 +38,10 @@ def test_a_place_that_is_read_only_is_a_sentence(tmp_path: Path) -> None:
     """Also where a link is there that a killed emulator left, and may not be taken away."""
     (tmp_path / "port").symlink_to("/dev/pts/none")
     port = Port(tmp_path / "port")
-    tmp_path.chmod(0o555)
-    user = os.geteuid()
-    if user == 0:
-        os.seteuid(NOBODY)
-    try:
+    with read_only(tmp_path):
         with pytest.raises(BoardError, match=r"cannot make .*port \(Permission denied\): set the parameter link"):
             port.plug()
         port.close()
-    finally:
-        os.seteuid(user)
-        tmp_path.chmod(0o755)
 
 
 def test_bytes_pass_both_ways_while_somebody_has_it_open(port: Port, tmp_path: Path) -> None:

@@ -1,6 +1,5 @@
 """A disk that refuses costs nothing that was written before; a missing metadata.yaml is written from the files."""
 
-import os
 import re
 import resource
 from collections.abc import Iterator
@@ -9,11 +8,10 @@ from pathlib import Path
 
 import pytest
 from motor_bags import SAMPLES, START, assert_is, fill, write_bag
+from read_only import read_only
 
 from motor_identification.bag import BagWriter, contents, read_recording, repair
 from motor_model.errors import RecordingError
-
-NOBODY = 65534
 
 
 @contextmanager
@@ -72,16 +70,9 @@ def test_a_full_disk_at_the_end_keeps_everything(tmp_path: Path) -> None:
 def test_a_place_that_is_not_ours_is_a_sentence(tmp_path: Path) -> None:
     bag = write_bag(tmp_path / "bag", SAMPLES[:10])
     next(bag.glob("*.mcap")).chmod(0)
-    tmp_path.chmod(0o555)
-    user = os.geteuid()
-    if user == 0:
-        os.seteuid(NOBODY)
-    try:
+    with read_only(tmp_path):
         with pytest.raises(RecordingError, match=r"\(Permission denied\): choose a place that you may write to\."):
             BagWriter(tmp_path / "other")
         with pytest.raises(RecordingError, match=r"cannot be read \(Permission denied\): check its owner"):
             read_recording(bag)
-    finally:
-        os.seteuid(user)
-        tmp_path.chmod(0o755)
     assert [path.name for path in tmp_path.iterdir()] == ["bag"]
