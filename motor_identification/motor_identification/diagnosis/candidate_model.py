@@ -138,14 +138,14 @@ class Model:
         """What free curves predict of what is left, the most telling variable first; nothing at the sensor's floor."""
         if not self.above_floor:
             return ()
-        own, others = self._less_gains(list_held_errors(self.held)), []
+        own, others = self.less_gains(list_held_errors(self.held)), []
         if not are_parts_held_out(self.estimate, self.held):
-            others = list_training_rests(self.estimate, self._less_gains(list_error_data(self.estimate)))
+            others = list_training_rests(self.estimate, self.less_gains(list_error_data(self.estimate)))
         return find_structure(
             list_held_rests(self.estimate, self.held, own), others, self.errors.without_gain, self.lag
         )
 
-    def _less_gains(self, rows: Sequence[ErrorData]) -> list[ErrorData]:
+    def less_gains(self, rows: Sequence[ErrorData]) -> list[ErrorData]:
         """Take from what is left what the gain of each run adds, which goes with everything that the runs differ in."""
         if self.errors.gain == 0.0:
             return list(rows)

@@ -67,8 +67,8 @@ def _expect_evidence_beside_gains(model: Model, traces: Sequence[Floats]) -> flo
     """
     errors, lag = model.errors, model.lag
     evidence, like_gains = 0.0, []
-    for row, trace in zip(list_error_data(model.estimate), traces, strict=True):
-        whitening = make_whitening(row.less(row.find_gain(errors, lag)), errors.without_gain, lag)
+    for row, trace in zip(model.less_gains(list_error_data(model.estimate)), traces, strict=True):
+        whitening = make_whitening(row, errors.without_gain, lag)
         white, response = whitening.white(trace), whitening.white(row.travel)
         gain = move_to_likeliest(0.0, white, response, ANY_GAIN)
         evidence += 0.5 * float(np.sum((white - gain.deviation * response) ** 2))

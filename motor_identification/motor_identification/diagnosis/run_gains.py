@@ -31,9 +31,8 @@ def may_be_of_gains(step: SelectionStep, hold_out: HoldOut) -> bool:
 
 def find_gap_less_gains(model: Model) -> float:
     """Find the gap [rad/s] without what the gain of each run adds, which no other run tells."""
-    errors, held = model.errors, model.held
-    if errors.gain == 0.0:
+    held = model.held
+    if model.errors.gain == 0.0:
         return held.gap
-    rows = list_held_errors(held)
-    left = [row.less(row.find_gain(errors, model.lag)).increments / row.duration for row in rows]
+    left = [row.increments / row.duration for row in model.less_gains(list_held_errors(held))]
     return float(np.sqrt(held.weight @ np.concatenate(left)[held.counted] ** 2))
