@@ -32,7 +32,7 @@ from motor_identification.sensor.description import note_sensors
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import Timing
 from motor_identification.validation.hold_out import HoldOut, make_hold_out
-from motor_model.effects import normalised
+from motor_model.effects import LAGS, normalised
 from motor_model.errors import RecordingError
 
 __all__ = ["Request", "Stage", "Stopped", "diagnose"]
@@ -65,8 +65,14 @@ def diagnose(
     limit = TimeLimit(request.time_limit, stopped or (lambda: False), _has_smaller_gap)
     reporter = ProgressReporter(progress or (lambda stage: None), limit.over, limit.keep)
     reporter.report("first fit", 0.0, "", float("nan"))
-    start = _begin_again(_begin(recordings, validation, request, reporter.stopped), request, reporter.stopped)
+    first = _begin(recordings, validation, request, reporter.stopped)
+    start = _begin_as_timed(first, _find_timing(first, first.selection), request, reporter.stopped)
     selected = _select_in_time(start.selection, reporter, limit)
+    if selected.finished and start.timing is not None and set(LAGS).intersection(selected.effects):
+        timing = _find_timing(first, selected.selection)
+        if timing != start.timing:  # what was not known yet was taken for another, which a lag undid
+            start = _begin_as_timed(first, timing, request, reporter.stopped)
+            selected = _select_in_time(start.selection, reporter, limit)
     found = conclude(
         start.selection.model,
         selected.selection,
@@ -128,13 +134,17 @@ def fit_known(recordings: Sequence[Recording], request: Request, hold_out: HoldO
     return begin_selection(add_periodic_effects(single, known), hold_out, request.workers), search
 
 
-def _begin_again(start: _Start, request: Request, stopped: Callable[[], bool]) -> _Start:
-    """Begin again where the first fit says that speeds, which nobody timed, were made otherwise than assumed."""
-    selection = start.selection
-    timing = find_timing(start.recordings, selection.model.estimate, selection.hold_out.restrict)
+def _find_timing(first: _Start, selection: Selection) -> Timing | None:
+    """Find how speeds, which nobody timed, were made, as the motion shows beside what was selected; None as assumed."""
+    model = selection.model
+    return find_timing(first.recordings, model.estimate, first.selection.hold_out.restrict, model.effects)
+
+
+def _begin_as_timed(first: _Start, timing: Timing | None, request: Request, stopped: Callable[[], bool]) -> _Start:
+    """Begin again where speeds were made otherwise than assumed."""
     if timing is None:
-        return start
-    again = _begin(timing.set_on(start.recordings), timing.set_on(start.validation), request, stopped)
+        return first
+    again = _begin(timing.set_on(first.recordings), timing.set_on(first.validation), request, stopped)
     return replace(again, timing=timing)
 
 
@@ -145,6 +155,11 @@ class _Selected:
     selection: Selection
     undetermined: tuple[str, ...]  # effects one of which may be missing
     finished: bool
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        """What the model has."""
+        return self.selection.model.effects
 
 
 def _select_in_time(start: Selection, reporter: ProgressReporter, limit: TimeLimit[Selection]) -> _Selected:

@@ -82,14 +82,14 @@ def fit_again(model: Model, hold_out: HoldOut) -> Model:
 
 def fit_constant(model: Model, effect: str, constant: str, hold_out: HoldOut) -> Model:
     """Fit a model again with a constant effect in the place of one that began, of the same size to begin with."""
-    bare, size = _drop_effect(model.estimate, effect), EFFECT_BY_NAME[effect].parameters[0].name
+    bare, size = drop_effect(model.estimate, effect), EFFECT_BY_NAME[effect].parameters[0].name
     larger = bare.problem.with_effects(normalised((*bare.problem.unknowns.effects, constant)))
     values = {EFFECT_BY_NAME[constant].parameters[0].name: np.array(model.estimate.parameters.value(size))}
     theta = map_theta(bare.problem.unknowns, bare.theta, larger.unknowns, values)
     return fit_again(validate_model(hold_out, Estimate(larger, theta, bare.simulations), model), hold_out)
 
 
-def _drop_effect(estimate: Estimate, effect: str) -> Estimate:
+def drop_effect(estimate: Estimate, effect: str) -> Estimate:
     """Leave one effect out, and what there is only with it, the rest as it is."""
     unknowns = estimate.problem.unknowns
     left = tuple(name for name in unknowns.effects if name != effect and EFFECT_BY_NAME[name].implies != effect)
@@ -99,7 +99,7 @@ def _drop_effect(estimate: Estimate, effect: str) -> Estimate:
 
 def refit_without(model: Model, effect: str, hold_out: HoldOut) -> Model:
     """Fit a model again without one effect, and without what there is only with it, from where it is."""
-    begin = _drop_effect(model.estimate, effect)
+    begin = drop_effect(model.estimate, effect)
     fitted = fit_speeds(begin) if model.learned is None else fit_beside_torque(begin, model.learned)
     again = validate_model(hold_out, fitted, model)
     return refine_beside_torque(again, hold_out) if again.beside_torque else again

@@ -136,6 +136,9 @@ MINOR_SHARE = 0.3
 # Measured: 0.52 to 1.4 where such friction is in the motor, 0.25 and less where a backlash is, beside torques of 0.2 to
 # 2.5 % of the supply; next to none (of 20 to 50) for two such frictions in motors that turned round a few times.
 PRESLIDING_SHARE = 0.4
+# Of log likelihood: what a bridge that slews gains beyond the lag that stands in for it. Measured: 130 to 1,900 where
+# a bridge slews (and -14 where one level each way leaves nothing to tell them by), -45 to -2,000 for lags.
+SLEWING_GAIN = 20.0
 
 # Times the gap without it: where nothing explains what is missing, what leaves less is worth telling. Measured: 0.46
 # for friction under a coasting bridge, of a real motor whose current is gone before the off time ends.

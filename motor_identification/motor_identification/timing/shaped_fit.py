@@ -45,6 +45,7 @@ class Shaper:
     recordings: Sequence[Recording]
     estimate: Estimate
     restrict: Callable[[Problem], Problem] | None  # to what a fit may see; all, without
+    known: tuple[str, ...] = ()  # effects that are in the motor, whatever its timing
     rows: RowTimes = AS_STAMPED
 
     @cached_property
@@ -57,7 +58,7 @@ class Shaper:
         timed = replace(timing, rows=self.rows).set_on(self.recordings)
         driven = np.concatenate([recording.voltage for recording in timed])
         both = min(-driven.min(), driven.max()) >= BOTH_WAYS * np.abs(driven).max()
-        shaping, begin = normalised((*(SHAPING_BOTH_WAYS if both else SHAPING), *beside)), self.estimate
+        shaping, begin = normalised((*(SHAPING_BOTH_WAYS if both else SHAPING), *self.known, *beside)), self.estimate
         problem = make_problem(timed, shaping, begin.problem.workers, begin.problem.stopped)
         problem = problem if self.restrict is None else self.restrict(problem)
         row = problem.sample_period

@@ -22,6 +22,7 @@ from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.smoothing import AS_LIKELY, Likelihood, find_filter
 from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, Timing, is_open
+from motor_model.effects import EFFECT_BY_NAME, LAGS
 from motor_model.sample import Measurement
 
 # Of log likelihood, in all and a row, which another timing has to be worth. Measured: 100 and more, 0.1 to 1 a row,
@@ -33,23 +34,32 @@ TOO_EARLY = Timing(1.0, -1.5, "")  # half a row more than any program makes spee
 
 
 def find_timing(
-    recordings: Sequence[Recording], estimate: Estimate, restrict: Callable[[Problem], Problem] | None = None
+    recordings: Sequence[Recording],
+    estimate: Estimate,
+    restrict: Callable[[Problem], Problem] | None = None,
+    beside: Sequence[str] = (),
 ) -> Timing | None:
     """Find when the speeds of recordings were made, and how smoothed they are, as their motion shows.
 
     None if as assumed, or as was said. estimate: of the same motor, as the assumed timing gives it. restrict: to what a
-    fit may see; all, without.
+    fit may see; all, without. beside: effects that are known to be in the motor; of what only makes it late, and of
+    what repeats with its angle, the timing is found without.
     """
     few = sum(len(recording) for recording in recordings) < LEAST_SPEEDS
     if few or any(recording.info.measurement is not Measurement.SPEED for recording in recordings):
         return None
-    shaper = Shaper(recordings, estimate, restrict)
+    shaper = Shaper(recordings, estimate, restrict, _list_shaping(beside))
     found = _find_as_stamped(shaper)
     if found is not None and _are_open(recordings):
         rows = _find_row_times(shaper, found)
         again = _find_as_stamped(replace(shaper, rows=rows)) if rows != AS_STAMPED else None
         found = found if again is None else replace(again, rows=rows)
     return None if found == ASSUMED else found
+
+
+def _list_shaping(effects: Sequence[str]) -> tuple[str, ...]:
+    """List what shapes a motion, of some effects, and makes it neither late nor repeats with its angle."""
+    return tuple(name for name in effects if name not in LAGS and not EFFECT_BY_NAME[name].periodic)
 
 
 def _find_row_times(shaper: Shaper, timing: Timing) -> RowTimes:

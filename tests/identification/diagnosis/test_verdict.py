@@ -19,9 +19,9 @@ def finding(*rivals: str) -> Finding:
     return Finding("coulomb_friction", 5.0, 1.0, 100.0, "", {}, (), rivals, "coast" if rivals else "")
 
 
-def chosen(model: Model, building_up: Structure | None = None) -> Selection:
+def chosen(model: Model, outside: Structure | None = None) -> Selection:
     """A selection that ended with a model, and maybe without a backlash that stood in for something."""
-    return replace(selection_of(model), building_up=building_up)
+    return replace(selection_of(model), outside=outside)
 
 
 AT, OVER = 0.999 * thresholds.EXPLAINED_GAP, 1.001 * thresholds.EXPLAINED_GAP
@@ -74,9 +74,9 @@ def test_what_is_not_determined_takes_nothing_from_what_explains_everything() ->
 def test_a_backlash_that_stood_in_for_a_friction_that_builds_up_leaves_that_unexplained(
     findings: tuple[Finding, ...],
 ) -> None:
-    building_up = Structure("past", 0.005, 25.0, relevant=True)
-    selection = chosen(stub_model(AT, 0.0), building_up)
-    assert building_up.certain and selection.structure == (building_up,) and not selection.complete
+    outside = Structure("past", 0.005, 25.0, relevant=True)
+    selection = chosen(stub_model(AT, 0.0), outside)
+    assert outside.certain and selection.structure == (outside,) and not selection.complete
     assert decide(findings, selection, ()) == (Verdict.UNEXPLAINED, "")
 
 

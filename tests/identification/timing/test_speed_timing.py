@@ -6,6 +6,8 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
+from plant import profiles, record
+from recorded import as_speed, without_count
 from swinging import RUBBING, noisy
 
 from motor_identification.diagnose import diagnose
@@ -93,6 +95,32 @@ def test_a_dead_time_is_none_of_the_timing() -> None:
     assert timing_of(check(noisy(0.05, delay=0.015))) is None
     found = timing_of(check(noisy(0.05, delay=0.015, instant=True)))
     assert found is not None and (found.window, found.lag) == (INSTANT, 0.0)  # a mean would be less sharp
+
+
+def swept() -> Recording:
+    """Values of instants at 100 Hz of a motor whose supply sags by a sixth at stall, under a sine that gets faster."""
+    time, span = np.arange(640) / 100.0, 6.4
+    voltage = 7.2 * np.sin(np.pi * span / 1.696 * (np.exp(2.0 * time / span) - 1.0) / 3.0)
+    motor = {"kv": 0.049, "ka": 0.0052, "ks": 0.63, "sag": 0.18}
+    drive = profiles.pieces(voltage, np.full(len(time), 0.01))
+    recording, truth = record(motor, *drive, edges=6, sample_rate=100.0, single_channel=False)
+    speed = truth.speed + 0.8 * np.random.default_rng(0).standard_normal(len(truth.speed))
+    return check(without_count(replace(as_speed(recording), speed=speed)))
+
+
+@pytest.mark.parametrize(("known", "lag"), [((), -0.5), (("supply_sag", "transport_delay"), 0.0)])
+def test_what_is_known_to_be_in_a_motor_tells_how_speeds_were_made(known: tuple[str, ...], lag: float) -> None:
+    """Without the sag they seem to be half a row younger than they are."""
+    recording = swept()
+    estimate, _ = search_globally(make_problem([recording], known[:1]), SearchConfig())
+    found = find_timing([recording], estimate, None, known)
+    assert found is not None and found.lag == lag
+
+
+def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it() -> None:
+    found = diagnose([swept()])
+    assert {finding.effect for finding in found.findings} == {"coulomb_friction", "supply_sag"}
+    assert found.verdict is Verdict.EXPLAINED and found.model.timing == OTHERS[0]
 
 
 def test_what_was_said_is_believed() -> None:

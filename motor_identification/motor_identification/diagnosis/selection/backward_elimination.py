@@ -3,6 +3,7 @@
 Backward elimination is the second half of a stepwise selection.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
@@ -15,8 +16,10 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.evidence.presliding_evidence import find_presliding
 from motor_identification.diagnosis.evidence.replacement import is_better
+from motor_identification.diagnosis.evidence.slewing_evidence import find_slewing
 from motor_identification.diagnosis.selection.rivals import list_lost, try_in_place
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
+from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
@@ -49,9 +52,9 @@ def _check_step(
         current = _judge_by_errors_of(without.learned, current, selection.hold_out)
     if not CandidateTest(effect, without, current).is_likely(likelihood_threshold()):
         return selection.replace_step(step, None, without)
-    building_up = find_presliding(without, current) if EFFECT_BY_NAME[effect].after_reversals else None
-    if building_up is not None:
-        return replace(selection.replace_step(step, None, without), building_up=building_up)
+    outside = _find_outside([effect], without, current)
+    if outside is not None:
+        return replace(selection.replace_step(step, None, without), outside=outside)
     constant = _find_constant(effect, without, current, selection.hold_out)
     if constant is not None:
         by = replace(step, found=constant, rivals=tuple(name for name in step.rivals if name != constant.effect))
@@ -60,7 +63,20 @@ def _check_step(
     lost = list_lost(step, current.effects)
     if compared and step is selection.steps[-1] and judged_alike and not lost:
         return selection
-    return try_in_place(selection, step, without, current, reporter)
+    better = try_in_place(selection, step, without, current, reporter)
+    put = [name for name in better.model.effects if name not in current.effects]
+    outside = _find_outside(put, without, better.model)
+    return better if outside is None else replace(selection.replace_step(step, None, without), outside=outside)
+
+
+def _find_outside(effects: Sequence[str], without: Model, current: Model) -> Structure | None:
+    """Find what is outside the table and explains what one of some effects of the current model stands in for."""
+    for effect in effects:
+        presliding = find_presliding(without, current) if EFFECT_BY_NAME[effect].after_reversals else None
+        found = presliding or find_slewing(effect, without, current)
+        if found is not None:
+            return found
+    return None
 
 
 def _find_constant(effect: str, without: Model, current: Model, hold_out: HoldOut) -> CandidateTest | None:

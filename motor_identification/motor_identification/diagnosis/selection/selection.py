@@ -37,17 +37,17 @@ class Selection:
     hold_out: HoldOut
     workers: int  # effects that are tried at a time
     refused: bool = False  # whether something likely takes away too little of what lasts, as far as the sensor tells
-    building_up: Structure | None = None  # of a friction that builds up, for which a backlash stood in
+    outside: Structure | None = None  # of what is outside the table, for which a finding stood in
 
     @property
     def structure(self) -> tuple[Structure, ...]:
         """What can be predicted of what is left, the most telling variable first."""
-        return (*([] if self.building_up is None else [self.building_up]), *self.model.structure)
+        return (*([] if self.outside is None else [self.outside]), *self.model.structure)
 
     @property
     def complete(self) -> bool:
         """Whether nothing is left that can be predicted, and no effect was dropped that stood in for something."""
-        return self.model.complete and self.building_up is None
+        return self.model.complete and self.outside is None
 
     def add(self, steps: Sequence[SelectionStep]) -> "Selection":
         """Add steps, and fit the model that they lead to once more on corrected recordings."""

@@ -70,8 +70,8 @@ def test_the_limit_lies_far_from_both(monkeypatch: pytest.MonkeyPatch, hidden: s
 def test_elimination_takes_a_stand_in_back_and_leaves_it_unexplained(hidden: str) -> None:
     left = eliminate_backward(selected(hidden), SILENT)
     stands_in = hidden == "presliding"
-    assert (not left.steps and left.building_up is not None and not left.complete) is stands_in
-    assert (len(left.steps) == 1 and left.building_up is None) is not stands_in
+    assert (not left.steps and left.outside is not None and not left.complete) is stands_in
+    assert (len(left.steps) == 1 and left.outside is None) is not stands_in
 
 
 def test_both_are_judged_beside_the_torque_that_is_there() -> None:

@@ -1,0 +1,121 @@
+"""Judge a lag by a bridge that slews: its output follows every change of the command no faster than so many V/s.
+
+Soft starts and ramps of motor controllers do that. It is not in the table, and a dead time or an inductance stands in
+for it. After a change by U volts at a rate r the output is late by U/(2·r) in the mean; a lag is late by the same after
+any. Here the recorded command is made to slew before the motor gets it, as the mean of every row.
+"""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import exp, log
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_fit import drop_effect
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import likelihood_threshold
+from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque, list_error_data
+from motor_identification.discrepancy.free_curves import PAST
+from motor_identification.discrepancy.structure import Structure
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.least_squares import fit_speeds
+from motor_identification.noise.error_data import log_likelihood
+from motor_identification.noise.gain_learning import learn_errors_of_runs
+from motor_identification.recording import Floats, Recording
+from motor_model.compiled import compiled
+from motor_model.effects import EFFECT_BY_NAME, LAGS
+
+APART = 1.6  # of rates tried about that which makes the command as late as the lag
+PRECISION, MOST_FITS = 0.03, 8  # of the logarithm of the rate, and fits that find it
+
+
+def find_slewing(effect: str, without: Model, current: Model) -> Structure | None:
+    """Find the slewing bridge that makes the motion likelier than a lag of a model, which is not needed beside it.
+
+    without: the model that lacks the lag. None where the lag does not stand in for such a bridge.
+    """
+    if effect not in LAGS or not (current.beside_torque or current.above_floor):
+        return None
+    having, lacking = (_score(model.estimate, current) for model in (current, without))
+    bare = drop_effect(current.estimate, effect)
+    rate = _guess_rate(current.estimate.problem.recordings, current.estimate.parameters.value(_time_of(effect)))
+    likeliest = _find_rate(bare, current, rate, having - 0.5 * abs(having - lacking))
+    if likeliest is None:
+        return None
+    slewing = _fit_slewing(bare, current, likeliest)
+    found = _score(slewing, current)
+    if found <= having + thresholds.SLEWING_GAIN:
+        return None
+    both = _score(_fit_slewing(current.estimate, current, likeliest), current)
+    return None if both > found + likelihood_threshold() else _describe(slewing, without, found - lacking)
+
+
+def _time_of(effect: str) -> str:
+    return EFFECT_BY_NAME[effect].parameters[0].name
+
+
+def _guess_rate(recordings: Sequence[Recording], lag: float) -> float:
+    """Guess the rate [V/s] at which changes of a command, by size, are as late in the mean as a lag [s] makes them."""
+    changes = np.abs(np.concatenate([np.diff(recording.voltage) for recording in recordings]))
+    return float(np.sum(changes**2) / (2.0 * lag * np.sum(changes)))
+
+
+def _find_rate(bare: Estimate, current: Model, guess: float, least: float) -> float | None:
+    """Find the rate [V/s] with which the motion is likeliest, about a guess; None where it is not above `least`."""
+
+    def likelihood(rate: float) -> float:
+        return log_likelihood(list_error_data(_fit_slewing(bare, current, rate)), current.errors, current.lag)
+
+    tried = [(likelihood(rate), rate) for rate in (guess / APART, guess, guess * APART)]
+    most, best = max(tried)
+    if most <= least:
+        return None
+    within = log(best / APART), log(best * APART)
+    options = {"xatol": PRECISION, "maxiter": MOST_FITS}
+    found = minimize_scalar(lambda x: -likelihood(exp(x)), bounds=within, method="bounded", options=options)
+    return exp(found.x) if -found.fun > most else best
+
+
+def _fit_slewing(estimate: Estimate, current: Model, rate: float) -> Estimate:
+    """Fit an estimate again to recordings whose command slews at a rate [V/s], as a model was fitted."""
+    slewing = tuple(slew(recording, rate) for recording in estimate.problem.recordings)
+    begin = estimate.on(replace(estimate.problem, recordings=slewing))
+    return fit_speeds(begin) if current.learned is None else fit_beside_torque(begin, current.learned)
+
+
+def _score(estimate: Estimate, current: Model) -> float:
+    """Compute the log likelihood of what is left, under errors that are learned of it."""
+    rows = list_error_data(estimate)
+    learned = learn_errors_of_runs(rows, estimate.lag, current.errors, thresholds.CANDIDATE_EVALUATIONS)
+    return log_likelihood(rows, learned, estimate.lag)
+
+
+def _describe(slewing: Estimate, without: Model, gain: float) -> Structure:
+    """Describe what a slewing bridge takes away of what a model leaves without it: it goes with the past."""
+    share = 1.0 - slewing.cost / without.estimate.cost
+    count = sum(len(data.first) for data in slewing.problem.intervals)
+    white_share = 1.0 - exp(-2.0 * gain / count)  # where the sensor hides it
+    return Structure(PAST, max(share, white_share), gain, relevant=True)
+
+
+def slew(recording: Recording, rate: float) -> Recording:
+    """Make a recording's command slew at a rate [V/s]: the mean of every row."""
+    given = np.empty_like(recording.voltage)
+    durations = np.diff(recording.time, append=recording.time[-1] + recording.info.sample_period)
+    follow(recording.voltage, durations, rate, given)
+    return replace(recording, voltage=given)
+
+
+@compiled
+def follow(command: Floats, duration: Floats, rate: float, given: Floats) -> None:
+    """Average [V] what follows a command [V] at a rate [V/s] over rows of durations [s], all of shape (S,)."""
+    output = command[0]
+    for s in range(len(command)):
+        change = command[s] - output
+        way = 1.0 if change > 0.0 else -1.0
+        possible = rate * duration[s]
+        reached = min(way * change, possible)
+        given[s] = output + way * reached * (1.0 - 0.5 * reached / possible)
+        output += way * reached

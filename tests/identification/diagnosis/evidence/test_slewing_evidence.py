@@ -1,0 +1,82 @@
+"""A bridge that slews is told from the lag that stands in for it by the motion that both were fitted to."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from plant import profiles, record
+
+from motor_identification.diagnose import fit_known
+from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_fit import refit_without
+from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.evidence.slewing_evidence import find_slewing, follow
+from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_beside_torque
+from motor_identification.estimation.request import Request
+from motor_identification.progress import ProgressReporter
+from motor_identification.recording import check
+from motor_identification.validation.hold_out import make_hold_out
+
+SILENT = ProgressReporter(lambda stage: None, lambda: False)
+HIDDEN = {
+    "slewing": {"slew_rate": 150.0},
+    "inductance": {"electrical_time_constant": 0.01},
+    "both": {"slew_rate": 150.0, "electrical_time_constant": 0.01},
+}
+
+
+@cache
+def selected(hidden: str) -> Selection:
+    """What is found of a motor with a friction beside a random torque: an inductance."""
+    motor = {"kv": 0.07, "ka": 0.0055, "ks": 0.4} | HIDDEN[hidden]
+    torque = {"random_torque": 0.05, "random_torque_time": 0.05, "random_torque_seed": 3.0}
+    recording = check(record(motor | torque, *profiles.random(12.0, 12.0, 3), seed=3)[0])
+    hold_out = make_hold_out([recording], [])
+    known, _search = fit_known([recording], Request(effects=("coulomb_friction", "armature_inductance")), hold_out)
+    model = begin_beside_torque(known.model, known.hold_out, 1).model
+    without = refit_without(model, "armature_inductance", known.hold_out)
+    test = CandidateTest("armature_inductance", without, model)
+    return Selection((SelectionStep(without, test, (test,), (), 1.0),), model, known.hold_out, 1)
+
+
+@pytest.mark.parametrize(("hidden", "stands_in"), [("slewing", True), ("inductance", False), ("both", False)])
+def test_an_inductance_stands_in_for_a_slewing_bridge(hidden: str, stands_in: bool) -> None:
+    (step,) = selected(hidden).steps
+    found = find_slewing("armature_inductance", step.before, step.found.model)
+    assert (found is not None) is stands_in
+    if found is not None:
+        assert found.variable == "past" and found.certain
+        assert 0.9 < found.share < 1.0 and 2000.0 < found.significance < 2700.0
+
+
+@pytest.mark.parametrize(("gain", "stands_in"), [(1800.0, True), (2050.0, False)])
+def test_slewing_has_to_gain_more_than_the_lag_by_a_margin(
+    monkeypatch: pytest.MonkeyPatch, gain: float, stands_in: bool
+) -> None:
+    monkeypatch.setattr(thresholds, "SLEWING_GAIN", gain)
+    (step,) = selected("slewing").steps
+    assert (find_slewing("armature_inductance", step.before, step.found.model) is not None) is stands_in
+
+
+def test_only_lags_are_judged() -> None:
+    (step,) = selected("slewing").steps
+    assert find_slewing("coulomb_friction", step.before, step.found.model) is None
+
+
+@pytest.mark.parametrize("hidden", ["slewing", "inductance"])
+def test_elimination_takes_a_stand_in_back_and_leaves_it_unexplained(hidden: str) -> None:
+    left = eliminate_backward(selected(hidden), SILENT)
+    stands_in = hidden == "slewing"
+    assert (not left.steps and left.outside is not None and not left.complete) is stands_in
+    assert (len(left.steps) == 1 and left.outside is None) is not stands_in
+
+
+def test_a_slewing_output_follows_in_rows_means() -> None:
+    """Of 0 V, then 10 V: at 2 V a row the means are 1, 3, 5, 7, 9 V; at 4 V a row the third row reaches it halfway."""
+    command, row = np.array([0.0, *[10.0] * 6]), 0.01
+    for rate, means in ((200.0, [0, 1, 3, 5, 7, 9, 10]), (400.0, [0, 2, 6, 9.5, 10, 10, 10])):
+        for sign in (1.0, -1.0):
+            given = np.empty_like(command)
+            follow(sign * command, np.full(7, row), rate, given)
+            np.testing.assert_allclose(given, sign * np.array(means), atol=1e-12)
