@@ -92,7 +92,7 @@ def _phi_from_growth(z: Number, growth: Number) -> tuple[Number, Number, Number]
 
 
 @compiled
-def _phi_triple(z: float) -> tuple[float, float, float]:
+def phi_triple(z: float) -> tuple[float, float, float]:
     """φ1, φ2 and φ3 of a real number."""
     if abs(z) < SMALL:
         return _phi_series(z)
@@ -126,8 +126,8 @@ def _halves(mean: float, square: float, h: float) -> Halves:
         one, two, three = _complex_phi_triple(complex(mean * h, gap * h))
         return Halves(one.real, one.imag / gap, two.real, two.imag / gap, three.real, three.imag / gap)
     gap = max(gap, DOUBLE / h)
-    upper1, upper2, upper3 = _phi_triple((mean + gap) * h)
-    lower1, lower2, lower3 = _phi_triple((mean - gap) * h)
+    upper1, upper2, upper3 = phi_triple((mean + gap) * h)
+    lower1, lower2, lower3 = phi_triple((mean - gap) * h)
     share = 0.5 / gap
     return Halves(
         0.5 * (upper1 + lower1), share * (upper1 - lower1),

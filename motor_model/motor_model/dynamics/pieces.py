@@ -39,7 +39,7 @@ EARLY, LATE = 0.5 - sqrt(1 / 12), 0.5 + sqrt(1 / 12)  # Gauss nodes of a piece
 
 
 @compiled
-def _ripple_piece(p: Floats, speed: float, acceleration: float, inertia: float) -> float:
+def ripple_piece(p: Floats, speed: float, acceleration: float, inertia: float) -> float:
     """[s] for which a ripple is a line.
 
     Where it passes with a frequency f = cycles·ω, two Gauss nodes miss a share (f·h)⁴/4320 of its acceleration r, and
@@ -85,7 +85,7 @@ def longest_piece(p: Floats, s: State, acceleration: float, inertia: float, want
         if cube < wanted * wanted * wanted:  # a root takes a quarter of all that a piece takes
             longest = min(longest, cube ** (1.0 / 3.0))
     if p[RIPPLE] != 0.0:
-        longest = min(longest, _ripple_piece(p, abs(s.speed), acceleration, inertia))
+        longest = min(longest, ripple_piece(p, abs(s.speed), acceleration, inertia))
     return float(longest * p[COARSENESS])
 
 

@@ -9,7 +9,8 @@ motor at the complex frequency σ, and G′, G″ its derivatives at i·f,
 
 its travel that of G(σ)/σ. Beside the swing the shaft turns as if there was no ripple (`straight.py`). What this leaves
 out is the ripple's own doing to its phase, of second order in the swing. A piece of `pieces.py` is a small part of a
-period; where a step has many periods, as between the rows of a log of a fast motor, this is one piece.
+period; where a step has many periods, as between the rows of a log of a fast motor, this is one piece. Without
+inductance fewer are quicker as they are (`rippled_slide.py`).
 """
 
 from math import cos, sin, sqrt
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 
 from motor_model.compiled import compiled
 from motor_model.dynamics.pieces import RIPPLE_BEND, RIPPLE_TURN
+from motor_model.dynamics.rippled_slide import slide
 from motor_model.dynamics.state import State
 from motor_model.dynamics.straight import Hold, Lagging, Torques, turn, turn_lagging
 from motor_model.effects import INDEX
@@ -34,7 +36,7 @@ COARSENESS, GEAR = INDEX["coarseness"], INDEX["gear_ratio"]
 # told, what is left is of the third order. Measured against pieces a hundredth as long: of the travel 6e-9 in the
 # median, 6e-7 in one of a hundred; pieces as they are leave as much.
 OWN_PHASE = 5e-4
-PIECES = 1.2  # of `pieces.py` that take as long as one of these
+PIECES, SLIDES = 1.2, 3.0  # of `pieces.py`, and of `rippled_slide.py`, that take as long as one of these
 
 
 class Response(NamedTuple):
@@ -99,7 +101,7 @@ def count_parts(p: Floats, hold: Hold, s: State, h: float, w: float) -> int:
     """Count the parts of a step of h [s] in each of which a ripple's phase goes evenly; 0 where pieces are as quick."""
     cycles = p[CYCLES] * p[GEAR]
     frequency = cycles * abs(s.speed)
-    most = frequency * h / (PIECES * RIPPLE_TURN * p[COARSENESS])
+    most = frequency * h / ((PIECES if p[LAG] > 0.0 else SLIDES) * RIPPLE_TURN * p[COARSENESS])
     if most < 1.0:
         return 0
     swing = abs(w * p[RIPPLE] * _simple_response(p, hold, w, frequency)) / frequency
@@ -172,6 +174,9 @@ def turn_rippled(
     or faster than `least` [rad/s].
     """
     travel, fast, parts = 0.0, 0.5 * abs(s.speed), count_parts(p, hold, s, h, w)
+    if parts == 0 and p[LAG] == 0.0:
+        then, travel = slide(p, hold, s, h, w, least)
+        return then, s.drive, travel, latest
     if parts == 0:
         return 0.0, 0.0, 0.0, latest
     for _ in range(parts):

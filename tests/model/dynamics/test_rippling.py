@@ -25,9 +25,8 @@ def motor(values: dict[str, float], *effects: str, supply: float = 5.0) -> NDArr
 def step(p: NDArray, u: float, s: State, h: float) -> tuple[float, float, float] | None:  # type: ignore[type-arg]
     """Speed, v and travel in closed form; None where that is left to the pieces."""
     hold = prepare_hold(p, u, find_torques(p, 0.0))
-    assert (count_parts(p, hold, s, h, 1.0) == 0) == (turn_rippled(p, hold, s, h, 1.0, 0.0, begin_lag())[0] == 0.0)
     found = turn_rippled(p, hold, s, h, 1.0, 0.0, begin_lag())
-    return found[:3] if found[0] != 0.0 else None
+    return found[:3] if count_parts(p, hold, s, h, 1.0) > 0 and found[0] != 0.0 else None
 
 
 def test_it_turns_as_pieces_do_that_are_far_shorter() -> None:
@@ -95,9 +94,8 @@ def test_a_step_in_which_the_speed_changes_has_more_parts() -> None:
 @pytest.mark.parametrize("u", [-5.0, 0.3])
 def test_a_shaft_that_slows_down_too_much_is_left_to_the_pieces(u: float) -> None:
     """It comes to rest, or to where the ripple is slow."""
-    p = motor(FAST | {"ka": 9.4e-6})
+    p, h = motor(FAST | {"ka": 7e-5}), 0.05
     s, hold = State(0.0, 1000.0, 0.0, 0.0, 1.0, 0.0), prepare_hold(p, u, find_torques(p, 0.0))
-    h = 0.05 if u < 0.0 else 0.01
     assert count_parts(p, hold, s, h, 1.0) > 0 and turn_rippled(p, hold, s, h, 1.0, 0.0, begin_lag())[0] == 0.0
 
 
