@@ -89,9 +89,9 @@ def _count_lacking(off: Floats, slope: float, neighbours: int) -> Floats:
     share, most = MOST_LACKING
     if neighbours > MOST_NEIGHBOURS or len(off) < 2 * neighbours:
         return lacking
+    rest = off.copy()
+    middles = np.median(sliding_window_view(rest, neighbours), axis=1)
     for _ in range(min(int(share * len(off)), most)):
-        rest = off - slope * lacking
-        middles = np.median(sliding_window_view(rest, neighbours), axis=1)
         jumps = middles[neighbours:] - middles[:-neighbours]
         at = int(np.argmax(jumps))
         if jumps[at] < LACKING * slope:
@@ -100,7 +100,12 @@ def _count_lacking(off: Floats, slope: float, neighbours: int) -> Floats:
             np.square(rest[at : at + 2 * neighbours] - middles[place]) for place in (at, at + neighbours)
         )  # from which row on: where early rows are nearer to the one, and later rows to the other
         begin = at + int(np.argmin(np.cumsum(early - later))) + 1
-        lacking[begin:] += max(round(float(jumps[at]) / slope), 1)
+        count = max(round(float(jumps[at]) / slope), 1)
+        for shifted in (rest, middles):
+            shifted[begin:] -= slope * count
+        lacking[begin:] += count
+        first = max(begin - neighbours + 1, 0)  # of the windows that have rows of either side
+        middles[first:begin] = np.median(sliding_window_view(rest[first : begin + neighbours - 1], neighbours), axis=1)
     return lacking
 
 
