@@ -82,13 +82,17 @@ class Model:
     def whitened(self) -> WhitenedFit:
         """The last stage of its fit, which its parameters and their standard errors are said from.
 
-        What repeats with the angle is fitted beside the random torque already, which hides its phase elsewhere; and
-        what is common to runs whose gains differ, beside these.
+        Beside a random torque where there is one and nothing else is left: of a motor that it moves slowly, encoders
+        alone tell parameters a fifth as well. What repeats with the angle has its phase there at any rate, and runs
+        whose gains differ what they have in common.
         """
+        errors = self.learned
+        if errors is None:
+            return fit_whitened(self.estimate)
         periodic = any(EFFECT_BY_NAME[name].periodic for name in self.effects)
-        if self.learned is not None and (periodic or self.learned.gain > 0.0):
-            return whiten_beside_torque(self.estimate, self.learned)
-        return fit_whitened(self.estimate)
+        random = errors.rms_voltage > 0.0 and self.complete
+        beside = periodic or errors.gain > 0.0 or random
+        return whiten_beside_torque(self.estimate, errors) if beside else fit_whitened(self.estimate)
 
     @cached_property
     def uncertainty(self) -> Uncertainty:
