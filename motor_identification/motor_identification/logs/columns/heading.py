@@ -152,7 +152,14 @@ def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
         return Quantity.SPEED
     if Quantity.VOLTAGE in told and Quantity.DUTY in told:
         return Quantity.VOLTAGE
-    return told[0] if told else None
+    return _quantity_of_an_output(words, told) or (told[0] if told else None)
+
+
+def _quantity_of_an_output(words: tuple[str, ...], told: list[Quantity]) -> Quantity | None:
+    """`output speed` is the speed that comes out, `speed output` what a controller of speeds puts out; else None."""
+    if told[:1] != [Quantity.DUTY] or WORDS[Quantity.DUTY] & set(words) - OUTPUTS:
+        return None
+    return next((kind for kind in told if kind in MOVES and words[-1] in WORDS[kind]), None)
 
 
 def _is_duty_whatever_its_unit(words: tuple[str, ...], unit: str, told: list[Quantity]) -> bool:

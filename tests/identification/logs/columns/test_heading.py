@@ -81,6 +81,12 @@ Commande [pt]     | duty           | count |
 COMMANDE [Volts]  | voltage        | V     |
 PWM [ticks]       | duty           | count |
 output counts     | count          | count |
+output_speed      | speed          |       |
+outputVelocity    | speed          |       |
+output angle      | position       |       |
+speed_output      | duty           |       |
+pwm output speed  | duty           |       |
+velocidad_salida  | duty           |       |
 Commande vitesse  | reference      |       |
 POSITION [degrés] | position       | deg   |
 VIT. MOTEUR [rad/sec] | speed      | rad/s |
