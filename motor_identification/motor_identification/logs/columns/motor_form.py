@@ -8,8 +8,20 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour.following import is_speed_by_drive
 from motor_identification.logs.columns.behaviour.standing_start import begins_at_rest
+from motor_identification.logs.columns.cautions import (
+    ROUNDED,
+    caution_beyond_full,
+    caution_running_without_drive,
+    caution_set_point,
+)
 from motor_identification.logs.columns.direction import guess_direction
-from motor_identification.logs.columns.drive import Drive, duty_drive, find_same_levels, supply_scale, voltage_drive
+from motor_identification.logs.columns.drive import (
+    VOLTAGE_WORDS,
+    Drive,
+    duty_drive,
+    supply_scale,
+    voltage_drive,
+)
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.increments import count_anew
 from motor_identification.logs.columns.movement import ASKED, Unit, guess_kind, guess_position_unit, guess_speed_unit
@@ -26,7 +38,6 @@ Floats = NDArray[np.float64]
 
 STEPS_BETWEEN = 0.8  # of the rows that a steady curve's voltage changes in
 WHOLE_DEGREES = 360  # counts a turn, which are degrees as well
-ROUNDED = 0.01  # of full duty, by which rounding may go beyond it
 ELECTRICAL = "of electrical turns: speeds are those of the shaft times its pole pairs"
 _KINDS = {Quantity.SPEED: Kind.SPEED, Quantity.POSITION: Kind.POSITION, Quantity.COUNT: Kind.COUNT}
 _ORDER = (Kind.SPEED, Kind.COUNT, Kind.POSITION)  # `count` is a count before it is a position
@@ -60,7 +71,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     said = say_turn_counts(table, pair, stamps, said, notes)
     drive, scale, supply = _drive(table, pair, roles, said, notes)
     driven = bool(pair.label or np.any(table.numbers(pair.voltage)))  # of several motors, one may not be
-    _caution_beyond_full(table, pair, drive, notes)
+    caution_beyond_full(table, pair, drive.full, notes)
     volts = supply_scale(read_heading(supply), table.numbers(supply)) if supply else (1.0, "")
     beside = f", times {supply} in {volts[1]}" if supply else ""
     notes.findings.append(f"Voltage{whose}: {pair.voltage} {drive.why}{beside}.")
@@ -73,7 +84,8 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
             replace(said, units_per_revolution=tau),
         )
     if kind is Kind.SPEED and said.constant_voltage is None:
-        _caution_set_point(table, pair, notes)
+        caution_set_point(table, pair, notes)
+        caution_running_without_drive(table, pair, notes)
     why = f" ({unit.why})" if unit.why else ""
     notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}{beside_it}.")
     if rows.time is None and not said.steady:
@@ -124,7 +136,8 @@ def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> 
         return Drive(1.0, f"is {said.constant_voltage:g} V in every row, as said"), 1.0, None
     if said.voltage_scale is not None:
         return Drive(said.voltage_scale, f"times {said.voltage_scale:g} V"), said.voltage_scale, None
-    if said.full_duty or heading.quantity is Quantity.DUTY or _is_beyond(heading, values, said.supply_voltage):
+    no_volts = _is_beyond(heading, values, said.supply_voltage) or _is_share(heading, values, said.supply_voltage)
+    if said.full_duty or heading.quantity is Quantity.DUTY or no_volts:
         drive = duty_drive(heading, _duties(table, pair, roles), said.full_duty)
     else:
         drive = voltage_drive(heading, values)
@@ -155,26 +168,12 @@ def _is_beyond(heading: Heading, values: Floats, supply: float | None) -> bool:
     return supply is not None and not heading.unit and largest > supply * (1.0 + ROUNDED)
 
 
-def _caution_beyond_full(table: Table, pair: Pair, drive: Drive, notes: Notes) -> None:
-    """Tell of duties beyond the full one that was said: another scale, or a code of a program's own."""
-    values = np.abs(table.numbers(pair.voltage))
-    beyond = values > drive.full * (1.0 + ROUNDED) if drive.full else np.zeros(0, bool)
-    if beyond.any():
-        notes.findings.append(
-            f"Caution: {pair.voltage} goes up to {np.max(values):g}, beyond the full duty of {drive.full:g}, in "
-            f"{np.count_nonzero(beyond)} rows: no bridge gives more than its supply. Check --full-duty, or leave out "
-            "rows whose number is a code."
-        )
-
-
-def _caution_set_point(table: Table, pair: Pair, notes: Notes) -> None:
-    """Tell of a drive whose numbers are those of the motion: what it should be, or has been."""
-    levels = find_same_levels(table.numbers(pair.voltage), table.numbers(pair.motion))
-    if levels:
-        notes.findings.append(
-            f"Caution: at {levels} levels {pair.motion} comes to the numbers of {pair.voltage} themselves, as a speed "
-            "comes to its set-point: neither may be what drives the motor. Check them, and say --voltage and --speed."
-        )
+def _is_share(heading: Heading, values: Floats, supply: float | None) -> bool:
+    """Whether values without a unit are shares of the supply's voltage, which was said: none is above 1."""
+    largest = float(np.max(np.abs(values), initial=0.0))
+    return (
+        supply is not None and supply > 1.0 >= largest and not heading.unit and not set(heading.words) & VOLTAGE_WORDS
+    )
 
 
 def _duties(table: Table, pair: Pair, roles: Roles) -> Floats:
