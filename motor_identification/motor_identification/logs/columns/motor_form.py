@@ -6,6 +6,7 @@ from math import tau
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.behaviour.codes import find_codes
 from motor_identification.logs.columns.behaviour.following import is_speed_by_drive
 from motor_identification.logs.columns.behaviour.standing_start import begins_at_rest
 from motor_identification.logs.columns.cautions import (
@@ -71,7 +72,8 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     said = say_turn_counts(table, pair, stamps, said, notes)
     drive, scale, supply = _drive(table, pair, roles, said, notes)
     driven = bool(pair.label or np.any(table.numbers(pair.voltage)))  # of several motors, one may not be
-    caution_beyond_full(table, pair, drive.full, notes)
+    codes = () if said.full_duty or not drive.full else find_codes(table.numbers(pair.voltage))
+    caution_beyond_full(table, pair, None if codes else drive.full, notes)
     volts = supply_scale(read_heading(supply), table.numbers(supply)) if supply else (1.0, "")
     beside = f", times {supply} in {volts[1]}" if supply else ""
     notes.findings.append(f"Voltage{whose}: {pair.voltage} {drive.why}{beside}.")
@@ -124,6 +126,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
         label=pair.label,
         direction=direction.column if direction else None,
         backward=direction.backward if direction else (),
+        codes=codes,
         increments=increments,
         **{name: getattr(said, name) for name in same},
     )
@@ -179,7 +182,8 @@ def _is_share(heading: Heading, values: Floats, supply: float | None) -> bool:
 def _duties(table: Table, pair: Pair, roles: Roles) -> Floats:
     """The duties of all motors of a table, any shape: what is full is the same for each, also for one that stands."""
     drives = {one.voltage for one in roles.pairs if read_heading(one.voltage).quantity is Quantity.DUTY}
-    return np.concatenate([table.numbers(name) for name in sorted(drives | {pair.voltage})])
+    duties = [table.numbers(name) for name in sorted(drives | {pair.voltage})]
+    return np.concatenate([one[~np.isin(one, find_codes(one))] for one in duties])
 
 
 def _motion(
