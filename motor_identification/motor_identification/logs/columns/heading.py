@@ -22,6 +22,7 @@ _BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]")
 _PARTS = re.compile(r"[^\W\d_]+|\d+|%|°")
 _CAMEL = re.compile(r"(?<=[^\W\d_A-ZÀ-Þ])(?=[A-ZÀ-Þ])|(?<=[A-Z])(?=[A-Z][a-z])")
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
+_PULSES = frozenset(["esc", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
 _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
 _AXES, _JOINT_FIELDS = frozenset(["yaw", "pitch", "roll"]), frozenset(["position", "velocity", "effort"])
 _TELLING = frozenset().union(MEASURED, *(WORDS[kind] for kind in (*MOVES, Quantity.VOLTAGE, Quantity.DUTY)))
@@ -163,10 +164,20 @@ def _quantity_of_an_output(words: tuple[str, ...], told: list[Quantity]) -> Quan
 
 
 def _is_duty_whatever_its_unit(words: tuple[str, ...], unit: str, told: list[Quantity]) -> bool:
-    """Whether a name is one of a duty: `pwm_rev`, that of the other way; `PWM [ticks]`, `Commande [pt]`, of a timer."""
+    """Whether a name is one of a duty: `pwm_rev`, that of the other way; `PWM [ticks]`, `Commande [pt]`, of a timer.
+
+    So is `ESC signal (µs)`, of a test stand.
+    """
+    if is_pulse_of_esc(words):
+        return True
     if unit == "rev":
         return Quantity.DUTY in told
     return unit == "count" and told == [Quantity.DUTY] and not (_ORDERS | OUTPUTS) & set(words)
+
+
+def is_pulse_of_esc(words: tuple[str, ...]) -> bool:
+    """Whether a name is that of the pulses which a brushless motor's controller gets, not of what that measures."""
+    return "esc" in words and all(word in _PULSES or word.isdigit() for word in words)
 
 
 def _is_joint(words: tuple[str, ...]) -> bool:

@@ -81,6 +81,17 @@ Commande [pt]     | duty           | count |
 COMMANDE [Volts]  | voltage        | V     |
 PWM [ticks]       | duty           | count |
 output counts     | count          | count |
+ESC signal        | duty           |       |
+ESC signal (µs)   | duty           | us    |
+ESC 1 signal      | duty           |       |
+ESC speed         | speed          |       |
+ESC voltage (V)   | voltage        | V     |
+ESC temperature   | other          |       |
+Motor Efficiency (%) | other       | %     |
+Wirkungsgrad [%]  | other          | %     |
+Motor (%)         | duty           | %     |
+Thrust (gf)       | other          |       |
+idealLinearSpeed  | reference      |       |
 output_speed      | speed          |       |
 outputVelocity    | speed          |       |
 output angle      | position       |       |
