@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from motor_identification.logs.csv.cells import COMMENT, SPACES, is_number, split_line
-from motor_identification.logs.csv.header import find_header
+from motor_identification.logs.csv.header import find_header, find_header_below
 from motor_model.errors import RecordingError
 
 LARGEST = 2**30  # [bytes] of a text table: 10 hours at 1 kHz; more does not fit an ordinary machine's memory as cells
@@ -110,6 +110,7 @@ def find_dialect(lines: Sequence[str]) -> Dialect | None:
     rows = [split_line(line, delimiter) for _, line in begin[place:]]
     width, most = _width(rows), Counter(map(len, rows)).most_common(1)[0][0]
     header = find_header([line for _, line in begin[:place]], begin[place][1], delimiter, comma, width, most)
+    header = header or find_header_below(rows, width, comma)
     names = header or tuple(f"column {k + 1}" for k in range(width))
     return Dialect(delimiter, comma, names, begin[place][0], named=bool(header))
 
