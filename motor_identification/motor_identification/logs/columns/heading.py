@@ -51,11 +51,13 @@ def read_heading(name: str) -> Heading:
         return Heading(name, ("mv",), Quantity.DUTY, "", "")
     unit, rest = _unit_in_brackets(name)
     words = split_words(rest)
+    device = _device(words)
+    words = words[:-2] if device else words
     if not unit:
         behind = 1 if len(words) > 1 and (words[-1] in SIDES or words[-1] == "r") else 0  # rpm_left
         unit, before = _unit_at_the_end(words[: len(words) - behind])
         words = (*before, *words[len(words) - behind :])
-    side = _side(words)
+    side = device or _side(words)
     quantity = _quantity(words, unit)
     if not unit and quantity in (None, Quantity.DUTY) and _has_unit_of_others(name):  # effort (N)
         quantity = Quantity.OTHER
@@ -126,6 +128,12 @@ def _side(words: tuple[str, ...]) -> str:
         words[k + 1] for k in range(len(words) - 1) if words[k] in ("m", "motor", "wheel") and words[k + 1].isdigit()
     ]
     return numbers[0] if numbers else ""
+
+
+def _device(words: tuple[str, ...]) -> str:
+    """The number of a VESC, `DutyCycle_V1` beside `DutyCycle_V2`; empty where a `v` is the only word that is known."""
+    numbered = len(words) > 2 and words[-2] == "v" and words[-1].isdigit()
+    return words[-1] if numbered and any(len(word) > 1 and word in _KNOWN for word in words[:-2]) else ""
 
 
 def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:

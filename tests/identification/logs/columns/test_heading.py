@@ -81,6 +81,11 @@ Commande [pt]     | duty           | count |
 COMMANDE [Volts]  | voltage        | V     |
 PWM [ticks]       | duty           | count |
 output counts     | count          | count |
+Status_DutyCycle_V1 | duty         |       | 1
+Status_RPM_V1     | speed          | rpm   | 1
+TotalCurrent_V2   | current        |       | 2
+motor_V1          | voltage        |       |
+V1                | voltage        |       |
 ESC signal        | duty           |       |
 ESC signal (µs)   | duty           | us    |
 ESC 1 signal      | duty           |       |
