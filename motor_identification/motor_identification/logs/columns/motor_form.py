@@ -25,7 +25,14 @@ from motor_identification.logs.columns.drive import (
 )
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.increments import count_anew
-from motor_identification.logs.columns.movement import ASKED, Unit, guess_kind, guess_position_unit, guess_speed_unit
+from motor_identification.logs.columns.movement import (
+    ASKED,
+    Unit,
+    guess_kind,
+    guess_position_unit,
+    guess_speed_unit,
+    is_kind_sure,
+)
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
@@ -196,6 +203,7 @@ def _motion(
         kind = None  # nobody counts in fractions: an encoder's angle, or its voltage
     if said.unit and not said.kind and (kind is None or said.unit not in UNITS[kind]):
         kind = next(one for one in _ORDER if said.unit in UNITS[one])
+    sure = kind is not None or not period or is_kind_sure(values, table.numbers(pair.voltage))
     if kind is None:
         kind = guess_kind(values, table.numbers(pair.voltage)) if period else Kind.SPEED
     if _is_speed_called_angle(heading, said) and is_speed_by_drive(values, table.numbers(pair.voltage)):
@@ -206,7 +214,9 @@ def _motion(
         unit = tell_position_unit(table, heading, stamps) or unit
     if unit.name == "count" and kind is Kind.POSITION and said.kind is None:
         kind = Kind.COUNT
-    _ask_about(pair.motion, values, kind, unit, said, notes)
+    other = ASKED[Kind.POSITION if kind is Kind.SPEED else Kind.SPEED]
+    asked = unit if sure else replace(unit, candidates=(*unit.candidates, *other))
+    _ask_about(pair.motion, values, kind, asked, said, notes)
     return kind, unit
 
 

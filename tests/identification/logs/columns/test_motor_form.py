@@ -167,3 +167,16 @@ def test_whole_positions_are_counts_where_those_of_a_turn_are_said(edges: int | 
     said = Said(edges_per_revolution=edges)
     made = make_form(table, Pair("", "u", "Position"), Roles("t", (), None, None), said, ROWS, notes)
     assert (made.kind is Kind.COUNT) == bool(unit) and (notes.questions == []) == bool(unit)
+
+
+@pytest.mark.parametrize(("rows", "motion", "either"), [(25, "x", True), (1000, "x", False), (25, "speed", False)])
+def test_units_of_both_kinds_are_asked_for_where_the_numbers_tell_neither(rows: int, motion: str, either: bool) -> None:
+    drive = np.tile(np.repeat([3.0, -2.0, 5.0, 0.0], 25), 10)[:rows]
+    speed = np.zeros(rows)
+    for k in range(1, rows):
+        speed[k] = speed[k - 1] + 0.154 * (20.1 * drive[k - 1] - speed[k - 1])
+    numbers = {"t": 0.01 * np.arange(1, rows + 1), "u": drive, motion: speed}
+    notes, table = Notes([], []), Table(Path("log.csv"), np.arange(rows), numbers)
+    make_form(table, Pair("", "u", motion), Roles("t", (), None, None), Said(), ROWS, notes)
+    (question,) = [text for column, text in notes.questions if column == motion]
+    assert ("rad/s" in question and "rev" in question) == either
