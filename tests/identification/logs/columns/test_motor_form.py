@@ -126,39 +126,6 @@ def test_milliamperes() -> None:
     assert FIRST_ROWS > 4.7  # the EV3's runs begin up to 24 ms late, in rows of 5.2 ms
 
 
-@pytest.mark.parametrize(("supply", "drive", "scale"), [(25.0, "setpoint", 25.0 / 255.0), (25.0, "setpoint [V]", 1.0)])
-def test_more_than_the_supply_are_no_volts(supply: float, drive: str, scale: float) -> None:
-    time = 0.01 * np.arange(1, 101)
-    numbers = {"t": time, drive: np.repeat([50.0, -50.0], 50), "speed [rpm]": np.sin(time)}
-    table = Table(Path("log.csv"), np.arange(100), numbers)
-    roles, said = Roles("t", (), None, None), Said(supply_voltage=supply)
-    pair = Pair("", drive, "speed [rpm]")
-    assert make_form(table, pair, roles, said, ROWS, Notes([], [])).voltage_scale == pytest.approx(scale)
-    within = Said(supply_voltage=51.0)
-    assert make_form(table, pair, roles, within, ROWS, Notes([], [])).voltage_scale == 1.0
-
-
-@pytest.mark.parametrize(
-    ("supply", "drive", "largest", "scale"),
-    [
-        (9.0, "u", 0.9, 9.0),
-        (9.0, "column 2", 1.0, 9.0),
-        (9.0, "u", 1.1, 1.0),
-        (9.0, "voltage", 0.9, 1.0),  # a name that says volts is believed
-        (9.0, "u [V]", 0.9, 1.0),
-        (None, "u", 0.9, 1.0),
-        (0.9, "u", 0.9, 1.0),  # the supply of a motor as small
-    ],
-)
-def test_shares_of_a_supply_that_was_said(supply: float | None, drive: str, largest: float, scale: float) -> None:
-    """Who says a supply's voltage has a duty, whatever its column is called."""
-    time = 0.01 * np.arange(1, 101)
-    numbers = {"t": time, drive: np.linspace(-largest, largest, 100), "speed [rpm]": np.sin(time)}
-    table, said = Table(Path("log.csv"), np.arange(100), numbers), Said(supply_voltage=supply)
-    made = make_form(table, Pair("", drive, "speed [rpm]"), Roles("t", (), None, None), said, ROWS, Notes([], []))
-    assert made.voltage_scale == pytest.approx(scale)
-
-
 @pytest.mark.parametrize(("edges", "unit"), [(256, "count"), (360, ""), (None, "")])
 def test_whole_positions_are_counts_where_those_of_a_turn_are_said(edges: int | None, unit: str) -> None:
     time = 0.01 * np.arange(1, 101)
