@@ -101,6 +101,7 @@ class CsvForm:
     wrap: float | None = None  # a position begins again at 0 after this much of its unit
     direction: str | None = None  # column that says which way a drive without a sign goes
     backward: tuple[str, ...] = ()  # its values that mean backward
+    codes: tuple[float, ...] = ()  # numbers of the driving column that are no duties
     increments: bool = False  # a row's counts are those since the row before
     signs_as_they_are: bool = False  # else a motion against its voltage all the time is turned round
     label: str = ""  # of this motor, where a file has several

@@ -13,7 +13,7 @@ from motor_identification.logs.excitation import describe_excitation, hardly_mov
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
 from motor_identification.logs.motor_rows import separate_motors
-from motor_identification.logs.rows.constant_voltage import CONSTANT, give_voltage
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT, give_voltage
 from motor_identification.logs.rows.row_times import (
     ROW_TIMES,
     give_times,

@@ -12,6 +12,7 @@ from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import CsvForm, Kind, time_unit_size
 from motor_identification.logs.motion import Motion, read_motion
 from motor_identification.logs.rows.absurd_speeds import drop_absurd_beginnings
+from motor_identification.logs.rows.drive.coded_rows import drop_coded_rows
 from motor_identification.logs.rows.even_clock import restore_even_clock
 from motor_identification.logs.rows.parts import (
     check_rest,
@@ -62,7 +63,7 @@ def read_motor(table: Table, form: CsvForm) -> Log:
     Raises:
         RecordingError: the table cannot be used as it is; the sentence names line and column.
     """
-    signals = read_signals(table, form, split_by_column(table, form.split))
+    signals, coded = drop_coded_rows(read_signals(table, form, split_by_column(table, form.split)), table, form)
     info = Info(
         name=form.name,
         source="import",
@@ -73,7 +74,7 @@ def read_motor(table: Table, form: CsvForm) -> Log:
     )
     log = _steady_log(form, info, signals) if form.time is None else _timed_log(table, form, info, signals)
     _check_ranges(table.path, log.info)
-    return replace(log, findings=(*table.notes, *log.findings))
+    return replace(log, findings=(*table.notes, *coded, *log.findings))
 
 
 def _check_ranges(path: Path, info: Info) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.heading import Heading, is_pulse_of_esc
 from motor_identification.logs.columns.vocabulary import UNITS, Quantity, words_of
 from motor_identification.logs.csv.table import Table
 
@@ -28,6 +28,7 @@ _TIMERS = words_of(
     "duty pwm dutycycle throttle power шим 占空比 듀티 cyclique tastgrad tastverhältnis wypełnienie wypelnienie střída "
     "strida doluluk umplere скважность effort esforço esforco esfuerzo"
 )
+_PULSES = (1_000.0, 2_500.0)  # [µs] the longest of a log, of which none is a share of the supply
 _SUPPLIES = (15.0, 18.0, 24.0, 36.0, 48.0)  # [V] where commands are cut off
 _MOST_VOLTS = 12.0  # of a command that never is larger: a duty of so few per cent, or of 255, moves no motor
 _CUT_OFF = 3  # rows at the largest command
@@ -71,6 +72,8 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
     if full:
         return Drive(None, f"as a duty of ±{full:g}", full)
     largest = float(np.max(np.abs(values), initial=0.0))
+    if is_pulse_of_esc(heading.words) and _PULSES[0] <= largest <= _PULSES[1]:
+        return Drive(None, "is an ESC's pulse in µs and no duty, as it is 1000 or 1500 at 0 V", sure=False)
     if heading.unit == "%" and (largest > 1.0 or not np.any(values % 1.0)):
         return Drive(None, "as a duty in %", 100.0)
     if heading.unit == "%":  # which would be a motor that never gets 1 % of its supply

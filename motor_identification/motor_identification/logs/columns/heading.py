@@ -22,6 +22,7 @@ _BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]")
 _PARTS = re.compile(r"[^\W\d_]+|\d+|%|°")
 _CAMEL = re.compile(r"(?<=[^\W\d_A-ZÀ-Þ])(?=[A-ZÀ-Þ])|(?<=[A-Z])(?=[A-Z][a-z])")
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
+_PULSES = frozenset(["esc", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
 _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
 _AXES, _JOINT_FIELDS = frozenset(["yaw", "pitch", "roll"]), frozenset(["position", "velocity", "effort"])
 _TELLING = frozenset().union(MEASURED, *(WORDS[kind] for kind in (*MOVES, Quantity.VOLTAGE, Quantity.DUTY)))
@@ -50,11 +51,13 @@ def read_heading(name: str) -> Heading:
         return Heading(name, ("mv",), Quantity.DUTY, "", "")
     unit, rest = _unit_in_brackets(name)
     words = split_words(rest)
+    device = _device(words)
+    words = words[:-2] if device else words
     if not unit:
         behind = 1 if len(words) > 1 and (words[-1] in SIDES or words[-1] == "r") else 0  # rpm_left
         unit, before = _unit_at_the_end(words[: len(words) - behind])
         words = (*before, *words[len(words) - behind :])
-    side = _side(words)
+    side = device or _side(words)
     quantity = _quantity(words, unit)
     if not unit and quantity in (None, Quantity.DUTY) and _has_unit_of_others(name):  # effort (N)
         quantity = Quantity.OTHER
@@ -127,6 +130,12 @@ def _side(words: tuple[str, ...]) -> str:
     return numbers[0] if numbers else ""
 
 
+def _device(words: tuple[str, ...]) -> str:
+    """The number of a VESC, `DutyCycle_V1` beside `DutyCycle_V2`; empty where a `v` is the only word that is known."""
+    numbered = len(words) > 2 and words[-2] == "v" and words[-1].isdigit()
+    return words[-1] if numbered and any(len(word) > 1 and word in _KNOWN for word in words[:-2]) else ""
+
+
 def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
     told = [
         kind
@@ -152,14 +161,31 @@ def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
         return Quantity.SPEED
     if Quantity.VOLTAGE in told and Quantity.DUTY in told:
         return Quantity.VOLTAGE
-    return told[0] if told else None
+    return _quantity_of_an_output(words, told) or (told[0] if told else None)
+
+
+def _quantity_of_an_output(words: tuple[str, ...], told: list[Quantity]) -> Quantity | None:
+    """`output speed` is the speed that comes out, `speed output` what a controller of speeds puts out; else None."""
+    if told[:1] != [Quantity.DUTY] or WORDS[Quantity.DUTY] & set(words) - OUTPUTS:
+        return None
+    return next((kind for kind in told if kind in MOVES and words[-1] in WORDS[kind]), None)
 
 
 def _is_duty_whatever_its_unit(words: tuple[str, ...], unit: str, told: list[Quantity]) -> bool:
-    """Whether a name is one of a duty: `pwm_rev`, that of the other way; `PWM [ticks]`, `Commande [pt]`, of a timer."""
+    """Whether a name is one of a duty: `pwm_rev`, that of the other way; `PWM [ticks]`, `Commande [pt]`, of a timer.
+
+    So is `ESC signal (µs)`, of a test stand.
+    """
+    if is_pulse_of_esc(words):
+        return True
     if unit == "rev":
         return Quantity.DUTY in told
     return unit == "count" and told == [Quantity.DUTY] and not (_ORDERS | OUTPUTS) & set(words)
+
+
+def is_pulse_of_esc(words: tuple[str, ...]) -> bool:
+    """Whether a name is that of the pulses which a brushless motor's controller gets, not of what that measures."""
+    return "esc" in words and all(word in _PULSES or word.isdigit() for word in words)
 
 
 def _is_joint(words: tuple[str, ...]) -> bool:

@@ -6,13 +6,27 @@ from math import tau
 import numpy as np
 from numpy.typing import NDArray
 
+from motor_identification.logs.columns.behaviour.codes import find_codes
 from motor_identification.logs.columns.behaviour.following import is_speed_by_drive
 from motor_identification.logs.columns.behaviour.standing_start import begins_at_rest
+from motor_identification.logs.columns.cautions import (
+    caution_beyond_full,
+    caution_running_without_drive,
+    caution_set_point,
+)
 from motor_identification.logs.columns.direction import guess_direction
-from motor_identification.logs.columns.drive import Drive, duty_drive, find_same_levels, supply_scale, voltage_drive
+from motor_identification.logs.columns.drive import supply_scale
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.increments import count_anew
-from motor_identification.logs.columns.movement import ASKED, Unit, guess_kind, guess_position_unit, guess_speed_unit
+from motor_identification.logs.columns.motor_drive import read_drive
+from motor_identification.logs.columns.movement import (
+    ASKED,
+    Unit,
+    guess_kind,
+    guess_position_unit,
+    guess_speed_unit,
+    is_kind_sure,
+)
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
@@ -26,7 +40,6 @@ Floats = NDArray[np.float64]
 
 STEPS_BETWEEN = 0.8  # of the rows that a steady curve's voltage changes in
 WHOLE_DEGREES = 360  # counts a turn, which are degrees as well
-ROUNDED = 0.01  # of full duty, by which rounding may go beyond it
 ELECTRICAL = "of electrical turns: speeds are those of the shaft times its pole pairs"
 _KINDS = {Quantity.SPEED: Kind.SPEED, Quantity.POSITION: Kind.POSITION, Quantity.COUNT: Kind.COUNT}
 _ORDER = (Kind.SPEED, Kind.COUNT, Kind.POSITION)  # `count` is a count before it is a position
@@ -58,9 +71,10 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     beside_it = f", of which {counted.speed} is the speed (otherwise: --speed {counted.speed})" if counted else ""
     pair = replace(pair, motion=counted.column) if counted else pair
     said = say_turn_counts(table, pair, stamps, said, notes)
-    drive, scale, supply = _drive(table, pair, roles, said, notes)
+    drive, scale, supply = read_drive(table, pair, roles, said, notes)
     driven = bool(pair.label or np.any(table.numbers(pair.voltage)))  # of several motors, one may not be
-    _caution_beyond_full(table, pair, drive, notes)
+    codes = () if said.full_duty or not drive.full else find_codes(table.numbers(pair.voltage))
+    caution_beyond_full(table, pair, None if codes else drive.full, notes)
     volts = supply_scale(read_heading(supply), table.numbers(supply)) if supply else (1.0, "")
     beside = f", times {supply} in {volts[1]}" if supply else ""
     notes.findings.append(f"Voltage{whose}: {pair.voltage} {drive.why}{beside}.")
@@ -73,7 +87,8 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
             replace(said, units_per_revolution=tau),
         )
     if kind is Kind.SPEED and said.constant_voltage is None:
-        _caution_set_point(table, pair, notes)
+        caution_set_point(table, pair, notes)
+        caution_running_without_drive(table, pair, notes)
     why = f" ({unit.why})" if unit.why else ""
     notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}{beside_it}.")
     if rows.time is None and not said.steady:
@@ -112,75 +127,10 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
         label=pair.label,
         direction=direction.column if direction else None,
         backward=direction.backward if direction else (),
+        codes=codes,
         increments=increments,
         **{name: getattr(said, name) for name in same},
     )
-
-
-def _drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes) -> tuple[Drive, float, str | None]:
-    """How the driving column becomes volts: in words, per unit, by which supply."""
-    heading, values = read_heading(pair.voltage), table.numbers(pair.voltage)
-    if said.constant_voltage is not None:
-        return Drive(1.0, f"is {said.constant_voltage:g} V in every row, as said"), 1.0, None
-    if said.voltage_scale is not None:
-        return Drive(said.voltage_scale, f"times {said.voltage_scale:g} V"), said.voltage_scale, None
-    if said.full_duty or heading.quantity is Quantity.DUTY or _is_beyond(heading, values, said.supply_voltage):
-        drive = duty_drive(heading, _duties(table, pair, roles), said.full_duty)
-    else:
-        drive = voltage_drive(heading, values)
-    if drive.scale is not None:
-        return drive, drive.scale, None
-    full = drive.full or 1.0
-    if drive.full is None:
-        what = "say which column drives (--voltage COL), or what it is in volts (--voltage-scale V)"
-        notes.questions.append((pair.voltage, f"{drive.why}: {what}"))
-        return drive, 1.0, roles.supply
-    if not drive.sure:
-        beside = "" if said.supply_voltage or roles.supply else " and the voltage there (--supply-voltage V)"
-        notes.questions.append((pair.voltage, f"is a duty: say what it is at full duty (--full-duty D){beside}"))
-        return drive, 1.0, roles.supply
-    if said.supply_voltage:
-        why = f"{drive.why}, times {said.supply_voltage:g} V"
-        return Drive(None, why, full), said.supply_voltage / full, None
-    if roles.supply:
-        return drive, 1.0 / full, roles.supply
-    why = drive.why.replace(" (assumed; otherwise:", " (otherwise")
-    notes.questions.append((pair.voltage, f"{why}: say the voltage at full duty (--supply-voltage V)"))
-    return drive, 1.0, None
-
-
-def _is_beyond(heading: Heading, values: Floats, supply: float | None) -> bool:
-    """Whether values without a unit are more than the supply's voltage, which was said: then they are no volts."""
-    largest = float(np.max(np.abs(values), initial=0.0))
-    return supply is not None and not heading.unit and largest > supply * (1.0 + ROUNDED)
-
-
-def _caution_beyond_full(table: Table, pair: Pair, drive: Drive, notes: Notes) -> None:
-    """Tell of duties beyond the full one that was said: another scale, or a code of a program's own."""
-    values = np.abs(table.numbers(pair.voltage))
-    beyond = values > drive.full * (1.0 + ROUNDED) if drive.full else np.zeros(0, bool)
-    if beyond.any():
-        notes.findings.append(
-            f"Caution: {pair.voltage} goes up to {np.max(values):g}, beyond the full duty of {drive.full:g}, in "
-            f"{np.count_nonzero(beyond)} rows: no bridge gives more than its supply. Check --full-duty, or leave out "
-            "rows whose number is a code."
-        )
-
-
-def _caution_set_point(table: Table, pair: Pair, notes: Notes) -> None:
-    """Tell of a drive whose numbers are those of the motion: what it should be, or has been."""
-    levels = find_same_levels(table.numbers(pair.voltage), table.numbers(pair.motion))
-    if levels:
-        notes.findings.append(
-            f"Caution: at {levels} levels {pair.motion} comes to the numbers of {pair.voltage} themselves, as a speed "
-            "comes to its set-point: neither may be what drives the motor. Check them, and say --voltage and --speed."
-        )
-
-
-def _duties(table: Table, pair: Pair, roles: Roles) -> Floats:
-    """The duties of all motors of a table, any shape: what is full is the same for each, also for one that stands."""
-    drives = {one.voltage for one in roles.pairs if read_heading(one.voltage).quantity is Quantity.DUTY}
-    return np.concatenate([table.numbers(name) for name in sorted(drives | {pair.voltage})])
 
 
 def _motion(
@@ -193,6 +143,7 @@ def _motion(
         kind = None  # nobody counts in fractions: an encoder's angle, or its voltage
     if said.unit and not said.kind and (kind is None or said.unit not in UNITS[kind]):
         kind = next(one for one in _ORDER if said.unit in UNITS[one])
+    sure = kind is not None or not period or is_kind_sure(values, table.numbers(pair.voltage))
     if kind is None:
         kind = guess_kind(values, table.numbers(pair.voltage)) if period else Kind.SPEED
     if _is_speed_called_angle(heading, said) and is_speed_by_drive(values, table.numbers(pair.voltage)):
@@ -203,7 +154,9 @@ def _motion(
         unit = tell_position_unit(table, heading, stamps) or unit
     if unit.name == "count" and kind is Kind.POSITION and said.kind is None:
         kind = Kind.COUNT
-    _ask_about(pair.motion, values, kind, unit, said, notes)
+    other = ASKED[Kind.POSITION if kind is Kind.SPEED else Kind.SPEED]
+    asked = unit if sure else replace(unit, candidates=(*unit.candidates, *other))
+    _ask_about(pair.motion, values, kind, asked, said, notes)
     return kind, unit
 
 

@@ -22,6 +22,7 @@ RELATIVE = 5e-6  # of the counts of a turn: what printed digits leave of the ste
 SURE = 4.0  # standard errors of the step
 MOST_COUNTS = 10_000  # a turn
 FORGETS = 5.0  # time constants in a recording, from which on a column is a speed: a position forgets nothing
+UNSURE = (1.0, 20.0)  # time constants that a column of either may seem to have
 ASKED = {Kind.SPEED: ("rad/s", "deg/s", "rpm"), Kind.POSITION: ("rad", "deg", "rev", "count")}
 
 
@@ -36,12 +37,22 @@ class Unit:
 
 def guess_kind(values: Floats, drive: Floats) -> Kind:
     """Speed or position: a speed forgets what was (v' = −v/τ + …), a position keeps it. Both of shape (K,)."""
+    return Kind.SPEED if _count_time_constants(values, drive) > FORGETS else Kind.POSITION
+
+
+def is_kind_sure(values: Floats, drive: Floats) -> bool:
+    """Whether it is clear which of both they are: a short run of a speed forgets little, a controlled position some."""
+    return not UNSURE[0] < _count_time_constants(values, drive) < UNSURE[1]
+
+
+def _count_time_constants(values: Floats, drive: Floats) -> float:
+    """How many time constants there are in a column, shape (K,), that forgets what was under a drive, shape (K,)."""
     step = np.diff(values)
     columns = np.column_stack([values[:-1], drive[:-1], np.ones(len(step))])
     scale = np.max(np.abs(columns), axis=0)
     scale[scale == 0.0] = 1.0
     slope = np.linalg.lstsq(columns / scale, step, rcond=None)[0] / scale
-    return Kind.SPEED if -float(slope[0]) * len(step) > FORGETS else Kind.POSITION
+    return -float(slope[0]) * len(step)
 
 
 def guess_speed_unit(values: Floats, window: float) -> Unit:

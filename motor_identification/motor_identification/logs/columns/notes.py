@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.row_times import ROW_TIMES
@@ -57,7 +57,14 @@ def ask_drive(table: Table, candidates: Sequence[str]) -> RecordingError:
 
 
 def miss_drive(table: Table) -> RecordingError:
-    """Ask for the voltage where no column can be it."""
+    """Ask for the voltage where no column can be it; a controller's log without it tells nothing of the motor."""
+    headings = [read_heading(name) for name in table.names]
+    told = next((one.name for one in headings if one.quantity is Quantity.REFERENCE), "")
+    if told:
+        return RecordingError(
+            f"{table.path}: no column is the voltage or duty. {told} is what a controller was told, and what it gave "
+            "to the motor is not there: log that, too; or say which column it is (--voltage COL)."
+        )
     return RecordingError(
         f"{table.path}: no column is the voltage or duty: say which one of {_list_names(table.names)} is (--voltage "
         "COL), or --constant-voltage V for a log of one step."

@@ -51,10 +51,12 @@ WORDS: dict[Quantity, frozenset[str]] = {
         "acc derivative id index loop state mode enabled fault limited saturated lead integrator wcs acs shunt torque "
         "gain gains couple drehmoment moment coppia torsione kraft force écart ecart écarts ecarts uchyb odchylka "
         "regelabweichung "
-        "heading dir direction drehrichtung richtung yaw pitch roll rate"
+        "heading dir direction drehrichtung richtung yaw pitch roll rate "
+        "efficiency eficiencia eficiência rendement rendimiento rendimento rendimenti wirkungsgrad efficienza verim "
+        "sprawność účinnost humidity soc"
     ),
     Quantity.REFERENCE: _row(
-        "target sollwert consigne referencia referência référence referenz riferimento setpoint set sp ref "
+        "ideal target sollwert consigne referencia referência référence referenz riferimento setpoint set sp ref "
         "reference desired goal soll consigna r wanted demand profile referans hedef zadana žádaná zadaná deseado "
         "deseada yr yref wref uref desejado desejada objetivo acuan vorgabe führungsgröße заданная 目标 目標 设定 期望"
     ),
@@ -177,7 +179,9 @@ _SPELLINGS = {
 # Counts, where they stand in brackets: `qc` are quadcounts; words of a name elsewhere, such as `time steps`.
 COUNTS_IN_BRACKETS = _row("steps qc inc incs increments inkremente pulsos cuentas impulsos impulse impulses tics pasos")
 # Units, in brackets, of what is neither a motor's drive nor its motion.
-OF_OTHERS = _row("nm n.m n·m mnm n·mm ncm nmm kgf n kn lbf g °c ºc degc w mw kw pa kpa bar mbar wh mah ah j nm/a °c/w")
+OF_OTHERS = _row(
+    "nm n.m n·m mnm n·mm ncm nmm kgf gf n kn lbf lb lbs oz g °c ºc degc w mw kw pa kpa bar mbar wh mah ah j nm/a °c/w"
+)
 UNIT_BY_SPELLING = {spelling: unit for unit, row in _SPELLINGS.items() for spelling in row.split()}
 
 SIDES = {

@@ -8,15 +8,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from motor_identification.logs.csv.cells import COMMENT, SPACES, is_number, split_line
-from motor_identification.logs.csv.header import find_header
+from motor_identification.logs.csv.header import find_header, find_header_below
 from motor_model.errors import RecordingError
 
 LARGEST = 2**30  # [bytes] of a text table: 10 hours at 1 kHz; more does not fit an ordinary machine's memory as cells
 LOOKED_AT = 100  # lines at the beginning, in which the rows of numbers have to begin
+STRAY = 0.01  # of the lines: a board restarts now and then; more zero bytes are those of numbers
 FEW_ROWS = 4  # fewer are a short table rather than a block of settings
 DELIMITERS = (",", ";", "\t", "|", SPACES)
 _NOTHING = " ,;\t|"  # all that is in a line without cells
 _NO_VALUE = ("", "nan", "NaN", "NAN", "null", "None", "-")
+_ZEROS = re.compile(rb"\0+")
 _QUOTED_COMMA = re.compile(r'"([+-]?\d+,\d+)"')
 
 
@@ -72,13 +74,22 @@ def _decoded(path: Path, data: bytes) -> tuple[str, str]:
             return data.decode("utf-16"), "UTF-16"
         except UnicodeDecodeError as error:
             raise RecordingError(f"{path} is not valid UTF-16 text: export it again as CSV in UTF-8.") from error
-    if b"\0" in data:
-        raise RecordingError(f"{path} is not text: export it again as CSV in UTF-8.")
+    data = _without_stray_bytes(path, data)
     try:
         return data.decode("utf-8-sig"), ""
     except UnicodeDecodeError:
         # Spreadsheets on Windows: µ, ° and accents of column names; the numbers are the same in both.
         return data.decode("latin-1"), "Latin-1"
+
+
+def _without_stray_bytes(path: Path, data: bytes) -> bytes:
+    """Text without its zero bytes: those of a board that restarts, and of a card's block that was not filled."""
+    data = data.rstrip(b"\0")
+    if data.count(b"\0") == 0:
+        return data
+    if len(_ZEROS.findall(data)) > STRAY * data.count(b"\n"):
+        raise RecordingError(f"{path} is not text: export it again as CSV in UTF-8.")
+    return _ZEROS.sub(b"", data)
 
 
 def find_dialect(lines: Sequence[str]) -> Dialect | None:
@@ -99,6 +110,7 @@ def find_dialect(lines: Sequence[str]) -> Dialect | None:
     rows = [split_line(line, delimiter) for _, line in begin[place:]]
     width, most = _width(rows), Counter(map(len, rows)).most_common(1)[0][0]
     header = find_header([line for _, line in begin[:place]], begin[place][1], delimiter, comma, width, most)
+    header = header or find_header_below(rows, width, comma)
     names = header or tuple(f"column {k + 1}" for k in range(width))
     return Dialect(delimiter, comma, names, begin[place][0], named=bool(header))
 

@@ -4,6 +4,7 @@ import re
 from collections.abc import Sequence
 from itertools import zip_longest
 
+from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING
 from motor_identification.logs.csv.cells import COMMENT, SPACES, is_number, split_line
 from motor_identification.logs.csv.sparse import NO_VALUE
@@ -52,6 +53,22 @@ def find_header(
     found = next((row for row, fits in zip(cells[::-1], fit[::-1], strict=True) if fits), ())
     found = found or next((row for row in cells[-1:] if _holds_a_number(row, width, most, comma)), [])
     return tuple(found or next((row[:most] for row in cells[-1:] if _has_more(row, most, comma)), ()))
+
+
+def find_header_below(rows: Sequence[Sequence[str]], width: int, comma: bool) -> tuple[str, ...]:
+    """Find names of columns below the first rows, as where a capture began before its board did; empty where none.
+
+    They are of the rows' width, each another one, and most of them are known: a greeting is none.
+    """
+    for row in rows:
+        names = _without_empty_end(list(row))
+        if len(names) != width or len(set(names)) < width or not all(names):
+            continue
+        if any(is_number(name, comma) or name in NO_VALUE for name in names):
+            continue
+        if 2 * sum(read_heading(name).quantity is not None for name in names) > width > 1:
+            return tuple(names)
+    return ()
 
 
 def _has_more(row: Sequence[str], most: int, comma: bool) -> bool:

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from motor_identification.logs.csv.cells import COMMENT, is_number
 
 _IN_BRACKETS = re.compile(r"[\[(]+[^\[\]()]+[\])]+,?$")
+# `pwm = [20, 40, 60]`, of a program's own language: the separator behind the first number is put behind the name, too.
+_ASSIGNED = re.compile(r"(?P<name>[^\W\d]\w*)\s*[=:]\s*[\[({]\s*(?P<rest>[^\s,;]+(?P<first>[,;]|\s).*?)[\])}]\s*[;,]?$")
 MOSTLY = 0.9  # of the first lines
 _LOOKED_AT = 100  # lines
 MOST_COLUMNS, FEWEST_ROWS, LONGER = 20, 40, 5  # of a table that lies on its side: so many lines, and cells in each
@@ -31,6 +33,9 @@ def _without_brackets(line: str) -> str:
 def turn_lines_into_columns(lines: Sequence[str]) -> tuple[Sequence[str], tuple[str, ...]]:
     """Turn a table that has a line for each column, and what has to be said of it; other tables as they are."""
     filled = [line.strip() for line in lines[: 10 * MOST_COLUMNS] if line.strip()]
+    assigned = [_ASSIGNED.match(line) for line in filled]
+    if all(assigned):
+        filled = [f"{one['name']}{one['first']}{one['rest'].rstrip(' ,;')}" for one in assigned if one]
     if not 2 <= len(filled) <= MOST_COLUMNS or len(lines) > 10 * MOST_COLUMNS:
         return lines, ()
     for delimiter in (",", ";", "\t", None):

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING
+from motor_identification.logs.columns.vocabulary import UNIT_BY_SPELLING, UNITS
 
 RECEIVED = "received time"  # the column of a monitor's stamps: the last, so that a board's own clock goes before
 MOSTLY = 0.8  # of the first lines: others are the program's greetings
@@ -108,12 +108,17 @@ def _named_cells(line: str) -> dict[str, str]:
         match = _NAMED_CELL.match(line, place)
         if match is None or match["name"] in found:
             return {}
-        unit = UNIT_BY_SPELLING.get((match["unit"] or "").lower())
-        if match["unit"] and unit is None:
+        unit = UNIT_BY_SPELLING.get((match["unit"] or "").lower(), match["unit"])
+        if unit and unit not in UNITS and _stands_apart(match):
             return {}
         found[f"{match['name']} [{unit}]" if unit else match["name"]] = match["value"]
         place = match.end()
     return found
+
+
+def _stands_apart(cell: re.Match[str]) -> bool:
+    """Whether a blank is before what follows a number, of which nobody knows that it is a unit: `0.03 lbs`, `3 ok`."""
+    return cell.string[cell.end("value")].isspace()
 
 
 def _values(line: str, names: Sequence[str], before_stamp: str) -> str:

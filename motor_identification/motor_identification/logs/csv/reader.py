@@ -1,7 +1,7 @@
 """Reads a text table: all of its columns, chunk by chunk, with the line of each row."""
 
 import csv
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
@@ -18,6 +18,7 @@ from motor_identification.logs.csv.matrix import take_off_brackets, turn_lines_i
 from motor_identification.logs.csv.monitor import RECEIVED, Lines, take_apart
 from motor_identification.logs.csv.oscilloscope import give_times
 from motor_identification.logs.csv.quotes import unquote_rows
+from motor_identification.logs.csv.sentences import drop_sentences, drop_words
 from motor_identification.logs.csv.table import GARBLED, Table
 from motor_identification.logs.csv.table_end import NEARLY_ALL, cut_at_end
 from motor_model.errors import RecordingError
@@ -111,8 +112,10 @@ def _columns(
     """Line numbers and cells of all rows, chunk by chunk; a last line that was cut off is left out."""
     width, numbers, parts = len(dialect.header), [], []
     left_out: list[int] = []
+    sentences: list[int] = []
     garbled: list[int] = []
-    rows = _rows_of_numbers(_rows(path, lines, dialect), dialect.decimal_comma, left_out)
+    rows = drop_sentences(_rows(path, lines, dialect), width, dialect.decimal_comma, sentences)
+    rows = drop_words(rows, dialect.decimal_comma, left_out)
     while chunk := list(islice(rows, _CHUNK)):
         longer = [line for line, row in chunk if any(row[width:])]
         if len(longer) > GARBLED * len(chunk):
@@ -135,20 +138,11 @@ def _columns(
         notes.append(f"Left out: {_lines(garbled)} with more cells than columns are named ({width}).")
     if left_out:
         notes.append(f"Left out: {_lines(left_out)} without a number (comments, names of columns).")
+    if sentences:
+        notes.append(f"Left out: {_lines(sentences)} of words and few numbers, as of a board that starts again.")
     names = _unique(dialect.header)
     columns = {name: np.concatenate([part[k] for part in parts]) for k, name in enumerate(names)}
     return np.array([line for chunk_lines in numbers for line in chunk_lines], np.int64), columns
-
-
-def _rows_of_numbers(
-    rows: Iterable[tuple[int, list[str]]], comma: bool, left_out: list[int]
-) -> Iterator[tuple[int, list[str]]]:
-    """The rows with a number in them; the lines of the others are added to `left_out`."""
-    for line, row in rows:
-        if COMMENT.match(row[0]) or not any(is_number(cell, comma) for cell in row):
-            left_out.append(line)
-        else:
-            yield line, row
 
 
 def _lines(numbers: Sequence[int]) -> str:

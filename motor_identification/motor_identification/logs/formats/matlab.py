@@ -1,12 +1,15 @@
 """MATLAB files (version 4 to 7.3), Octave's and NumPy's as a table: vectors of one length, columns of matrices."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from motor_identification.logs.columns.clock import runs_forward
+from motor_identification.logs.columns.drive import drives
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.vocabulary import MOVES
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.hdf5.reader import SIGNATURE
 from motor_identification.logs.formats.mat_7_3 import MARK, read_variables_7_3
@@ -26,7 +29,9 @@ MOST_COLUMNS = 64  # of a matrix of signals: a wider one is a picture or a model
 
 
 def read_matlab(path: Path) -> Table:
-    """The vectors of one length by name, the longest of which there are three; a struct's fields as `struct.field`.
+    """The vectors of one length by name; a struct's fields as `struct.field`.
+
+    Of several lengths, those whose names tell a drive and a motion; then the longest of which there are three.
 
     Raises:
         RecordingError: the file is damaged, too large, or has no two vectors of one length.
@@ -56,8 +61,9 @@ def read_matlab(path: Path) -> Table:
             f"{path} has no vectors of numbers: save time, voltage and motion as vectors (of an iddata: u = data.u; "
             "y = data.y)."
         )
-    length = max(set(lengths), key=lambda n: (min(lengths.count(n), SIGNALS), n))
-    fitting = {name: vector for name, vector in vectors.items() if len(vector) == length}
+    named = {n: [name for name, vector in vectors.items() if len(vector) == n] for n in set(lengths)}
+    length = max(named, key=lambda n: (_tell_a_motor(named[n]), min(len(named[n]), SIGNALS), n))
+    fitting = {name: vectors[name] for name in named[length]}
     if len(fitting) < 2:
         raise RecordingError(f"{path} has no two vectors of one length: save time, voltage and motion with one.")
     fitting = _share_clock(fitting)
@@ -67,6 +73,12 @@ def read_matlab(path: Path) -> Table:
     notes = [f"Left out, as they have other lengths: {', '.join(others[:8])}."] if others else []
     notes += [f"Not read: {OBJECTS}; {SAVE_THEM}, if the motion is in them."] if objects else []
     return Table(path, np.arange(1, length + 1), fitting, notes=tuple(notes))
+
+
+def _tell_a_motor(names: Sequence[str]) -> bool:
+    """Whether there is a drive among the names, and a motion."""
+    headings = [read_heading(name) for name in names]
+    return any(map(drives, headings)) and any(heading.quantity in MOVES for heading in headings)
 
 
 _KINDS: dict[Callable[[bytes], dict[str, Value]], tuple[str, str]] = {

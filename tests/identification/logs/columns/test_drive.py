@@ -113,3 +113,11 @@ def test_fractions_beyond_volts_without_a_name_drive_nothing(top: float, sure: b
     drive = voltage_drive(read_heading("column 1"), top * WAVE / np.max(np.abs(WAVE)))
     assert drive.sure == sure and (drive.scale == 1.0) == sure
     assert voltage_drive(read_heading("u"), 99.5 * WAVE).scale == 1.0
+
+
+@pytest.mark.parametrize(("largest", "pulse"), [(1577.0, True), (999.0, False), (2501.0, False)])
+def test_an_esc_gets_pulses_and_no_duty(largest: float, pulse: bool) -> None:
+    """1577 µs are no share of 4095."""
+    drive = duty_drive(read_heading("ESC signal"), np.array([0.0, largest]))
+    assert ("ESC's pulse" in drive.why) == pulse == (not drive.sure)
+    assert duty_drive(read_heading("pwm"), np.array([0.0, largest])).sure

@@ -81,6 +81,28 @@ Commande [pt]     | duty           | count |
 COMMANDE [Volts]  | voltage        | V     |
 PWM [ticks]       | duty           | count |
 output counts     | count          | count |
+Status_DutyCycle_V1 | duty         |       | 1
+Status_RPM_V1     | speed          | rpm   | 1
+TotalCurrent_V2   | current        |       | 2
+motor_V1          | voltage        |       |
+V1                | voltage        |       |
+ESC signal        | duty           |       |
+ESC signal (µs)   | duty           | us    |
+ESC 1 signal      | duty           |       |
+ESC speed         | speed          |       |
+ESC voltage (V)   | voltage        | V     |
+ESC temperature   | other          |       |
+Motor Efficiency (%) | other       | %     |
+Wirkungsgrad [%]  | other          | %     |
+Motor (%)         | duty           | %     |
+Thrust (gf)       | other          |       |
+idealLinearSpeed  | reference      |       |
+output_speed      | speed          |       |
+outputVelocity    | speed          |       |
+output angle      | position       |       |
+speed_output      | duty           |       |
+pwm output speed  | duty           |       |
+velocidad_salida  | duty           |       |
 Commande vitesse  | reference      |       |
 POSITION [degrés] | position       | deg   |
 VIT. MOTEUR [rad/sec] | speed      | rad/s |

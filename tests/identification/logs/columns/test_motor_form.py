@@ -126,18 +126,6 @@ def test_milliamperes() -> None:
     assert FIRST_ROWS > 4.7  # the EV3's runs begin up to 24 ms late, in rows of 5.2 ms
 
 
-@pytest.mark.parametrize(("supply", "drive", "scale"), [(25.0, "setpoint", 25.0 / 255.0), (25.0, "setpoint [V]", 1.0)])
-def test_more_than_the_supply_are_no_volts(supply: float, drive: str, scale: float) -> None:
-    time = 0.01 * np.arange(1, 101)
-    numbers = {"t": time, drive: np.repeat([50.0, -50.0], 50), "speed [rpm]": np.sin(time)}
-    table = Table(Path("log.csv"), np.arange(100), numbers)
-    roles, said = Roles("t", (), None, None), Said(supply_voltage=supply)
-    pair = Pair("", drive, "speed [rpm]")
-    assert make_form(table, pair, roles, said, ROWS, Notes([], [])).voltage_scale == pytest.approx(scale)
-    within = Said(supply_voltage=51.0)
-    assert make_form(table, pair, roles, within, ROWS, Notes([], [])).voltage_scale == 1.0
-
-
 @pytest.mark.parametrize(("edges", "unit"), [(256, "count"), (360, ""), (None, "")])
 def test_whole_positions_are_counts_where_those_of_a_turn_are_said(edges: int | None, unit: str) -> None:
     time = 0.01 * np.arange(1, 101)
@@ -146,3 +134,16 @@ def test_whole_positions_are_counts_where_those_of_a_turn_are_said(edges: int | 
     said = Said(edges_per_revolution=edges)
     made = make_form(table, Pair("", "u", "Position"), Roles("t", (), None, None), said, ROWS, notes)
     assert (made.kind is Kind.COUNT) == bool(unit) and (notes.questions == []) == bool(unit)
+
+
+@pytest.mark.parametrize(("rows", "motion", "either"), [(25, "x", True), (1000, "x", False), (25, "speed", False)])
+def test_units_of_both_kinds_are_asked_for_where_the_numbers_tell_neither(rows: int, motion: str, either: bool) -> None:
+    drive = np.tile(np.repeat([3.0, -2.0, 5.0, 0.0], 25), 10)[:rows]
+    speed = np.zeros(rows)
+    for k in range(1, rows):
+        speed[k] = speed[k - 1] + 0.154 * (20.1 * drive[k - 1] - speed[k - 1])
+    numbers = {"t": 0.01 * np.arange(1, rows + 1), "u": drive, motion: speed}
+    notes, table = Notes([], []), Table(Path("log.csv"), np.arange(rows), numbers)
+    make_form(table, Pair("", "u", motion), Roles("t", (), None, None), Said(), ROWS, notes)
+    (question,) = [text for column, text in notes.questions if column == motion]
+    assert ("rad/s" in question and "rev" in question) == either

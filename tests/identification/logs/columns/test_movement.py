@@ -5,7 +5,7 @@ from math import tau
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.movement import guess_kind, guess_position_unit, guess_speed_unit
+from motor_identification.logs.columns.movement import guess_kind, guess_position_unit, guess_speed_unit, is_kind_sure
 from motor_identification.logs.form import UNITS, Kind
 
 RANDOM = np.random.default_rng(5)
@@ -24,6 +24,16 @@ def test_a_speed_forgets_and_a_position_does_not() -> None:
     assert guess_kind(speeds(), DRIVE) is Kind.SPEED
     assert guess_kind(np.cumsum(speeds()) * 0.01, DRIVE) is Kind.POSITION
     assert guess_kind(np.cumsum(np.abs(speeds())) * 0.01, np.abs(DRIVE)) is Kind.POSITION
+
+
+def test_a_short_run_may_be_of_either() -> None:
+    assert is_kind_sure(speeds(), DRIVE) and is_kind_sure(np.cumsum(speeds()) * 0.01, DRIVE)
+    few = slice(0, 25)  # a quarter of a second, four time constants
+    assert not is_kind_sure(speeds()[few], DRIVE[few])
+    angle = np.zeros(len(DRIVE))  # a controlled position: as slow a loop forgets as a speed does
+    for k in range(1, 500):
+        angle[k] = angle[k - 1] + 0.02 * (1.0 - angle[k - 1])
+    assert guess_kind(angle[:500], DRIVE[:500]) is Kind.SPEED and not is_kind_sure(angle[:500], DRIVE[:500])
 
 
 @pytest.mark.parametrize("unit", ["rad/s", "deg/s", "rpm"])

@@ -40,3 +40,9 @@ def test_a_log_of_one_step_has_an_option() -> None:
     asked = (ask_drive(TABLE, ["w1"]), miss_drive(TABLE), miss_motion(TABLE, "w2", "w1"))
     assert all("--constant-voltage V" in str(one) for one in asked)
     assert "w2 is 1 in every row: the motor never moves in it, or w1 is its motion" in str(asked[2])
+
+
+def test_a_controllers_log_without_what_it_gave_is_no_log_of_one_step() -> None:
+    """A speed that comes to its set point at 12 V all the time is no motor's."""
+    asked = str(miss_drive(Table(Path("log.csv"), np.arange(3), {"t": np.arange(3), "setpoint_rpm": np.ones(3)})))
+    assert "setpoint_rpm is what a controller was told" in asked and "--constant-voltage" not in asked

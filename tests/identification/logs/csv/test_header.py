@@ -1,9 +1,12 @@
 """Names of columns: the line above the rows, a line of units below it, names over their cells."""
 
+from pathlib import Path
+
 import pytest
 
 from motor_identification.logs.csv.dialect import find_dialect
 from motor_identification.logs.csv.header import find_header, say_names_without_cells
+from motor_identification.logs.csv.reader import read_table
 
 FIRST = "0;0;0,2;0;21,1"
 SPREAD = "         5      10.6       0.0      21.1      4700                "
@@ -109,3 +112,25 @@ def test_names_behind_the_cells_of_all_rows(names: str, kept: str) -> None:
     said = say_names_without_cells(("# a log", names), ",", header or ("a", "b", "c"))
     assert bool(said) == bool(kept)
     assert find_header((names,), "0,1", ",", False, 2, 2) == ()  # of two columns nobody knows
+
+
+@pytest.mark.parametrize(
+    ("line", "found"),
+    [
+        ("Tempo,Saída,Esforço", True),
+        ("t,u,y", True),  # two of three are known
+        ("Pins,set,now", False),
+        ("t,speed", False),
+        ("t,u,u", False),
+        ("t,u,5", False),
+        ("nan,nan,nan", False),
+    ],
+)
+def test_names_below_the_first_rows(tmp_path: Path, line: str, found: bool) -> None:
+    """A capture that began before its board printed them."""
+    rows = [f"{0.01 * k:.2f},{k % 3},{2 * k}" for k in range(40)]
+    (tmp_path / "log.csv").write_text("\n".join([*rows[:2], line, *rows[2:]]) + "\n")
+    (tmp_path / "named.csv").write_text("\n".join(["a,b,c", *rows[:2], "t,u,y", *rows[2:]]) + "\n")
+    table = read_table(tmp_path / "log.csv")
+    assert (table.names == line.split(",")) == found and (len(table) == 40 or not found)
+    assert read_table(tmp_path / "named.csv").names == ["a", "b", "c"]

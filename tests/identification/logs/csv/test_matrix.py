@@ -29,6 +29,18 @@ def test_a_line_for_each_column(delimiter: str, named: bool) -> None:
     assert found[-1] == "49;24.5" and len(found) == 50 + named
 
 
+@pytest.mark.parametrize(
+    ("form", "between"), [("{} = [{}]", ", "), ("{}=[{}, ];", ","), ("{} = [ {} ];", " "), ("{}: ({}),", ", ")]
+)
+def test_lists_as_programs_print_them(form: str, between: str) -> None:
+    """`pwm = [0, 20, 40]` and a line for the next: of Python, MATLAB, and people who paste them."""
+    lists = {"pwm": [str(20 * k) for k in range(50)], "rpm": [f"{0.5 * k}" for k in range(50)]}
+    lines = [form.format(name, between.join(cells)) for name, cells in lists.items()]
+    found, said = turn_lines_into_columns(["", *lines])
+    assert said == (NOTE,) and found[0] == "pwm;rpm" and found[-1] == "980;24.5" and len(found) == 51
+    assert turn_lines_into_columns([*lines, "print(rpm)"]) == ([*lines, "print(rpm)"], ())
+
+
 def test_decimal_commas_in_a_line_for_each_column() -> None:
     found, said = turn_lines_into_columns([";".join(f"{k},5" for k in range(50)), ";".join("7" for _ in range(50))])
     assert said and found[3] == "3,5;7"

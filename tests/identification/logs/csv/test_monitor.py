@@ -33,6 +33,15 @@ def test_names_in_cells_of_their_own_go_before_all_rows() -> None:
         assert not take_apart([other] * 9).names
 
 
+def test_units_that_nobody_knows_are_kept_behind_the_names() -> None:
+    """As of a thrust stand: a unit stands at its number, whatever it is; words apart from it are none."""
+    rows = ["PWM Percent: 5.00%, Thrust: -0.03lbs, Battery Voltage: 26.1V, RPM: 90"] * 9
+    taken = take_apart(["=~=~= PuTTY log =~=~=", "P.07A, RPM: 0", *rows])
+    assert taken.names == ("PWM Percent [%]", "Thrust [lbs]", "Battery Voltage [V]", "RPM")
+    assert taken.lines[2] == "5.00;-0.03;26.1;90"
+    assert not take_apart(["Thrust: 3 lbs, RPM: 90"] * 9).names and not take_apart(["a:1, b:2 retries"] * 9).names
+
+
 def test_other_tables_are_left_alone() -> None:
     for line in ("0,1,2", "12:00:00.5,1,2", "a:1", "a:1 b", "a=1;a=2", "x: " * 50_000):
         taken = take_apart([line] * 10)

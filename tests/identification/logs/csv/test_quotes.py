@@ -31,3 +31,15 @@ def test_line_breaks_in_quotes_are_no_rows(tmp_path: Path) -> None:
     np.testing.assert_allclose(table.numbers("pwm"), np.arange(20) % 3)
     odd = ["a,b", *['1,"'] * 3, *["2,3"] * 20]
     assert unquote_rows(odd) == odd and unquote_rows(['1,"2', '"', *["3,4"] * 20])[:2] == ['1,"2', '"']
+
+
+def test_line_breaks_in_quotes_in_the_middle_of_rows(tmp_path: Path) -> None:
+    """As of a supply's voltage that was read from a power meter, to the end of its line."""
+    path = tmp_path / "log.csv"
+    rows = "".join(f'{k},{0.01 * k:.2f},"+{k % 3}.5E+00\n",{2 * k},25\n' for k in range(20))
+    path.write_text(f",time,pwm,speed,temp\n{rows}")
+    table = read_table(path)
+    np.testing.assert_allclose(table.numbers("pwm"), np.arange(20) % 3 + 0.5)
+    np.testing.assert_allclose(table.numbers("speed"), 2.0 * np.arange(20))
+    quoted = ['"1","2"', '"3",4'] * 10  # rows that begin with a quote, and close what they opened
+    assert unquote_rows(quoted) == quoted

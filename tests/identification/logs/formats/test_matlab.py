@@ -30,6 +30,15 @@ def test_vectors_columns_and_structs(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("motion", ["obs_vel", "fitted"])
+def test_of_several_lengths_the_names_tell_the_motors(tmp_path: Path, motion: str) -> None:
+    """A curve that was fitted, of more vectors, beside what was measured."""
+    fit = {name: np.arange(80.0) for name in ("x1", "x2", "y1", "y2")}
+    savemat(tmp_path / "log.mat", {"obs_volt": TIME * 3, motion: TIME * 5, **fit})
+    measured = sorted(["obs_volt", motion])
+    assert sorted(read_matlab(tmp_path / "log.mat").names) == (measured if motion == "obs_vel" else sorted(fit))
+
+
 def test_what_has_no_vectors(tmp_path: Path) -> None:
     savemat(tmp_path / "log.mat", {"a": 1.0})
     with pytest.raises(RecordingError, match="has no vectors of numbers"):

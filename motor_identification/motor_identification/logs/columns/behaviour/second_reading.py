@@ -67,13 +67,20 @@ def pulses_that_drive(table: Table, headings: list[Heading]) -> list[Heading]:
 def ends_of_a_loop(headings: list[Heading]) -> list[Heading]:
     """Input and output side by side: of a controller where a set point stands there too, else of the motor.
 
-    An output beside what drives, where nothing else moves, is the motor's.
+    An output beside what drives, where nothing else moves, is the motor's; so is one where nothing else could move.
     """
     places = {_place(one) for one in headings} - {None}
     drive_it = [one for one in headings if drives(one) and _place(one) is None]
+    beside = {one.quantity for one in headings if _place(one) is None}
     if INPUTS in places and OUTPUTS in places:
         moves = INPUTS if any(one.quantity is Quantity.REFERENCE for one in headings) else OUTPUTS
-    elif OUTPUTS in places and drive_it and not any(one.quantity in MOVES for one in headings):
+    elif (
+        OUTPUTS in places
+        and drive_it
+        and not any(one.quantity in MOVES for one in headings)
+        or OUTPUTS in places
+        and beside <= {Quantity.TIME, Quantity.REFERENCE, Quantity.OTHER}
+    ):
         moves = OUTPUTS
     else:
         return headings

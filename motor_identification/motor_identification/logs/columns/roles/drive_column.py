@@ -17,6 +17,7 @@ Floats = NDArray[np.float64]
 
 STEADY = 0.7  # of its largest value: a battery stays above
 BOTH_WAYS = 0.2  # of the largest speed, which a motor has the other way
+STANDS, FEWEST_STANDING = 0.01, 10  # of the largest speed, in so many rows: a motor that stands again
 FEWEST_CHANGES = 10  # of a battery's voltage, which sags; what changes in fewer rows is set
 
 
@@ -52,7 +53,10 @@ def find_drive_column(table: Table, headings: Sequence[Heading], side: str, othe
 
 
 def _is_battery(table: Table, name: str) -> bool:
-    """Whether a voltage is a battery's: it stays, of one sign, once it is there, while a motor turns both ways."""
+    """Whether a voltage is a battery's: it stays, of one sign, once it is there, while a motor turns both ways.
+
+    Or while a motor that ran stands again.
+    """
     volts = table.numbers(name)
     there = volts[volts != 0.0]
     beside = [read_heading(one) for one in table.names if is_numeric(table, one)]
@@ -61,9 +65,21 @@ def _is_battery(table: Table, name: str) -> bool:
     turned = any({"dir", "direction"} & set(one.words) for one in beside)  # by a pin of its own
     steady = len(there) > 0 and np.min(there) > STEADY * np.max(there) > 0.0
     told = any(one.quantity is Quantity.REFERENCE and len(np.unique(table.numbers(one.name))) > 1 for one in beside)
+    begin = int(np.argmax(volts != 0.0))
+    if steady and np.all(volts[begin:] != 0.0) and any(_stands_again(speed[begin:]) for speed in speeds):
+        return True
     if not both or turned or not steady:
         return False
     return told or bool(np.count_nonzero(np.diff(volts)) > FEWEST_CHANGES)  # few may be those of a drive
+
+
+def _stands_again(speed: Floats) -> bool:
+    """Whether a motor comes to a standstill after it ran; speeds, shape (K,), in any unit."""
+    size = np.abs(speed)
+    top = float(np.max(size, initial=0.0))
+    runs = size > 0.5 * top
+    ran = int(np.argmax(runs)) if np.count_nonzero(runs) >= FEWEST_STANDING else len(size)  # a few rows are garbage
+    return np.count_nonzero(size[ran:] <= STANDS * top) >= FEWEST_STANDING
 
 
 def _swings(values: Floats) -> bool:

@@ -11,7 +11,7 @@ from motor_identification.logs.columns.notes import ask_column, ask_motion, miss
 from motor_identification.logs.columns.vocabulary import FILTERED, MEASURED, RAW, UNITS, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
-from motor_identification.logs.rows.constant_voltage import CONSTANT
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 
 SAME_MOTION = 0.9995  # correlation of a motion with itself in another unit, which is rounded
 SUMMED_UP = 0.9  # of the rows in motion: there a count goes on by just what another column says

@@ -32,6 +32,7 @@ from motor_identification.logs.csv.table import Table
 Floats = NDArray[np.float64]
 
 SAME_CLOCK = 0.9999  # correlation of two columns of times
+SAME_COLUMN = 0.99  # of the rows in motion, in which two columns of one signal are equal
 FEWEST_ROWS = 10  # that numbers of rows are told by
 UNEVEN = 0.2  # of their mean: steps of a column that may be a motor's way
 
@@ -161,8 +162,21 @@ def _single(table: Table, headings: Sequence[Heading], said: Said, time: str | N
         return channels
     side = read_heading(motion or voltage).side  # of two motors, the one that was named
     motion = motion or find_motion_column(table, rest, side, time, said.unit)
-    voltage = voltage or find_drive_column(table, [one for one in rest if one.name != motion], side, ("",))
+    voltage = voltage or find_drive_column(table, _besides(table, rest, motion), side, ("",))
     return Pair("", voltage, motion)
+
+
+def _besides(table: Table, headings: Sequence[Heading], motion: str) -> list[Heading]:
+    """The columns but for that of the motion, also under a name that tells nothing: `motor 2` of a matrix."""
+    moved = table.numbers(motion)
+    again = {one.name for one in headings if one.quantity is None and _is_again(table.numbers(one.name), moved)}
+    return [one for one in headings if one.name not in again | {motion}]
+
+
+def _is_again(values: Floats, others: Floats) -> bool:
+    """Whether columns, shape (K,), are the same but for a few rows, as where somebody took out what was wrong."""
+    told = (values != 0.0) | (others != 0.0)
+    return bool(told.any() and np.mean((values == others)[told]) > SAME_COLUMN)
 
 
 def _of_one_shaft(

@@ -32,6 +32,16 @@ def test_an_output_beside_what_drives_is_the_motors() -> None:
         find_roles(table(t="t", output="u", pwm="u", speed="y"), Said())
 
 
+def test_an_output_alone_is_the_motors() -> None:
+    """What is missing then is what drives it."""
+    roles = find_roles(table(Tempo="t", Saída="y", Erro="r", Pwm="u"), Said(voltage="Pwm"))
+    assert roles.pairs == (Pair("", "Pwm", "Saída"),)
+    for columns in ({"Saída": "y"}, {"Referencia": "r", "Saída": "y", "Erro": "r"}):
+        with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+            find_roles(table(Tempo="t", **columns), Said())
+    assert find_roles(table(t="t", output="u", x="y"), Said()).pairs == (Pair("", "output", "x"),)
+
+
 def test_current_beside_a_target_is_what_is_present() -> None:
     roles = find_roles(table(t="t", target="r", current="y", pwm="u"), Said())
     assert (roles.pairs, roles.current) == ((Pair("", "pwm", "current"),), None)

@@ -49,3 +49,19 @@ def test_a_battery_of_few_levels_drives_nothing_where_a_set_point_is_told(told: 
             find_roles(table, Said())
     else:
         assert find_roles(table, Said()).pairs[0].voltage == "VOLT"
+
+
+@pytest.mark.parametrize(
+    ("standing", "off", "battery"),
+    [(10, False, True), (9, False, False), (0, False, False), (40, True, False)],
+)
+def test_a_voltage_that_stays_while_a_motor_stands_again_is_a_battery(standing: int, off: bool, battery: bool) -> None:
+    """As on a test stand, where the motor's controller gets pulses; a bridge that is switched off has 0 V then."""
+    speed = np.concatenate((np.linspace(0.0, 90.0, 200 - standing), np.zeros(standing)))
+    volts = np.linspace(16.7, 16.2, 200) * ~((speed == 0.0) & off)
+    table = columns(t=TIME, Voltage=volts, speed=speed)
+    if battery:
+        with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+            find_roles(table, Said())
+    else:
+        assert find_roles(table, Said()).pairs[0].voltage == "Voltage"

@@ -118,3 +118,16 @@ def test_a_way_without_times_is_no_clock() -> None:
     for late in (np.zeros(200), 0.05 * (np.arange(200) % 50 == 7)):
         KINDS.update(j=np.cumsum(0.01 + jitter + late))
         assert find_roles(table(**{"column 1": "j", "column 2": "u", "column 3": "y"}), Said()).time == "column 1"
+
+
+@pytest.mark.parametrize(("changed", "again"), [(0, True), (1, True), (3, False)])
+def test_the_motion_under_another_name_does_not_drive_it(changed: int, again: bool) -> None:
+    """A matrix of times and speeds beside both as vectors, of which somebody mended a row."""
+    copy = np.where(np.arange(len(MOVED)) < 100 + changed, np.abs(MOVED) + 1.0, MOVED)
+    motion = np.where(np.arange(len(MOVED)) < 100, copy, MOVED)
+    found = columns(t=TIME, speed=motion, x=copy)
+    if again:
+        with pytest.raises(RecordingError, match="no column is the voltage or duty"):
+            find_roles(found, Said())
+    else:
+        assert find_roles(found, Said()).pairs == (Pair("", "x", "speed"),)

@@ -8,7 +8,7 @@ import pytest
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.imported import import_log
-from motor_identification.logs.rows.constant_voltage import CONSTANT, give_voltage
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT, give_voltage
 from motor_model.errors import RecordingError
 
 TIME = np.arange(200) * 0.01

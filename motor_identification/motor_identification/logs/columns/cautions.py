@@ -1,0 +1,50 @@
+"""What a user is told to check of a drive: duties beyond the full one, a set-point, a mark that drives nothing."""
+
+import numpy as np
+
+from motor_identification.logs.columns.drive import find_same_levels
+from motor_identification.logs.columns.notes import Notes
+from motor_identification.logs.columns.said import Pair
+from motor_identification.logs.csv.table import Table
+
+ROUNDED = 0.01  # of full duty, by which rounding may go beyond it
+FEWEST_ROWS = 50  # before any drive, in which a motor that was just switched off would become slower
+GOES_ON = 0.9  # of its speed in the first half of those rows, that a motor which is driven has in the second
+FAST = 0.25  # of its largest speed, which noise of a motor that stands does not reach
+
+
+def caution_beyond_full(table: Table, pair: Pair, full: float | None, notes: Notes) -> None:
+    """Tell of duties beyond the full one that was said: another scale, or a code of a program's own."""
+    values = np.abs(table.numbers(pair.voltage))
+    beyond = values > full * (1.0 + ROUNDED) if full else np.zeros(0, bool)
+    if beyond.any():
+        notes.findings.append(
+            f"Caution: {pair.voltage} goes up to {np.max(values):g}, beyond the full duty of {full:g}, in "
+            f"{np.count_nonzero(beyond)} rows: no bridge gives more than its supply. Check --full-duty, or leave out "
+            "rows whose number is a code."
+        )
+
+
+def caution_set_point(table: Table, pair: Pair, notes: Notes) -> None:
+    """Tell of a drive whose numbers are those of the motion: what it should be, or has been."""
+    levels = find_same_levels(table.numbers(pair.voltage), table.numbers(pair.motion))
+    if levels:
+        notes.findings.append(
+            f"Caution: at {levels} levels {pair.motion} comes to the numbers of {pair.voltage} themselves, as a speed "
+            "comes to its set-point: neither may be what drives the motor. Check them, and say --voltage and --speed."
+        )
+
+
+def caution_running_without_drive(table: Table, pair: Pair, notes: Notes) -> None:
+    """Tell of a motor that keeps its speed in the first rows, in which its drive is 0: a mark, or a change of it."""
+    drive, speed = table.numbers(pair.voltage), table.numbers(pair.motion)
+    rows = int(np.argmax(drive != 0.0)) if np.any(drive) else 0
+    if rows < FEWEST_ROWS:
+        return
+    first, second = (abs(float(np.mean(half))) for half in np.array_split(speed[:rows], 2))
+    if second > max(GOES_ON * first, FAST * float(np.max(np.abs(speed)))):
+        speed_before = float(np.mean(speed[:rows]))
+        notes.findings.append(
+            f"Caution: {pair.motion} is {speed_before:.3g} in the first {rows} rows, where {pair.voltage} is 0: "
+            "nothing drives a motor at 0 V. It may be a mark, or the change of a voltage: log that voltage itself."
+        )

@@ -1,0 +1,1 @@
+"""What drives the rows: a voltage that no column has, and codes that are no duties."""

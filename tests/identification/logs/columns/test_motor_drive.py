@@ -1,0 +1,43 @@
+"""The drive of one motor: when numbers without a unit are volts, and when a duty of the supply that was said."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from motor_identification.logs.columns.motor_drive import read_drive
+from motor_identification.logs.columns.notes import Notes
+from motor_identification.logs.columns.roles.roles import Roles
+from motor_identification.logs.columns.said import Pair, Said
+from motor_identification.logs.csv.table import Table
+
+
+def volts_per_unit(drive: str, values: NDArray[np.float64], said: Said) -> float:
+    table = Table(Path("log.csv"), np.arange(100), {drive: values, "speed [rpm]": np.sin(np.arange(100.0))})
+    return read_drive(table, Pair("", drive, "speed [rpm]"), Roles("t", (), None, None), said, Notes([], []))[1]
+
+
+@pytest.mark.parametrize(("supply", "drive", "scale"), [(25.0, "setpoint", 25.0 / 255.0), (25.0, "setpoint [V]", 1.0)])
+def test_more_than_the_supply_are_no_volts(supply: float, drive: str, scale: float) -> None:
+    values = np.repeat([50.0, -50.0], 50)
+    assert volts_per_unit(drive, values, Said(supply_voltage=supply)) == pytest.approx(scale)
+    assert volts_per_unit(drive, values, Said(supply_voltage=51.0)) == 1.0
+
+
+@pytest.mark.parametrize(
+    ("supply", "drive", "largest", "scale"),
+    [
+        (9.0, "u", 0.9, 9.0),
+        (9.0, "column 2", 1.0, 9.0),
+        (9.0, "u", 1.1, 1.0),
+        (9.0, "voltage", 0.9, 1.0),  # a name that says volts is believed
+        (9.0, "u [V]", 0.9, 1.0),
+        (None, "u", 0.9, 1.0),
+        (0.9, "u", 0.9, 1.0),  # the supply of a motor as small
+    ],
+)
+def test_shares_of_a_supply_that_was_said(supply: float | None, drive: str, largest: float, scale: float) -> None:
+    """Who says a supply's voltage has a duty, whatever its column is called."""
+    values = np.linspace(-largest, largest, 100)
+    assert volts_per_unit(drive, values, Said(supply_voltage=supply)) == pytest.approx(scale)
