@@ -82,23 +82,32 @@ class Model:
     def whitened(self) -> WhitenedFit:
         """The last stage of its fit, which its parameters and their standard errors are said from.
 
-        Beside a random torque where there is one and nothing else is left: of a motor that it moves slowly, encoders
-        alone tell parameters a fifth as well. What repeats with the angle has its phase there at any rate, and runs
-        whose gains differ what they have in common.
+        What repeats with the angle is fitted beside the random torque already, which hides its phase elsewhere; and
+        what is common to runs whose gains differ, beside these.
         """
-        errors = self.learned
-        if errors is None:
-            return fit_whitened(self.estimate)
         periodic = any(EFFECT_BY_NAME[name].periodic for name in self.effects)
-        random = errors.rms_voltage > 0.0 and self.complete
-        beside = periodic or errors.gain > 0.0 or random
-        return whiten_beside_torque(self.estimate, errors) if beside else fit_whitened(self.estimate)
+        if self.learned is not None and (periodic or self.learned.gain > 0.0):
+            return whiten_beside_torque(self.estimate, self.learned)
+        return fit_whitened(self.estimate)
 
     @cached_property
     def uncertainty(self) -> Uncertainty:
         """How sure its parameters are; every effect that it has asks."""
         fit = self.whitened
         return estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta))
+
+    @cached_property
+    def told_beside_torque(self) -> tuple[WhitenedFit, Uncertainty] | None:
+        """Its parameters, and how sure they are, by what knows of the random torque; None where more than that is left.
+
+        Of a motor that a torque moves slowly, encoders alone tell a friction a tenth as well. Not what parameters are
+        said from: beside a slow torque of 0.4 of a friction that holds the motor, their errors are half as large as
+        they should be.
+        """
+        if self.learned is None or self.learned.rms_voltage == 0.0 or not self.complete:
+            return None
+        fit = whiten_beside_torque(self.estimate, self.learned)
+        return fit, estimate_uncertainty(fit, fit.residuals.jacobian(fit.theta))
 
     @property
     def floor(self) -> float:

@@ -109,6 +109,9 @@ ON_ITS_WAY = 2.0
 # 2.2 of a sagging supply beside a slow torque, 2.7 of a load in a motor whose friction goes with the angle; right ones
 # 3.2 and more, but for one of 2.6: a dead zone beside the friction that takes its place in part.
 SURE_SIZE = 3.0
+# The same by a fit that knows of the random torque beside it. Measured: 30 and 160 of frictions that were 2.9 and 2.2
+# by their encoders, in motors that a torque moves as slowly as they are; its errors are up to half too small.
+SURE_BESIDE_TORQUE = 10.0
 # Of a recording: the standard error of an instant, in all of them, from which on nothing came at one. Measured: 0.063
 # and 0.088 for a load step that stood in for a coasting bridge's rest, and a limit, beside slow torques; right ones
 # 0.0175 and less.

@@ -96,11 +96,6 @@ class WhitenedResiduals(FilteredResiduals[Encoder]):
         return False
 
     @property
-    def goes_with_motor(self) -> bool:
-        """Whether the whitening was learned with the motor's own lag, and white residuals say less of its errors."""
-        return False
-
-    @property
     def noise_floor(self) -> float:
         """[rad/s] time-weighted RMS of what timer tick (or count quantisation) and irregular slots alone leave."""
         rows = zip(self.problem.intervals, self.encoders, strict=True)

@@ -43,8 +43,7 @@ def estimate_uncertainty(fit: WhitenedFit, jacobian: Floats) -> Uncertainty:
     """Estimate the standard errors of a fit from its white residuals and their Jacobian (rows, D).
 
     Where the residuals pass for white (portmanteau test of `whiteness.py`), the covariance is (JᵀJ)⁻¹: it needs no
-    estimate. Elsewhere, where that cannot be tested (windows that overlap), and where the whitening was learned with
-    the motor (beside a random torque (JᵀJ)⁻¹ covers 83 to 96 %), it is that of the delete-one-block
+    estimate. Elsewhere, and where that cannot be tested (windows that overlap), it is that of the delete-one-block
     jackknife over 20 blocks of equal time, which takes any correlation that is shorter than a block, and any change of
     the motor from block to block, as it is (Künsch, Ann. Statist. 17, 1989; to first order the sandwich of Liang &
     Zeger with each block's score divided by one minus its leverage, CV3 of MacKinnon, Nielsen & Webb, J. Appl.
@@ -64,8 +63,7 @@ def estimate_uncertainty(fit: WhitenedFit, jacobian: Floats) -> Uncertainty:
     whiteness = analyse_whiteness(_series(fit, white))
     covariance = root @ root.T
     errors = np.sqrt(np.diag(covariance))
-    known = whiteness.p_value >= LEAST_WHITE_P_VALUE and not fit.residuals.goes_with_motor
-    if not known and len(white) >= JACKKNIFE_BLOCKS[0] * LEAST_BLOCK_ROWS:
+    if not whiteness.p_value >= LEAST_WHITE_P_VALUE and len(white) >= JACKKNIFE_BLOCKS[0] * LEAST_BLOCK_ROWS:
         covariance, errors = _blocked(fit, scaled, white, root)
     alone = measure_independence(scaled)
     visible = mark_visible(fit.estimate, scale) | _mark_visible_beside(fit, scaled)

@@ -1,6 +1,7 @@
 """A model says what it leaves: noise, what lasts, and what no curve predicts of it."""
 
 from dataclasses import replace
+from functools import cache
 from math import exp
 from types import SimpleNamespace
 from typing import Any
@@ -8,12 +9,18 @@ from typing import Any
 import numpy as np
 import pytest
 from diagnosed import fitted
+from plant import profiles, record
 from stub_models import FLOOR, stub_model
 
+from motor_identification.diagnose import fit_known
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.selection.selection import begin_beside_torque
+from motor_identification.estimation.request import Request
 from motor_identification.noise.error_model import ErrorModel, Lag
+from motor_identification.recording import check
+from motor_identification.validation.hold_out import make_hold_out
 
 
 @pytest.mark.parametrize(("times", "above"), [(0.999, False), (1.001, True)])
@@ -40,6 +47,34 @@ def test_a_complete_model_leaves_the_sensors_noise_and_no_structure() -> None:
     assert wrong.floor < wrong.sensor_floor < 0.2 * wrong.noise_floor  # friction passes for a torque rather than slots
     scatter = wrong.scatter_of_travel()
     assert all(np.all(part > 0.0) for part in scatter) and len(scatter) == len(wrong.held.intervals)
+
+
+@cache
+def beside_slow_torque(*effects: str) -> Model:
+    """A motor with a friction, beside a random torque that is as slow as it is."""
+    motor = {"kv": 0.07, "ka": 0.0105, "ks": 0.5}
+    torque = {"random_torque": 0.2, "random_torque_time": 0.2, "random_torque_seed": 1.0}
+    recording = check(record(motor | torque, *profiles.random(10.0, 14.0, 1), seed=1)[0])
+    known, _search = fit_known([recording], Request(effects=effects), make_hold_out([recording], []))
+    return begin_beside_torque(known.model, known.hold_out, 1).model
+
+
+def test_a_fit_that_knows_of_a_slow_torque_tells_more_than_encoders() -> None:
+    model = beside_slow_torque("coulomb_friction")
+    assert model.complete and model.told_beside_torque is not None
+    fit, uncertainty = model.told_beside_torque
+    assert abs(fit.theta[2] - 0.5) < 0.02
+    assert 0.1 < uncertainty.errors[2] / model.uncertainty.errors[2] < 0.25
+    assert 0.05 < uncertainty.errors[1] / model.uncertainty.errors[1] < 0.2  # of ka
+
+
+def test_where_more_is_left_no_torque_is_known() -> None:
+    model = beside_slow_torque()
+    assert not model.complete and model.learned is not None and model.told_beside_torque is None
+    random = beside_slow_torque("coulomb_friction")
+    assert random.learned is not None
+    for errors in (None, replace(random.learned, rms_voltage=0.0)):
+        assert replace(random, learned=errors).told_beside_torque is None
 
 
 def judged(ratio: float, duration: float, judged_share: float = 1.0) -> Any:

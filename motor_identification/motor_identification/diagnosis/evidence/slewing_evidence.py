@@ -5,7 +5,6 @@ for it. After a change by U volts at a rate r the output is late by U/(2·r) in 
 any. Here the recorded command is made to slew before the motor gets it, as the mean of every row.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 from math import exp, log
 
@@ -36,11 +35,13 @@ def find_slewing(effect: str, without: Model, current: Model) -> Structure | Non
 
     without: the model that lacks the lag. None where the lag does not stand in for such a bridge.
     """
-    if effect not in LAGS or not (current.beside_torque or current.above_floor):
+    recordings = current.estimate.problem.recordings
+    changes = np.abs(np.concatenate([np.diff(recording.voltage) for recording in recordings]))
+    if effect not in LAGS or not (current.beside_torque or current.above_floor) or not np.any(changes):
         return None
     having, lacking = (_score(model.estimate, current) for model in (current, without))
     bare = drop_effect(current.estimate, effect)
-    rate = _guess_rate(current.estimate.problem.recordings, current.estimate.parameters.value(_time_of(effect)))
+    rate = _guess_rate(changes, current.estimate.parameters.value(EFFECT_BY_NAME[effect].parameters[0].name))
     likeliest = _find_rate(bare, current, rate, having - 0.5 * abs(having - lacking))
     if likeliest is None:
         return None
@@ -52,13 +53,8 @@ def find_slewing(effect: str, without: Model, current: Model) -> Structure | Non
     return None if both > found + likelihood_threshold() else _describe(slewing, without, found - lacking)
 
 
-def _time_of(effect: str) -> str:
-    return EFFECT_BY_NAME[effect].parameters[0].name
-
-
-def _guess_rate(recordings: Sequence[Recording], lag: float) -> float:
-    """Guess the rate [V/s] at which changes of a command, by size, are as late in the mean as a lag [s] makes them."""
-    changes = np.abs(np.concatenate([np.diff(recording.voltage) for recording in recordings]))
+def _guess_rate(changes: Floats, lag: float) -> float:
+    """Guess the rate [V/s] that makes changes of a command [V], by size, as late in the mean as a lag [s]."""
     return float(np.sum(changes**2) / (2.0 * lag * np.sum(changes)))
 
 

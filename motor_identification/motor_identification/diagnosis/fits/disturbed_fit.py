@@ -39,11 +39,6 @@ class WhitenedBesideTorque(WhitenedResiduals):
         """Whether each recording has a gain of its own, so that they need not agree."""
         return any(one.along is not None for one in self.whitenings)
 
-    @property
-    def goes_with_motor(self) -> bool:
-        """The torque is learned through the motor's lag."""
-        return True
-
     def on(self, problem: Problem) -> "WhitenedBesideTorque":
         """The same whitening of another model's motion in the same recordings."""
         return replace(self, problem=problem)

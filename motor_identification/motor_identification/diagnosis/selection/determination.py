@@ -137,7 +137,17 @@ def is_chance_size(effect: str, model: Model) -> bool:
     at = fit.problem.unknowns.names.index(specs[0].name)
     error = model.uncertainty.errors[at]
     # A line's cycles are always determined.
-    return bool(abs(fit.theta[at] - specs[0].off) < sure * error or (line and isnan(error)))
+    chance = bool(abs(fit.theta[at] - specs[0].off) < sure * error or (line and isnan(error)))
+    return chance and (line or not _is_sure_beside_torque(effect, model))
+
+
+def _is_sure_beside_torque(effect: str, model: Model) -> bool:
+    """Decide whether an effect has a size beyond chance by what knows of the random torque that is all that is left."""
+    if model.told_beside_torque is None:
+        return False
+    (fit, uncertainty), spec = model.told_beside_torque, EFFECT_BY_NAME[effect].parameters[0]
+    at = fit.problem.unknowns.names.index(spec.name)
+    return bool(abs(fit.theta[at] - spec.off) > thresholds.SURE_BESIDE_TORQUE * uncertainty.errors[at])
 
 
 def _find_unknown(model: Model) -> tuple[str, ...]:

@@ -1,5 +1,6 @@
 """A bridge that slews is told from the lag that stands in for it by the motion that both were fitted to."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -70,6 +71,15 @@ def test_elimination_takes_a_stand_in_back_and_leaves_it_unexplained(hidden: str
     stands_in = hidden == "slewing"
     assert (not left.steps and left.outside is not None and not left.complete) is stands_in
     assert (len(left.steps) == 1 and left.outside is None) is not stands_in
+
+
+def test_a_command_that_never_changes_slews_by_nothing() -> None:
+    """Such as runs that are a step each, from their first row on."""
+    (step,) = selected("slewing").steps
+    problem = step.found.model.estimate.problem
+    held = tuple(replace(one, voltage=np.full_like(one.voltage, 5.0)) for one in problem.recordings)
+    model = replace(step.found.model, estimate=step.found.model.estimate.on(replace(problem, recordings=held)))
+    assert find_slewing("armature_inductance", step.before, model) is None
 
 
 def test_a_slewing_output_follows_in_rows_means() -> None:

@@ -100,6 +100,22 @@ def test_a_size_within_its_errors_is_chance(
     assert is_chance_size(effect, model) == chance
 
 
+@pytest.mark.parametrize(("sigma", "chance"), [(0.99, True), (1.01, False), (None, True)])
+def test_what_a_fit_beside_the_torque_is_sure_of_is_no_chance(sigma: float | None, chance: bool) -> None:
+    """By encoders alone its size is one standard error; None: more than a random torque is left."""
+    estimate, hold_out = fitted()
+    model = validate_model(hold_out, with_effect(estimate, "coulomb_friction", {"ks": 0.3}))
+    size = model.whitened.theta[2]
+    told = None if sigma is None else (model.whitened, known(size / (sigma * thresholds.SURE_BESIDE_TORQUE)))
+    stub = SimpleNamespace(whitened=model.whitened, held=model.held, uncertainty=known(size), told_beside_torque=told)
+    assert is_chance_size("coulomb_friction", cast(Model, stub)) is chance
+
+
+def known(error: float) -> Any:
+    """The same standard error of everything."""
+    return SimpleNamespace(errors=np.full(20, error))
+
+
 @pytest.mark.parametrize(("share", "vague"), [(0.99, False), (1.01, True), (np.nan, False)])
 def test_a_load_that_may_come_on_at_any_time_is_none(
     monkeypatch: pytest.MonkeyPatch, share: float, vague: bool
