@@ -13,7 +13,7 @@ from time import perf_counter
 from motor_identification.diagnosis.candidate_test import fits_torque
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
-from motor_identification.diagnosis.selection.determination import drop_undetermined
+from motor_identification.diagnosis.selection.determination import drop_undetermined, drop_undetermined_at_once
 from motor_identification.diagnosis.selection.forward_selection import select_forward
 from motor_identification.diagnosis.selection.restarts import retry_with_another_first, retry_with_pair
 from motor_identification.diagnosis.selection.rivals import add_rivals_beside_torque
@@ -169,9 +169,9 @@ def _select_in_time(start: Selection, reporter: ProgressReporter, limit: TimeLim
     except Stopped:
         if not limit.reached or limit.best is None:
             raise
-        limit.done = True
-        selected = _Selected(drop_stand_ins(limit.best), (), finished=False)
-    limit.done = True  # what is left is to say it
+        limit.done = True  # what is left is to say it
+        return _Selected(drop_undetermined_at_once(drop_stand_ins(limit.best)), (), finished=False)
+    limit.done = True
     return selected
 
 

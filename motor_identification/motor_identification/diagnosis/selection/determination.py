@@ -46,6 +46,15 @@ def drop_undetermined(selection: Selection, reporter: ProgressReporter) -> tuple
     return selection, sort_by_table(set(dropped) - set(selection.model.effects))
 
 
+def drop_undetermined_at_once(selection: Selection) -> Selection:
+    """Drop the findings that are not determined, the last one first, where no time is left to compare them."""
+    for step in reversed(selection.steps):
+        if step.found.effect in find_undetermined(selection.model):
+            smaller = drop_step(selection, step)
+            selection = selection if is_needed(step, selection.model, smaller.model) else smaller
+    return selection
+
+
 def _list_weak(selection: Selection, settled: set[tuple[frozenset[str], str]]) -> list[SelectionStep]:
     """List the steps of undetermined effects that are not settled in this company."""
     undetermined = find_undetermined(selection.model) if selection.steps else ()

@@ -19,6 +19,7 @@ from motor_identification.diagnosis.result import Verdict
 from motor_identification.diagnosis.selection import determination
 from motor_identification.diagnosis.selection.determination import (
     drop_undetermined,
+    drop_undetermined_at_once,
     find_limits_hit,
     find_undetermined,
     has_vague_instant,
@@ -232,6 +233,21 @@ def test_a_step_that_predicts_is_no_chance(monkeypatch: pytest.MonkeyPatch) -> N
     selection = Selection((found_step(before, after, "load_step"),), after, hold_out, 1)
     monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: True)
     assert drop_undetermined(selection, SILENT) == (selection, ())
+
+
+@pytest.mark.parametrize(("step", "stays"), [(1e-4, False), (0.7, True)])
+def test_what_is_not_determined_is_dropped_when_the_time_is_used_up(
+    monkeypatch: pytest.MonkeyPatch, step: float, stays: bool
+) -> None:
+    """By its errors neither is; the larger one is seen in the gap."""
+    monkeypatch.setattr(determination, "is_chance_size", lambda effect, model: True)
+    estimate, hold_out = fitted(step_voltage=0.8 if stays else 0.0, step_time=2.0)
+    before = validate_model(hold_out, estimate)
+    after = validate_model(hold_out, with_effect(estimate, "load_step", {"step_voltage": step, "step_time": 2.0}))
+    selection = Selection((found_step(before, after, "load_step"),), after, hold_out, 1)
+    left = drop_undetermined_at_once(selection)
+    assert (left.model.effects == ("load_step",) and left.steps == selection.steps) is stays
+    assert (left.model.effects == () and left.steps == ()) is not stays
 
 
 @pytest.mark.parametrize(
