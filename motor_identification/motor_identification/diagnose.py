@@ -38,6 +38,7 @@ from motor_model.errors import RecordingError
 __all__ = ["Request", "Stage", "Stopped", "diagnose"]
 
 NOTHING_KNOWN = Request()
+DONE_ONCE = 0.95  # of the progress, where a selection is made again
 
 
 def diagnose(
@@ -66,13 +67,7 @@ def diagnose(
     reporter = ProgressReporter(progress or (lambda stage: None), limit.over, limit.keep)
     reporter.report("first fit", 0.0, "", float("nan"))
     first = _begin(recordings, validation, request, reporter.stopped)
-    start = _begin_as_timed(first, _find_timing(first, first.selection), request, reporter.stopped)
-    selected = _select_in_time(start.selection, reporter, limit)
-    if selected.finished and start.timing is not None and set(LAGS).intersection(selected.effects):
-        timing = _find_timing(first, selected.selection)
-        if timing != start.timing:  # what was not known yet was taken for another, which a lag undid
-            start = _begin_as_timed(first, timing, request, reporter.stopped)
-            selected = _select_in_time(start.selection, reporter, limit)
+    start, selected = _select_as_timed(first, request, reporter, limit)
     found = conclude(
         start.selection.model,
         selected.selection,
@@ -173,6 +168,24 @@ def _select_in_time(start: Selection, reporter: ProgressReporter, limit: TimeLim
         return _Selected(drop_undetermined_at_once(drop_stand_ins(limit.best)), (), finished=False)
     limit.done = True
     return selected
+
+
+def _select_as_timed(
+    first: _Start, request: Request, reporter: ProgressReporter, limit: TimeLimit[Selection]
+) -> tuple[_Start, _Selected]:
+    """Select what is missing with speeds as their motion shows that they were made; once more if that shows otherwise.
+
+    What was not known yet may have been taken for another timing, which a lag then undoes.
+    """
+    start = _begin_as_timed(first, _find_timing(first, first.selection), request, reporter.stopped)
+    selected = _select_in_time(start.selection, reporter, limit)
+    if start.timing is None or not selected.finished or not set(LAGS).intersection(selected.effects):
+        return start, selected
+    timing = _find_timing(first, selected.selection)
+    if timing == start.timing or not limit.begin_again():
+        return start, selected
+    again = _begin_as_timed(first, timing, request, reporter.stopped)
+    return again, _select_in_time(again.selection, reporter.beyond(DONE_ONCE), limit)
 
 
 def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tuple[str, ...]]:

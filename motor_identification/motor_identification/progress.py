@@ -1,7 +1,7 @@
 """Report progress of a long computation, and stop it when its caller says so."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from time import monotonic
 from typing import Any, Generic, TypeVar
 
@@ -34,6 +34,10 @@ class ProgressReporter:
     progress: Callable[[Stage], None]
     stopped: Callable[[], bool]
     keep: Callable[[Any], None] = lambda result: None  # told of every result on the way
+
+    def beyond(self, share: float) -> "ProgressReporter":
+        """The same, of what is done at the end: progress that goes on from this share."""
+        return replace(self, progress=lambda stage: self.progress(replace(stage, share=max(share, stage.share))))
 
     def report(self, text: str, share: float, best_effect: str, gap: float) -> None:
         """Report how far it is.
@@ -70,6 +74,13 @@ class TimeLimit(Generic[R]):
     def reached(self) -> bool:
         """Whether the time is used up, and there is a result."""
         return self.best is not None and not self.done and self.clock() - self._begun > self.seconds
+
+    def begin_again(self) -> bool:
+        """Forget the results so far, which another search is to find anew; False, and nothing of it, without time."""
+        if self.clock() - self._begun > self.seconds:
+            return False
+        self.best, self.done = None, False
+        return True
 
     def over(self) -> bool:
         """Whether to stop, for either reason."""

@@ -53,6 +53,27 @@ def test_a_time_limit_counts_once_there_is_a_result_and_keeps_the_best() -> None
     assert not limit.over()
 
 
+def test_a_search_that_begins_again_has_the_time_that_is_left() -> None:
+    now = [0.0]
+    limit = TimeLimit[float](10.0, lambda: False, lambda one, other: one < other, lambda: now[0])
+    limit.keep(1.0)
+    limit.done, now[0] = True, 9.9
+    assert limit.begin_again() and limit.best is None and not limit.over()
+    limit.keep(2.0)
+    now[0] = 10.1
+    assert limit.over() and limit.best == 2.0
+    limit.done = True
+    assert not limit.begin_again() and limit.best == 2.0 and limit.done
+
+
+def test_what_is_done_at_the_end_goes_on_from_there() -> None:
+    stages: list[Stage] = []
+    late = ProgressReporter(stages.append, lambda: False).beyond(0.95)
+    for share in (0.1, 0.97):
+        late.report("step 1", share, "", 0.5)
+    assert [stage.share for stage in stages] == [0.95, 0.97]
+
+
 def test_a_callers_wish_is_no_time_limit() -> None:
     limit = TimeLimit[float](10.0, lambda: True, lambda one, other: one < other, lambda: 0.0)
     limit.keep(1.0)

@@ -118,7 +118,9 @@ def test_what_is_known_to_be_in_a_motor_tells_how_speeds_were_made(known: tuple[
 
 
 def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it() -> None:
-    found = diagnose([swept()])
+    heard: list[float] = []
+    found = diagnose([swept()], progress=lambda stage: heard.append(stage.share))
+    assert heard == sorted(heard) and heard.count(0.95) > 3
     assert {finding.effect for finding in found.findings} == {"coulomb_friction", "supply_sag"}
     assert found.verdict is Verdict.EXPLAINED and found.model.timing == OTHERS[0]
 
