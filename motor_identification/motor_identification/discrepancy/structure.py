@@ -39,6 +39,7 @@ class Structure:
     share: float  # of the power of what is left in held-out speed, beyond the sensor's
     significance: float  # [nat] log likelihood ratio on held-out motion
     relevant: bool = False  # however small its share, because an effect that does no more was
+    cause: str = ""  # what outside the table leaves that, where it was tried
 
     @property
     def certain(self) -> bool:

@@ -52,7 +52,12 @@ def _nearest_to_json(nearest: Nearest | None) -> dict[str, Any] | None:
 
 def _structure_to_json(one: Structure) -> dict[str, Any]:
     variable = VARIABLES.get(one.variable, one.variable)
-    return {"variable": variable, "share": to_number(one.share), "significance": to_number(one.significance)}
+    return {
+        "variable": variable,
+        "share": to_number(one.share),
+        "significance": to_number(one.significance),
+        "cause": one.cause or None,
+    }
 
 
 def _finding_to_json(one: Finding) -> dict[str, Any]:

@@ -115,12 +115,14 @@ def _describe_disturbance(diagnosis: Diagnosis) -> str:
 
 
 def _describe_structure(diagnosis: Diagnosis) -> str:
-    """Say which variable predicts most of what is left; empty where none does."""
+    """Say which variable predicts most of what is left, or what would leave it; empty where none does."""
     certain = [one for one in diagnosis.structure if one.certain]
     if not certain:
         return ""
-    share = min(100.0 * certain[0].share, 100.0)
-    return f"Of what is left, {share:.0f} % can be predicted from the {STRUCTURE_NAMES[certain[0].variable]}."
+    most, share = certain[0], min(100.0 * certain[0].share, 100.0)
+    if most.cause:
+        return f"Of what is left, {share:.0f} % is what {most.cause} would leave."
+    return f"Of what is left, {share:.0f} % can be predicted from the {STRUCTURE_NAMES[most.variable]}."
 
 
 def _describe_untestable(diagnosis: Diagnosis) -> str:

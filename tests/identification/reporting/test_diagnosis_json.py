@@ -43,14 +43,15 @@ def test_json_is_the_promised_form(found: Diagnosis, variants: dict[Verdict, Dia
 
 def test_a_random_torque_and_what_curves_predict(found: Diagnosis) -> None:
     torque = Disturbance(0.15, 0.004, 0.05, nan)
-    left = (Structure("past", 0.4, 90.0), Structure("speed", 0.2, 12.0))
+    left = (Structure("past", 0.4, 90.0, cause="a ramp"), Structure("speed", 0.2, 12.0))
     content = diagnosis_to_json(replace(found, disturbance=torque, structure=left, sensor_floor=0.1))
     assert diagnosis_to_json(found)["disturbance"] is None and diagnosis_to_json(found)["structure"] == []
     assert content["sensor_floor"] == 0.1
     assert content["disturbance"]["rms_voltage"] == {"value": 0.15, "standard_error": 0.004}
     assert content["disturbance"]["correlation_time"] == {"value": 0.05, "standard_error": None}
     assert [one["variable"] for one in content["structure"]] == ["drive", "speed"]
-    assert content["structure"][1] == {"variable": "speed", "share": 0.2, "significance": 12.0}
+    assert content["structure"][1] == {"variable": "speed", "share": 0.2, "significance": 12.0, "cause": None}
+    assert content["structure"][0]["cause"] == "a ramp"
     assert content["not_testable"] == content["undetectable"]
     assert content["gain_scatter"] is None
     assert diagnosis_to_json(replace(found, gain_scatter=0.021))["gain_scatter"] == 0.021

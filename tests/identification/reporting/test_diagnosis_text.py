@@ -101,6 +101,9 @@ def test_the_variable_that_predicts_the_rest_is_named(variants: dict[Verdict, Di
     left = (Structure("speed", 0.62, 90.0), Structure("angle", 0.2, 50.0))
     said = summarize_diagnosis(replace(variants[Verdict.UNEXPLAINED], structure=left))
     assert "Of what is left, 62 % can be predicted from the speed." in said
+    cause = (Structure("past", 0.94, 90.0, True, "a ramp of 25 V/s"), *left)
+    said = summarize_diagnosis(replace(variants[Verdict.UNEXPLAINED], structure=cause))
+    assert "Of what is left, 94 % is what a ramp of 25 V/s would leave." in said and "predicted" not in said
     faint = (Structure("speed", 0.05, 90.0),)
     assert "predicted" not in summarize_diagnosis(replace(variants[Verdict.UNEXPLAINED], structure=faint))
 

@@ -28,6 +28,7 @@ from motor_identification.noise.error_data import ErrorData, log_likelihood
 from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.recording import Floats
 
+CAUSE = "a friction that builds up after every reversal (presliding)"
 RIDGE = 1e-9  # of a column's power: in a motor that turns one way, friction and load are one column
 Rest = tuple[ErrorData, MotionHistory]  # what a model leaves in a recording, and the motion that it simulates there
 
@@ -46,7 +47,7 @@ def find_presliding(without: Model, current: Model) -> Structure | None:
         return None
     share = 1.0 - _sum_squares(left) / _sum_squares([errors for errors, _ in rests])
     white_share = 2.0 * gain / sum(len(errors.increments) for errors in left)  # where the sensor hides it
-    return Structure(PAST, max(share, white_share), gain, relevant=True)
+    return Structure(PAST, max(share, white_share), gain, relevant=True, cause=CAUSE)
 
 
 def _sum_squares(left: Sequence[ErrorData]) -> float:

@@ -26,6 +26,7 @@ from motor_identification.recording import Floats, Recording
 from motor_model.compiled import compiled
 from motor_model.effects import EFFECT_BY_NAME, LAGS
 
+CAUSE = "a command that reaches the motor at {:.3g} V/s at most (a ramp or soft start of the controller)"
 APART = 1.6  # of rates tried about that which makes the command as late as the lag
 PRECISION, MOST_FITS = 0.03, 8  # of the logarithm of the rate, and fits that find it
 
@@ -50,7 +51,7 @@ def find_slewing(effect: str, without: Model, current: Model) -> Structure | Non
     if found <= having + thresholds.SLEWING_GAIN:
         return None
     both = _score(_fit_slewing(current.estimate, current, likeliest), current)
-    return None if both > found + likelihood_threshold() else _describe(slewing, without, found - lacking)
+    return None if both > found + likelihood_threshold() else _describe(slewing, without, found - lacking, likeliest)
 
 
 def _guess_rate(changes: Floats, lag: float) -> float:
@@ -88,12 +89,12 @@ def _score(estimate: Estimate, current: Model) -> float:
     return log_likelihood(rows, learned, estimate.lag)
 
 
-def _describe(slewing: Estimate, without: Model, gain: float) -> Structure:
-    """Describe what a slewing bridge takes away of what a model leaves without it: it goes with the past."""
+def _describe(slewing: Estimate, without: Model, gain: float, rate: float) -> Structure:
+    """Describe what a bridge that slews at a rate [V/s] takes of what a model leaves: it goes with the past."""
     share = 1.0 - slewing.cost / without.estimate.cost
     count = sum(len(data.first) for data in slewing.problem.intervals)
     white_share = 1.0 - exp(-2.0 * gain / count)  # where the sensor hides it
-    return Structure(PAST, max(share, white_share), gain, relevant=True)
+    return Structure(PAST, max(share, white_share), gain, relevant=True, cause=CAUSE.format(rate))
 
 
 def slew(recording: Recording, rate: float) -> Recording:

@@ -52,6 +52,7 @@ def test_a_backlash_stands_in_for_a_friction_that_builds_up(hidden: str, stands_
     if found is not None:
         assert (
             found.variable == "past"
+            and "after every reversal" in found.cause
             and found.certain
             and 0.5 < found.share < 0.9
             and 100.0 < found.significance < 150.0

@@ -47,7 +47,7 @@ def test_an_inductance_stands_in_for_a_slewing_bridge(hidden: str, stands_in: bo
     found = find_slewing("armature_inductance", step.before, step.found.model)
     assert (found is not None) is stands_in
     if found is not None:
-        assert found.variable == "past" and found.certain
+        assert found.variable == "past" and found.certain and "at 150 V/s at most" in found.cause
         assert 0.9 < found.share < 1.0 and 2000.0 < found.significance < 2700.0
 
 
