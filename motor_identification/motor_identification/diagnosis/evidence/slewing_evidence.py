@@ -32,7 +32,7 @@ PRECISION, MOST_FITS = 0.03, 8  # of the logarithm of the rate, and fits that fi
 
 
 def find_slewing(effect: str, without: Model, current: Model) -> Structure | None:
-    """Find the slewing bridge that makes the motion likelier than a lag of a model, which is not needed beside it.
+    """Find the slewing bridge that makes the motion likelier than the lags of a model, which are not needed beside it.
 
     without: the model that lacks the lag. None where the lag does not stand in for such a bridge.
     """
@@ -41,8 +41,8 @@ def find_slewing(effect: str, without: Model, current: Model) -> Structure | Non
     if effect not in LAGS or not (current.beside_torque or current.above_floor) or not np.any(changes):
         return None
     having, lacking = (_score(model.estimate, current) for model in (current, without))
-    bare = drop_effect(current.estimate, effect)
-    rate = _guess_rate(changes, current.estimate.parameters.value(EFFECT_BY_NAME[effect].parameters[0].name))
+    bare, late = _drop_lags(current.estimate)
+    rate = _guess_rate(changes, late)
     likeliest = _find_rate(bare, current, rate, having - 0.5 * abs(having - lacking))
     if likeliest is None:
         return None
@@ -52,6 +52,16 @@ def find_slewing(effect: str, without: Model, current: Model) -> Structure | Non
         return None
     both = _score(_fit_slewing(current.estimate, current, likeliest), current)
     return None if both > found + likelihood_threshold() else _describe(slewing, without, found - lacking, likeliest)
+
+
+def _drop_lags(estimate: Estimate) -> tuple[Estimate, float]:
+    """Drop all that makes a motion late: two lags may stand in for one bridge; and by how much they do [s]."""
+    late = 0.0
+    for effect in LAGS:
+        if effect in estimate.problem.unknowns.effects:
+            late += estimate.parameters.value(EFFECT_BY_NAME[effect].parameters[0].name)
+            estimate = drop_effect(estimate, effect)
+    return estimate, late
 
 
 def _guess_rate(changes: Floats, lag: float) -> float:
