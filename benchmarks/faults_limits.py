@@ -157,7 +157,9 @@ CASES = {
     "two channels, four times the gain `kp`, measured, then a reference of 0: 3 s later": large_gain,
     "two channels, 24 edges a turn, 6 rad/s, 4 % of it, then a reference of 0: 3 s later": few_edges,
     "second sender of −6 V beside one of 6 V: change of the voltage": second_sender,
-    "two channels exchanged, every stop answered at once: voltage in the mean of a minute": impatience(Swapped),
+    "two channels exchanged, every stop answered by 0 and a reference: voltage in the mean of a minute": impatience(
+        Swapped
+    ),
     "the same, shaft blocked": impatience(lambda: lambda sample: sample, blocked=True),
     "reversal from +86 % to −86 % of the top speed, measured speed": reversal(False),
     "the same with a model": reversal(True),

@@ -109,6 +109,21 @@ def drive_another_plant(stage: Stage) -> None:
     stage.until(lambda: any(moment.voltage for moment in stage.moments), "a voltage at the wrong motor")
 
 
+def restart_plant(stage: Stage) -> None:
+    """A plant is killed and started again 5 s later, and references keep coming."""
+    stage.plant()
+    stage.controller()
+    reference = stage.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+    stage.bench.heard(reference)
+    stage.bench.node.create_timer(0.02, lambda: reference.publish(Float64(data=0.5 * MOTOR.top)))
+    stage.until(lambda: any(moment.voltage for moment in stage.moments), "motion")
+    stage.programs[0].kill()
+    stage.hear(5.0)
+    count = len(stage.moments)
+    stage.plant()
+    stage.until(lambda: len(stage.moments) > count, "the plant again")
+
+
 @dataclass(frozen=True)
 class LiveFault:
     """One fault; what is heard after it is judged, and of what is said the sentence with these words."""
@@ -128,6 +143,7 @@ LIVE_FAULTS = (
     LiveFault(
         "voltages go to another plant, references keep coming", drive_another_plant, "begin again", KNOWN_BY_TIME
     ),
+    LiveFault("a plant is started again, 50 references a second keep coming", restart_plant, "begin again"),
     LiveFault("`play` of voltages stopped for 1.5 s, and goes on", resume_play, "Playing stood still"),
 )
 

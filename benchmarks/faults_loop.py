@@ -157,6 +157,7 @@ class Loop:
             self.gate = self.gate.enable(True)
         self.state = controller.reset(self.state, self.time)[1]
         if self.state.demand is None:
+            self.state = controller.refer(self.state, 0.0, self.time)  # so that what follows begins, however soon
             self.reference = reference
 
     def _ask_in_turn(self) -> float | None:

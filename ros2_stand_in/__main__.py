@@ -5,6 +5,7 @@ import signal
 heard = signal.getsignal(signal.SIGINT)
 if heard is signal.default_int_handler:
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # while nothing runs but imports, Ctrl-C ends it silently
+signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})  # the launcher has held it back while Python started
 
 import os  # noqa: E402
 import sys  # noqa: E402

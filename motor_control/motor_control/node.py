@@ -82,7 +82,7 @@ class MotorControl(Node):
     def _refer(self, value: float, kind: Kind) -> None:
         now, asks = time.monotonic(), kind is Kind.POSITION or value != 0.0
         if asks and self._hold_ups.in_doubt():
-            self._state = controller.refuse(self._state, STOOD_STILL, now)
+            self._state = controller.doubt(self._state, STOOD_STILL, now)
         else:
             self._state = controller.refer(self._state, value, now, kind)
 

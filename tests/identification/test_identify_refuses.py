@@ -1,15 +1,20 @@
 """Recordings and requests that cannot answer are refused in a sentence."""
 
+import errno
+from collections.abc import Callable
 from dataclasses import replace
+from typing import NoReturn
 
 import numpy as np
 import pytest
 from fits import made, quick
 from plant import profiles
 
+from motor_identification.diagnose import diagnose
 from motor_identification.identify import SearchConfig, identify
-from motor_identification.recording import check
+from motor_identification.recording import Recording, check
 from motor_model.errors import ModelError, MotorError, RecordingError
+from motor_model.program import memory
 
 REFUSED = {
     "no voltage": (lambda r: replace(r, voltage=0.0 * r.voltage), "the voltage is always 0"),
@@ -81,3 +86,18 @@ def test_requests_that_cannot_be_met_are_refused() -> None:
             MotorError, match="particles must be at least 2, epochs at least 1, and the seed not negative"
         ):
             SearchConfig(**wrong)
+
+
+@pytest.mark.parametrize("ask", [lambda one: identify([one], quick()), lambda one: diagnose([one])])
+def test_who_has_no_room_to_compute_is_told_before(
+    ask: Callable[[Recording], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A diagnosis under `ulimit -v 500000` went round in OpenBLAS for ever."""
+
+    def no_room(fileno: int, length: int) -> NoReturn:
+        raise OSError(errno.ENOMEM, "Cannot allocate memory")
+
+    monkeypatch.setattr(memory, "_limit", lambda: 500 * memory.MIB)
+    monkeypatch.setattr(memory.mmap, "mmap", no_room)
+    with pytest.raises(memory.NotEnoughMemory, match=r"MiB are needed .* may have 500 MiB \(ulimit -v\)"):
+        ask(made({}, profiles.step(10.0, 1.0), seed=0))

@@ -204,7 +204,8 @@ def test_a_clock_that_is_not_the_plants_holds_nothing_up(
     end = stand.bench.node.get_clock().now() + Duration(seconds=PATIENCE)
     assert stand.experiment("step", lambda driver: stand.bench.node.get_clock().now() > end) == 0
     stand.assert_stopped()
-    assert 0.8 < stand.recorded() < 2.0  # the step is 1.1 s; half a second of samples from before may stand before it
+    # The step is 1.1 s; half a second of samples from before may stand before it, and more where the machine is busy.
+    assert 0.8 < stand.recorded() < 5.0  # who goes by the wrong clock ends at once, or is interrupted above
 
 
 def test_another_plant_and_another_voltage(stand: Stand) -> None:

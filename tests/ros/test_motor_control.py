@@ -82,7 +82,7 @@ def test_what_the_plant_says_of_itself_counts(plant: FakePlant) -> None:
     plant.tell(Info(name="wheel", max_voltage=1.0), measurement="tea leaves")
     plant.tell(Info(name="wheel", single_channel=False, max_voltage=5.0))
     plant.wait(lambda: "another one than before" in plant.answer(100.0).reason, "the next info")
-    plant.refer(40.0)
+    plant.refer_anew(40.0)
     plant.wait(lambda: plant.answer(100.0).voltage == -5.0, "its limit")
 
 
@@ -135,23 +135,27 @@ def test_a_model_at_the_start_is_ready_for_the_first_sample(plant: FakePlant, mo
         end(process)
 
 
+@pytest.mark.parametrize("stream", [True, False])
 @pytest.mark.parametrize("another", [True, False])
-def test_after_a_silence_only_the_same_plant_goes_on(plant: FakePlant, another: bool) -> None:
+def test_after_a_silence_only_the_same_plant_goes_on(plant: FakePlant, another: bool, stream: bool) -> None:
     """A driver that was started again goes on with the board's clock; one that was held up is still the same."""
     process = start("motor_control", "motor_control", "--ros-args", "-p", "latency_limit:=10.0")
     try:
         plant.meet()
         plant.refer(50.0)
+        again = plant.node.create_timer(0.02, lambda: plant._reference.publish(Float64(data=50.0))) if stream else None
         plant.wait(lambda: plant.states[-1].state == "no_samples", "the silence")
         if another:
             plant.start_again()
         sent = len(plant.voltages)
-        state = plant.answer(20.0)
+        state = [plant.answer(20.0) for _ in range(20)][-1]
         assert (state.state, "The plant was restarted" in state.reason) == (
             ("disabled", True) if another else ("running", False)
         )
         assert any(one.voltage for one in plant.voltages[sent:]) is not another
-        plant.refer(50.0)  # a fresh one is obeyed
+        if again is not None:
+            again.cancel()
+        plant.refer_anew(50.0)  # a fresh one is obeyed
     finally:
         end(process)
 

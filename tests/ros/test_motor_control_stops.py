@@ -136,7 +136,7 @@ def test_a_plant_that_was_restarted_waits_for_a_fresh_reference(plant: FakePlant
     plant.time = 0
     state = plant.answer(0.0)
     assert state.state == "disabled" and "restarted" in state.reason
-    plant.refer(20.0)
+    plant.refer_anew(20.0)
     assert plant.answer(0.0).voltage > 0.0
 
 
@@ -151,7 +151,7 @@ def test_an_info_that_cannot_be_is_a_sentence_and_zero_volts(plant: FakePlant) -
     assert plant.states[-1].voltage == 0.0
     plant.tell(Info(name="wheel"))
     plant.wait(lambda: plant.answer(50.0).state == "disabled", "a good one")
-    plant.refer(100.0)
+    plant.refer_anew(100.0)
     assert plant.answer(50.0).state == "running"
 
 

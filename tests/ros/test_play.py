@@ -10,7 +10,9 @@ from pathlib import Path
 
 import pytest
 from bags_over_dds import DEEP, INFO, PERIOD, Start, sample
+from geometry_msgs.msg import Twist, Vector3
 from rclpy.serialization import serialize_message
+from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from workbench import ENVIRONMENT, MANNERS, PATIENCE, Bench, end
 
@@ -177,12 +179,18 @@ def test_no_motor_is_left_under_a_voltage_or_at_a_speed(
     with BagWriter(tmp_path / "bag") as writer:
         channel = writer.topic("/motor/voltage", "motor_msgs/msg/MotorVoltage", offered(qos.VOLTAGE))
         reference = writer.topic("/motor/reference", "std_msgs/msg/Float64", offered(qos.REFERENCE))
+        joint = writer.topic("/motor/joint_command", "sensor_msgs/msg/JointState", offered(qos.REFERENCE))
+        robot = writer.topic("/cmd_vel", "geometry_msgs/msg/Twist", offered(qos.REFERENCE))
         for k, volts in enumerate((1.0, 2.0, last)):
             stamp = time_message(k)
             writer.write(channel, 10**18 + k * PERIOD, serialize_message(voltage_message(volts, stamp, "us")))
             writer.write(reference, 10**18 + k * PERIOD + 1, serialize_message(Float64(data=volts)))
+            asked = JointState(name=["a"], velocity=[volts])
+            writer.write(joint, 10**18 + k * PERIOD + 2, serialize_message(asked))
+            writer.write(robot, 10**18 + k * PERIOD + 3, serialize_message(Twist(linear=Vector3(x=volts))))
     voltages = bench.hear(MotorVoltage, "motor/voltage", DEEP)
     references = bench.hear(Float64, "motor/reference", DEEP)
+    joints, robots = bench.hear(JointState, "motor/joint_command", DEEP), bench.hear(Twist, "cmd_vel", DEEP)
     play = start("motor_identification", "play", tmp_path / "bag")
     bench.wait(lambda: play.poll() is not None, "the end of the bag")
     bench.wait(lambda: len(voltages) >= 3 and voltages[-1].voltage == 0.0, "0 V")
@@ -190,6 +198,8 @@ def test_no_motor_is_left_under_a_voltage_or_at_a_speed(
     assert [message.voltage for message in voltages] == expected
     bench.wait(lambda: len(references) >= len(expected), "a reference of 0")
     assert [message.data for message in references] == expected
+    bench.wait(lambda: min(len(joints), len(robots)) >= len(expected), "a joint and a robot at rest")
+    assert [message.velocity[0] for message in joints] == [message.linear.x for message in robots] == expected
 
 
 def test_a_cut_bag_is_played_and_gets_its_metadata(start: Start, tmp_path: Path) -> None:

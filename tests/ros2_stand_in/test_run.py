@@ -2,6 +2,7 @@
 
 import os
 import signal
+import subprocess
 import time
 from pathlib import Path
 
@@ -71,6 +72,16 @@ def test_an_interrupt_while_a_program_of_the_workbench_starts_is_silent(ros2):
         time.sleep(0.001)
     output, _ = process.end(signal.SIGINT)
     assert (output.status, output.out, output.err) == (-signal.SIGINT, "", "")
+
+
+def test_an_interrupt_before_python_can_hear_one_is_silent(ros2, tmp_path):
+    """While Python itself starts; it showed where in its own start it was."""
+    (tmp_path / "sitecustomize.py").write_text("import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n")
+    launcher = Path(__file__).resolve().parents[2] / "ros2_stand_in/ros2"
+    command = [str(launcher), "run", "motor_sim", "motor_sim"]
+    environment = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=PATIENCE)
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "", "")
 
 
 def test_prefix_goes_before_the_executable(prefixed):

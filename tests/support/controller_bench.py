@@ -57,6 +57,11 @@ class FakePlant(Bench):
         same = (lambda shown: shown != shown) if reference != reference else (lambda shown: shown == reference)
         self.wait(lambda: same(self.answer(0.0).reference), f"reference {reference}")
 
+    def refer_anew(self, reference: float) -> None:
+        """The same where an earlier reference has ended just now: they begin again with 0."""
+        self.refer(0.0)
+        self.refer(reference)
+
     def say(self, speed: float) -> None:
         """One sample, 5 ms after the last, that applies what was asked for."""
         voltage = self.voltages[-1].voltage if self.voltages and self.enabled else 0.0

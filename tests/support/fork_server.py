@@ -13,6 +13,7 @@ import runpy
 import signal
 import socket
 import sys
+import threading
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -22,7 +23,7 @@ import motor_identification.service.warm_up
 
 PR_SET_PDEATHSIG = 1  # a signal to the child when its parent ends (prctl, Linux)
 
-# What programs import before ROS, which starts threads and comes after the fork.
+# What programs import, rclpy and its libraries too.
 IMPORTED = (
     "motor_identification.monitoring.evaluation",
     "motor_control.controller.controller",
@@ -39,6 +40,12 @@ IMPORTED = (
     "motor_msgs.srv",
     "sensor_msgs.msg",
     "std_srvs.srv",
+    "motor_control.node",
+    "motor_driver.node",
+    "motor_identification.live.experiment_node",
+    "motor_identification.live.playback",
+    "motor_identification.live.recorder",
+    "motor_sim.node",
 )
 
 
@@ -48,7 +55,7 @@ def main(sock: socket.socket) -> str:
         importlib.import_module(module)
     motor_control.warm_up.main()
     motor_identification.service.warm_up.prepare()
-    assert len(os.listdir("/proc/self/task")) == 1, "a process with threads must not be forked"
+    wait_for_sleep()
     gc.collect()
     gc.freeze()
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
@@ -62,6 +69,21 @@ def main(sock: socket.socket) -> str:
             return become(json.loads(data), files)
         for file in files:
             os.close(file)
+
+
+def wait_for_sleep() -> None:
+    """Wait until no thread but this one does anything: what a fork cuts off amidst something is never done.
+
+    The libraries of rclpy start two: LTTng's, which wait for somebody to trace this process, and hold nothing.
+    """
+    own, end = str(threading.get_native_id()), time.monotonic() + 10.0
+    while True:
+        others = [task for task in Path("/proc/self/task").iterdir() if task.name != own]
+        assert len(others) <= 2, "a process with threads of its own must not be forked"
+        if all((task / "stat").read_text().rpartition(")")[2].split()[0] == "S" for task in others):
+            return
+        assert time.monotonic() < end, "a thread does not rest"
+        time.sleep(0.01)
 
 
 def supervise(files: list[int]) -> None:

@@ -82,6 +82,8 @@ class User:
         def refer() -> None:
             if enable and self.stops:
                 self.switch_on()
+            reference.publish(Float64(data=0.0))  # who refers again within a second or two begins with 0
+            self.more(5)
             reference.publish(Float64(data=60.0))
 
         refer()

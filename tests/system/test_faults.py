@@ -95,12 +95,13 @@ def test_a_killed_driver_and_its_successor(driver: "Popen[str]", live: LiveBoard
 def test_a_latched_stop_does_not_end_by_starting_the_driver_again(
     driver: "Popen[str]", live: LiveBoard, user: User, start: Start
 ) -> None:
-    """The telemetry sticks, which is a stop; the driver starts again, and the controller still has its reference."""
+    """The telemetry sticks, which is a stop; the driver starts again, and somebody goes on sending a reference."""
     user.sending = False  # the controller does
     reference = user.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
     start("motor_control", "motor_control", *LATE)
     user.bench.heard(reference)
     user.until_moving(reference, "motion")
+    stream = user.bench.node.create_timer(0.05, lambda: reference.publish(Float64(data=60.0)))
     live.faults = replace(live.faults, stuck_telemetry=True)
     assert seconds_to_rest(live) < MOST
     driver.kill()
@@ -111,6 +112,7 @@ def test_a_latched_stop_does_not_end_by_starting_the_driver_again(
     start("motor_driver", "motor_driver", "--ros-args", "-p", f"port:={live._port._link}")
     user.bench.wait(lambda: len(user.samples) > count + 400, "samples of the next driver")
     assert {sample.voltage for sample in user.samples[count:]} == {0.0} and live.truth().voltage == 0.0
+    stream.cancel()
     user.switch_on()
     user.until_moving(reference, "motion after an enable and a fresh reference")
 

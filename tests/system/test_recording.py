@@ -36,7 +36,8 @@ def test_a_killed_recorder_loses_at_most_a_second(bench: Bench, start: Start, tm
     start("motor_sim", "motor_sim")
     user = User(bench)
     record = start("motor_identification", "record", tmp_path / "bag")
-    bench.wait(lambda: (tmp_path / "bag").is_dir() and contents(tmp_path / "bag").message_count > 0, "the first flush")
+    written = (tmp_path / "bag").glob  # its folder is there a moment before its file
+    bench.wait(lambda: any(written("*.mcap")) and contents(tmp_path / "bag").message_count > 0, "the first flush")
     bench.wait(lambda: bench.node.count_subscribers("motor/voltage") == 2, "plant and recorder")
     user.voltage = 6.0
     user.until(lambda sample: sample.speed > 80.0, "motion")

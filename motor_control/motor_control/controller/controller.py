@@ -4,7 +4,7 @@ Time between samples is the plant's own (`sample_time`); `now`, a monotonic cloc
 sample is and whether samples still come at all. Whatever is wrong, the answer is 0 V with a sentence that says why.
 
 A reference is obeyed from when it comes until something ends it: a stop, a reset, `release`, or what
-`reference/ending.py` lists. Then the motor waits for a fresh one.
+`reference/ending.py` lists. Then the motor waits for a fresh one: those that go on coming have to begin again.
 """
 
 from math import nan
@@ -24,9 +24,10 @@ from motor_control.controller.state import (
     NAMES,
     State,
     command_joint,
+    doubt,
+    drop,
     meet_other_plant,
     refer,
-    refuse,
     release,
     reset,
     stop,
@@ -39,9 +40,10 @@ __all__ = [
     "Config",
     "State",
     "command_joint",
+    "doubt",
+    "drop",
     "meet_other_plant",
     "refer",
-    "refuse",
     "release",
     "reset",
     "stop",
@@ -95,9 +97,10 @@ def watch(config: Config, state: State, now: float) -> tuple[Output | None, Stat
 def _is_unheard(before: Run | None, after: State, now: float) -> bool:
     """Whether the plant still applies 0 V to a fresh reference: it may not have heard the 0 V that voltages begin with.
 
-    True now and then for as long as the reference is fresh: who has just asked for a motion means it.
+    True now and then for as long as the reference is fresh: who has just asked for a motion means it, and who goes on
+    asking as before does not know that the plant wants to see 0 V.
     """
-    if before is None or after.run is None or now - after.referred > OFF:
+    if before is None or after.run is None or now - after.begun > OFF:
         return False
     return before.ignored // law.IGNORED_TIME < after.run.ignored // law.IGNORED_TIME
 

@@ -12,6 +12,7 @@ from motor_control.controller.motion import Motion
 from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind, Source
+from motor_control.controller.reference.sequence import GOES_ON, Sequence
 from motor_control.controller.run import Config, Run
 from motor_model.frozen_record import replace
 from motor_model.sensing.mains_rhythm import Rhythm
@@ -24,13 +25,6 @@ RESTARTED = "The plant was restarted."
 OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call motor/release."
 TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
 BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
-BEGIN_REFERENCE = (
-    "References are not obeyed until they begin again, with 0 or after a silence of {:g} s: the plant applied nothing "
-    "of what was asked for. See whether its output is off, and whether it is the plant that hears this motor/voltage."
-)
-# [s] without a reference after which one begins again; the longer one where that was ignored as well, as one of those
-# that `ros2 topic pub` sends every second
-SILENCES = 0.5, 2.0
 NAMES = "(names)"  # stands for who publishes motor/speed, which may be known a moment later
 
 
@@ -48,9 +42,9 @@ class State:
     joint_senders: str = ""  # who publishes motor/joint_command, where they are several
     refused: str = ""  # why a demand was not taken
     refused_at: float = 0.0
-    referred: float = 0.0  # when it came
-    unheard: float | None = None  # when the latest of those came that the plant ignored, or that went on after it
-    ignored: int = 0  # how often it has ignored some, one after the other
+    begun: float = 0.0  # when what is asked for began: a stream of demands began with its first
+    referred: float = 0.0  # when the latest demand came
+    references: Sequence = Sequence()  # those of motor/reference, obeyed or not
     dropped: str = ""  # why there is none any more
     held: float | None = None  # since when something has held the motor at 0 V although there is one
     held_by: str = ""  # what, as a sentence
@@ -68,19 +62,20 @@ class State:
 
 
 def refer(state: State, reference: float, now: float, kind: Kind = Kind.SPEED) -> State:
-    """Take a fresh reference, [rad/s] or as `kind` says; while a stop is latched it is not taken.
+    """Take a reference, [rad/s] or as `kind` says; while a stop is latched it is not taken.
 
-    References that go on coming while the plant ignores them are not taken either, until they begin again: the motor
-    that hears our voltages may be another one than that whose samples we hear.
+    Where an earlier one has ended, references that go on coming are not taken either, until they begin again.
     """
-    if state.unheard is not None:
-        stops = kind is Kind.SPEED and reference == 0.0
-        silence, needed = now - state.unheard, SILENCES[min(state.ignored, 2) - 1]
-        if silence <= needed and not stops:
-            return refuse(replace(state, unheard=now), BEGIN_REFERENCE.format(needed), now)
-        again = state.ignored if silence <= SILENCES[1] and not stops else 0
-        state = replace(state, unheard=None, ignored=again)
-    return _take(state, Demand(reference, kind), now)
+    references = state.references.hear(now, kind is Kind.SPEED and reference == 0.0)
+    needed, state = state.references.silence, replace(state, references=references)
+    if state.demand is None and not (state.latched or references.begins):
+        return refuse(state, GOES_ON.format(state.dropped, needed).strip(), now)
+    return _take(state, Demand(reference, kind), references.begins, now)
+
+
+def doubt(state: State, why: str, now: float) -> State:
+    """Take no notice of a reference that may be an old one but to say why; those that go on after it are not taken."""
+    return refuse(replace(state, references=state.references.hear(now, False)), why, now)
 
 
 def command_joint(config: Config, state: State, demand: Demand | str, now: float) -> State:
@@ -99,11 +94,11 @@ def command_joint(config: Config, state: State, demand: Demand | str, now: float
         return replace(drop(state, demand) if drives else state, refused=demand, refused_at=now)
     if state.demand is None and not (silent or demand.value == 0.0):
         return replace(state, refused=BEGIN_JOINT.format(config.joint_timeout), refused_at=now)
-    return _take(state, demand, now)
+    return _take(state, demand, silent or demand.value == 0.0, now)
 
 
-def _take(state: State, demand: Demand, now: float) -> State:
-    """Take a demand, unless a stop is latched or another source drives."""
+def _take(state: State, demand: Demand, begins: bool, now: float) -> State:
+    """Take a demand, unless a stop is latched or another source drives; `begins`: it does not go on with another."""
     if state.latched:
         return state
     before = state.demand
@@ -113,7 +108,8 @@ def _take(state: State, demand: Demand, now: float) -> State:
     run = state.run
     if run is not None and (before is None or before.kind is not demand.kind):
         run = replace(run, place=position_law.leave(run.place, 0.0))
-    return replace(state, demand=demand, referred=now, dropped="", refused="", run=run)
+    begun = now if begins or before is None else state.begun
+    return replace(state, demand=demand, begun=begun, referred=now, dropped="", refused="", run=run)
 
 
 def refuse(state: State, why: str, now: float) -> State:

@@ -3,6 +3,7 @@
 import sys
 import time
 from collections.abc import Callable, Mapping
+from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidTopicNameException
@@ -10,17 +11,15 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.serialization import deserialize_message
-from std_msgs.msg import Float64
 
 from motor_identification.bag import Contents, Topic
+from motor_identification.live.motor_commands import Rest, find_rest, message_of_rest
 from motor_identification.live.qos_profiles import to_play
 from motor_model.errors import RecordingError
 from motor_model.printable import escape
-from motor_msgs.msg import MotorVoltage
 from motor_ros.interface_types import NotInstalled, load_message
 
 RMWError = rclpy_implementation.RMWError
-REFERENCES = ("/motor/reference", "/motor/position_reference")
 _SETTLED = 0.5  # [s] without a new subscriber until playing starts
 _PATIENCE = 4.0  # [s] without any subscriber until it does: one that tells of itself every 3 s, as ROS 2 does, is found
 _ARRIVAL = 2.0  # [s] for the last messages to arrive
@@ -46,8 +45,8 @@ class Publishers:
         self._node = node
         self._names = {name: names.get(name, name) for name in chosen or there}
         self.garbled = 0  # messages that were not sent, because they are not of their type
-        self._speeds: set[str] = set()  # topics of references [rad/s], the last of which was not 0
-        self._last_voltage: dict[str, MotorVoltage] = {}
+        self._rests: dict[str, Rest] = {}  # of the topics that command a motor
+        self._last: dict[str, Any] = {}  # their latest messages
         self._by_topic: dict[str, Publisher] = {}  # by the name in the bag
         for name in self._names:
             self._open(there[name])
@@ -66,11 +65,7 @@ class Publishers:
     @property
     def command(self) -> bool:
         """Whether a motor may be driven by what is played."""
-        return any(map(self._commands, self._by_topic))
-
-    def _commands(self, topic: str) -> bool:
-        kind, name = self._by_topic[topic].msg_type, self._names[topic]
-        return kind is MotorVoltage or (kind is Float64 and name.endswith(REFERENCES))
+        return bool(self._rests)
 
     def publish(self, topic: str, data: bytes) -> None:
         """Send a serialised message; one that is not of its type would end whoever hears it, and is not sent."""
@@ -81,10 +76,8 @@ class Publishers:
             self.garbled += 1
             return
         publisher.publish(data)
-        if publisher.msg_type is MotorVoltage:
-            self._last_voltage[topic] = message
-        elif publisher.msg_type is Float64 and self._names[topic].endswith("/motor/reference"):
-            (self._speeds.add if message.data else self._speeds.discard)(topic)
+        if topic in self._rests:
+            self._last[topic] = message
 
     def wait_for_subscribers(self, interrupted: Callable[[], bool]) -> None:
         """Let those connect who listen already, so that they get the first message too; finding them takes a while."""
@@ -114,12 +107,9 @@ class Publishers:
 
     def close(self) -> None:
         """Leave no motor under a voltage or at a speed, and wait until the last messages have arrived."""
-        for topic in self._speeds:  # a controller holds its last reference
-            self._by_topic[topic].publish(Float64())
-        for topic, last in self._last_voltage.items():
-            if last.voltage != 0.0:
-                last.voltage = 0.0
-                self._by_topic[topic].publish(last)
+        for topic, last in self._last.items():
+            if (message := message_of_rest(self._rests[topic], last)) is not None:
+                self._by_topic[topic].publish(message)
         for publisher in self._by_topic.values():  # a publisher that goes takes what has not arrived with it
             publisher.wait_for_all_acked(Duration(seconds=_ARRIVAL))
 
@@ -128,6 +118,8 @@ class Publishers:
         try:
             message_class = load_message(topic.type_name)
             self._by_topic[topic.name] = self._node.create_publisher(message_class, name, profile)
+            if rest := find_rest(topic.type_name, name):
+                self._rests[topic.name] = rest
         except NotInstalled as error:
             print(f"{escape(topic.name)} is not played: {error}", file=sys.stderr)
         except InvalidTopicNameException:

@@ -6,7 +6,10 @@ hold the signal back until Python itself has started.
 """
 
 import signal
+import sys
 from collections.abc import Callable
+
+from motor_model.program.memory import explain, lacks_memory, refuse_to_start
 
 Main = Callable[[], int]
 
@@ -20,7 +23,16 @@ def entry_point(load: Callable[[], Main]) -> Main:
         if heard is signal.default_int_handler:  # a script's `&` has it ignored
             signal.signal(signal.SIGINT, signal.SIG_DFL)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
-        main = load()
+        if refusal := refuse_to_start():
+            print(refusal, file=sys.stderr)
+            return 1
+        try:
+            main = load()
+        except (MemoryError, ImportError, OSError, RuntimeError, SystemError) as error:
+            if not lacks_memory(error):
+                raise
+            print(explain(error), file=sys.stderr)
+            return 1
         signal.signal(signal.SIGINT, heard)
         return main()
 

@@ -6,14 +6,20 @@ import traceback
 from pathlib import Path
 
 from motor_model.errors import MotorError
+from motor_model.program.memory import explain, lacks_memory
 
 
 class InternalError(MotorError):
     """A mistake of the workbench: what it was, where its log is, and how to report it."""
 
 
-def report(error: BaseException) -> InternalError:
-    """Write the traceback to a log of its own, and return the sentence that a user reads."""
+def report(error: BaseException) -> MotorError:
+    """Write the traceback to a log of its own, and return the sentence that a user reads; want of memory is no mistake.
+
+    It has no log, which would want memory, too.
+    """
+    if lacks_memory(error):
+        return explain(error)
     what = traceback.format_exception_only(error)[-1].strip()
     try:
         where = f"the log is {_write(''.join(traceback.format_exception(error)))}"

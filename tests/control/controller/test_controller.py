@@ -83,6 +83,10 @@ def test_restart_and_gap_begin_a_new_run(time_ms: float) -> None:
     """The plant's clock is behind, or further ahead than `sample_timeout`."""
     _, state = feed([0, 5, 10], speed=99.0, reference=100.0)
     output, state = feed([time_ms], speed=99.0, reference=100.0, state=state)
+    if time_ms < 10.0:  # it was restarted
+        assert_stopped(output, "The plant was restarted.", "begin again, with 0")
+        state, time_ms = controller.refer(state, 0.0, 0.002), time_ms + 5
+        output, state = feed([time_ms], speed=99.0, reference=100.0, state=state)
     assert output.state == controller.RUNNING and output.terms.integral == 0.0
     output, _ = feed([time_ms + 5], speed=99.0, reference=100.0, state=state)
     assert output.terms.integral == pytest.approx(2.5 * 0.005)
@@ -149,8 +153,9 @@ def test_latched_stop_holds_until_reset() -> None:
         assert_stopped(output, "The motor is blocked.", "motor/reset")
         assert output.state == controller.STOPPED
     assert controller.watch(CONFIG, state, 1.0)[1].latched  # survives silence
-    output, _ = feed([20], speed=50.0, reference=100.0, state=controller.reset(state, 0.0)[1])
-    assert output.state == controller.RUNNING
+    output, state = feed([20], speed=50.0, reference=100.0, state=controller.reset(state, 0.0)[1])
+    assert_stopped(output, "The stop was cleared.", "begin again, with 0")
+    assert feed([521], speed=50.0, reference=100.0, state=state)[0].state == controller.RUNNING
 
 
 def test_silence_is_reported_at_once_and_then_five_times_a_second() -> None:

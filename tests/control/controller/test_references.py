@@ -1,43 +1,18 @@
 """A reference is obeyed until what it was for is over; then the motor waits for a fresh one."""
 
 from dataclasses import replace
-from math import nan, tau
+from math import tau
 
 import pytest
-from bench_board import DEFAULTS, motor, settings
+from bench_board import motor, settings
+from referred import CONFIG, MS, OBSTACLES, feed, running
 
-from motor_control.configuration import config_of
 from motor_control.controller import controller
-from motor_control.controller.controller import Config, State
+from motor_control.controller.controller import State
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
 from motor_control.controller.reference.demand import Kind
 from motor_model.sample import Info, Sample
 from motor_model.sensing.mains_rhythm import Rhythm
-
-CONFIG = config_of(DEFAULTS, Info())
-MS = 1_000_000
-
-
-def feed(
-    state: State,
-    times: list[int],
-    fresh: float | None = None,
-    config: Config = CONFIG,
-    later: float = 0.0,
-    on: bool = True,
-) -> tuple[Output, State]:
-    """Samples at these times [ms] on the plant's clock, `later` [s] on ours; a reference may come with the first."""
-    for k, time in enumerate(times):
-        voltage = state.run.asked if state.run and on else 0.0
-        sample = Sample(time * MS, 50.0, voltage, 4 * time // 5 + 1, time * MS - 9, 1.3e-3)
-        output, state = controller.update(config, state, sample, fresh if k == 0 else None, time * 1e-3 + later)
-    return output, state
-
-
-def running() -> State:
-    output, state = feed(State(), list(range(0, 200, 5)), 60.0)
-    assert output.state == RUNNING and output.terms.voltage > 0.0
-    return state
 
 
 def waits(output: Output, words: str) -> None:
@@ -53,7 +28,7 @@ def test_a_reference_holds_without_being_repeated() -> None:
 def test_a_restarted_plant_waits() -> None:
     output, state = feed(running(), [0, 5, 10], later=0.3)
     waits(output, "restarted")
-    assert feed(state, [15], 60.0, later=0.3)[0].state == RUNNING
+    assert feed(state, [515], 60.0, later=0.3)[0].state == RUNNING
 
 
 def test_a_board_that_counts_from_0_again_waits() -> None:
@@ -97,7 +72,7 @@ def test_another_plant_waits() -> None:
     assert state.rhythm == Rhythm()
     output, state = feed(state, [200, 205])
     waits(output, "another one than before")
-    assert state.motion is None and feed(state, [210], 60.0)[0].state == RUNNING
+    assert state.motion is None and feed(state, [510], 60.0)[0].state == RUNNING
 
 
 def test_a_reset_waits() -> None:
@@ -108,7 +83,8 @@ def test_a_reset_waits() -> None:
     assert said == "Cleared: It is blocked."
     output, state = feed(state, [210, 215])
     waits(output, "cleared")
-    assert feed(state, [220], 60.0)[0].state == RUNNING
+    assert feed(state, [220], 60.0)[0].state == DISABLED  # it goes on with the one that came during the stop
+    assert feed(state, [705], 60.0)[0].state == RUNNING
 
 
 def test_an_output_that_was_off_waits() -> None:
@@ -173,8 +149,8 @@ def test_voltages_begin_at_zero_and_again_where_the_plant_has_not_heard_it() -> 
     assert found == [0]
     found, state = begins(controller.release(state)[1], range(200, 400, 5))
     assert found == []
-    found, state = begins(state, range(400, 1400, 5), 60.0, on=False)
-    assert found[0] == 400 and 6 <= len(found[1:]) <= 12 and found[-1] <= 900  # as long as the reference is fresh
+    found, state = begins(state, range(600, 1600, 5), 60.0, on=False)
+    assert found[0] == 600 and 6 <= len(found[1:]) <= 12 and found[-1] <= 1100  # as long as the reference is fresh
     _, state = feed(running(), [200])
     assert begins(state, range(800, 1000, 5), on=False)[0] == []  # a plant that was on and is not: somebody wants that
 
@@ -184,14 +160,6 @@ def test_voltages_begin_anew_after_silence() -> None:
     _, state = controller.watch(CONFIG, state, 0.4)
     output, state = feed(state, [400])
     assert output.drives and output.begins
-
-
-OBSTACLES: dict[str, tuple[Config, float, float]] = {  # config, speed that is said, age [s] of the samples
-    "speed = nan": (CONFIG, nan, 0.0),
-    "sample_period = 0": (replace(CONFIG, unusable="motor/info says sample_period = 0."), 0.0, 0.0),
-    "The sample is": (CONFIG, 0.0, 0.1),
-    "voltage_limit is 0 V": (replace(CONFIG, voltage_limit=0.0), 0.0, 0.0),
-}
 
 
 @pytest.mark.parametrize("name", OBSTACLES)
@@ -224,7 +192,8 @@ def test_references_that_go_on_while_the_plant_ignores_them_are_not_obeyed(perio
         output, state = feed(state, [time], 60.0 if time % period == 0 else None, on=False)
         driven += output.terms.voltage != 0.0
     assert driven <= (101 if period == 50 else 202) and output.state == DISABLED and state.demand is None
-    assert "until they begin again" in state.refused
+    assert "The plant applied nothing of what was asked for" in state.refused
+    assert f"until they begin again, with 0 or after a silence of {0.5 if period == 50 else 2:g} s" in state.refused
     assert feed(state, [6005], 0.0)[0].state == RUNNING
     late = 6000 - period + (500 if period == 50 else 2000)
     assert feed(state, [late - 5], 60.0)[0].state == DISABLED

@@ -67,6 +67,21 @@ def test_a_stream_that_ends_stops_the_motor() -> None:
     assert held.run(0.3).state == RUNNING
 
 
+def test_a_stream_that_goes_on_while_the_plant_is_away_is_not_obeyed_until_it_begins_again() -> None:
+    """It went on with the motor when the link was there again, however long that had been away."""
+    for away, obeyed in ((0.9, True), (1.2, False)):
+        loop = Loop()
+        loop.run(DT, STOP)
+        assert loop.run(0.2, JOINT).state == RUNNING
+        for _ in range(round(away / DT)):
+            loop.now += DT
+            loop.state = controller.command_joint(loop.config, loop.state, JOINT, loop.now)
+            loop.state = controller.watch(loop.config, loop.state, loop.now)[1]
+        assert (loop.run(0.1, JOINT).state == RUNNING) is obeyed
+        loop.run(DT, STOP)
+        assert loop.run(DT, JOINT).state == RUNNING
+
+
 def test_after_a_stop_a_stream_that_goes_on_is_not_obeyed_until_it_begins_again() -> None:
     loop = Loop()
     loop.run(DT, STOP)
@@ -144,8 +159,9 @@ def test_a_reference_that_is_refused_is_said_and_changes_nothing() -> None:
     loop = Loop()
     loop.run(0.1)
     before = loop.state
-    loop.state = controller.refuse(loop.state, "It may be an old one.", loop.now)
-    assert replace(loop.state, refused="", refused_at=before.refused_at) == before
+    loop.state = controller.doubt(loop.state, "It may be an old one.", loop.now)
+    same = replace(loop.state, refused="", refused_at=before.refused_at, references=before.references)
+    assert same == before
     output = loop.run(0.1)
     assert (output.state, output.reason, output.warning) == (DISABLED, "It may be an old one.", True)
     assert loop.run(0.5).reason != "It may be an old one."

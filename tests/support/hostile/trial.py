@@ -32,6 +32,9 @@ NEEDED = (
     "motor_identification.logs.formats.matlab",
     "motor_identification.logs.imported",
     "motor_identification.mapping.candidates",
+    "motor_identification.reporting.fit_figure",
+    "motor_identification.reporting.html.diagnosis_page",
+    "motor_identification.reporting.html.fit_page",
     "ros2_stand_in.verbs.bag",
     "scipy.io",
 )

@@ -1,7 +1,11 @@
-"""End a reference that the plant or time has made an old one: restarted, away, switched off, held at 0 V, timed out."""
+"""End a reference that the plant or time has made an old one: restarted, away, switched off, held at 0 V, timed out.
+
+Where somebody has just asked for a motion, he knows how the plant is; who goes on asking, as he did before, does not.
+"""
 
 from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference.demand import Source
+from motor_control.controller.reference.sequence import Sequence
 from motor_control.controller.run import Config
 from motor_control.controller.state import RESTARTED, State, drop, meet_other_plant
 from motor_model.frozen_record import replace
@@ -11,7 +15,10 @@ OFF = 0.5  # [s] for which a plant may ignore voltages before the reference is d
 
 RETURNED = "The plant was away for more than 1 s."
 HELD = "{} The motor was held at 0 V for more than 1 s."
-WAS_OFF = "The plant's output is off: call motor/enable with data: true."
+WAS_OFF = (
+    "The plant applied nothing of what was asked for: see whether its output is off (motor/enable with data: true "
+    "switches it on), and whether it is the plant that hears this motor/voltage."
+)
 SILENT_JOINT = "No command on motor/joint_command for joint_command_timeout ({:g} s)."
 TIMED_OUT = "The last reference is older than reference_timeout ({:g} s)."
 
@@ -22,18 +29,20 @@ def drop_old_reference(config: Config, state: State, plant: PlantWatch, now: flo
         return meet_other_plant(state, RESTARTED)
     if state.demand is None:
         return state
-    if now - (state.since if state.arrival is None else state.arrival) > AWAY and now - state.referred > AWAY:
+    fresh = now - state.begun <= AWAY
+    if now - (state.since if state.arrival is None else state.arrival) > AWAY and not fresh:
         return drop(state, RETURNED)
     if _stood_still(state, plant):
         return drop(state, RETURNED)
-    if state.held is not None and now - state.held > AWAY and now - state.referred > AWAY:
+    if state.held is not None and now - state.held > AWAY and not fresh:
         return drop(state, HELD.format(state.held_by))
     if state.demand.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
         return drop(state, SILENT_JOINT.format(config.joint_timeout))
     if config.reference_timeout and now - state.referred > config.reference_timeout:
-        return drop(state, TIMED_OUT.format(config.reference_timeout))
+        timed_out = TIMED_OUT.format(config.reference_timeout)
+        return replace(drop(state, timed_out), references=Sequence())  # what comes now comes after the user's silence
     if state.run is not None and state.run.ignored > OFF:
-        return replace(drop(state, WAS_OFF), unheard=state.referred, ignored=state.ignored + 1)
+        return drop(state, WAS_OFF)
     return state
 
 
@@ -43,6 +52,6 @@ def _stood_still(state: State, plant: PlantWatch) -> bool:
     That is what a computer shows that was suspended while the plant, on another one, went on; it does not drive the
     motor on when somebody opens its lid.
     """
-    if state.plant is None or state.arrival is None or state.referred > state.arrival:
+    if state.plant is None or state.arrival is None or state.begun > state.arrival:
         return False
     return plant.sample_time - state.plant.sample_time > AWAY * 1e9

@@ -92,6 +92,8 @@ def test_whoever_asks_for_something_else_again_and_again_blinds_no_check(wanted:
             count += 1
             sample = replace(sample, edge_count=count, edge_time=time, edge_period=period, speed=0.065 / period)
         state = ask(state, k, wanted)
+        if wanted == "release" and k % 10 == 6:  # it begins again with 0
+            state = controller.refer(state, 0.0, 0.005 * k)
         fresh = 60.0 if k % 10 == 6 or wanted == "angle" and k % 2 == 0 else None
         output, state = controller.update(config, state, sample, fresh, 0.005 * k)
         voltage = output.terms.voltage

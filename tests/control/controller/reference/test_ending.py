@@ -45,16 +45,17 @@ def test_a_plant_that_was_restarted_is_forgotten_whether_or_not_something_is_ask
 def test_silence_ends_it_unless_it_is_as_fresh(times: float, ends: bool) -> None:
     after = end(ASKED, times * AWAY)
     assert (after.demand is None) is ends and ("away for more than 1 s" in after.dropped) is ends
-    assert end(replace(ASKED, referred=0.1), AWAY + 0.05).demand is not None
+    assert end(replace(ASKED, referred=times * AWAY), times * AWAY) == replace(after, referred=times * AWAY)  # a stream
+    assert end(replace(ASKED, begun=0.1), AWAY + 0.05).demand is not None
 
 
 @pytest.mark.parametrize(("times", "ends"), [(BELOW, False), (ABOVE, True)])
 def test_silence_ends_it_although_our_own_clock_stood_still_meanwhile(times: float, ends: bool) -> None:
     """A laptop that was suspended for a night beside a plant that went on."""
-    before = replace(ASKED, plant=PLANT, arrival=8.0, referred=7.9)
+    before = replace(ASKED, plant=PLANT, arrival=8.0, begun=7.9)
     after = replace(PLANT, sample_time=PLANT.sample_time + round(times * AWAY * 1e9))
     assert (end(before, 8.005, after).demand is None) is ends
-    assert end(replace(before, referred=8.001), 8.005, after).demand is not None
+    assert end(replace(before, begun=8.001), 8.005, after).demand is not None
 
 
 @pytest.mark.parametrize(("times", "ends"), [(BELOW, False), (ABOVE, True)])
@@ -63,6 +64,18 @@ def test_being_held_at_0_v_ends_it_with_what_held_it(times: float, ends: bool) -
     after = end(replace(ASKED, arrival=now, held=3.0, held_by="Too late."), now)
     assert (after.demand is None) is ends
     assert after.dropped == ("Too late. The motor was held at 0 V for more than 1 s." if ends else "")
+    asked_again = replace(ASKED, arrival=now, begun=now - 0.9, held=3.0)
+    assert end(asked_again, now).demand is not None
+    assert (end(replace(asked_again, begun=0.0, referred=now), now).demand is None) is ends  # a stream
+
+
+def test_what_comes_after_the_users_own_silence_begins() -> None:
+    """A timeout that is shorter than the silence after which references begin elsewhere."""
+    state = controller.update(CONFIG, State(), Sample(0, 3.0, 0.0), 60.0, 0.0)[1]
+    after = end(replace(state, arrival=0.25), 0.25, reference_timeout=0.2)
+    assert after.demand is None and controller.refer(after, 60.0, 0.25).demand is not None
+    still = controller.drop(state, "It was released.")
+    assert controller.refer(still, 60.0, 0.25).demand is None
 
 
 @pytest.mark.parametrize(("source", "ended_by"), [(Source.JOINT, "joint"), (Source.REFERENCE, "reference")])
@@ -82,5 +95,5 @@ def test_a_plant_that_ignores_voltages_ends_it(times: float, ends: bool) -> None
     assert state.run is not None
     after = end(replace(state, arrival=5.0, run=replace(state.run, ignored=times * OFF)), 5.0)
     assert (after.demand is None) is ends and ("motor/enable" in after.dropped) is ends
-    asked_again = replace(state, arrival=5.0, referred=5.0, run=replace(state.run, ignored=times * OFF))
-    assert (end(asked_again, 5.0).demand is None) is ends and (end(asked_again, 5.0).unheard == 5.0) is ends
+    asked_again = replace(state, arrival=5.0, begun=5.0, referred=5.0, run=replace(state.run, ignored=times * OFF))
+    assert (end(asked_again, 5.0).demand is None) is ends

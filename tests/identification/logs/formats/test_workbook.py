@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from motor_identification.logs.columns.said import Said
-from motor_identification.logs.formats import workbook_parts
+from motor_identification.logs.formats import workbook, workbook_parts
 from motor_identification.logs.formats.workbook import read_workbook
 from motor_identification.logs.imported import import_log
 from motor_model.errors import RecordingError
@@ -117,6 +117,26 @@ def test_a_log_in_a_workbook_is_read_as_the_text_table(tmp_path: Path) -> None:
 def test_what_cannot_be_read_is_a_sentence(tmp_path: Path, content: str, complaint: str) -> None:
     with pytest.raises(RecordingError, match=complaint):
         read_workbook(write(tmp_path / "a.xlsx", a=content), None)
+
+
+def test_texts_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = write(tmp_path / "a.xlsx", ("<t>t</t>", "<t>u</t>", "<t/>"), a=sheet(*numbers(*[(1.0, 2.0)] * 3)))
+    monkeypatch.setattr(workbook, "MOST_TEXTS", 3)
+    assert len(read_workbook(path, None)[0]) == 3
+    monkeypatch.setattr(workbook, "MOST_TEXTS", 2)
+    with pytest.raises(RecordingError, match="has more than 0 million texts: save the sheet with the table as CSV"):
+        read_workbook(path, None)
+
+
+def test_the_limits_are_those_that_are_documented() -> None:
+    """Inputs that reach them take seconds each: benchmarks/hostile.py has those."""
+    page = (Path(__file__).parents[4] / "docs" / "security.md").read_text("utf-8")
+    row = next(line for line in page.splitlines() if line.startswith("| a workbook of Excel |"))
+    parts = workbook_parts
+    assert f"{parts.MOST_BYTES >> 20} MiB a sheet and {parts.MOST_IN_ALL >> 20} MiB in all" in row
+    cells, texts = parts.MOST_CELLS // 10**6, parts.MOST_TEXTS // 10**6
+    assert f"2²⁰ rows, {cells} million cells, {texts} million texts" in row and parts.MOST_ROWS == 2**20
+    assert parts.MOST_ELEMENTS <= parts.MOST_CELLS
 
 
 def test_limits(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

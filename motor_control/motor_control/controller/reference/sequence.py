@@ -1,0 +1,39 @@
+"""Tell references that begin from those that go on: one home for when a motor that waits may be driven again.
+
+Whoever goes on sending has not seen what ended the last reference, be it a plant that was restarted, away, or switched
+off, or a stop: his motor would start by itself. References begin with 0 (the one after a 0 does, too), or after a
+silence that is long beside the time between them.
+"""
+
+from dataclasses import dataclass
+from math import inf
+
+# [s] The shortest silence after which references begin: longer than any hiccup of a stream. And the longest time
+# between two that are a stream (`ros2 topic pub` sends one a second); what comes more seldom, somebody sends by hand.
+SHORTEST, LONGEST = 0.5, 2.0
+TIMES = 2.0  # the longest time between two of them, which is a silence
+
+GOES_ON = (
+    "{} References that go on coming are not obeyed until they begin again, with 0 or after a silence of {:.2g} s."
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Sequence:
+    """References that came one after the other, obeyed or not; times [s] are on the clock of `now`."""
+
+    heard: float | None = None  # when the latest one came
+    begins: bool = False  # with it
+    stops: bool = False  # it was a speed of 0
+    between: float = 0.0  # the longest time between two of them that are a stream
+
+    @property
+    def silence(self) -> float:
+        """[s] without any, after which references begin."""
+        return min(max(SHORTEST, TIMES * self.between), LONGEST)
+
+    def hear(self, now: float, stops: bool) -> "Sequence":
+        """Take one more, which is a speed of 0 or not."""
+        silence = inf if self.heard is None else now - self.heard
+        between = max(self.between, silence) if silence <= LONGEST else 0.0
+        return Sequence(now, stops or self.stops or silence > self.silence, stops, between)

@@ -1,0 +1,103 @@
+"""A stream of references ends with what ends one, and is not obeyed again until it begins again."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+from referred import CONFIG, OBSTACLES, feed, running
+
+from motor_control.controller import controller
+from motor_control.controller.controller import State
+from motor_control.controller.output import DISABLED, RUNNING
+from motor_model.sample import Sample
+
+
+def restart(state: State) -> State:
+    """The plant is started again 2 s later: its clock begins anew."""
+    return replace(state, plant=replace(state.plant, sample_time=10**15)) if state.plant else state
+
+
+def unplug(state: State) -> State:
+    """Nothing is heard of the plant for 2 s; its clock goes on."""
+    return state
+
+
+def start_again(state: State) -> State:
+    """As the node finds out: samples begin again, and another publishes them."""
+    return controller.meet_other_plant(state)
+
+
+def stop_and_reset(state: State) -> State:
+    """A fault, which somebody clears."""
+    return controller.reset(controller.stop(state, "It is blocked.", 0.0), 0.0)[1]
+
+
+def let_go(state: State) -> State:
+    """Somebody calls motor/release."""
+    return controller.release(state)[1]
+
+
+@pytest.mark.parametrize("rate", [1, 5, 50])  # [Hz]
+@pytest.mark.parametrize("interrupt", [restart, unplug, start_again, stop_and_reset, let_go])
+def test_a_stream_of_references_does_not_survive_what_ends_one(rate: int, interrupt: Callable[[State], State]) -> None:
+    """The motor started by itself when its plant came back: whoever goes on sending has not seen that it was away."""
+    state, period = State(), 1000 // rate
+
+    def hear(state: State, times: range, stream: bool = True, sampled: bool = True) -> tuple[set[str], State]:
+        states = set()
+        for time in times:
+            if stream and time % period == 0:
+                state = controller.refer(state, 60.0, 1e-3 * time)
+            if sampled:
+                output, state = feed(state, [time])
+                states.add(output.state)
+        return states, state
+
+    states, state = hear(state, range(0, 3000, 5))
+    assert states == {RUNNING}
+    _, state = hear(state, range(3000, 5000, 5), sampled=False)
+    states, state = hear(interrupt(state), range(5000, 12_000, 5))
+    assert states == {DISABLED} and "until they begin again, with 0 or after a silence" in state.refused
+    enough = 2000 if rate == 1 else 500
+    early = hear(state, range(12_000, 12_000 - period + enough, 5), stream=False)[1]
+    assert feed(early, [12_000 - period + enough], 60.0)[0].state == DISABLED
+    assert feed(early, [12_005 - period + enough], 60.0)[0].state == RUNNING
+    state = feed(state, [12_000], 0.0)[1]
+    assert feed(state, [12_005], 60.0)[0].state == RUNNING
+
+
+@pytest.mark.parametrize("name", OBSTACLES)
+def test_a_stream_of_references_does_not_survive_being_held_for_long(name: str) -> None:
+    """Samples were no numbers for ten minutes, and the motor went on by itself."""
+    config, speed, age = OBSTACLES[name]
+    config, state = replace(config, latency_limit=0.02), controller.refer(State(), 60.0, 0.0)
+    free = replace(config, unusable="", voltage_limit=CONFIG.voltage_limit)
+    for k in range(700):
+        held = 200 <= k < 500
+        now = 0.005 * k + (age if held else 0.0)
+        state = controller.refer(state, 60.0, now)
+        sample = Sample(k * 5_000_000, speed if held else 0.0, 1.0)
+        output, state = controller.update(config if held else free, state, sample, None, now)
+    assert output.state == DISABLED and output.terms.voltage == 0.0
+
+
+def test_who_asks_for_a_motion_while_the_plant_is_away_is_obeyed_when_it_comes_soon() -> None:
+    """As before; a stream that began long before it came is not."""
+    for began, obeyed in ((2500, True), (1500, False)):
+        state = State()
+        for time in range(began, 3000, 20):
+            state = controller.refer(state, 60.0, 1e-3 * time)
+        assert (feed(state, [3000])[0].state == RUNNING) is obeyed
+
+
+def test_what_may_be_an_old_reference_is_no_beginning() -> None:
+    """A laptop is opened again, a joystick is still pressed: 3.5 s later the motor started by itself."""
+    state, states = running(), []
+    for time in range(200, 8000, 5):
+        doubtful = 2000 <= time < 5500
+        ask = controller.doubt(state, "It stood still.", 1e-3 * time) if doubtful else None
+        state = ask or controller.refer(state, 60.0, 1e-3 * time)
+        if not 200 <= time < 2000:
+            output, state = feed(state, [time])
+            states.append(output.state)
+    assert set(states) == {DISABLED}
