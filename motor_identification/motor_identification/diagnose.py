@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 
+from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_test import fits_torque
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
@@ -179,7 +180,8 @@ def _select_as_timed(
 ) -> tuple[_Start, _Selected]:
     """Select what is missing with speeds as their motion shows that they were made; once more if that shows otherwise.
 
-    What was not known yet may have been taken for another timing, which a lag then undoes.
+    What was not known yet may have been taken for another timing, which a lag then undoes: so it was where the new one
+    leaves no more.
     """
     start = _begin_as_timed(first, _find_timing(first, first.selection), request, reporter.stopped)
     selected = _select_in_time(start.selection, reporter, limit)
@@ -189,7 +191,9 @@ def _select_as_timed(
     if timing == start.timing or not limit.begin_again():
         return start, selected
     again = _begin_as_timed(first, timing, request, reporter.stopped)
-    return again, _select_in_time(again.selection, reporter.beyond(DONE_ONCE), limit)
+    other = _select_in_time(again.selection, reporter.beyond(DONE_ONCE), limit)
+    alike = other.selection.model.held.gap <= thresholds.GAP_CHANCE * selected.selection.model.held.gap
+    return (again, other) if other.finished and alike else (start, selected)
 
 
 def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tuple[str, ...]]:

@@ -10,6 +10,7 @@ from plant import profiles, record
 from recorded import as_speed, without_count
 from swinging import RUBBING, noisy
 
+from motor_identification import diagnose as diagnose_module
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Verdict
 from motor_identification.estimation.problem import Problem, make_problem
@@ -123,6 +124,14 @@ def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it() -> None:
     assert heard == sorted(heard) and heard.count(0.95) > 3
     assert {finding.effect for finding in found.findings} == {"coulomb_friction", "supply_sag"}
     assert found.verdict is Verdict.EXPLAINED and found.model.timing == OTHERS[0]
+
+
+def test_a_timing_by_which_more_is_left_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    timings = iter((OTHERS[1], Timing(1.0, 9.5, "")))
+    monkeypatch.setattr(diagnose_module, "_find_timing", lambda first, selection: next(timings))
+    found = diagnose([swept()])
+    assert next(timings, None) is None and found.model.timing == OTHERS[1]
+    assert {"supply_sag", "transport_delay"} < {finding.effect for finding in found.findings}
 
 
 def test_what_was_said_is_believed() -> None:
