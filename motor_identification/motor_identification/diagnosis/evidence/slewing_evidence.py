@@ -36,9 +36,11 @@ def find_slewing(effect: str, without: Model, current: Model) -> Structure | Non
 
     without: the model that lacks the lag. None where the lag does not stand in for such a bridge.
     """
+    if effect not in LAGS or not (current.beside_torque or current.above_floor):
+        return None
     recordings = current.estimate.problem.recordings
     changes = np.abs(np.concatenate([np.diff(recording.voltage) for recording in recordings]))
-    if effect not in LAGS or not (current.beside_torque or current.above_floor) or not np.any(changes):
+    if not np.any(changes):
         return None
     having, lacking = (_score(model.estimate, current) for model in (current, without))
     bare, late = _drop_lags(current.estimate)
