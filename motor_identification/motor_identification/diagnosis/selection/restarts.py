@@ -5,8 +5,8 @@ from dataclasses import replace
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
-from motor_identification.diagnosis.effect_test import is_there_from_the_start, sort_by_table
-from motor_identification.diagnosis.selection.forward_selection import find_pair, select_forward
+from motor_identification.diagnosis.effect_test import is_there_from_the_start, sort_by_table, try_effects
+from motor_identification.diagnosis.selection.forward_selection import find_pair, list_partners, select_forward
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_selection
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.instants import needs_instant
@@ -53,7 +53,10 @@ def retry_with_pair(selection: Selection, reporter: ProgressReporter) -> Selecti
     if not needs_instant(first.found.effect):
         return selection
     start = begin_selection(first.before.estimate, selection.hold_out, selection.workers)
-    pair = find_pair(start, [test for test in first.tests if not needs_instant(test.effect)], reporter)
+    likely = [test.effect for test in list_partners([one for one in first.tests if not needs_instant(one.effect)])]
+    # Tried once more: a selection that begins anew may read the directions of held-out motion otherwise.
+    tests = try_effects(start.model, start.hold_out, likely, start.workers, lambda test: None)
+    pair = find_pair(start, tests, reporter)
     if not pair:
         return selection
     other = select_forward(start.add(pair), reporter, pairs=False)

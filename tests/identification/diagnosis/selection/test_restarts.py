@@ -137,8 +137,16 @@ def test_two_effects_together_are_tried_instead_of_an_instant_that_leaves_a_gap(
         tried.append([test.effect for test in tests])
         return [step_of(friction)]
 
+    start = SimpleNamespace(add=lambda pair: None, model=object(), hold_out=object(), workers=1)
+
+    def try_effects(model: Any, hold_out: Any, effects: list[str], *rest: Any) -> list[CandidateTest]:
+        """By what is held out of the new start: of what the first one did, directions may have been read otherwise."""
+        assert model is start.model and hold_out is start.hold_out
+        return [stub_test(effect, before, 8.0, 50.0) for effect in effects]
+
     monkeypatch.setattr(module, "find_pair", find_pair)
-    monkeypatch.setattr(module, "begin_selection", lambda *rest: SimpleNamespace(add=lambda pair: None))
+    monkeypatch.setattr(module, "try_effects", try_effects)
+    monkeypatch.setattr(module, "begin_selection", lambda *rest: start)
     monkeypatch.setattr(module, "select_forward", lambda *rest, **how: other)
     assert retry_with_pair(begun, SILENT) is (other if taken else begun)
     assert all(names == ["coulomb_friction"] for names in tried)
