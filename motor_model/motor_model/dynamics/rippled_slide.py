@@ -30,9 +30,8 @@ class Relaxing(NamedTuple):
 
     time: float  # [s]
     speed: float  # [s] per rad/s²
-    travel: float  # [s²]
-    grown: float  # [s²] per rad/s³
-    further: float  # [s³]
+    travel: float  # [s²] per rad/s²; and speed per rad/s³ of growth
+    further: float  # [s³] travel of that
 
 
 @compiled
@@ -40,7 +39,7 @@ def relax(rate: float, time: float) -> Relaxing:
     """Prepare a time [s] of dω/dt = acceleration + growth·t − rate·(ω − ω0)."""
     first, second, third = phi_triple(-rate * time)
     square = time * time
-    return Relaxing(time, time * first, square * second, square * second, square * time * third)
+    return Relaxing(time, time * first, square * second, square * time * third)
 
 
 @compiled
@@ -70,7 +69,7 @@ def slide(p: Floats, hold: Hold, s: State, h: float, w: float, least: float) -> 
         growth = (end - begin) / ((LATE - EARLY) * step)
         start = net + 0.5 * (begin + end - growth * step)
         travel += step * speed + whole.travel * start + whole.further * growth
-        speed += whole.speed * start + whole.grown * growth
+        speed += whole.speed * start + whole.travel * growth
         if speed * way <= slow:
             return 0.0, 0.0
     return speed, travel

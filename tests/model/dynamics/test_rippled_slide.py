@@ -82,5 +82,5 @@ def test_what_is_prepared_is_the_motion_of_a_piece(rate: float) -> None:
     """An acceleration of 40 rad/s² that grows by 900 rad/s³, from 2 rad/s on."""
     then, travel = first_order(Coefficients(1.0, -40.0 - rate * 2.0, 0.0, 0.0, rate, -900.0), 2.0, 0.03)
     one = relax(rate, 0.03)
-    assert 2.0 + 40.0 * one.speed + 900.0 * one.grown == pytest.approx(then, rel=1e-12)
+    assert 2.0 + 40.0 * one.speed + 900.0 * one.travel == pytest.approx(then, rel=1e-12)
     assert 2.0 * one.time + 40.0 * one.travel + 900.0 * one.further == pytest.approx(travel, rel=1e-12)

@@ -40,20 +40,19 @@ def find_slewing(effect: str, without: Model, current: Model) -> Structure | Non
         return None
     recordings = current.estimate.problem.recordings
     changes = np.abs(np.concatenate([np.diff(recording.voltage) for recording in recordings]))
-    if not np.any(changes):
+    bare, late = _drop_lags(current.estimate)
+    if not np.any(changes) or late <= 0.0:
         return None
     having, lacking = (_score(model.estimate, current) for model in (current, without))
-    bare, late = _drop_lags(current.estimate)
-    rate = _guess_rate(changes, late)
-    likeliest = _find_rate(bare, current, rate, having - 0.5 * abs(having - lacking))
+    likeliest = _find_likeliest(bare, current, _guess_rate(changes, late), having - 0.5 * abs(having - lacking))
     if likeliest is None:
         return None
-    slewing = _fit_slewing(bare, current, likeliest)
+    rate, slewing = likeliest
     found = _score(slewing, current)
     if found <= having + thresholds.SLEWING_GAIN:
         return None
-    both = _score(_fit_slewing(current.estimate, current, likeliest), current)
-    return None if both > found + likelihood_threshold() else _describe(slewing, without, found - lacking, likeliest)
+    both = _score(_fit_slewing(current.estimate, current, rate), current)
+    return None if both > found + likelihood_threshold() else _describe(slewing, without, found - lacking, rate)
 
 
 def _drop_lags(estimate: Estimate) -> tuple[Estimate, float]:
@@ -71,20 +70,22 @@ def _guess_rate(changes: Floats, lag: float) -> float:
     return float(np.sum(changes**2) / (2.0 * lag * np.sum(changes)))
 
 
-def _find_rate(bare: Estimate, current: Model, guess: float, least: float) -> float | None:
-    """Find the rate [V/s] with which the motion is likeliest, about a guess; None where it is not above `least`."""
+def _find_likeliest(bare: Estimate, current: Model, guess: float, least: float) -> tuple[float, Estimate] | None:
+    """Find the rate [V/s] with which the motion is likeliest, about a guess, and its fit; None if not above `least`."""
+    fits: dict[float, Estimate] = {}
 
     def likelihood(rate: float) -> float:
-        return log_likelihood(list_error_data(_fit_slewing(bare, current, rate)), current.errors, current.lag)
+        fits[rate] = _fit_slewing(bare, current, rate)
+        return log_likelihood(list_error_data(fits[rate]), current.errors, current.lag)
 
-    tried = [(likelihood(rate), rate) for rate in (guess / APART, guess, guess * APART)]
-    most, best = max(tried)
+    most, best = max((likelihood(rate), rate) for rate in (guess / APART, guess, guess * APART))
     if most <= least:
         return None
     within = log(best / APART), log(best * APART)
     options = {"xatol": PRECISION, "maxiter": MOST_FITS}
     found = minimize_scalar(lambda x: -likelihood(exp(x)), bounds=within, method="bounded", options=options)
-    return exp(found.x) if -found.fun > most else best
+    rate = exp(found.x) if -found.fun > most else best
+    return rate, fits[rate]
 
 
 def _fit_slewing(estimate: Estimate, current: Model, rate: float) -> Estimate:
