@@ -18,22 +18,17 @@ from motor_identification.diagnosis.selection.determination import drop_undeterm
 from motor_identification.diagnosis.selection.forward_selection import select_forward
 from motor_identification.diagnosis.selection.restarts import retry_with_another_first, retry_with_pair
 from motor_identification.diagnosis.selection.rivals import add_rivals_beside_torque
-from motor_identification.diagnosis.selection.selection import Selection, begin_selection
+from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.diagnosis.selection.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
 from motor_identification.diagnosis.selection.torque_selection import select_beside_torque
+from motor_identification.diagnosis.start import Start, begin, begin_as_timed, find_timing_beside
 from motor_identification.diagnosis.verdict import conclude, find_nearest
-from motor_identification.estimation.problem import make_problem
-from motor_identification.estimation.request import Request, SearchReport
-from motor_identification.estimation.search.global_search import search_globally
+from motor_identification.estimation.request import Request
 from motor_identification.measurement.request_checks import check_effects
-from motor_identification.periodic.periodic_fit import add_periodic_effects, drop_periodic_effects
 from motor_identification.progress import ProgressReporter, Stage, Stopped, TimeLimit
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
-from motor_identification.timing.speed_timing import find_timing
-from motor_identification.timing.timing import Timing
-from motor_identification.validation.hold_out import HoldOut, make_hold_out
-from motor_model.effects import LAGS, normalised
+from motor_model.effects import LAGS
 from motor_model.errors import RecordingError
 from motor_model.program.memory import ask_for_room
 
@@ -71,7 +66,7 @@ def diagnose(
     limit = TimeLimit(request.time_limit, stopped or (lambda: False), _has_smaller_gap)
     reporter = ProgressReporter(progress or (lambda stage: None), limit.over, limit.keep)
     reporter.report("first fit", 0.0, "", float("nan"))
-    first = _begin(recordings, validation, request, reporter.stopped)
+    first = begin(recordings, validation, request, reporter.stopped)
     start, selected = _select_as_timed(first, request, reporter, limit)
     found = conclude(
         start.selection.model,
@@ -104,51 +99,6 @@ def _has_smaller_gap(one: Selection, other: Selection) -> bool:
 
 
 @dataclass(frozen=True)
-class _Start:
-    """What a diagnosis begins with: recordings, and the known model fitted to them."""
-
-    recordings: Sequence[Recording]
-    validation: Sequence[Recording]
-    selection: Selection  # without steps
-    search: SearchReport
-    timing: Timing | None = None  # of speeds, where it is not as assumed
-
-
-def _begin(
-    recordings: Sequence[Recording],
-    validation: Sequence[Recording],
-    request: Request,
-    stopped: Callable[[], bool],
-) -> _Start:
-    """Hold out what the diagnosis is judged by, and fit the known model to the rest."""
-    hold_out = make_hold_out(recordings, validation, stopped)
-    return _Start(recordings, validation, *fit_known(recordings, request, hold_out))
-
-
-def fit_known(recordings: Sequence[Recording], request: Request, hold_out: HoldOut) -> tuple[Selection, SearchReport]:
-    """Fit the model to begin with to what is not held out, searched globally."""
-    known = normalised(request.effects)
-    whole = make_problem(recordings, drop_periodic_effects(known), request.workers, hold_out.problem.stopped)
-    estimate, search = search_globally(hold_out.restrict(whole), request.search)
-    single = estimate.on(replace(estimate.problem, workers=1))  # effects are tried at a time instead
-    return begin_selection(add_periodic_effects(single, known), hold_out, request.workers), search
-
-
-def _find_timing(first: _Start, selection: Selection) -> Timing | None:
-    """Find how speeds, which nobody timed, were made, as the motion shows beside what was selected; None as assumed."""
-    model = selection.model
-    return find_timing(first.recordings, model.estimate, first.selection.hold_out.restrict, model.effects)
-
-
-def _begin_as_timed(first: _Start, timing: Timing | None, request: Request, stopped: Callable[[], bool]) -> _Start:
-    """Begin again where speeds were made otherwise than assumed."""
-    if timing is None:
-        return first
-    again = _begin(timing.set_on(first.recordings), timing.set_on(first.validation), request, stopped)
-    return replace(again, timing=timing)
-
-
-@dataclass(frozen=True)
 class _Selected:
     """What was selected, and whether there was time to finish."""
 
@@ -176,21 +126,21 @@ def _select_in_time(start: Selection, reporter: ProgressReporter, limit: TimeLim
 
 
 def _select_as_timed(
-    first: _Start, request: Request, reporter: ProgressReporter, limit: TimeLimit[Selection]
-) -> tuple[_Start, _Selected]:
+    first: Start, request: Request, reporter: ProgressReporter, limit: TimeLimit[Selection]
+) -> tuple[Start, _Selected]:
     """Select what is missing with speeds as their motion shows that they were made; once more if that shows otherwise.
 
     What was not known yet may have been taken for another timing, which a lag then undoes: so it was where the new one
     leaves no more.
     """
-    start = _begin_as_timed(first, _find_timing(first, first.selection), request, reporter.stopped)
+    start = begin_as_timed(first, find_timing_beside(first, first.selection), request, reporter.stopped)
     selected = _select_in_time(start.selection, reporter, limit)
     if start.timing is None or not selected.finished or not set(LAGS).intersection(selected.effects):
         return start, selected
-    timing = _find_timing(first, selected.selection)
+    timing = find_timing_beside(first, selected.selection)
     if timing == start.timing or not limit.begin_again():
         return start, selected
-    again = _begin_as_timed(first, timing, request, reporter.stopped)
+    again = begin_as_timed(first, timing, request, reporter.stopped)
     other = _select_in_time(again.selection, reporter.beyond(DONE_ONCE), limit)
     alike = other.selection.model.held.gap <= thresholds.GAP_CHANCE * selected.selection.model.held.gap
     return (again, other) if other.finished and alike else (start, selected)

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from plant import profiles, record
 
-from motor_identification.diagnose import Request, fit_known
 from motor_identification.diagnosis.effect_test import try_effects
 from motor_identification.diagnosis.selection.selection import begin_beside_torque
-from motor_identification.estimation.request import SearchConfig
+from motor_identification.diagnosis.start import fit_known
+from motor_identification.estimation.request import Request, SearchConfig
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.initial_speed import estimate_initial_speed
 from motor_identification.measurement.time_blocks import TimeBlocks

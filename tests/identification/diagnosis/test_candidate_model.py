@@ -12,11 +12,11 @@ from diagnosed import fitted
 from plant import profiles, record
 from stub_models import FLOOR, stub_model
 
-from motor_identification.diagnose import fit_known
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.selection.selection import begin_beside_torque
+from motor_identification.diagnosis.start import fit_known
 from motor_identification.estimation.request import Request
 from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.recording import check

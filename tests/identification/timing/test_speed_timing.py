@@ -128,7 +128,7 @@ def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it() -> None:
 
 def test_a_timing_by_which_more_is_left_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
     timings = iter((OTHERS[1], Timing(1.0, 9.5, "")))
-    monkeypatch.setattr(diagnose_module, "_find_timing", lambda first, selection: next(timings))
+    monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda first, selection: next(timings))
     found = diagnose([swept()])
     assert next(timings, None) is None and found.model.timing == OTHERS[1]
     assert {"supply_sag", "transport_delay"} < {finding.effect for finding in found.findings}

@@ -4,19 +4,15 @@ from functools import cache
 
 import pytest
 from plant import profiles, record
+from stand_ins import is_taken_back, select_beside_friction
 
-from motor_identification.diagnose import fit_known
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import refit_without
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.evidence.presliding_evidence import find_presliding
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
-from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_beside_torque
-from motor_identification.estimation.request import Request
+from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check
-from motor_identification.validation.hold_out import make_hold_out
 
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
 PRESLIDING = {"ks": 0.4, "presliding_angle": 0.4}
@@ -31,12 +27,7 @@ def selected(hidden: str) -> Selection:
     recording = check(
         record(motor | values, *profiles.random(12.0, 12.0, 3), seed=3, irregularity=0.005, disc_seed=3)[0]
     )
-    hold_out = make_hold_out([recording], [])
-    known, _search = fit_known([recording], Request(effects=("coulomb_friction", "backlash")), hold_out)
-    model = begin_beside_torque(known.model, known.hold_out, 1).model
-    without = refit_without(model, "backlash", known.hold_out)
-    test = CandidateTest("backlash", without, model)
-    return Selection((SelectionStep(without, test, (test,), (), 1.0),), model, known.hold_out, 1)
+    return select_beside_friction(recording, "backlash")
 
 
 def fitted(hidden: str) -> tuple[Model, Model]:
@@ -70,9 +61,7 @@ def test_the_limit_lies_far_from_both(monkeypatch: pytest.MonkeyPatch, hidden: s
 @pytest.mark.parametrize("hidden", ["presliding", "backlash"])
 def test_elimination_takes_a_stand_in_back_and_leaves_it_unexplained(hidden: str) -> None:
     left = eliminate_backward(selected(hidden), SILENT)
-    stands_in = hidden == "presliding"
-    assert (not left.steps and left.outside is not None and not left.complete) is stands_in
-    assert (len(left.steps) == 1 and left.outside is None) is not stands_in
+    assert is_taken_back(left) is (hidden == "presliding")
 
 
 def test_both_are_judged_beside_the_torque_that_is_there() -> None:

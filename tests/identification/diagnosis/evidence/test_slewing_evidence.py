@@ -6,18 +6,14 @@ from functools import cache
 import numpy as np
 import pytest
 from plant import profiles, record
+from stand_ins import is_taken_back, select_beside_friction
 
-from motor_identification.diagnose import fit_known
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import refit_without
-from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.evidence.slewing_evidence import find_slewing, follow
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
-from motor_identification.diagnosis.selection.selection import Selection, SelectionStep, begin_beside_torque
-from motor_identification.estimation.request import Request
+from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.progress import ProgressReporter
 from motor_identification.recording import check
-from motor_identification.validation.hold_out import make_hold_out
 
 SILENT = ProgressReporter(lambda stage: None, lambda: False)
 HIDDEN = {
@@ -33,12 +29,7 @@ def selected(hidden: str) -> Selection:
     motor = {"kv": 0.07, "ka": 0.0055, "ks": 0.4} | HIDDEN[hidden]
     torque = {"random_torque": 0.05, "random_torque_time": 0.05, "random_torque_seed": 3.0}
     recording = check(record(motor | torque, *profiles.random(12.0, 12.0, 3), seed=3)[0])
-    hold_out = make_hold_out([recording], [])
-    known, _search = fit_known([recording], Request(effects=("coulomb_friction", "armature_inductance")), hold_out)
-    model = begin_beside_torque(known.model, known.hold_out, 1).model
-    without = refit_without(model, "armature_inductance", known.hold_out)
-    test = CandidateTest("armature_inductance", without, model)
-    return Selection((SelectionStep(without, test, (test,), (), 1.0),), model, known.hold_out, 1)
+    return select_beside_friction(recording, "armature_inductance")
 
 
 @pytest.mark.parametrize(("hidden", "stands_in"), [("slewing", True), ("inductance", False), ("both", False)])
@@ -68,9 +59,7 @@ def test_only_lags_are_judged() -> None:
 @pytest.mark.parametrize("hidden", ["slewing", "inductance"])
 def test_elimination_takes_a_stand_in_back_and_leaves_it_unexplained(hidden: str) -> None:
     left = eliminate_backward(selected(hidden), SILENT)
-    stands_in = hidden == "slewing"
-    assert (not left.steps and left.outside is not None and not left.complete) is stands_in
-    assert (len(left.steps) == 1 and left.outside is None) is not stands_in
+    assert is_taken_back(left) is (hidden == "slewing")
 
 
 def test_a_command_that_never_changes_slews_by_nothing() -> None:
