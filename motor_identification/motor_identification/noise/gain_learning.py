@@ -35,6 +35,11 @@ def learn_errors_of_runs(
     return differing if gained > PRICE else agreeing
 
 
+def score_under_own_errors(rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel, evaluations: int) -> float:
+    """Compute the log likelihood of the increments of runs under the errors that are learned of them."""
+    return log_likelihood(rows, learn_errors_of_runs(rows, lag, guess, evaluations), lag)
+
+
 def _learn_with_gains(rows: Sequence[ErrorData], lag: Lag, guess: ErrorModel | None, evaluations: int) -> ErrorModel:
     """Find the likeliest error model of runs whose gains differ."""
     gains = [RunGain(guess_deviation(row.increments, row.travel), 0.0) for row in rows]

@@ -25,7 +25,7 @@ from motor_identification.discrepancy.rest import ROBUST
 from motor_identification.discrepancy.rests import list_training_rests
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_data import ErrorData, log_likelihood
-from motor_identification.noise.gain_learning import learn_errors_of_runs
+from motor_identification.noise.gain_learning import score_under_own_errors
 from motor_identification.recording import Floats
 
 CAUSE = "a friction that builds up after every reversal (presliding)"
@@ -63,8 +63,7 @@ def _score_refitted(model: Model, rests: Sequence[Rest]) -> float:
 
 def _score(model: Model, left: Sequence[ErrorData]) -> float:
     """Compute the log likelihood of what is left, under errors that are learned of it."""
-    learned = learn_errors_of_runs(left, model.lag, model.errors, thresholds.CANDIDATE_EVALUATIONS)
-    return log_likelihood(left, learned, model.lag)
+    return score_under_own_errors(left, model.lag, model.errors, thresholds.CANDIDATE_EVALUATIONS)
 
 
 def _refit_presliding(model: Model, rests: Sequence[Rest]) -> list[ErrorData]:

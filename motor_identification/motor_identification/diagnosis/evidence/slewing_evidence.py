@@ -21,7 +21,7 @@ from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.noise.error_data import log_likelihood
-from motor_identification.noise.gain_learning import learn_errors_of_runs
+from motor_identification.noise.gain_learning import score_under_own_errors
 from motor_identification.recording import Floats, Recording
 from motor_model.compiled import compiled
 from motor_model.effects import EFFECT_BY_NAME, LAGS
@@ -98,8 +98,7 @@ def _fit_slewing(estimate: Estimate, current: Model, rate: float) -> Estimate:
 def _score(estimate: Estimate, current: Model) -> float:
     """Compute the log likelihood of what is left, under errors that are learned of it."""
     rows = list_error_data(estimate)
-    learned = learn_errors_of_runs(rows, estimate.lag, current.errors, thresholds.CANDIDATE_EVALUATIONS)
-    return log_likelihood(rows, learned, estimate.lag)
+    return score_under_own_errors(rows, estimate.lag, current.errors, thresholds.CANDIDATE_EVALUATIONS)
 
 
 def _describe(slewing: Estimate, without: Model, gain: float, rate: float) -> Structure:
