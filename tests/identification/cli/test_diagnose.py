@@ -95,7 +95,7 @@ def test_a_bad_command_is_one_sentence_before_anything_is_computed(
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("motor_identification.diagnose.search_globally", None)  # nobody gets so far
+    monkeypatch.setattr("motor_identification.diagnosis.start.search_globally", None)  # nobody gets so far
     names = {"bags": bags, "tmp": tmp_path}
     assert diagnose([argument.format(**names) for argument in arguments]) == 1
     out, err = capsys.readouterr()
@@ -136,7 +136,7 @@ def test_a_file_that_cannot_be_written_after_all_takes_no_other_with_it(
 def test_what_exists_is_not_replaced_and_nothing_computed_in_vain(
     taken: str, bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("motor_identification.diagnose.search_globally", None)  # nobody gets so far
+    monkeypatch.setattr("motor_identification.diagnosis.start.search_globally", None)  # nobody gets so far
     (tmp_path / "report").mkdir()
     (tmp_path / taken).write_text("mine")
     options = ["--output", str(tmp_path / "model.yaml"), "--json", str(tmp_path / "all.json")]
