@@ -11,7 +11,9 @@ from dataclasses import dataclass, replace
 from time import perf_counter
 
 from motor_identification.diagnosis import thresholds
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import fits_torque
+from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.selection.determination import drop_undetermined, drop_undetermined_at_once
@@ -156,11 +158,14 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
         selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
         if selection.model.complete and selection.model.above_floor:
             selection = add_rivals_beside_torque(selection, reporter)
-    elif beside.steps and fits_torque(beside.model.held, start.model.held):
+    elif beside.steps and _fits_torque(beside.model, start.model):
         selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
     else:
         selection = beside
     left, undetermined = drop_undetermined(selection, reporter)
     # What is left of a model that fits a slow torque instead of the motion tells less than the one to begin with.
-    worse = fits_torque(left.model.held, start.model.held)
-    return start if worse else left, undetermined
+    return start if _fits_torque(left.model, start.model) else left, undetermined
+
+
+def _fits_torque(model: Model, start: Model) -> bool:
+    return fits_torque(model.held, start.held, adds_only_lines(model, start))

@@ -13,6 +13,7 @@ from motor_identification.diagnosis.evidence.torque_evidence import (
     score_training,
 )
 from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque, list_error_data
+from motor_identification.diagnosis.fits.effect_fit import drop_effect
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds
 from motor_identification.estimation.parameter_space import map_theta
@@ -87,14 +88,6 @@ def fit_constant(model: Model, effect: str, constant: str, hold_out: HoldOut) ->
     values = {EFFECT_BY_NAME[constant].parameters[0].name: np.array(model.estimate.parameters.value(size))}
     theta = map_theta(bare.problem.unknowns, bare.theta, larger.unknowns, values)
     return fit_again(validate_model(hold_out, Estimate(larger, theta, bare.simulations), model), hold_out)
-
-
-def drop_effect(estimate: Estimate, effect: str) -> Estimate:
-    """Leave one effect out, and what there is only with it, the rest as it is."""
-    unknowns = estimate.problem.unknowns
-    left = tuple(name for name in unknowns.effects if name != effect and EFFECT_BY_NAME[name].implies != effect)
-    smaller = estimate.problem.with_effects(left)
-    return Estimate(smaller, map_theta(unknowns, estimate.theta, smaller.unknowns, {}), estimate.simulations)
 
 
 def refit_without(model: Model, effect: str, hold_out: HoldOut) -> Model:

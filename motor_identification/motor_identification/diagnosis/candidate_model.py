@@ -22,6 +22,7 @@ from motor_identification.noise.likelihood import Noise
 from motor_identification.recording import Bools, Floats
 from motor_identification.uncertainty.standard_errors import Uncertainty, estimate_uncertainty
 from motor_identification.validation.held_out import HeldOut, list_held_errors
+from motor_identification.validation.instants import needs_instant
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -82,11 +83,11 @@ class Model:
     def whitened(self) -> WhitenedFit:
         """The last stage of its fit, which its parameters and their standard errors are said from.
 
-        What repeats with the angle is fitted beside the random torque already, which hides its phase elsewhere; and
-        what is common to runs whose gains differ, beside these.
+        What repeats with the angle, or begins at an instant, is fitted beside the random torque already, which hides
+        its phase or instant elsewhere; and what is common to runs whose gains differ, beside these.
         """
-        periodic = any(EFFECT_BY_NAME[name].periodic for name in self.effects)
-        if self.learned is not None and (periodic or self.learned.gain > 0.0):
+        hidden = any(EFFECT_BY_NAME[name].periodic or needs_instant(name) for name in self.effects)
+        if self.learned is not None and (hidden or self.learned.gain > 0.0):
             return whiten_beside_torque(self.estimate, self.learned)
         return fit_whitened(self.estimate)
 

@@ -10,6 +10,7 @@ from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
 from motor_identification.diagnosis.evidence.standstill_evidence import was_held
 from motor_identification.diagnosis.evidence.torque_evidence import measure_speaking, measure_steadiness
 from motor_identification.validation.held_out import HeldOut
+from motor_identification.validation.instants import needs_instant
 from motor_model.effects import EFFECT_BY_NAME, LAGS
 
 
@@ -73,8 +74,11 @@ class CandidateTest:
     def is_likely(self, least: float) -> bool:
         """Decide whether the evidence is beyond a least, beside a random torque without its few best moments too.
 
-        Unless much of the gap goes, and so not in a few moments.
+        Unless much of the gap goes, and so not in a few moments. An instant is one of many, and chosen.
         """
+        if self.model.beside_torque and needs_instant(self.effect):
+            least = max(least, thresholds.INSTANT_LIKELIHOOD)
+            return self.evidence > least and self.steadiness > likelihood_threshold()
         return self.evidence > least and (not self.model.beside_torque or self.steadiness > least or self.predicts)
 
     @property
@@ -116,12 +120,13 @@ def share_explained(before: float, after: float, floor: float) -> float:
     return (before**2 - after**2) / (before**2 - floor**2) if before > floor else 1.0
 
 
-def fits_torque(beside: HeldOut, start: HeldOut) -> bool:
+def fits_torque(beside: HeldOut, start: HeldOut, lines: bool = False) -> bool:
     """Decide by gaps whether a model beside a random torque fits the torque instead of the motion.
 
     It predicts worse than the model that the diagnosis began with; or does not even fit better what both have seen.
+    lines: all that it has more is fast beside that torque, of which the plain fit to begin with took up some.
     """
-    return beside.gap > (1.0 if beside.seen else thresholds.GAP_CHANCE) * start.gap
+    return beside.gap > (1.0 if beside.seen and not lines else thresholds.GAP_CHANCE) * start.gap
 
 
 def predicts_far_worse(beside: float, plain: float) -> bool:

@@ -112,6 +112,10 @@ SURE_SIZE = 3.0
 # The same by a fit that knows of the random torque beside it. Measured: 30 and 160 of frictions that were 2.9 and 2.2
 # by their encoders, in motors that a torque moves as slowly as they are; its errors are up to half too small.
 SURE_BESIDE_TORQUE = 10.0
+# Of log likelihood: what is at an instant has to be likelier beside a random torque, for the instant is the best of
+# hundreds. Measured: 13 of a load step that stood in for a friction and a load in one response of a position loop;
+# right ones 28 and more.
+INSTANT_LIKELIHOOD = 20.0
 # Of a recording: the standard error of an instant, in all of them, from which on nothing came at one. Measured: 0.063
 # and 0.088 for a load step that stood in for a coasting bridge's rest, and a limit, beside slow torques; right ones
 # 0.0175 and less.

@@ -86,6 +86,20 @@ def test_what_takes_away_much_of_the_gap_need_not_speak_all_the_time(effect: str
     assert test.is_likely(19.0) is likely and not test.is_likely(21.0) and test.relevant is likely
 
 
+@pytest.mark.parametrize(("times", "steady", "likely"), [(0.99, 9.0, False), (1.01, 9.0, True), (1.01, 7.0, False)])
+def test_an_instant_beside_a_torque_is_one_of_many(times: float, steady: float, likely: bool) -> None:
+    """It has to be likelier than what has none, and so without its few best moments, like anything."""
+    before = beside_torque(2.0, -100.0)
+    moments = np.full(200, steady / 190.0)
+    model = beside_torque(1.0, -90.0)
+    said = times * thresholds.INSTANT_LIKELIHOOD
+    model = replace(model, score=replace(model.score, likelihood=said, moments=moments))
+    test = CandidateTest("load_step", before, model)
+    assert test.steadiness == pytest.approx(steady) and 7.0 < likelihood_threshold() < 9.0
+    assert test.is_likely(likelihood_threshold()) is likely
+    assert CandidateTest("load_bias", before, model).is_likely(likelihood_threshold())  # falls by half, too
+
+
 @pytest.mark.parametrize(
     ("more", "torque", "falls", "taken"),
     [

@@ -20,7 +20,7 @@ from motor_identification.diagnosis.effect_test import (
     sort_by_table,
     try_effects,
 )
-from motor_identification.diagnosis.evidence.line_evidence import count_waves
+from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines, count_waves
 from motor_identification.recording import Recording
 from motor_model.effects import EFFECTS
 
@@ -189,3 +189,15 @@ def test_a_line_comes_back_a_few_times(waves: float, found: bool) -> None:
     within = replace(disc.model)  # a third of a turn, to and fro, is no disc that comes back
     within.__dict__["turns"] = waves * thresholds.LEAST_WAVES
     assert (choose_finding([replace(disc, model=within)]) is not None) is found
+
+
+@pytest.mark.parametrize(("waves", "alone"), [(0.9, False), (1.1, True)])
+def test_lines_of_many_waves_are_their_own_evidence(waves: float, alone: bool) -> None:
+    test = tried("torque_ripple", ripple_voltage=0.4, ripple_cycles=6.0, ripple_phase=0.5)
+    line = replace(test.model)
+    cycles = line.estimate.theta[line.estimate.problem.unknowns.names.index("ripple_cycles")]
+    line.__dict__["turns"] = waves * thresholds.MANY_WAVES / cycles
+    assert adds_only_lines(line, test.before) is alone
+    assert not adds_only_lines(line, line)  # what adds nothing adds no line
+    friction = tried("coulomb_friction", ks=0.5)
+    assert not adds_only_lines(friction.model, friction.before)

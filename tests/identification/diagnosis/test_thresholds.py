@@ -205,6 +205,8 @@ def test_gap_chance(times: float, passes: bool) -> None:
     start = stub_held(2.0)
     assert fits_torque(stub_held(times * thresholds.GAP_CHANCE * 2.0), start) is passes
     assert fits_torque(replace(stub_held(times * 2.0), seen=True), start) is passes  # it was fitted to that
+    grown = replace(stub_held(times * thresholds.GAP_CHANCE * 2.0), seen=True)
+    assert fits_torque(grown, start, lines=True) is passes  # of which the plain fit took up some
 
 
 @SIDES

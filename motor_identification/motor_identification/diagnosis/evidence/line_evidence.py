@@ -23,6 +23,13 @@ def count_waves(model: Model, effect: str) -> float:
     return inf if cycles is None else cycles * model.turns
 
 
+def adds_only_lines(model: Model, start: Model) -> bool:
+    """Whether all that a model has beyond another is lines of many waves over the angle, each its own evidence."""
+    added = [effect for effect in model.effects if effect not in start.effects]
+    periodic = all(EFFECT_BY_NAME[name].periodic for name in added)
+    return bool(added) and periodic and all(count_waves(model, name) > thresholds.MANY_WAVES for name in added)
+
+
 def drop_chance_harmonics(tests: Sequence[CandidateTest]) -> list[CandidateTest]:
     """Drop tests of the first harmonic that random slots have by chance: of the disc, and of a torque less likely."""
     chance = [test for test in tests if EFFECT_BY_NAME[test.effect].on_disc and _is_by_random_slots(test)]

@@ -12,10 +12,10 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import drop_effect
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
 from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque, list_error_data
+from motor_identification.diagnosis.fits.effect_fit import drop_effect
 from motor_identification.discrepancy.free_curves import PAST
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.estimate import Estimate

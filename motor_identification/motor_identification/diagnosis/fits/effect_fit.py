@@ -15,6 +15,7 @@ from motor_identification.diagnosis.fits.disturbed_fit import (
     fit_beside_torque,
     make_disturbed_residuals,
 )
+from motor_identification.diagnosis.fits.torque_jumps import list_likely_jumps
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import LEAST_GAIN, SpeedResiduals, fit_residuals, improves_fit
 from motor_identification.estimation.parameter_space import map_theta
@@ -22,12 +23,13 @@ from motor_identification.estimation.problem import Problem
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Floats
-from motor_identification.validation.instants import list_instant_columns, try_instants
+from motor_identification.validation.instants import list_instant_columns, needs_instant, try_instants
 from motor_model.effects import EFFECT_BY_NAME, normalised
 
 QUICK_SAMPLES = 4.0  # of the intervals of a quick look from every start,
 QUICK_ITERATIONS, QUICK_TOLERANCE = 10, 1e-4  # which shall only tell the starts apart
 ITERATIONS, TOLERANCE = 20, 1e-8  # of the fit from the best of them
+JUMPS_TRIED = 3  # of the steps that a random torque tells of
 INSTANTS_TRIED = 60  # of a recording: every half second of the rich profile
 DISTURBED_ITERATIONS, DISTURBED_TOLERANCE = 8, 1e-5  # beside a random torque, which leaves more
 
@@ -48,7 +50,7 @@ def fit_with_effect(
     quick, bare = larger.coarsen(QUICK_SAMPLES), estimate.problem.coarsen(QUICK_SAMPLES)
     look = _make_target(estimate.on(bare), errors)
     best, start, spent = np.inf, estimate.theta, estimate.simulations
-    for begin in _list_starts(estimate, larger):
+    for begin in (*_list_starts(estimate, larger), *_list_jumps(estimate, larger, effect, errors)):
         target = replace(look, problem=quick)
         end = fit_residuals(Estimate(quick, begin, spent), target, np.inf, QUICK_ITERATIONS, QUICK_TOLERANCE)
         spent, cost = end.simulations, _sum_squares(target, end.theta)
@@ -60,6 +62,36 @@ def fit_with_effect(
     target = replace(_make_target(estimate, errors), problem=larger)
     how = (ITERATIONS, TOLERANCE) if errors is None else (DISTURBED_ITERATIONS, DISTURBED_TOLERANCE)
     return fit_residuals(Estimate(larger, start, spent), target, np.inf, *how)
+
+
+def _list_jumps(estimate: Estimate, larger: Problem, effect: str, errors: ErrorModel | None) -> list[Floats]:
+    """List starts of a load that begins at an instant, where the motor tells of it beside a random torque."""
+    if errors is None or not needs_instant(effect):
+        return []
+    size, instant = (spec.name for spec in EFFECT_BY_NAME[effect].parameters)
+    old, new = estimate.problem.unknowns, larger.unknowns
+    return [
+        map_theta(old, estimate.theta, new, {size: np.array(volts), instant: np.array(times)})
+        for volts, times in list_likely_jumps(estimate, errors, JUMPS_TRIED)
+    ]
+
+
+def drop_effect(estimate: Estimate, effect: str) -> Estimate:
+    """Leave one effect out, and what there is only with it, the rest as it is."""
+    unknowns = estimate.problem.unknowns
+    left = tuple(name for name in unknowns.effects if name != effect and EFFECT_BY_NAME[name].implies != effect)
+    smaller = estimate.problem.with_effects(left)
+    return Estimate(smaller, map_theta(unknowns, estimate.theta, smaller.unknowns, {}), estimate.simulations)
+
+
+def place_instants(estimate: Estimate, errors: ErrorModel) -> Estimate:
+    """Fit what begins at an instant anew beside a random torque, for its instant may be elsewhere there."""
+    target = make_disturbed_residuals(estimate, errors)
+    for effect in filter(needs_instant, estimate.problem.unknowns.effects):
+        again = fit_with_effect(drop_effect(estimate, effect), effect, errors=errors)
+        if again is not None and _sum_squares(target, again.theta) < _sum_squares(target, estimate.theta):
+            estimate = again
+    return estimate
 
 
 def _improve_instants(

@@ -9,6 +9,7 @@ from motor_identification.diagnosis.candidate_fit import judge_beside_torque, va
 from motor_identification.diagnosis.candidate_model import Model, learn_errors
 from motor_identification.diagnosis.candidate_test import CandidateTest
 from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque
+from motor_identification.diagnosis.fits.effect_fit import place_instants
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
@@ -71,7 +72,7 @@ def begin_beside_torque(
     Nothing is left out: the density of what is left has wide tails.
     """
     errors = model.learned or learn_errors(model.estimate)
-    estimate = fit_beside_torque(correct_directions(model.estimate), errors)
+    estimate = place_instants(fit_beside_torque(correct_directions(model.estimate), errors), errors)
     hold_out = hold_out.correct_directions(estimate)
     again = judge_beside_torque(validate_model(hold_out, estimate), hold_out, errors, thresholds.FINAL_EVALUATIONS)
     return Selection(steps, again, hold_out, workers)
