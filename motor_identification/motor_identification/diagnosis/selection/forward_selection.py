@@ -30,8 +30,7 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
         reporter.keep(selection)
         selection, tests = verify_findings(selection, _try_all_effects(selection, reporter))
         best = choose_finding(tests)
-        most = thresholds.MOST_FINDINGS if selection.model.held.confirms else thresholds.MOST_OF_ONE_RESPONSE
-        if len(selection.steps) >= most:
+        if len(selection.steps) >= thresholds.MOST_FINDINGS or (best is not None and not _may_add(best, selection)):
             return selection
         if best is not None:
             step = SelectionStep(selection.model, best, tuple(tests), find_rivals(best, tests), best.explains)
@@ -46,6 +45,14 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
         if not further.model.complete and pair[-1].explains <= thresholds.STAND_IN_SHARE:
             return selection
         selection = further
+
+
+def _may_add(finding: CandidateTest, selection: Selection) -> bool:
+    """Decide whether a finding may be added: to what one response tells only what leaves no more than the sensor."""
+    if selection.model.held.confirms or len(selection.steps) < thresholds.MOST_OF_ONE_RESPONSE:
+        return True
+    ends = selection.model.above_floor and finding.model.at_floor and not selection.model.beside_torque
+    return ends and len(selection.steps) == thresholds.MOST_OF_ONE_RESPONSE
 
 
 def verify_findings(selection: Selection, tests: list[CandidateTest]) -> tuple[Selection, list[CandidateTest]]:
