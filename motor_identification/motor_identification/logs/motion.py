@@ -18,7 +18,7 @@ from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
 from motor_identification.sensor.running_mean import find_running_mean, take_single_rows
-from motor_identification.sensor.speed_sensor import find_noise
+from motor_identification.sensor.speed_sensor import are_smoothed, find_noise
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_model.errors import RecordingError
 from motor_model.gearing.gear import edge_angle
@@ -72,8 +72,9 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     told = 0.0 if edges or not means else _counts_a_turn(form, values, window)
     if told:
         edges = max(round(told), 1)
+    smoothed: list[str] = []
     if edges and not told:
-        _check_steps(form, values, edges, edge_angle(edges, form.gear) / window / unit)
+        edges, smoothed = _confirm_edges(form, signals, edges, edge_angle(edges, form.gear) / window / unit)
     info = replace(info, measurement=Measurement.SPEED, speed_window=window, speed_lag=lag, edges_per_revolution=edges)
     assumed = "" if form.speed_window else " (assumed: one sample period; otherwise: --speed-window)"
     placed = "" if form.speed_lag is not None else " (assumed: the window ends there; otherwise: --speed-lag)"
@@ -85,6 +86,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
         *signs,
         *turned,
         *means,
+        *smoothed,
     )
     return Motion(signals, values * unit, np.zeros(len(values), np.int64), info, findings)
 
@@ -142,6 +144,21 @@ def _about_count(form: CsvForm, signals: Signals, edges: int, window: float, tol
         f"Speeds show no counts: noise of {noise / unit:.2g} {form.unit}, as between neighbours, is assumed "
         "(otherwise: --edges-per-revolution)."
     )
+
+
+def _confirm_edges(form: CsvForm, signals: Signals, edges: int, count: float) -> tuple[int, list[str]]:
+    """Edges per revolution, whose count in the form's unit is given, and none of smoothed speeds; and say so.
+
+    Raises:
+        RecordingError: a unit or the window is wrong; what is given in counts has no unit that could be.
+    """
+    smoothed = are_smoothed(signals.motion, signals.voltage, count)
+    if not smoothed or form.unit != "count/s":
+        _check_steps(form, signals.motion, edges, count)
+    if not smoothed:
+        return edges, []
+    said = f"Speeds in {form.motion} lie between whole counts of {edges} per revolution: they were smoothed, or timed."
+    return 0, [said]
 
 
 def _check_steps(form: CsvForm, values: Floats, edges: int, count: float) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.held_samples import find_frames
 from motor_identification.sensor.value_lattice import find_lattice
-from motor_identification.sensor.white_noise import estimate_white_noise
+from motor_identification.sensor.white_noise import LEAST_SAMPLES, estimate_white_noise
 from motor_identification.sensor.wrong_speeds import mark_silent_rows, mark_wrong_speeds
 from motor_model.sample import Info
 
@@ -18,6 +18,9 @@ from motor_model.sample import Info
 NOISE_BEYOND, NOISE_BEYOND_DIGITS = 6.0, 1.5
 # Steps: what counts at both ends of chained windows leave between neighbours, as if it were white (20/6/12, root of).
 COUNT_NOISE = sqrt(20.0 / 6.0 / 12.0)
+# Of counts within a window, nearly all are whole ones, or they have a count's noise where they were divided by rows of
+# different lengths. Measured: means of four rows have a quarter of it, a first-order memory of 0.6 a third.
+NEAR_WHOLE, MOSTLY_WHOLE, SMOOTHER = 0.05, 0.75, 0.5
 UNTOLD = 0.01  # of the typical speed: the noise of values too few to tell it, such as those of a static curve
 PRINTED_UNITS = (1.0, radians(1.0), tau / 60.0, tau)  # rad/s, deg/s, rpm, turns/s
 SAME_DIGIT = 1e-3  # of a decade
@@ -113,6 +116,15 @@ def find_noise(
         return step, 0.0, round(tau / (step * window))
     typical = sqrt(float(np.mean(values**2)))
     return 0.0, max(noise, step / sqrt(12.0)) or UNTOLD * typical, 0
+
+
+def are_smoothed(values: Floats, voltage: Floats, step: float) -> bool:
+    """Whether speeds (K,) counted in steps were smoothed: they lie between whole counts, with less noise than those."""
+    moving = mark_motion(values)
+    beside = np.abs(values[moving] / step - np.rint(values[moving] / step))
+    if np.count_nonzero(moving) < LEAST_SAMPLES or np.mean(beside < NEAR_WHOLE) > MOSTLY_WHOLE:
+        return False
+    return estimate_white_noise(values[moving], voltage[moving]) < SMOOTHER * COUNT_NOISE * step
 
 
 def _is_last_digit(step: float) -> bool:

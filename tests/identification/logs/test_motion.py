@@ -144,3 +144,23 @@ def test_steps_of_speeds_that_are_no_counts_show_a_mistaken_unit(factor: float, 
             read(form, values)
     else:
         assert len(read(form, values).speed) == 12
+
+
+@pytest.mark.parametrize(
+    ("weights", "kept"),
+    [
+        ((1.0,), True),
+        ((0.4, 0.24, 0.144, 0.0864, 0.0518, 0.0311), False),
+        ((-2.0, 3.0, 6.0, 7.0, 6.0, 3.0, -2.0), False),
+    ],
+    ids=["as counted", "a memory of 0.6", "Savitzky-Golay, whose steps are a 21st of a count"],
+)
+def test_counts_a_second_that_were_smoothed_are_no_counts(weights: tuple[float, ...], kept: bool) -> None:
+    """What a turn has is said for the unit's sake; counting is not what is known of such speeds."""
+    angle = np.cumsum(20.0 + 15.0 * np.sin(np.arange(400) / 30.0))
+    counted = np.diff(np.floor(angle), prepend=0.0) / 0.02
+    values = np.convolve(counted, np.array(weights) / sum(weights))[: len(counted)]
+    motion = read(replace(SPEED, unit="count/s", edges_per_revolution=500), values.tolist())
+    assert motion.info.edges_per_revolution == (500 if kept else 0)
+    assert any("they were smoothed, or timed" in line for line in motion.findings) != kept
+    assert motion.speed == pytest.approx(values * tau / 500)

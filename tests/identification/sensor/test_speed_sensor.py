@@ -11,7 +11,13 @@ from swinging import noisy, recorded
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.recording import Recording
 from motor_identification.sensor.description import note_sensors
-from motor_identification.sensor.speed_sensor import COUNT_NOISE, NOISE_BEYOND_DIGITS, UNTOLD, find_speed_sensor
+from motor_identification.sensor.speed_sensor import (
+    COUNT_NOISE,
+    NOISE_BEYOND_DIGITS,
+    UNTOLD,
+    are_smoothed,
+    find_speed_sensor,
+)
 
 
 @pytest.mark.parametrize(("edges", "seed"), [(96, 0), (96, 1), (960, 0), (960, 2), (2800, 0)])
@@ -142,3 +148,18 @@ def test_counts_that_were_divided_by_their_own_rows_are_counts() -> None:
 def test_lengths_of_rows_matter_only_where_they_differ() -> None:
     assert find_speed_sensor(counted_by_own_rows(1e-5)).lengths is None
     assert find_speed_sensor(noisy(0.5)).lengths is None
+
+
+@pytest.mark.parametrize(("share", "smoothed"), [(0.74, True), (0.76, False)])
+def test_speeds_between_whole_counts_were_smoothed(share: float, smoothed: bool) -> None:
+    """Up to a quarter of the values of a counted speed may be beside whole counts."""
+    values = np.floor(np.linspace(10.0, 400.0, 1000)) + np.where(np.arange(1000) % 100 < 100 * share, 0.0, 0.3)
+    assert are_smoothed(np.sort(values), np.ones(1000), 1.0) == smoothed
+
+
+def test_counts_divided_by_rows_of_different_lengths_are_not_smoothed() -> None:
+    """They lie between whole ones too, with all the noise of counts."""
+    lengths = np.random.default_rng(3).uniform(0.7, 1.3, 1000)
+    counted = np.diff(np.floor(np.cumsum(20.3 * lengths)), prepend=0.0) / lengths
+    assert not are_smoothed(counted, np.ones(1000), 1.0)
+    assert are_smoothed(np.convolve(counted, np.full(9, 1.0 / 9.0), "valid"), np.ones(992), 1.0)

@@ -21,7 +21,8 @@ LEAST_LEVELS = 2
 
 # What a duty column shows at full duty: shares, per cent, and the registers of timers.
 FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
-SIGNED_BYTE = 127.0  # full duty where it is reached: of VEX, and of motor controllers on a serial line
+# Full duties where they are reached: of VEX and of motor controllers on a serial line, and of Pololu's motor drivers.
+FULL_WHERE_REACHED = (127.0, 400.0)
 _PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control"})
 # What is written to a timer, or a share by its name; a command of another name may be in volts.
 _TIMERS = words_of(
@@ -80,7 +81,7 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
         return Drive(
             None, "as a share, as no value is above 1, whatever its name says (otherwise: --full-duty 100)", 1.0
         )
-    if largest == SIGNED_BYTE:
+    if largest in FULL_WHERE_REACHED:
         return Drive(None, f"as a duty of ±{largest:g} (assumed; otherwise: --full-duty)", largest)
     if why := _why_in_volts(heading, values, largest):
         return Drive(1.0, f"in V (assumed, as {why}; otherwise: --full-duty, --voltage-scale)")

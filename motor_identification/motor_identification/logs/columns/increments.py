@@ -11,6 +11,7 @@ from motor_identification.logs.columns.vocabulary import Quantity, words_of
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.form import Kind
+from motor_identification.logs.rows.wraps import find_wrap
 
 Floats = NDArray[np.float64]
 
@@ -33,6 +34,8 @@ def count_anew(table: Table, pair: Pair, said: Said, notes: Notes) -> bool:
     why, heading = "", read_heading(pair.motion)
     if _PER_ROW & set(heading.words) or heading.quantity is Quantity.SPEED:  # counts that are called a speed
         why = "by its name"
+    elif find_wrap(table.numbers(pair.motion), "count", said.edges_per_revolution):
+        return False  # where an angle begins again, and no speed does
     elif _follow_drive(table.numbers(pair.motion), table.numbers(pair.voltage), notes, pair.motion):
         why = "it follows the drive, as speeds do"
     if why:

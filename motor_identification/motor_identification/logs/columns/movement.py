@@ -21,6 +21,7 @@ WHOLE, WHOLE_BY_POSITIONS = 0.015, 0.004
 RELATIVE = 5e-6  # of the counts of a turn: what printed digits leave of the step of speeds, and 3.1416 of radians
 SURE = 4.0  # standard errors of the step
 MOST_COUNTS = 10_000  # a turn
+FEWEST_MAGNETS = 3  # counts a turn of a sensor that may be meant where steps are so coarse: of one or two magnets
 FORGETS = 5.0  # time constants in a recording, from which on a column is a speed: a position forgets nothing
 UNSURE = (1.0, 20.0)  # time constants that a column of either may seem to have
 ASKED = {Kind.SPEED: ("rad/s", "deg/s", "rpm"), Kind.POSITION: ("rad", "deg", "rev", "count")}
@@ -93,7 +94,11 @@ def guess_position_unit(values: Floats) -> Unit:
     others = "no whole number"
     if len(whole) != 1:  # of steps so coarse that a turn has hardly any of them, no encoder is made
         fine = [name for name, (turn, _) in turns.items() if turn / step >= FEWEST_COUNTS]
-        if len(fine) != 1:
+        coarse = any(
+            _is_whole(turn / step, WHOLE_BY_POSITIONS, rounded + error, FEWEST_MAGNETS)
+            for turn, rounded in turns.values()
+        )
+        if len(fine) != 1 or coarse:
             return Unit("", "", tuple(whole) or asked)
         whole, others = fine, f"fewer than {FEWEST_COUNTS}"
     number = turns[whole[0]][0] / step
@@ -101,8 +106,8 @@ def guess_position_unit(values: Floats) -> Unit:
     return Unit(whole[0], f"{why}; otherwise: --unit")
 
 
-def _is_whole(number: float, near: float = WHOLE, relative: float = RELATIVE) -> bool:
-    return FEWEST_COUNTS <= number <= MOST_COUNTS and abs(number - round(number)) < near + relative * number
+def _is_whole(number: float, near: float = WHOLE, relative: float = RELATIVE, fewest: int = FEWEST_COUNTS) -> bool:
+    return fewest <= number <= MOST_COUNTS and abs(number - round(number)) < near + relative * number
 
 
 def _is_printed(values: Floats, step: float) -> bool:

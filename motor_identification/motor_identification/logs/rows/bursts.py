@@ -65,6 +65,8 @@ def _find_stalls(time: Floats, position: Floats) -> list[tuple[int, int]]:
         if len(before) <= AROUND or np.any(gaps[k - AROUND : k] > LATE * usual):
             continue
         rate = (position[before[-1]] - position[before[0]]) / (time[before[-1]] - time[before[0]])
+        if rate == 0.0:  # it went forth and back
+            continue
         for end in range(k + 2, min(k + 2 + MOST, len(changed))):
             way = position[changed[end]] - position[before[-1]]
             share = way / (rate * (seen[end] - seen[k]))

@@ -22,13 +22,19 @@ USUAL = 3.0  # times the largest other step by which an unwrapped one may differ
 AMBIGUOUS = 0.45  # of its range: a step that is nearly half of it could be one the other way
 
 
+def find_wrap(values: Floats, unit: str, edges: int | None) -> float:
+    """Find where values of one run, shape (K,), wrap: at a turn of so many edges, or a register's size; else 0."""
+    return next((size for size in _list_ranges(unit, edges) if _without_jumps(values, size)[1]), 0.0)
+
+
+def _list_ranges(unit: str, edges: int | None) -> tuple[float, ...]:
+    ranges = RANGES.get(unit, ())
+    return (float(edges), *ranges) if unit == "count" and edges else ranges
+
+
 def unwrap(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]]:
     """Take the jumps out of positions that wrap, if they wrap at a turn, at a register's size or at the encoder's."""
-    ranges = RANGES.get(form.unit, ())
-    if form.unit == "count" and form.edges_per_revolution:
-        ranges = (float(form.edges_per_revolution), *ranges)
-    if form.wrap is not None:
-        ranges = (form.wrap,)
+    ranges = _list_ranges(form.unit, form.edges_per_revolution) if form.wrap is None else (form.wrap,)
     for size in ranges:
         unwrapped = signals.motion.copy()
         jumps = 0

@@ -67,3 +67,17 @@ def test_a_position_that_a_loop_holds_goes_on(gain: float, fast: float, quick: f
 def test_counts_of_one_row_from_a_sensor_the_other_way_round() -> None:
     table, notes = Table(Path("log.csv"), np.arange(len(DRIVE)), {"u": DRIVE, "ticks": -FAST}), Notes([], [])
     assert count_anew(table, Pair("", "u", "ticks"), Said(), notes)
+
+
+@pytest.mark.parametrize(("edges", "said"), [(4096, None), (1000, 1000)])
+def test_an_angle_that_wraps_goes_on(edges: int, said: int | None) -> None:
+    """The angle within a turn may follow the drive as speeds do."""
+    way, volts = [0.0], [4]
+    for _ in range(499):
+        way.append(way[-1] + volts[-1] * edges / 400.0)
+        volts.append(9 if way[-1] % edges > edges / 2 else 4)
+    drive, angle = np.array(volts), np.rint(way).astype(int) % edges
+    cells = {"u": drive.astype(np.str_), "ticks": angle.astype(np.str_)}
+    table, notes = Table(Path("log.csv"), np.arange(500), cells), Notes([], [])
+    assert not count_anew(table, Pair("", "u", "ticks"), Said(edges_per_revolution=said), notes)
+    assert not notes.questions

@@ -77,6 +77,16 @@ def test_steps_too_coarse_for_a_turn_in_other_units_are_degrees() -> None:
     assert fine.name == "" and fine.candidates == ("rad", "deg", "rev", "count")
 
 
+@pytest.mark.parametrize(("counts", "name"), [(6, ""), (2, "deg")])
+def test_steps_of_so_few_counts_a_turn_may_be_radians(counts: int, name: str) -> None:
+    """Six counts a turn in rad are 343.8 a turn if they were degrees; of two, no encoder is made."""
+    levels = np.rint(np.cumsum(speeds()) * 0.02)
+    found = guess_position_unit(np.round(levels * tau / counts, 5))
+    assert found.name == name
+    if not name:
+        assert found.candidates == ("rad", "deg", "rev", "count")
+
+
 def test_counts_that_are_nearly_whole_by_chance_tell_no_unit() -> None:
     """A LEGO motor of 114.703 counts a turn, in rad with four digits: 6572.016 counts a turn if it were in degrees."""
     step = 0.0547777

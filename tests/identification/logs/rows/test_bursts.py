@@ -123,3 +123,11 @@ def test_rows_of_a_link_that_stood_still_are_left_out() -> None:
 def test_rows_of_a_motor_that_stood_are_not(what: str, position: NDArray[np.float64]) -> None:
     signals, said = cut_stalls(rows_of(position), "y")
     assert said == [] and len(signals) == len(position), what
+
+
+def test_a_motor_that_turned_back_before_it_stood_was_not_held_back() -> None:
+    """Its last changes before the stand went nowhere: no speed says how far it would have gone."""
+    there_and_back = np.tile(np.repeat([1.0, 0.0, -1.0, 0.0], 5), 30)
+    position = np.concatenate([there_and_back, np.zeros(100), there_and_back])
+    with np.errstate(all="raise"):
+        assert cut_stalls(rows_of(position), "y")[1] == []
