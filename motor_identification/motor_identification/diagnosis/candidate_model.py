@@ -178,8 +178,9 @@ class Model:
         seen = sum(_measure_time(data, marks) for data, marks in rows)
         # Chance of the RMS of so many independent samples.
         chance = min(exp(thresholds.RANDOM_SIGMA * sqrt(0.5 * time / seen)), thresholds.MOST_CHANCE)
-        low, high = thresholds.RANDOM_GAP
-        return low / chance < self.held.gap / self.noise_floor < high * chance
+        low, high = (limit * self.noise_floor for limit in thresholds.RANDOM_GAP)
+        # Bumps now and then are no less random than the torque of all other times.
+        return low / chance < self.held.gap and self.held.find_calm_gap(thresholds.WILD_TIME) < high * chance
 
     @property
     def fills_floor(self) -> bool:
@@ -229,7 +230,8 @@ def find_lasting_interval(held: HeldOut) -> float:
     values = held.parameters.values
     whole = sum(_measure_time(data, marks) for data, marks in zip(held.intervals, held.scored, strict=True))
     longest = min(values["ka"] / values["kv"], whole / thresholds.LASTING_PARTS)
-    return max(thresholds.LASTING_INTERVAL, longest)
+    rows = thresholds.LASTING_ROWS * float(np.median(np.concatenate([data.duration for data in held.intervals])))
+    return max(min(thresholds.LASTING_INTERVAL, rows), longest)
 
 
 def _measure_time(data: Intervals, marks: Bools) -> float:

@@ -79,6 +79,13 @@ class HeldOut:
         """[rad/s] the validation RMS error: time-weighted, of simulated minus measured mean speed."""
         return float(np.sqrt(self.weight @ self.residuals**2))
 
+    def find_calm_gap(self, wild: float) -> float:
+        """Find the gap [rad/s] outside of the share of the time in which most is left."""
+        worst = np.argsort(-np.abs(self.residuals))
+        calm = worst[np.cumsum(self.weight[worst]) > wild * self.weight.sum()]
+        left = float(self.weight[calm].sum())
+        return sqrt(float(self.weight[calm] @ self.residuals[calm] ** 2) / left) if left > 0.0 else self.gap
+
     def floors(self, share: float) -> Floats:
         """[rad/s] what timer and sensor (a share of its unit) alone leave in each interval that counts."""
         squares = [data.floor_squared(share * data.unit) for data in self.intervals]

@@ -77,11 +77,12 @@ def test_where_more_is_left_no_torque_is_known() -> None:
         assert replace(random, learned=errors).told_beside_torque is None
 
 
-def judged(ratio: float, duration: float, judged_share: float = 1.0) -> Any:
+def judged(ratio: float, duration: float, judged_share: float = 1.0, calm: float | None = None) -> Any:
     """What a model's randomness is told from: 100 intervals of a duration [s] in 25 s, beside a torque of 0.5 s."""
     time = np.linspace(0.0, 25.0, 101)
     data = SimpleNamespace(time=time, duration=np.full(100, duration))
-    held = SimpleNamespace(intervals=(data,), scored=(np.arange(100) < 100 * judged_share,), gap=ratio)
+    scored = (np.arange(100) < 100 * judged_share,)
+    held = SimpleNamespace(intervals=(data,), scored=scored, gap=ratio, find_calm_gap=lambda wild: calm or ratio)
     return SimpleNamespace(errors=ErrorModel(0.0, 0.0, 0.1, 0.4), lag=Lag(10.0, 1.0), held=held, noise_floor=1.0)
 
 
@@ -99,3 +100,10 @@ def test_a_torque_leaves_about_as_much_as_it_has_samples_to(duration: float, low
 def test_fewer_seconds_that_are_judged_leave_more_to_chance(share: float, random: bool) -> None:
     limit = thresholds.RANDOM_GAP[1] * exp(thresholds.RANDOM_SIGMA * 0.12)
     assert Model.is_random.fget(judged(limit, 0.25, share)) is random  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize(("side", "random"), [(0.999, True), (1.001, False)])
+def test_bumps_now_and_then_are_random_beside_a_calm_torque(side: float, random: bool) -> None:
+    limit = thresholds.RANDOM_GAP[1] * exp(thresholds.RANDOM_SIGMA * 0.1)
+    bumps = judged(9.0, 0.25, calm=limit * side)
+    assert Model.is_random.fget(bumps) is random  # type: ignore[attr-defined]

@@ -6,7 +6,7 @@ from typing import cast
 
 import numpy as np
 import pytest
-from stub_models import LASTING_FLOOR, rescored, stub_held, stub_model, stub_test
+from stub_models import LASTING_FLOOR, STEP, rescored, stub_held, stub_model, stub_test
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import find_lasting_interval
@@ -51,6 +51,19 @@ def test_lasting_interval() -> None:
     assert length == thresholds.LASTING_INTERVAL  # the paper's motor has a time constant of 0.08 s
     assert held.joined(length).gap < 1e-9 and held.joined(0.5 * length).gap == pytest.approx(3.0)
     assert stub_held(3.0, 3.0).joined(length).gap == pytest.approx(3.0)
+
+
+@SIDES
+def test_lasting_rows(times: float, passes: bool) -> None:
+    """A fast motor's fine rows are joined until so many average out, never for longer than the paper's."""
+    held = stub_held(3.0)
+    (data,) = held.intervals
+    short = times * thresholds.LASTING_INTERVAL / thresholds.LASTING_ROWS
+    fine = replace(data, time=data.time * short / STEP)
+    fast = Parameters({"kv": PAPER_KV, "ka": 1e-3 * PAPER_KA})
+    length = find_lasting_interval(replace(held, intervals=(fine,), parameters=fast))
+    assert length == pytest.approx(min(times, 1.0) * thresholds.LASTING_INTERVAL)
+    assert (length == thresholds.LASTING_INTERVAL) is passes
 
 
 @pytest.mark.parametrize(("times", "length"), [(1.9, 1.9 * PAPER_KA / PAPER_KV), (2.3, 2.5 / thresholds.LASTING_PARTS)])

@@ -6,6 +6,7 @@ from math import exp, log
 import numpy as np
 import pytest
 from diagnosed import fitted, held
+from stub_models import stub_held
 
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.measurement.edit_intervals import exclude_intervals
@@ -65,3 +66,13 @@ def test_where_there_are_no_slots_what_blurs_the_angle_is_the_measure() -> None:
     best = max(own, *larger)
     mixed = 0.5 * exp(own - best) + 0.5 * np.mean([exp(value - best) for value in larger])
     assert best > own and blurred.log_likelihood(noise) == pytest.approx(best + log(mixed), abs=1e-6)
+
+
+@pytest.mark.parametrize("wild", [0.1, 0.25])
+def test_a_calm_gap_is_that_of_all_but_the_worst_of_the_time(wild: float) -> None:
+    steady = stub_held(2.0)  # 40 intervals as long
+    (angle,), bumps = steady.angles, np.zeros(41)
+    bumps[1:5] = 1.0  # [rad] in a tenth of them
+    bumpy = replace(steady, angles=(angle + np.cumsum(bumps),))
+    assert bumpy.gap > 4.0 and bumpy.find_calm_gap(wild) == pytest.approx(2.0)
+    assert 2.5 < bumpy.find_calm_gap(0.05) < bumpy.find_calm_gap(0.0) == pytest.approx(bumpy.gap, rel=0.05)

@@ -48,11 +48,11 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
 
 
 def _may_add(finding: CandidateTest, selection: Selection) -> bool:
-    """Decide whether a finding may be added: to what one response tells only what leaves no more than the sensor."""
-    if selection.model.held.confirms or len(selection.steps) < thresholds.MOST_OF_ONE_RESPONSE:
-        return True
-    ends = selection.model.above_floor and finding.model.at_floor and not selection.model.beside_torque
-    return ends and len(selection.steps) == thresholds.MOST_OF_ONE_RESPONSE
+    """Decide whether a finding may be added: to what one response tells alone, only one that explains the rest."""
+    several = len(selection.steps) - thresholds.MOST_OF_ONE_RESPONSE
+    return (
+        selection.model.held.confirms or several < 0 or (several == 0 and finding.explains > thresholds.STAND_IN_SHARE)
+    )
 
 
 def verify_findings(selection: Selection, tests: list[CandidateTest]) -> tuple[Selection, list[CandidateTest]]:

@@ -45,12 +45,12 @@ def retry_with_pair(selection: Selection, reporter: ProgressReporter) -> Selecti
     """Select forward again from two effects together, where what needs an instant came first and leaves a gap.
 
     An instant is found for whatever bends a motion; of steps one way a load step takes more than friction or drag alone
-    does, neither of which is then a finding beside it.
+    does, neither of which is then a finding beside it. Where one is, and nothing is left, there is no need.
     """
     if not selection.steps or not selection.model.above_floor or not selection.model.held.confirms:
         return selection
-    first = selection.steps[0]
-    if not needs_instant(first.found.effect):
+    first, alone = selection.steps[0], len(selection.steps) == 1
+    if not needs_instant(first.found.effect) or (selection.model.complete and not alone):
         return selection
     start = begin_selection(first.before.estimate, selection.hold_out, selection.workers)
     likely = [test.effect for test in list_partners([one for one in first.tests if not needs_instant(one.effect)])]

@@ -1,12 +1,14 @@
 """Forward selection: what is selected, what is tried in pairs, and where it begins once more."""
 
 from dataclasses import replace
+from math import sqrt
 from typing import Any
 
 import numpy as np
 import pytest
+import stub_models
 from diagnosed import fitted
-from stub_models import rescored, stub_model, stub_test
+from stub_models import rescored, stub_held, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -109,11 +111,27 @@ def test_no_more_findings_than_the_most(monkeypatch: pytest.MonkeyPatch) -> None
 def test_one_response_tells_one_effect(monkeypatch: pytest.MonkeyPatch) -> None:
     Fake(monkeypatch, [100.0 * 0.5**k for k in range(1, 5)])
     start = stub_model(100.0)
-    once = replace(start, held=replace(start.held, seen=True, confirms=False))
-    assert may_hide_pair(selection_of(start)) and not may_hide_pair(selection_of(once))
+    assert may_hide_pair(selection_of(start))
     assert len(select_forward(selection_of(start), SILENT).steps) > thresholds.MOST_OF_ONE_RESPONSE == 1
-    monkeypatch.setattr(thresholds, "MOST_FINDINGS", 0)  # of the stub that follows, which is more than a response
+    show_one_response(monkeypatch)
+    once = stub_model(100.0)
+    assert not may_hide_pair(selection_of(once))
     assert len(select_forward(selection_of(once), SILENT).steps) == 1
+
+
+@pytest.mark.parametrize(("side", "count"), [(BELOW, 1), (ABOVE, 2)])
+def test_one_response_tells_a_second_effect_that_explains_all_the_rest(
+    monkeypatch: pytest.MonkeyPatch, side: float, count: int
+) -> None:
+    show_one_response(monkeypatch)
+    rest = sqrt(1.0 + (1.0 - side * thresholds.STAND_IN_SHARE) * (40.0**2 - 1.0))
+    Fake(monkeypatch, [40.0, rest, 1.0])
+    assert len(select_forward(selection_of(stub_model(100.0)), SILENT).steps) == count  # and never a third
+
+
+def show_one_response(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let stub models have been fitted to all of one response."""
+    monkeypatch.setattr(stub_models, "stub_held", lambda *given: replace(stub_held(*given), seen=True, confirms=False))
 
 
 def test_friction_is_selected_from_a_recording_that_hides_it(monkeypatch: pytest.MonkeyPatch) -> None:

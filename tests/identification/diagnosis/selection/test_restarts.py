@@ -150,3 +150,19 @@ def test_two_effects_together_are_tried_instead_of_an_instant_that_leaves_a_gap(
     monkeypatch.setattr(module, "select_forward", lambda *rest, **how: other)
     assert retry_with_pair(begun, SILENT) is (other if taken else begun)
     assert all(names == ["coulomb_friction"] for names in tried)
+
+
+@pytest.mark.parametrize(("random", "beside", "tried"), [(True, True, False), (True, False, True), (False, True, True)])
+def test_no_two_are_tried_instead_of_an_instant_that_something_was_found_beside(
+    monkeypatch: pytest.MonkeyPatch, random: bool, beside: bool, tried: bool
+) -> None:
+    """If nothing but a random torque is left."""
+    before, model = stub_model(9.0), replace(stub_model(OVER, 0.0), random=random)  # type: ignore[call-arg]
+    steps = [step_of(stub_test(name, before, OVER, 100.0)) for name in ("load_step", "coulomb_friction")]
+    begun = selection_of(model, *steps[: 1 + beside])
+    assert model.complete is random
+    asked: list[object] = []
+    monkeypatch.setattr(module, "begin_selection", lambda *rest: begun)
+    monkeypatch.setattr(module, "try_effects", lambda *rest: [])
+    monkeypatch.setattr(module, "find_pair", lambda *rest: asked.append(rest) or [])
+    assert retry_with_pair(begun, SILENT) is begun and bool(asked) is tried
