@@ -24,6 +24,7 @@ _CAMEL = re.compile(r"(?<=[^\W\d_A-ZÀ-Þ])(?=[A-ZÀ-Þ])|(?<=[A-Z])(?=[A-Z][a-z
 _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position: what it should be
 _PULSES = frozenset(["esc", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
 _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
+_VOLTS_AT_THE_END = re.compile(r"[^\W_][\s_]V$")  # `left_v` is a velocity
 _AXES, _JOINT_FIELDS = frozenset(["yaw", "pitch", "roll"]), frozenset(["position", "velocity", "effort"])
 _TELLING = frozenset().union(MEASURED, *(WORDS[kind] for kind in (*MOVES, Quantity.VOLTAGE, Quantity.DUTY)))
 _KNOWN = frozenset().union(*WORDS.values(), MEASURED, FILTERED)
@@ -62,6 +63,11 @@ def read_heading(name: str) -> Heading:
     if not unit and quantity in (None, Quantity.DUTY) and _has_unit_of_others(name):  # effort (N)
         quantity = Quantity.OTHER
     return Heading(name, words, quantity, unit, side)
+
+
+def is_in_volts(heading: Heading) -> bool:
+    """Whether a name says that its column is in volts, whatever else it says: `Tacho (V)`, `encoder_V`."""
+    return heading.unit in ("V", "mV") or bool(_VOLTS_AT_THE_END.search(heading.name))
 
 
 def words_besides(heading: Heading) -> tuple[str, ...]:

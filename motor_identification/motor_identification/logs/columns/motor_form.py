@@ -16,7 +16,7 @@ from motor_identification.logs.columns.cautions import (
 )
 from motor_identification.logs.columns.direction import guess_direction
 from motor_identification.logs.columns.drive import supply_scale
-from motor_identification.logs.columns.heading import Heading, read_heading
+from motor_identification.logs.columns.heading import Heading, is_in_volts, read_heading
 from motor_identification.logs.columns.increments import count_anew
 from motor_identification.logs.columns.motor_drive import read_drive
 from motor_identification.logs.columns.movement import (
@@ -168,11 +168,13 @@ def _is_speed_called_angle(heading: Heading, said: Said) -> bool:
 
 def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: float) -> Unit:
     if said.unit:
-        return Unit(said.unit, "")
+        return Unit(said.unit, f"1 V of it is taken for 1 {said.unit}" if is_in_volts(heading) else "")
     if kind is Kind.COUNT:
         return Unit("count", "")
     if heading.unit and _kind_of(heading) is kind:
         return Unit(heading.unit, ELECTRICAL if "erpm" in heading.name.lower() else "")
+    if is_in_volts(heading):
+        return Unit("", "", ASKED[kind])  # its steps are those of an analogue-to-digital converter
     guessed = (
         guess_speed_unit(values, said.speed_window or period) if kind is Kind.SPEED else guess_position_unit(values)
     )
@@ -184,7 +186,11 @@ def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: floa
 
 
 def _ask_about(column: str, values: Floats, kind: Kind, unit: Unit, said: Said, notes: Notes) -> None:
-    if not unit.name:
+    if not unit.name and is_in_volts(read_heading(column)):
+        sensor, taken = ("tachogenerator", "rad/s") if kind is Kind.SPEED else ("potentiometer", "rad")
+        of_which = f"of a {sensor}, say --unit {taken}, and 1 V of it is taken for 1 {taken}"
+        notes.questions.append((column, f"is a voltage: {of_which}; of an encoder's pulses, log their count instead"))
+    elif not unit.name:
         options = f"{', '.join(unit.candidates[:-1])} or {unit.candidates[-1]}"
         counted = kind is Kind.SPEED and not np.any(values % 1.0)
         counts = ", or --count where they are the counts of each row" if counted else ""

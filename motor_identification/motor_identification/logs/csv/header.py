@@ -83,7 +83,8 @@ def say_names_without_cells(before: Sequence[str], delimiter: str, header: Seque
     names = split_line(above[-1], delimiter) if above else []
     if len(names) <= len(header) or names[: len(header)] != list(header):
         return []
-    return [f"Left out: the names {', '.join(names[len(header) :])}, below which no row has a cell."]
+    bare = [name for name in names[len(header) :] if name]  # a sheet ends with empty cells
+    return [f"Left out: the names {', '.join(bare)}, below which no row has a cell."] if bare else []
 
 
 def _holds_a_number(row: Sequence[str], width: int, most: int, comma: bool) -> bool:

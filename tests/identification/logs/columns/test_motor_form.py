@@ -84,6 +84,8 @@ def test_a_duty_without_a_supply_is_asked_about_and_one_beside_a_battery_is_not(
         ("pos [m]", Said(edges_per_revolution=48), Kind.POSITION, "m", "--units-per-revolution"),
         ("pos [m]", Said(units_per_revolution=0.2), Kind.POSITION, "m", ""),
         ("speed", Said(), Kind.SPEED, "rad/s", "--unit"),
+        ("pot_V", Said(), Kind.POSITION, "rad", "is a voltage: of a potentiometer, say --unit rad,"),
+        ("tacho [V]", Said(unit="rad/s"), Kind.SPEED, "rad/s", ""),
         ("speed", Said(motion="speed", kind=Kind.SPEED), Kind.SPEED, "rad/s", ""),  # named: the first unit is assumed
     ],
 )
@@ -92,6 +94,20 @@ def test_kind_and_unit_of_the_motion(motion: str, said: Said, kind: Kind, unit: 
     made = form(Said(**{**said.__dict__, "supply_voltage": 12.0}), notes, motion)
     assert (made.kind, made.unit) == (kind, unit)
     assert (asked in notes.questions[0][1]) if asked else notes.questions == []
+
+
+@pytest.mark.parametrize(("name", "volts"), [("Tacho Voltage (V)", 1), ("encoder_V", 1), ("left_v", 0), ("V", 0)])
+def test_a_tachogenerators_volts_are_no_counts_whatever_their_steps(name: str, volts: int) -> None:
+    """Steps of 0.1122 rad/s are 2,800 counts a turn over 20 ms, and of volts those of a converter."""
+    steps = 0.1122 * np.rint(np.repeat([100.0, -50.0, 100.0, -50.0], 25) + np.arange(100) % 7)
+    cells = {"t": np.arange(100) * 0.02, "pwm": np.repeat([100.0, -50.0, 100.0, -50.0], 25), name: steps}
+    notes, pair = Notes([], []), Pair("", "pwm", name)
+    said = Said(supply_voltage=12.0, unit="rad/s" if volts else None)
+    make_form(Table(Path("log.csv"), np.arange(100), cells), pair, Roles("t", (), None, None), said, ROWS, notes)
+    assert ("1 V of it is taken for 1 rad/s" in notes.findings[-1]) == bool(volts)
+    asked = Notes([], [])
+    make_form(Table(Path("log.csv"), np.arange(100), cells), pair, Roles("t", (), None, None), Said(), ROWS, asked)
+    assert any("is a voltage" in question for _, question in asked.questions) == bool(volts)
 
 
 @pytest.mark.parametrize(

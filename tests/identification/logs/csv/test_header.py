@@ -114,6 +114,13 @@ def test_names_behind_the_cells_of_all_rows(names: str, kept: str) -> None:
     assert find_header((names,), "0,1", ",", False, 2, 2) == ()  # of two columns nobody knows
 
 
+@pytest.mark.parametrize(("names", "told"), [("t,u,y,,,", ""), ("t,u,y,,J,", "the names J, below"), ("t,u,y", "")])
+def test_empty_cells_behind_the_names_are_no_names(names: str, told: str) -> None:
+    """A sheet of which somebody saved more columns than it has."""
+    (said,) = say_names_without_cells((names,), ",", ("t", "u", "y")) or ("",)
+    assert told in said and bool(told) == bool(said)
+
+
 @pytest.mark.parametrize(
     ("line", "found"),
     [

@@ -5,12 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 
+from motor_identification.logs.columns.behaviour.position import find_position
 from motor_identification.logs.columns.drive import drives, is_supply
 from motor_identification.logs.columns.heading import Heading
 from motor_identification.logs.columns.vocabulary import INPUTS, MOVES, OUTPUTS, SIDES, WORDS, Quantity
 from motor_identification.logs.csv.table import Table
 
-FEWEST_OWN = 10  # changes of a velocity while its drive stays, from which on it is no voltage
+FEWEST_OWN = 10  # changes of a velocity while its drive stays, from which on it is no voltage; and of any motion
 MOST_LEVELS = 3  # of a pulse that drives
 
 
@@ -32,12 +33,14 @@ def _is_present(heading: Heading) -> bool:
 def speeds_called_v(table: Table, headings: list[Heading]) -> list[Heading]:
     """`v` beside what drives, where nothing else moves or could, is the velocity: it changes where the drive stays.
 
-    A voltage that was measured changes as the duty does.
+    A voltage that was measured changes as the duty does. What changes in a few rows, as the number of a part, and the
+    velocity's own acceleration could not be the motion.
     """
     called = [one for one in headings if one.quantity is Quantity.VOLTAGE and not one.unit and "v" in one.words]
     others = [one for one in headings if drives(one) and one not in called]
-    unnamed = any(one.quantity is None and np.ptp(table.numbers(one.name)) > 0.0 for one in headings)
-    if not called or not others or _any_moves(headings) or unnamed:
+    if not called or not others or _any_moves(headings):
+        return headings
+    if any(one.quantity is None and _could_move(table, one.name, called) for one in headings):
         return headings
     stays = np.all([np.diff(table.numbers(one.name)) == 0.0 for one in others], axis=0)
     alone = [np.count_nonzero(np.diff(table.numbers(one.name))[stays]) for one in called]
@@ -46,6 +49,13 @@ def speeds_called_v(table: Table, headings: list[Heading]) -> list[Heading]:
     if min(alone) < FEWEST_OWN:
         return headings
     return [replace(one, quantity=Quantity.SPEED) if one in called else one for one in headings]
+
+
+def _could_move(table: Table, name: str, called: Sequence[Heading]) -> bool:
+    """Whether a column without a telling name may be the motion, beside some that are called `v`."""
+    if np.count_nonzero(np.diff(table.numbers(name))) < FEWEST_OWN:
+        return False
+    return all(find_position(table, (one.name, name), None) != one.name for one in called)
 
 
 def pulses_that_drive(table: Table, headings: list[Heading]) -> list[Heading]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from log_columns import TIME, answer, table
+from log_columns import TIME, answer, columns, table
 
 from motor_identification.logs.columns.roles.roles import find_roles
 from motor_identification.logs.columns.said import Pair, Said
@@ -67,6 +67,26 @@ def test_v_beside_a_drive_is_the_velocity() -> None:
         find_roles(table(t="t", pwm="u", v="r"), Said())
     with pytest.raises(RecordingError, match="which column is the motion"):
         find_roles(table(t="t", pwm="u", v="b"), Said())
+
+
+@pytest.mark.parametrize(
+    ("beside", "moves"),
+    [
+        ({"seg": np.arange(200) // 40, "a": None}, True),  # parts of a log, and the velocity's derivative
+        ({"seg": np.arange(200) // 15}, False),  # thirteen changes: a coarse position may be as slow
+        ({"q": np.sin(TIME * 31.0)}, False),
+    ],
+)
+def test_v_beside_what_is_no_motion_is_the_velocity(beside: dict[str, np.ndarray | None], moves: bool) -> None:
+    drive = np.repeat([3.0, -2.0, 5.0, 1.0], 50)
+    speed = answer(drive)
+    others = {name: np.gradient(speed) / 0.01 if cells is None else cells for name, cells in beside.items()}
+    log = columns(t=TIME, u=drive, v=speed, **others)
+    if moves:
+        assert find_roles(log, Said()).pairs == (Pair("", "u", "v"),)
+        return
+    with pytest.raises(RecordingError, match="which column is the|voltage"):
+        find_roles(log, Said())
 
 
 def test_a_pulse_of_two_levels_drives_and_counts_nothing() -> None:
