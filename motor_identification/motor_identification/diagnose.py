@@ -13,7 +13,9 @@ from time import perf_counter
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import fits_torque
+from motor_identification.diagnosis.effect_test import sort_by_table
 from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines
+from motor_identification.diagnosis.evidence.static_evidence import find_untold
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.selection.determination import drop_undetermined, drop_undetermined_at_once
@@ -164,6 +166,8 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
         selection = beside
     left, undetermined = drop_undetermined(selection, reporter)
     # What is left of a model that fits a slow torque instead of the motion tells less than the one to begin with.
+    if untold := set(find_untold(left.model)) - set(start.model.effects):
+        return start, sort_by_table(untold | set(undetermined))
     return start if _fits_torque(left.model, start.model) else left, undetermined
 
 

@@ -20,6 +20,7 @@ from motor_identification.logs.rows.row_times import (
     number_rows,
     space_evenly,
     sum_steps,
+    take_periods_out,
     write_times_in_seconds,
 )
 from motor_model.errors import RecordingError
@@ -75,7 +76,8 @@ def _read_motors(given: Table, said: Said) -> tuple[list[Motor], list[str]]:
     """Read the motors whose columns stand side by side, and what was found about all of them."""
     if said.sample_period is None:
         timed = given if said.time_unit else write_times_in_seconds(given)
-        table = mend_table(space_evenly(sum_steps(timed)) if said.time is None and not said.steady else timed)
+        untimed = said.time is None and not said.steady
+        table = mend_table(space_evenly(sum_steps(take_periods_out(timed))) if untimed else timed)
     else:
         table = give_times(mend_table(number_rows(given)), said.sample_period)
         said = replace(said, time=ROW_TIMES, time_unit="ns")

@@ -1,7 +1,9 @@
 """Times of rows that have none: so many seconds from row to row, where the user or a column says so."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +23,9 @@ _PERIODS = frozenset(
 _PERIOD = (1e-5, 1.0)  # [s] that rows of a motor's log are apart
 LONGEST = 5.0  # times the shortest of nine in ten steps, which the longest of them are at most
 
+_PERIOD_IN_NAME = re.compile(
+    r"[(\[,;]?\s*\b(?P<word>dt|ts|t_s)\s*[=:]\s*(?P<size>\d+\.?\d*|\.\d+)\s*(?P<unit>m?s|us|)\s*[)\]]?$", re.I
+)
 _WORDS = re.compile(r"[^\W_\d]+|\d+")
 _SECONDS, _NANOSECONDS = frozenset({"sec", "secs", "seconds"}), frozenset({"nanosec", "nsec", "nsecs", "nanoseconds"})
 ROW_TIMES = "(row times)"  # column: where a row stands, and then when it was
@@ -114,6 +119,31 @@ def sum_steps(table: Table) -> Table:
         f"No column of times: they are summed from {step.name}, how long after the one before each row was (assumed)."
     )
     return replace(table, cells={f"time{unit}": time, **cells}, notes=(*table.notes, note))
+
+
+def take_periods_out(table: Table) -> Table:
+    """Take `dt = 10 ms` out of a column's name, `rpm (dt=10ms)`, and give it a column where there is none of times.
+
+    One that is called so and has no cells is that column. Without a unit whole numbers are milliseconds, as nobody logs
+    a motor so many seconds apart.
+    """
+    timed = any(read_heading(name).quantity is Quantity.TIME for name in table.names if not _tells_period(name))
+    cells: dict[str, Sequence[str] | NDArray[Any]] = {}
+    for name, column in table.cells.items():
+        match, bare = _tells_period(name), _PERIOD_IN_NAME.sub("", name).strip()
+        if match is None or bare in table.cells or (not bare and table.readable(name).any()):
+            cells[name] = column
+            continue
+        if bare:
+            cells[bare] = column
+        if not timed:
+            unit = match["unit"].lower() or ("ms" if float(match["size"]) >= 1.0 else "s")
+            cells[f"{match['word']} [{unit}]"] = np.full(len(table), float(match["size"]))
+    return replace(table, cells=cells)
+
+
+def _tells_period(name: str) -> re.Match[str] | None:
+    return _PERIOD_IN_NAME.search(name)
 
 
 def tells_how_often(name: str) -> bool:

@@ -15,6 +15,7 @@ from motor_identification.logs.rows.row_times import (
     number_rows,
     space_evenly,
     sum_steps,
+    take_periods_out,
     write_times_in_seconds,
 )
 from motor_model.errors import RecordingError
@@ -191,6 +192,36 @@ def test_a_column_that_says_how_often_rows_came(name: str, cells: list[object], 
     assert spaced.notes == (note,)
     timed = Table(Path("log.csv"), np.arange(2, 10), {"t": np.arange(8.0), name: cells})
     assert space_evenly(timed) is timed
+
+
+@pytest.mark.parametrize(
+    ("name", "bare", "period"),
+    [
+        ("rpm (dt=10ms)", "rpm", 0.01),
+        ("rpm dt = 0.005", "rpm", 0.005),
+        ("rpm [Ts=20]", "rpm", 0.02),  # no motor is logged every 20 s
+        ("rpm; dt=500us", "rpm", 0.0005),
+        ("rpm (dt)", "rpm (dt)", None),
+        ("width=10", "width=10", None),
+    ],
+)
+def test_a_name_that_says_how_often_rows_came(name: str, bare: str, period: float | None) -> None:
+    given = Table(Path("log.csv"), np.arange(2, 10), {"u": np.ones(8), name: np.arange(8.0)})
+    spaced = space_evenly(sum_steps(take_periods_out(given)))
+    times = [] if period is None else [spaced.names[0]]
+    assert spaced.names == [*times, "u", bare]
+    if period is not None:
+        unit = {"time [s]": 1.0, "time [ms]": 1e-3, "time [us]": 1e-6}[spaced.names[0]]
+        assert spaced.numbers(spaced.names[0]) * unit == pytest.approx(np.arange(8) * period)
+    timed = Table(Path("log.csv"), np.arange(2, 10), {"t": np.arange(8.0), name: np.arange(8.0)})
+    assert take_periods_out(timed).names == ["t", bare]
+
+
+def test_an_empty_column_that_is_called_by_its_period(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    path.write_text("u,y,dt=10\n" + "".join(f"{3.0 * (k // 40 % 2)},{0.01 * (k % 7)},\n" for k in range(400)))
+    (motor,) = import_log(path, Said(unit="rad/s")).motors
+    assert motor.log.info.sample_period == pytest.approx(0.01)
 
 
 def test_a_log_with_its_sampling_rate_is_read_without_an_option(tmp_path: Path) -> None:

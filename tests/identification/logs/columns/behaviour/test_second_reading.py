@@ -2,9 +2,10 @@
 
 from pathlib import Path
 
+import log_columns
 import numpy as np
 import pytest
-from log_columns import TIME, answer, columns, table
+from log_columns import TIME, answer, table
 
 from motor_identification.logs.columns.roles.roles import find_roles
 from motor_identification.logs.columns.said import Pair, Said
@@ -81,7 +82,7 @@ def test_v_beside_what_is_no_motion_is_the_velocity(beside: dict[str, np.ndarray
     drive = np.repeat([3.0, -2.0, 5.0, 1.0], 50)
     speed = answer(drive)
     others = {name: np.gradient(speed) / 0.01 if cells is None else cells for name, cells in beside.items()}
-    log = columns(t=TIME, u=drive, v=speed, **others)
+    log = log_columns.columns(t=TIME, u=drive, v=speed, **others)
     if moves:
         assert find_roles(log, Said()).pairs == (Pair("", "u", "v"),)
         return

@@ -1,0 +1,64 @@
+"""Evidence of static effects: all of them shape one curve over voltage and speed, which few places cannot tell apart.
+
+Frictions, a dead zone, a coasting bridge, a sagging supply: where a recording stays at three places, three of them
+beside kv pass through all of these, whatever is there, and what they leave in between is a torque. Held-out motion at
+other places would tell; where there is none, and such a torque was learned, their parameters are counted.
+"""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.measurement.command_swing import LEVEL_SHARE, LEVELS
+from motor_identification.measurement.intervals import Intervals
+from motor_identification.recording import Floats, Recording
+from motor_identification.validation.held_out import HeldOut
+from motor_model.effects import EFFECT_BY_NAME, LAGS
+
+
+def find_untold(model: Model) -> tuple[str, ...]:
+    """Find the static effects of a model whose recordings stay at too few places to tell so many apart.
+
+    Without a torque beside them the motion between the places tells; one step is told by its shape.
+    """
+    held, static = model.held, tuple(filter(_is_static, model.effects))
+    if not held.seen or not held.confirms or model.errors.rms_voltage == 0.0:
+        return ()
+    return static if count_static(static) >= count_places(held) else ()
+
+
+def count_places(judged: HeldOut) -> int:
+    """Count the places, fifths of the largest voltage and speed, at which motors stay; rest at 0 V is none."""
+    rows = zip(judged.recordings, judged.intervals, judged.scored, strict=True)
+    parts = [(*_place(recording, data), data.duration * scored) for recording, data, scored in rows]
+    voltage, speed, weight = (np.concatenate(part) for part in zip(*parts, strict=True))
+    places = np.column_stack([_round_to_fifths(voltage), _round_to_fifths(speed)])
+    found, which = np.unique(places, axis=0, return_inverse=True)
+    share = np.bincount(which.reshape(-1), weight) / max(float(weight.sum()), 1e-300)
+    return int(np.count_nonzero(found.any(axis=1) & (share >= LEVEL_SHARE)))
+
+
+def _place(recording: Recording, data: Intervals) -> tuple[Floats, Floats]:
+    """Voltage [V] in the middle of each interval, and mean speed [rad/s], shape (I,) each."""
+    middle = 0.5 * (data.time[data.first] + data.time[data.last])
+    rows = np.searchsorted(recording.time, middle, side="right") - 1
+    return recording.voltage[np.maximum(rows, 0)], data.speed
+
+
+def _round_to_fifths(values: Floats) -> Floats:
+    largest = float(np.max(np.abs(values), initial=0.0))
+    return np.asarray(np.rint(LEVELS * values / largest)) if largest > 0.0 else np.zeros(len(values))
+
+
+def count_static(effects: Iterable[str]) -> int:
+    """Count the parameters that static effects among some have; an instant is none of them."""
+    specs = [spec for effect in effects if _is_static(effect) for spec in EFFECT_BY_NAME[effect].parameters]
+    return sum(not spec.of_recording for spec in specs)
+
+
+def _is_static(name: str) -> bool:
+    """Whether an effect shapes the curve of torques over voltage and speed, or does so from an instant on."""
+    effect = EFFECT_BY_NAME[name]
+    elsewhere = effect.periodic or effect.anywhere or effect.after_reversals or not effect.fitted
+    return effect.constant is not None or (not elsewhere and name not in LAGS)

@@ -1,0 +1,85 @@
+"""No more static effects are named than a recording has places of voltage and speed to tell them apart."""
+
+from dataclasses import replace
+from functools import cache
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+from plant import profiles, record
+from recorded import as_speed, without_count
+
+from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.evidence.static_evidence import count_places, count_static, find_untold
+from motor_identification.identify import Request
+from motor_identification.recording import Recording
+from motor_identification.validation.held_out import HeldOut
+from motor_identification.validation.hold_out import make_hold_out
+from motor_model.effects import LAGS
+from motor_model.parameters import PAPER_KA, PAPER_KV
+
+HIDDEN = {"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.8, "coast_share": 0.9, "dead_zone_voltage": 0.9}
+LEVELS = (3.8, 0.0, 12.0, 0.0, -12.0, 0.0)
+
+
+@cache
+def staying(levels: tuple[float, ...] = LEVELS, each: float = 4.0) -> Recording:
+    """Speeds, ten a second, of a motor that stays at each of some levels."""
+    profile = profiles.pieces(levels, each)
+    recording, _ = record(HIDDEN, *profile, sample_rate=10.0, edges=1264, single_channel=False)
+    return without_count(as_speed(recording))
+
+
+def judged(recording: Recording, seen: bool = True, confirms: bool = True) -> HeldOut:
+    hold_out = make_hold_out([recording], [])
+    (data,) = hold_out.problem.intervals
+    none = np.zeros(len(data.time))
+    everything = (np.ones(len(data.first), np.bool_),)
+    return HeldOut((recording,), (data,), (none,), None, everything, 0, (), seen, confirms)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(("levels", "places"), [(LEVELS, 3), ((12.0,), 1), (tuple(np.arange(1.0, 13.0)), 8)])
+def test_places_are_where_a_motor_stays(levels: tuple[float, ...], places: int) -> None:
+    """Rest at 0 V is none; of twelve levels some are within a fifth of the largest of each other."""
+    assert count_places(judged(staying(levels))) == places
+
+
+def stub(effects: tuple[str, ...], rms_voltage: float = 0.1, seen: bool = True, confirms: bool = True) -> Model:
+    held = judged(staying(), seen, confirms)
+    return cast(Model, SimpleNamespace(effects=effects, held=held, errors=SimpleNamespace(rms_voltage=rms_voltage)))
+
+
+@pytest.mark.parametrize(
+    ("effects", "untold"),
+    [
+        (("coulomb_friction", "coast_drive"), False),
+        (("coulomb_friction", "coast_drive", "dead_zone"), True),  # kv is the fourth of three places
+        (("coulomb_friction", "static_friction"), True),  # which has two
+        (("coast_drive", "dead_zone", "load_step"), True),  # a load from an instant on
+        (("coast_drive", "dead_zone", *LAGS, "torque_ripple", "backlash", "warm_up"), False),
+    ],
+)
+def test_static_parameters_are_fewer_than_places(effects: tuple[str, ...], untold: bool) -> None:
+    static = {"coulomb_friction", "static_friction", "coast_drive", "dead_zone", "load_step"}
+    assert set(find_untold(stub(effects))) == (set(effects) & static if untold else set())
+
+
+@pytest.mark.parametrize("other", [{"rms_voltage": 0.0}, {"seen": False}, {"confirms": False}])
+def test_motion_without_a_torque_tells_and_what_is_held_out_and_one_steps_shape(other: dict[str, Any]) -> None:
+    assert find_untold(stub(("coulomb_friction", "coast_drive", "dead_zone"), **other)) == ()
+
+
+@pytest.mark.parametrize("shaken", [False, True])
+def test_three_levels_beside_a_torque_do_not_tell_three_static_effects(shaken: bool) -> None:
+    """Exact motion between the levels does."""
+    recording = staying()
+    if shaken:
+        random, walk = np.random.default_rng(5), np.zeros(len(recording))
+        for k in range(1, len(walk)):
+            walk[k] = 0.7 * walk[k - 1] + random.normal(0.0, 0.4)
+        recording = replace(recording, speed=recording.speed + walk * (recording.speed != 0.0))
+    found = diagnose([recording], [], Request(()))
+    named = count_static(one.effect for one in found.findings)
+    assert named < 3 if shaken else named == 3
