@@ -29,6 +29,8 @@ _TIMERS = words_of(
     "duty pwm dutycycle throttle power шим 占空比 듀티 cyclique tastgrad tastverhältnis wypełnienie wypelnienie střída "
     "strida doluluk umplere скважность effort esforço esforco esfuerzo"
 )
+_EFFORTS = words_of("effort esforço esforco esfuerzo")  # a share by its name alone: a control effort is a command
+_CONTROLLERS = words_of("control controle contrôle controller")
 _PULSES = (1_000.0, 2_500.0)  # [µs] the longest of a log, of which none is a share of the supply
 _SUPPLIES = (15.0, 18.0, 24.0, 36.0, 48.0)  # [V] where commands are cut off
 _MOST_VOLTS = 12.0  # of a command that never is larger: a duty of so few per cent, or of 255, moves no motor
@@ -97,7 +99,8 @@ def duty_drive(heading: Heading, values: Floats, full: float | None = None) -> D
 
 def _why_in_volts(heading: Heading, values: Floats, largest: float) -> str:
     """Why what is called a command holds volts: they are a few, or are cut off where supplies are; empty where not."""
-    if heading.unit or set(heading.words) & _TIMERS or largest <= 1.0:
+    of_controller = bool(_CONTROLLERS & set(heading.words))
+    if heading.unit or set(heading.words) & (_TIMERS - _EFFORTS if of_controller else _TIMERS) or largest <= 1.0:
         return ""
     if largest <= _MOST_VOLTS:
         return "no duty is so small"

@@ -94,6 +94,8 @@ def test_per_cent_that_never_come_to_more_than_one_are_shares(top: float, full: 
         ("cmd", 13.0 * WAVE, False),
         ("pwm", np.repeat([0.0, 6.0], 50), False),
         ("cmd [%]", 7.3 * WAVE, False),
+        ("Control Effort", 4.884 * WAVE, True),
+        ("effort", 4.884 * WAVE, False),
     ],
 )
 def test_a_command_of_a_few_is_in_volts(name: str, values: np.ndarray, volts: bool) -> None:
