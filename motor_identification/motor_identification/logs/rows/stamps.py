@@ -103,7 +103,9 @@ def _drop_repeats(signals: Signals) -> tuple[Signals, list[str]]:
     # Where most stamps are shared, a standing motor's rows look like repeats, and are none.
     if not alike.any() or np.mean(steps == 0) > 0.25:
         return signals, []
-    return signals.only(~alike), [f"Left out: {int(alike.sum())} rows that repeat the one before."]
+    lost = int(alike.sum())
+    rows = "1 row that repeats" if lost == 1 else f"{lost} rows that repeat"
+    return signals.only(~alike), [f"Left out: {rows} the one before."]
 
 
 def _lacks_rows(steps: Integers) -> bool:

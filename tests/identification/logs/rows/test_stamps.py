@@ -72,7 +72,7 @@ def test_fine_stamps_and_irregular_ones_stay() -> None:
 def test_rows_that_repeat_the_one_before_are_left_out() -> None:
     time = np.array([0, 5, 10, 10, 15, 20, 25, 30, 35, 40]) * 10**6
     signals, said = separate_stamps(rows(time, [0, 1, 2, 2, 3, 4, 5, 6, 7, 8]))
-    assert signals.motion.tolist() == list(range(9)) and "Left out: 1 rows that repeat" in said[0]
+    assert signals.motion.tolist() == list(range(9)) and "Left out: 1 row that repeats" in said[0]
 
 
 @pytest.mark.parametrize(("strays", "left"), [((50,), 199), ((50, 120), 198), ((50, 120, 150), 200)])
