@@ -47,7 +47,7 @@ def find_counted_position(table: Table, pair: Pair, taken: frozenset[str], stamp
         stamps: times of the rows [s], shape (K,).
     """
     speed = read_heading(pair.motion)
-    if speed.quantity is not Quantity.SPEED:
+    if speed.quantity not in (Quantity.SPEED, None):  # a system's output `y`, whose numbers go with the position's
         return None
     units = [speed.unit] if speed.unit else [*ASKED[Kind.SPEED], "rev/s"]
     sizes = [size for unit in units if (size := UNITS[unit][1]) is not None]
@@ -119,7 +119,8 @@ def _is_near(ratio: float) -> bool:
 def _ratio(position: Floats, speed: Floats, stamps: Floats) -> float | None:
     """How far a position, shape (K,), goes for a second of speed 1; None where they do not go together.
 
-    As much of the position as of the speed is noise: the ratio of their sizes, and not a regression, tells it.
+    As much of the position as of the speed is noise: the ratio of their sizes, and not a regression, tells it; of the
+    part where it is furthest off none, as a position may begin again there.
     """
     ends = _ends(len(position))
     way, integral = np.diff(position[ends]), np.diff(_travel(speed, stamps)[ends])
@@ -127,7 +128,10 @@ def _ratio(position: Floats, speed: Floats, stamps: Floats) -> float | None:
         return None
     with np.errstate(over="ignore"):
         size = np.max(np.abs(integral))
-        return float(np.linalg.norm(way / size) / np.linalg.norm(integral / size))
+        way, integral = way / size, integral / size
+        ratio = np.linalg.norm(way) / np.linalg.norm(integral)
+        usual = np.arange(len(way)) != np.argmax(np.abs(np.abs(way) - ratio * np.abs(integral)))
+        return float(np.linalg.norm(way[usual]) / max(np.linalg.norm(integral[usual]), 1e-300))
 
 
 def _ends(count: int) -> NDArray[np.int64]:
