@@ -53,7 +53,9 @@ def test_a_counted_angle_is_taken_before_a_speed_of_any_unit(unit: str) -> None:
 def test_a_systems_output_is_a_speed_where_a_counted_angle_says_so() -> None:
     """A position that begins somewhere else once is still that of its shaft."""
     cells = log("rpm")
-    jumped = {**cells, "alpha": cells["alpha"] - 0.7 * np.ptp(cells["alpha"]) / 40 * 6 * (STAMPS > 0.3)}
+    count = 360.0 / 1024
+    jump = count * np.rint(0.14 * np.ptp(cells["alpha"]) / count)
+    jumped = {**cells, "alpha": cells["alpha"] - jump * (STAMPS > 0.3)}
     for one in (cells, jumped):
         (form,) = guess_forms(table(one, vel="y"), Said()).forms
         assert (form.motion, form.kind, form.unit) == ("alpha", Kind.POSITION, "deg")
