@@ -14,7 +14,7 @@ import numpy as np
 from motor_identification.noise.error_data import ErrorData, log_likelihood
 from motor_identification.noise.error_learning import PRICE, learn_error_model
 from motor_identification.noise.error_model import ErrorModel, Lag
-from motor_identification.noise.run_gain import FEWEST_RUNS, RunGain, estimate_scatter, guess_deviation
+from motor_identification.noise.run_gain import FEWEST_RUNS, MOST_SCATTER, RunGain, estimate_scatter, guess_deviation
 
 LEAST_SCATTER = 1e-6  # of the gains to begin with
 ROUNDS, SCATTER_STEPS = 2, 3  # of gains and what else is left in turns; and of the gains' scatter in each
@@ -25,12 +25,15 @@ def learn_errors_of_runs(
 ) -> ErrorModel:
     """Find the error model under which the increments of runs are most likely; their gains differ if that is likelier.
 
-    lag: the motor. guess: where to begin, of a similar model; else a grid tells. Gains that agree there, do.
+    lag: the motor. guess: where to begin, of a similar model; else a grid tells. Gains that agree there, do; what
+    scatters by more than any supply is none of it.
     """
     agreeing = learn_error_model(rows, lag, guess, evaluations)
     if len(rows) < FEWEST_RUNS or (guess is not None and guess.gain == 0.0):
         return agreeing
     differing = _learn_with_gains(rows, lag, guess, evaluations)
+    if differing.gain > MOST_SCATTER:
+        return agreeing
     gained = log_likelihood(rows, differing, lag) - log_likelihood(rows, agreeing, lag)
     return differing if gained > PRICE else agreeing
 

@@ -10,7 +10,7 @@ from motor_identification.noise.error_data import ErrorData, log_likelihood, mak
 from motor_identification.noise.error_learning import learn_error_model
 from motor_identification.noise.error_model import ErrorModel, Lag
 from motor_identification.noise.gain_learning import learn_errors_of_runs
-from motor_identification.noise.run_gain import FEWEST_RUNS
+from motor_identification.noise.run_gain import FEWEST_RUNS, MOST_SCATTER
 
 LAG = Lag(12.0, 0.0055)
 SLOT, SHARE = 0.06, 0.02  # [rad], of it
@@ -44,6 +44,14 @@ def test_gains_are_learned_with_their_scatter() -> None:
 def test_runs_that_agree_and_few_runs_are_as_without_gains(gains: np.ndarray) -> None:
     rows = leave(gains)
     assert learn_errors_of_runs(rows, LAG) == learn_error_model(rows, LAG)
+
+
+@pytest.mark.parametrize(("size", "supply"), [(0.13, True), (0.2, False)])
+def test_what_scatters_more_than_any_supply_is_none_of_it(size: float, supply: bool) -> None:
+    """But of what a model lacks, such as a dead zone that holds a motor in some of its runs."""
+    gains = 1.0 + size * (GAINS - 1.0) / 0.03
+    assert (np.std(gains) < MOST_SCATTER) == supply
+    assert (learn_errors_of_runs(leave(gains), LAG).gain > 0.0) == supply
 
 
 def test_gains_agree_where_those_of_a_similar_model_do() -> None:
