@@ -34,12 +34,15 @@ def speeds_called_v(table: Table, headings: list[Heading]) -> list[Heading]:
     """`v` beside what drives, where nothing else moves or could, is the velocity: it changes where the drive stays.
 
     A voltage that was measured changes as the duty does. What changes in a few rows, as the number of a part, and the
-    velocity's own acceleration could not be the motion.
+    velocity's own acceleration could not be the motion. Beside a position it is the velocity if it is its derivative.
     """
     called = [one for one in headings if one.quantity is Quantity.VOLTAGE and not one.unit and "v" in one.words]
     others = [one for one in headings if drives(one) and one not in called]
-    if not called or not others or _any_moves(headings):
+    if not called or not others:
         return headings
+    if _any_moves(headings):
+        own = [one for one in called if _has_position(table, one, headings)]
+        return [replace(one, quantity=Quantity.SPEED) if one in own else one for one in headings]
     if any(one.quantity is None and _could_move(table, one.name, called) for one in headings):
         return headings
     stays = np.all([np.diff(table.numbers(one.name)) == 0.0 for one in others], axis=0)
@@ -49,6 +52,12 @@ def speeds_called_v(table: Table, headings: list[Heading]) -> list[Heading]:
     if min(alone) < FEWEST_OWN:
         return headings
     return [replace(one, quantity=Quantity.SPEED) if one in called else one for one in headings]
+
+
+def _has_position(table: Table, called: Heading, headings: Sequence[Heading]) -> bool:
+    """Whether a column that is called `v` is the derivative of a position beside it."""
+    angles = [one.name for one in headings if one.quantity in (Quantity.POSITION, Quantity.COUNT)]
+    return any(find_position(table, (angle, called.name), None) == angle for angle in angles)
 
 
 def _could_move(table: Table, name: str, called: Sequence[Heading]) -> bool:

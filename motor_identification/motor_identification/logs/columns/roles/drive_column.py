@@ -36,6 +36,8 @@ def find_drive_column(table: Table, headings: Sequence[Heading], side: str, othe
             found = [name for name in found if not is_supply(table.numbers(name), table.numbers(duties[0]))]
         if quantity is Quantity.VOLTAGE and not duties:
             found = [name for name in found if not _is_battery(table, name)]
+        if len(found) > 1:  # what is 0 all the time drives nothing beside another
+            found = [name for name in found if np.any(table.numbers(name))] or found
         if len(found) > 1:
             raise ask_column(table, quantity.value, "--voltage", found)
         if found:

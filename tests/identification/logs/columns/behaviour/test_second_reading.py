@@ -90,6 +90,17 @@ def test_v_beside_what_is_no_motion_is_the_velocity(beside: dict[str, np.ndarray
         find_roles(log, Said())
 
 
+def test_v_is_the_velocity_of_a_position_beside_it() -> None:
+    drive = np.repeat([3.0, -2.0, 5.0, 1.0], 50)
+    speed = answer(drive)
+    cells = {"t": TIME, "u": drive, "v": speed, "theta": np.cumsum(speed) * 0.01}
+    assert find_roles(log_columns.columns(**cells), Said()).pairs == (Pair("", "u", "theta"),)
+    with pytest.raises(RecordingError, match="which column is the voltage"):
+        find_roles(log_columns.columns(**{**cells, "v": np.flip(speed)}), Said())
+    still = {**cells, "v": np.zeros(200)}
+    assert find_roles(log_columns.columns(**still), Said()).pairs == (Pair("", "u", "theta"),)
+
+
 def test_a_pulse_of_two_levels_drives_and_counts_nothing() -> None:
     pulse = np.where(np.sin(TIME * 3.0) > 0.0, 12.0, 0.0)
     cells = {"t": TIME, "pulse": pulse, "rad": answer(pulse)}
