@@ -45,6 +45,8 @@ def read_drive(table: Table, pair: Pair, roles: Roles, said: Said, notes: Notes)
     if roles.supply:
         return drive, 1.0 / full, roles.supply
     why = drive.why.replace(" (assumed; otherwise:", " (otherwise")
+    if heading.quantity is None and np.all(values == values[:1]):
+        why = f"is {values[0]:g} in every row; if no controller's target, but {why.removeprefix('as ')}"
     notes.questions.append((pair.voltage, f"{why}: say the voltage at full duty (--supply-voltage V)"))
     return drive, 1.0, None
 

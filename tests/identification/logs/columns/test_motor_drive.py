@@ -41,3 +41,17 @@ def test_shares_of_a_supply_that_was_said(supply: float | None, drive: str, larg
     """Who says a supply's voltage has a duty, whatever its column is called."""
     values = np.linspace(-largest, largest, 100)
     assert volts_per_unit(drive, values, Said(supply_voltage=supply)) == pytest.approx(scale)
+
+
+@pytest.mark.parametrize(
+    ("name", "last", "doubted"), [("column 2", 200.0, True), ("column 2", 0.0, False), ("pwm", 200.0, False)]
+)
+def test_what_stays_under_no_name_may_be_a_target(name: str, last: float, doubted: bool) -> None:
+    """As programs print what a controller was told before what it measured."""
+    values = np.append(np.full(99, 200.0), last)
+    table = Table(Path("log.csv"), np.arange(100), {name: values, "speed [rpm]": np.sin(np.arange(100.0))})
+    notes = Notes([], [])
+    read_drive(table, Pair("", name, "speed [rpm]"), Roles("t", (), None, None), Said(), notes)
+    ((_, question),) = notes.questions
+    assert ("is 200 in every row; if no controller's target, but a duty of ±255 (otherwise" in question) == doubted
+    assert question.endswith("say the voltage at full duty (--supply-voltage V)")
