@@ -165,9 +165,9 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     else:
         selection = beside
     left, undetermined = drop_undetermined(selection, reporter)
-    # What is left of a model that fits a slow torque instead of the motion tells less than the one to begin with.
     if untold := set(find_untold(left.model)) - set(start.model.effects):
         return start, sort_by_table(untold | set(undetermined))
+    # What is left of a model that fits a slow torque instead of the motion tells less than the one to begin with.
     return start if _fits_torque(left.model, start.model) else left, undetermined
 
 

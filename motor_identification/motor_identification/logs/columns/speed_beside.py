@@ -127,11 +127,12 @@ def _ratio(position: Floats, speed: Floats, stamps: Floats) -> float | None:
     if len(way) < FEWEST_PARTS or correlate(way, integral) < TOGETHER:
         return None
     with np.errstate(over="ignore"):
-        size = np.max(np.abs(integral))
+        size = float(np.max(np.abs(integral)))
         way, integral = way / size, integral / size
-        ratio = np.linalg.norm(way) / np.linalg.norm(integral)
+        ratio = float(np.linalg.norm(way)) / float(np.linalg.norm(integral))
         usual = np.arange(len(way)) != np.argmax(np.abs(np.abs(way) - ratio * np.abs(integral)))
-        return float(np.linalg.norm(way[usual]) / max(np.linalg.norm(integral[usual]), 1e-300))
+        left = float(np.linalg.norm(integral[usual]))
+        return float(np.linalg.norm(way[usual])) / left if left > 0.0 else None
 
 
 def _ends(count: int) -> NDArray[np.int64]:
