@@ -209,20 +209,31 @@ def _whiten_still(k: int, deviation: float, increments: Floats, white: Floats, g
 
 
 @compiled
+def whiten_next(
+    gains: Floats, k: int, fresh: bool, increment: float, level: float, b: float, d: float, t: float
+) -> tuple[float, float, float, float, float]:
+    """Whiten the next increment [rad] of a sequence with gains (GAINS,) that `run_filter` filled for another one.
+
+    level: [rad] what has passed since the run began; b [rad], d [rad/s], t [rad/s²]: what is expected of it. All of
+    them come back as they are then, after the white residual.
+    """
+    root, kb, kd, kt, phi_d, phi_t, by_t, angle_d, angle_t, fd, ft, by = gains[k]
+    if fresh:
+        level = b = 0.0
+        d, t = fd * d + by * t, ft * t
+    b += angle_d * d + angle_t * t
+    d, t = phi_d * d + by_t * t, phi_t * t
+    level += increment
+    off = level - b
+    return off * root, level, b + kb * off, d + kd * off, t + kt * off
+
+
+@compiled
 def fill_white(fresh: Bools, still: Bools, gains: Floats, increments: Floats, white: Floats) -> None:
     """Fill white residuals (I,) of increments (I,), with the gains that `run_filter` filled for other increments."""
     level = b = d = t = 0.0
     for k in range(len(fresh)):
-        root, kb, kd, kt, phi_d, phi_t, by_t, angle_d, angle_t, fd, ft, by = gains[k]
         if still[k]:
-            white[k] = increments[k] * root
-            continue
-        if fresh[k]:
-            level = b = 0.0
-            d, t = fd * d + by * t, ft * t
-        b += angle_d * d + angle_t * t
-        d, t = phi_d * d + by_t * t, phi_t * t
-        level += increments[k]
-        off = level - b
-        white[k] = off * root
-        b, d, t = b + kb * off, d + kd * off, t + kt * off
+            white[k] = increments[k] * gains[k, 0]
+        else:
+            white[k], level, b, d, t = whiten_next(gains, k, fresh[k], increments[k], level, b, d, t)

@@ -14,6 +14,7 @@ import numpy as np
 from motor_identification.diagnosis.fits.disturbed_fit import make_disturbed_residuals
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.noise.error_data import TorqueWhitening
+from motor_identification.noise.error_filter import whiten_next
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Bools, Floats, Integers
 from motor_model.compiled import compiled
@@ -27,7 +28,7 @@ APART = 0.5  # time constants between two jumps of a list: nearer is the same on
 
 
 class Jumps(NamedTuple):
-    """Steps of the torque, each beginning with an interval, that was tried; arrays (S,)."""
+    """Steps of the torque that were tried, each from the beginning of an interval on; arrays (S,)."""
 
     time: Floats  # [s]
     gain: Floats  # of log likelihood, all other unknowns as they are
@@ -44,7 +45,9 @@ class Jumps(NamedTuple):
         return best
 
     def find_like(self, size: float) -> float:
-        """Find when [s] the likeliest step in the direction of a size [V] is."""
+        """Find when [s] the likeliest step in the direction of a size [V] is; 0 where none was tried."""
+        if len(self.time) == 0:
+            return 0.0
         return float(self.time[np.argmax(np.where(self.size * size > 0.0, self.gain, -1.0))])
 
 
@@ -60,11 +63,9 @@ def list_likely_jumps(estimate: Estimate, errors: ErrorModel, count: int) -> lis
         scan_jumps(one, one.white(increments), data.time[data.first], data.time[data.last], lag.rate, kv)
         for one, data, increments in rows
     ]
-    longest = max(scans, key=lambda scan: float(scan.gain.max(initial=0.0)))
-    return [
-        (float(longest.size[best]), [scan.find_like(float(longest.size[best])) for scan in scans])
-        for best in longest.list_best(count, APART / lag.rate)
-    ]
+    likeliest = max(scans, key=lambda scan: float(scan.gain.max(initial=0.0)))
+    sizes = [float(likeliest.size[best]) for best in likeliest.list_best(count, APART / lag.rate)]
+    return [(size, [scan.find_like(size) for scan in scans]) for size in sizes]
 
 
 def scan_jumps(whitening: TorqueWhitening, white: Floats, begin: Floats, end: Floats, rate: float, kv: float) -> Jumps:
@@ -74,8 +75,8 @@ def scan_jumps(whitening: TorqueWhitening, white: Floats, begin: Floats, end: Fl
     """
     forever = whitening.white(np.where(whitening.still, 0.0, (end - begin) / kv))
     behind = _sum_up(forever * white), _sum_up(forever**2)
-    stride = max(1, int(STRIDE / rate / np.median(end - begin)))
-    tried = np.arange(0, len(white), stride)
+    rows = STRIDE / rate * len(white) / max(float(np.sum(end - begin)), 1e-300)
+    tried = np.arange(0, len(white), max(1, int(rows)))
     along, power = np.zeros(len(tried)), np.zeros(len(tried))
     _correlate(
         whitening.fresh, whitening.still, whitening.gains, white, begin, end, rate, kv, tried, *behind, along, power
@@ -105,29 +106,17 @@ def _correlate(
     along: Floats,
     power: Floats,
 ) -> None:
-    """Fill the correlation of white residuals with the answer to each step of 1 V, and that answer's power, (I,)."""
+    """Fill the correlation of white residuals with the answer to each step of 1 V, and that answer's power, (S,)."""
     for number, first in enumerate(tried):
-        start = begin[first]
+        start, k, last = begin[first], first, min(first + LONGEST_ANSWER, len(white))
         level = b = d = t = 0.0
-        answered = min(first + LONGEST_ANSWER, len(white))
-        for k in range(first, answered):
-            if begin[k] > start + ANSWER / rate:
-                answered = k
-                break
-            if still[k]:
-                continue
-            root, kb, kd, kt, phi_d, phi_t, by_t, angle_d, angle_t, fd, ft, by = gains[k]
-            if fresh[k]:
-                level = b = 0.0
-                d, t = fd * d + by * t, ft * t
-            b += angle_d * d + angle_t * t
-            d, t = phi_d * d + by_t * t, phi_t * t
-            since, until = begin[k] - start, end[k] - start
-            level += (until - since + (np.exp(-rate * until) - np.exp(-rate * since)) / rate) / kv
-            off = level - b
-            answer = off * root
-            along[number] += answer * white[k]
-            power[number] += answer * answer
-            b, d, t = b + kb * off, d + kd * off, t + kt * off
-        along[number] += along_behind[answered]
-        power[number] += power_behind[answered]
+        while k < last and begin[k] <= start + ANSWER / rate:
+            if not still[k]:
+                since, until = begin[k] - start, end[k] - start
+                travel = (until - since + (np.exp(-rate * until) - np.exp(-rate * since)) / rate) / kv
+                answer, level, b, d, t = whiten_next(gains, k, fresh[k], travel, level, b, d, t)
+                along[number] += answer * white[k]
+                power[number] += answer * answer
+            k += 1
+        along[number] += along_behind[k]
+        power[number] += power_behind[k]

@@ -99,3 +99,5 @@ def test_the_best_are_apart_and_like_ones_have_the_same_sign() -> None:
     jumps = Jumps(np.arange(5.0), np.array([1.0, 5.0, 9.0, 8.0, 7.0]), np.array([1.0, -1.0, 2.0, 2.0, -2.0]))
     assert jumps.list_best(9, 1.5) == [2, 4, 0] and jumps.list_best(2, 0.5) == [2, 3]
     assert (jumps.find_like(0.1), jumps.find_like(-3.0)) == (2.0, 4.0)
+    nothing = Jumps(*np.zeros((3, 0)))
+    assert nothing.list_best(3, 1.0) == [] and nothing.find_like(1.0) == 0.0
