@@ -23,7 +23,7 @@ NOT_TOLD = (
 
 
 def stay_on_this_machine(environment: MutableMapping[str, str] = os.environ) -> str:
-    """Set what Fast DDS reads when the first node starts, as env.sh does for a shell; say what is not used, if any is."""
+    """Set what Fast DDS reads when the first node starts, as env.sh does for a shell; say what is not used."""
     environment.setdefault(RANGE, "LOCALHOST")
     ours = CLOSED if environment[RANGE] not in _OPENED else OPEN
     if Path(environment.get(PROFILE, ours)).name in (CLOSED.name, OPEN.name):
