@@ -123,6 +123,7 @@ class Plant:
         self._changed()  # a stop that is due comes before what is asked for now
         now = time.monotonic_ns()
         refusal = (self.gate.refusal(now) or self._other.problem(now) or self._refusal()) if request.data else ""
+        self.gate = self.gate.call(now) if request.data else self.gate
         if request.data and was_on and not self.gate.enabled:
             refusal = f"Just now, {self.gate.stopped}: look, then call again."
         if refusal:
