@@ -138,7 +138,7 @@ def restart_controller(stage: Stage) -> None:
     stage.hear(2.0)
     count = len(stage.said)
     stage.controller()
-    stage.until(lambda: any("waits" in one or "No reference" in one for one in stage.said[count:]), "the next one")
+    stage.until(lambda: any("They began" in one for one in stage.said[count:]), "the next one")
 
 
 def stop_beside_calls(stage: Stage) -> None:
@@ -175,9 +175,13 @@ LIVE_FAULTS = (
     ),
     LiveFault("a plant is started again, 50 references a second keep coming", restart_plant, "begin again"),
     LiveFault(
-        "a controller is killed and started again, 50 references a second keep coming", restart_controller, "came up"
+        "a controller is killed and started again, 50 references a second keep coming", restart_controller, "They began"
     ),
-    LiveFault("`motor/enable` with data: false, 100 calls a second with data: true go on", stop_beside_calls, ""),
+    LiveFault(
+        "`motor/enable` with data: false, 100 calls a second with data: true go on",
+        stop_beside_calls,
+        "The output is off",
+    ),
     LiveFault("`play` of voltages stopped for 1.5 s, and goes on", resume_play, "Playing stood still"),
 )
 

@@ -48,7 +48,7 @@ def test_a_controller_that_is_started_again_does_not_obey_a_running_stream(
         answers = hear_out(plant, 2.0)
         assert {answer.state for answer in answers} == {"disabled"}
         assert all(message.voltage == 0.0 for message in plant.voltages[count:])
-        assert "being sent when this controller came up" in answers[-1].reason
+        assert "began before this controller heard any of them" in answers[-1].reason
         plant._reference.publish(Float64(data=0.0))  # it begins again
         plant.wait(lambda: plant.answer(10.0).voltage > 0.0, "motion")
     finally:

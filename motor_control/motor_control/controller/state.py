@@ -27,7 +27,7 @@ RESTARTED = "The plant was restarted."
 OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call motor/release."
 TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
 BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
-BEFORE = "They were being sent when this controller came up."
+BEFORE = "They began before this controller heard any of them."
 FIRST_JOINT = LONGEST  # [s] for which who publishes motor/joint_command is there before the first command begins
 NAMES = "(names)"  # stands for who publishes motor/speed, which may be known a moment later
 
@@ -104,10 +104,10 @@ def command_joint(config: Config, state: State, demand: Demand | str, now: float
     not seen it, and nobody knows what it would do. number: of its publisher's messages; None: not counted.
     """
     heard, silence = state.joint_heard, config.joint_timeout
-    if heard is None and number != 1:
+    if heard is None:
         heard = max(state.since, state.introduced)
-        silence = silence if number is None else max(silence, FIRST_JOINT)
-    silent = config.joint_timeout > 0.0 and (heard is None or now - heard > silence)
+        silence = max(silence, FIRST_JOINT) if (number or 0) > 1 else silence
+    silent = config.joint_timeout > 0.0 and now - heard > silence
     drives = state.demand is not None and state.demand.source is Source.JOINT
     state = replace(state, joint_heard=now)
     if state.joint_senders:
