@@ -23,8 +23,16 @@ case "${FASTRTPS_DEFAULT_PROFILES_FILE:-loopback.xml}" in
     ;;
   *) echo "FASTRTPS_DEFAULT_PROFILES_FILE is your own: it decides who can reach the motors, the workbench's loopback.xml is not used." >&2 ;;
 esac
+case "$FASTRTPS_DEFAULT_PROFILES_FILE" in
+  *loopback.xml)
+    for _motor_name in ROS_STATIC_PEERS ROS_DISCOVERY_SERVER; do # those would be told of our nodes, whatever the range
+      [ -z "${!_motor_name:-}" ] || echo "$_motor_name is set and not used, for nodes stay on this machine: export ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET to open it." >&2
+      unset "$_motor_name"
+    done
+    ;;
+esac
 export SKIP_DEFAULT_XML_FILE="${SKIP_DEFAULT_XML_FILE:-1}" # a profile in the working directory is not read
-unset _motor_profile
+unset _motor_profile _motor_name
 
 _motor_install=local_setup.bash
 if [ -f "$_motor_root/.venv/share/rclpy/package.xml" ]; then # ROS 2 from PyPI: the venv is the ament prefix

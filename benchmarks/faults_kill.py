@@ -53,10 +53,15 @@ class Loop:
         self.bench.heard(reference)
         while not self._runs():  # a busy machine holds the board up, which is a stop: enable, and ask again
             self.bench.call(SetBool, "motor/enable", SetBool.Request(data=True))
+            reference.publish(Float64(data=0.0))  # who asks again begins again
+            self._hear(0.2)
             reference.publish(Float64(data=BEYOND * MOTOR.top))
-            end = time.monotonic() + ASK_AGAIN
-            while time.monotonic() < end:
-                self.bench.executor.spin_once(timeout_sec=0.02)
+            self._hear(ASK_AGAIN)
+
+    def _hear(self, seconds: float) -> None:
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self.bench.executor.spin_once(timeout_sec=0.02)
 
     def _runs(self) -> bool:
         truth = self.board.truth()

@@ -16,6 +16,7 @@ from faults_live_stage import MOTOR, Stage, stage
 from faults_loop import Outcome, outcome
 from geometry_msgs.msg import Twist
 from std_msgs.msg import Float64
+from std_srvs.srv import SetBool
 from workbench import program
 
 from motor_msgs.msg import MotorSpeed, MotorVoltage
@@ -124,6 +125,35 @@ def restart_plant(stage: Stage) -> None:
     stage.until(lambda: len(stage.moments) > count, "the plant again")
 
 
+def restart_controller(stage: Stage) -> None:
+    """A controller is killed and started again, as by systemd, and references keep coming."""
+    stage.plant()
+    stage.controller()
+    reference = stage.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+    stage.bench.heard(reference)
+    stage.bench.node.create_timer(0.02, lambda: reference.publish(Float64(data=0.5 * MOTOR.top)))
+    stage.until(lambda: any(moment.voltage for moment in stage.moments), "motion")
+    stage.hear(3.0)
+    stage.programs[-1].kill()
+    stage.hear(2.0)
+    count = len(stage.said)
+    stage.controller()
+    stage.until(lambda: any("They began" in one for one in stage.said[count:]), "the next one")
+
+
+def stop_beside_calls(stage: Stage) -> None:
+    """Somebody switches the output off while another node calls to switch it on, 100 times a second."""
+    stage.plant()
+    stage.until(lambda: len(stage.moments) > 50, "the plant")
+    stage.send(6.0)
+    client = stage.bench.node.create_client(SetBool, "motor/enable")
+    stage.until(client.service_is_ready, "motor/enable")
+    stage.bench.node.create_timer(0.01, lambda: client.call_async(SetBool.Request(data=True)))
+    stage.hear(1.0)
+    off = client.call_async(SetBool.Request(data=False))
+    stage.until(off.done, "the answer")
+
+
 @dataclass(frozen=True)
 class LiveFault:
     """One fault; what is heard after it is judged, and of what is said the sentence with these words."""
@@ -144,6 +174,14 @@ LIVE_FAULTS = (
         "voltages go to another plant, references keep coming", drive_another_plant, "begin again", KNOWN_BY_TIME
     ),
     LiveFault("a plant is started again, 50 references a second keep coming", restart_plant, "begin again"),
+    LiveFault(
+        "a controller is killed and started again, 50 references a second keep coming", restart_controller, "They began"
+    ),
+    LiveFault(
+        "`motor/enable` with data: false, 100 calls a second with data: true go on",
+        stop_beside_calls,
+        "The output is off",
+    ),
     LiveFault("`play` of voltages stopped for 1.5 s, and goes on", resume_play, "Playing stood still"),
 )
 

@@ -63,6 +63,8 @@ motor's, a third the fault checks', a sixth copies of frozen records, and no fun
 | before 65c9a86, less let be for several flanks | 1800000 on | 200 Hz | usual | 130 | 1.3 | none |
 | 65c9a86 | 1810000 on | 200 Hz | usual, `--edge-rate 3000` | 60 | 0.6 | none |
 | 65c9a86 | 1820000 on | 1 kHz | usual | 25 | 0.25 | none |
+| 34f748c4 | 700000 on | 200 Hz | usual | 100 | 1.0 | none |
+| 34f748c4 | 700000 on | 1 kHz | usual | 25 | 0.25 | none |
 | 65c9a86 | 1900000 on | 200 Hz | usual, with a model and two channels alone | 120 | 1.2 | none |
 | 7b49ce6 | 2000000 on | 1 kHz | usual | 400 | 4.0 | 2000294 |
 | 3bdb7f3 | 2100000 on | 200 Hz | usual | 150 | 1.5 | none |

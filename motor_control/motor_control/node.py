@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import replace
+from functools import partial
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
@@ -22,6 +23,7 @@ from motor_model.errors import MotorError
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.messages import info_of, sample_of
+from motor_ros.numbered_input import NumberedInput
 from motor_ros.parameters import declare
 from motor_ros.run import STOOD_STILL, HoldUps, quick_executor, run, steady_timer
 from motor_ros.topics import publishers_of
@@ -40,9 +42,12 @@ class MotorControl(Node):
         self._answers = Answers(self)
         self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
-        self.create_subscription(Float64, "motor/reference", self._on_reference, qos.REFERENCE)
-        self.create_subscription(Float64, "motor/position_reference", self._on_position_reference, qos.REFERENCE)
-        self.create_subscription(JointState, "motor/joint_command", self._on_joint_command, qos.REFERENCE)
+        refer, approach = partial(self._refer, Kind.SPEED), partial(self._refer, Kind.POSITION)
+        self._inputs = (
+            NumberedInput(self, Float64, "motor/reference", qos.COMMANDS, refer),
+            NumberedInput(self, Float64, "motor/position_reference", qos.COMMANDS, approach),
+            NumberedInput(self, JointState, "motor/joint_command", qos.COMMANDS, self._on_joint_command),
+        )
         self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
         self.create_service(Trigger, "motor/release", lambda _, response: self._on_release(response))
         steady_timer(self, WATCH_EVERY, self._on_watch)
@@ -56,6 +61,7 @@ class MotorControl(Node):
         self._answers.close()
 
     def _on_speed(self, message: MotorSpeed) -> None:
+        self._poll()
         sample, now = sample_of(message), time.monotonic()
         if self._state.arrival is None or self._state.silent is not None:  # samples begin, or begin again
             self._state = self._speakers.meet(self._state)
@@ -63,6 +69,7 @@ class MotorControl(Node):
         self._answers.answer(output, message.header, self._settings.config, self._state.demand)
 
     def _on_watch(self) -> None:
+        self._poll()
         self._settings.refresh()
         self._state = self._speakers.name(self._state)
         several = self.count_publishers("motor/joint_command") > 1
@@ -73,25 +80,26 @@ class MotorControl(Node):
         if output is not None:
             self._answers.announce_silence(output, self._settings.config, self._state.demand)
 
-    def _on_reference(self, message: Float64) -> None:
-        self._refer(message.data, Kind.SPEED)
+    def _poll(self) -> None:
+        """Take what is asked for, before what acts on it."""
+        self._state = self._speakers.introduce(self._state, time.monotonic())
+        for one in self._inputs:
+            one.poll()
 
-    def _on_position_reference(self, message: Float64) -> None:
-        self._refer(message.data, Kind.POSITION)
-
-    def _refer(self, value: float, kind: Kind) -> None:
-        now, asks = time.monotonic(), kind is Kind.POSITION or value != 0.0
+    def _refer(self, kind: Kind, message: Float64, number: int | None, _: int) -> None:
+        now, asks = time.monotonic(), kind is Kind.POSITION or message.data != 0.0
         if asks and self._hold_ups.in_doubt():
-            self._state = controller.doubt(self._state, STOOD_STILL, now)
+            self._state = controller.doubt(self._state, STOOD_STILL, now, kind, number)
         else:
-            self._state = controller.refer(self._state, value, now, kind)
+            self._state = controller.refer(self._state, message.data, now, kind, number)
 
-    def _on_joint_command(self, message: JointState) -> None:
+    def _on_joint_command(self, message: JointState, number: int | None, _: int) -> None:
         demand = joint_demand_of(message, self._settings.config)
         if isinstance(demand, Demand) and demand.value != 0.0 and self._hold_ups.in_doubt():
             demand = STOOD_STILL
         if demand is not None:
-            self._state = controller.command_joint(self._settings.config, self._state, demand, time.monotonic())
+            config, now = self._settings.config, time.monotonic()
+            self._state = controller.command_joint(config, self._state, demand, now, number)
 
     def _on_reset(self, response: Trigger.Response) -> Trigger.Response:
         response.message, self._state = controller.reset(self._state, time.monotonic())

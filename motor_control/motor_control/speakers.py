@@ -1,5 +1,8 @@
 """Know who publishes motor/speed: by name for sentences, and whether a silence has ended with another publisher.
 
+And know when somebody who may ask for a motion was last seen to be there for the first time: who has been sending since
+before the controller is heard soon after that.
+
 A driver that is started again quickly goes on with the board's own clock and counts, so that its samples look as if one
 driver had been held up for a moment. What was asked for before is then answered again, from 0 V on, and the stop that
 the driver before had latched were over without anybody's word.
@@ -10,17 +13,18 @@ from dataclasses import replace
 from rclpy.node import Node
 
 from motor_control.controller.controller import State, meet_other_plant
-from motor_control.controller.state import RESTARTED
+from motor_control.controller.state import RESTARTED, introduce
 from motor_ros.topics import publisher_ids, publishers_of
 
 TOPIC = "motor/speed"
+DEMANDS = "motor/reference", "motor/position_reference", "motor/joint_command"
 
 
 class Speakers:
     """The publishers of samples, as the controller's node knows them."""
 
     def __init__(self, node: Node) -> None:
-        self._node, self._count = node, 0
+        self._node, self._count, self._demanders = node, 0, -1
         self._ids: frozenset[tuple[int, ...]] = frozenset()  # when samples last began
 
     def name(self, state: State) -> State:
@@ -29,6 +33,11 @@ class Speakers:
             return state
         self._count = count
         return replace(state, speakers=f"({', '.join(publishers_of(self._node, TOPIC))})")
+
+    def introduce(self, state: State, now: float) -> State:
+        """Note that there are more who may ask for a motion; at first, that nobody has been seen for long."""
+        before, self._demanders = self._demanders, sum(map(self._node.count_publishers, DEMANDS))
+        return introduce(state, now) if self._demanders > before else state
 
     def meet(self, state: State) -> State:
         """Forget what was asked for where samples begin again and a publisher is there that was not before."""

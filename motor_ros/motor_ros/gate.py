@@ -11,7 +11,8 @@ second and more, because its link was away: the motor has stood meanwhile, and n
 That there are two is said once the first is heard again after the other: one sender that was held up sends what it has
 missed all at once, more than is kept, and its numbers jump ahead as another's would. Its next numbers go on from there.
 
-Where the motor itself was the reason of a stop, it is let on again later and later: see `RepeatedStops`.
+Where the motor itself was the reason of a stop, it is let on again later and later: see `RepeatedStops`. Who goes on
+calling motor/enable with data: true through a stop, or somebody else's data: false, has not seen it.
 
 Times are ns on a clock that is never set.
 """
@@ -34,6 +35,7 @@ HOLD = 500_000_000  # [ns] of silence after which another sender is obeyed: long
 MISSED = 1.5  # times between two commands, after which one of two senders has missed its turn
 AWAY = 1_000_000_000  # [ns] without a voltage, after which a motor that goes on by itself is a surprise
 UNHEARD = 10  # commands more than that are not lost to a plant that looks less often than they come: it heard none
+CALLS, PAUSE = 3, 500_000_000  # to switch on what is on, each within a PAUSE [ns] of the one before: no hand does that
 CONFLICT = 1_500_000_000  # [ns] for which a second sender is reported: longer than from one diagnostic to the next
 
 OFF = "The output is off: call motor/enable with data: true."
@@ -49,6 +51,10 @@ HANDED = (
 AWAY_LINK = (
     "{:.3g} V went on being sent on motor/voltage while the plant heard none of it for more than 1 s, as over a link "
     "that is away: the motor gets 0 V until 0 V is sent, or motor/enable is called with data: true."
+)
+INSISTED = (
+    "motor/enable was being called with data: true, again and again, when the output was switched off: pause for "
+    "{:g} s, then call it."
 )
 TWO_SENDERS = (
     "More than one node sends motor/voltage{}: only {} is obeyed, until it has been silent for {:g} s; end the others."
@@ -76,6 +82,8 @@ class Gate:
     rival: str | None = None  # what another sender calls itself that sends at the same time
     rival_at: int = 0  # [ns] when the two had both been heard
     refused: int = 0  # commands that were not numbers
+    calls: int = 0  # to switch on what was on, one soon after the other
+    called: int = 0  # [ns] the latest call to switch on
 
     def take(self, voltage: float, now: int, name: str = "", number: int | None = None, waited: int = 0) -> "Gate":
         """A command [V] of a sender is taken at `now` [ns]; one that is not a number stops the motor.
@@ -132,8 +140,15 @@ class Gate:
         """The same for what the motor did, at `now` [ns]; while the output is off already, it is no further stop."""
         return replace(self.stop(why), faults=self.faults.stop(now * 1e-9) if self.enabled else self.faults)
 
+    def call(self, now: int) -> "Gate":
+        """Somebody calls at `now` [ns] to switch on, whether or not that is done."""
+        before = self.calls if now - self.called <= PAUSE else 0
+        return replace(self, calls=before + self.enabled, called=now)
+
     def refusal(self, now: int) -> str:
         """Why the output may not be switched on yet at `now` [ns], as a sentence; empty if it may."""
+        if not self.enabled and self.calls >= CALLS and now - self.called <= PAUSE:
+            return INSISTED.format(PAUSE * 1e-9)
         return self.faults.refuse(now * 1e-9)
 
     def come_up(self, now: int) -> "Gate":

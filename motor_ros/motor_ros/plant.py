@@ -11,12 +11,12 @@ from std_srvs.srv import SetBool
 
 from motor_model.gearing.gear import angle_of_count
 from motor_model.sample import Info, Sample
-from motor_msgs.msg import MotorInfo, MotorSpeed
+from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.gate import OFF, STOPPED, Gate
 from motor_ros.messages import diagnostic_message, info_message, speed_message
+from motor_ros.numbered_input import NumberedInput
 from motor_ros.other_plant import OtherPlant
-from motor_ros.voltage_input import VoltageInput
 
 
 class Plant:
@@ -42,7 +42,8 @@ class Plant:
         self._info = node.create_publisher(MotorInfo, "motor/info", qos.INFO)
         self._joint = node.create_publisher(JointState, "joint_states", qos.JOINT_STATES)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
-        self._input = VoltageInput(node, self._on_voltage, polled=changed is None)
+        taken = MotorVoltage, "motor/voltage", qos.COMMANDS, self._on_voltage
+        self._input = NumberedInput(node, *taken, polled=changed is None)
         node.create_service(SetBool, "motor/enable", self._on_enable)
         self.publish_info()
 
@@ -106,9 +107,9 @@ class Plant:
         )
         self._diagnostics.publish(told)
 
-    def _on_voltage(self, voltage: float, sender: str, number: int | None, waited: int) -> None:
-        now, before = time.monotonic_ns(), self.gate
-        self.gate = before.take(voltage, now, sender, number, waited)
+    def _on_voltage(self, message: MotorVoltage, number: int | None, waited: int) -> None:
+        now, before, voltage = time.monotonic_ns(), self.gate, message.voltage
+        self.gate = before.take(voltage, now, message.header.frame_id, number, waited)
         if self.gate.refused > before.refused:
             self._node.get_logger().error(
                 f"{voltage} on motor/voltage is not a number: the motor gets 0 V.", throttle_duration_sec=1.0
@@ -122,6 +123,7 @@ class Plant:
         self._changed()  # a stop that is due comes before what is asked for now
         now = time.monotonic_ns()
         refusal = (self.gate.refusal(now) or self._other.problem(now) or self._refusal()) if request.data else ""
+        self.gate = self.gate.call(now) if request.data else self.gate
         if request.data and was_on and not self.gate.enabled:
             refusal = f"Just now, {self.gate.stopped}: look, then call again."
         if refusal:

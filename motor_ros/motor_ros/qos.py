@@ -15,7 +15,7 @@ def newest(profile: QoSProfile) -> QoSProfile:
 SPEED = _reliable(100)
 INFO = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
 VOLTAGE = _reliable(1)
-COMMANDS = _reliable(10)  # of motor/voltage, at the plant: a second sender does not push out what the first has sent
+COMMANDS = _reliable(10)  # where voltages and references arrive: one sender does not push out what another has sent
 REFERENCE = _reliable(1)
 CONTROL_STATE = _reliable(100)
 MODEL = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)

@@ -46,7 +46,8 @@ def start_ros(args: list[str] | None = None) -> None:
     Raises:
         MotorError: the arguments or the environment do not allow it.
     """
-    stay_on_this_machine()
+    if unused := stay_on_this_machine():
+        print(unused, file=sys.stderr)
     check_security(os.environ)
     try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)

@@ -155,6 +155,22 @@ def test_a_program_that_hangs_is_reset_by_the_watchdog(bench: Bench, how: Hang) 
     assert bench.chip.pins.share == 0.0 and bench.chip.resets == 1  # runs on, off
 
 
+@on_each_chip
+@pytest.mark.parametrize("after", [20, 200, 2_000, 20_000, 60_000])  # [cycle]
+def test_a_program_that_hangs_while_it_boots_drives_nothing(bench: Bench, after: int) -> None:
+    """Pins that nobody drives are held low by the pull-downs of the wiring; the others were never high."""
+    bench.start()
+    bench.drive(256, 100)
+    assert bench.chip.pins.share != 0.0
+    bench.emulator.reset()
+    bench.chip.run(bench.chip.cycle + after)
+    assert bench.chip.pins.share == 0.0
+    bench.chip.hang(Hang.HALTED)
+    for _ in range(50):
+        bench.run(10)
+        assert bench.chip.pins.share == 0.0
+
+
 def test_after_a_reset_the_output_stays_off_until_an_enable_of_this_boot(bench: Bench) -> None:
     bench.start()
     bench.drive(256, 100)

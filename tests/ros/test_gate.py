@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from motor_ros.gate import CONFLICT, HOLD, QUIET, Gate
+from motor_ros.gate import CONFLICT, HOLD, PAUSE, QUIET, Gate
 
 Steps = list[tuple[str, float, int]]
 MS = 1_000_000  # [ns]
@@ -335,3 +335,42 @@ def test_who_has_sent_for_a_second_is_no_new_sender_however_late_it_is_heard(sen
     """A sender that answers samples stands still while there is no plant, and may be discovered seconds after it."""
     plant = stream(gate(), 6.0, range(3000, 3100, 5), sent)
     assert (plant.voltage(T0 + 3095 * MS) == 6.0) is begun
+
+
+def called(plant: Gate, times: range) -> tuple[list[bool], Gate]:
+    """Which calls to switch on are answered; times in ms since T0."""
+    answers = []
+    for at in times:
+        now = T0 + at * MS
+        answers.append(not plant.refusal(now))
+        plant = plant.call(now)
+        plant = plant.enable(True) if answers[-1] else plant
+    return answers, plant
+
+
+@pytest.mark.parametrize("period", [1, 100, 490])
+def test_calls_that_go_on_do_not_switch_on_what_somebody_has_switched_off(period: int) -> None:
+    """A node that called motor/enable again and again had the motor turning 1 ms after motor/enable false."""
+    answers, plant = called(gate(), range(0, 20 * period, period))
+    assert all(answers)
+    for off in (plant.enable(False), plant.stop("The board was reset.")):
+        answers, after = called(off, range(20 * period, 60 * period, period))
+        assert not any(answers)
+        assert "again and again" in after.refusal(T0 + 60 * period * MS)
+        late = T0 + 59 * period * MS + PAUSE
+        assert after.refusal(late) and not after.refusal(late + 1)
+        assert called(after, range(60 * period + 501, 60 * period + 502))[0] == [True]
+
+
+@pytest.mark.parametrize(("calls", "period"), [(2, 10), (20, 510)])
+def test_a_hand_may_switch_on_as_often_as_it_likes(calls: int, period: int) -> None:
+    _, plant = called(gate(), range(0, calls * period, period))
+    assert not plant.enable(False).refusal(T0 + calls * period * MS)
+
+
+def test_who_calls_until_he_is_heard_is_heard() -> None:
+    """The output is off, and a board does not answer yet."""
+    plant = gate().enable(False)
+    for at in range(50):
+        plant = plant.call(T0 + at * MS)
+    assert not plant.refusal(T0 + 50 * MS)

@@ -14,7 +14,7 @@ from motor_control.controller.controller import Config, State
 from motor_control.controller.output import Output
 from motor_control.parameters import ROWS
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
-from motor_model.sample import Info
+from motor_model.sample import Info, Sample
 from motor_model.sensing.board import BoardConfig, SimulatedBoard
 
 Floats = NDArray[np.float64]
@@ -80,9 +80,10 @@ def drive(
     seed: int = 0,
     single_channel: bool = True,
     configs: Sequence[tuple[float, dict[str, object]]] = (),
+    line: Callable[[Sample], Sample] = lambda sample: sample,
     **changes: object,
 ) -> Run:
-    """From rest; `configs`: settings that change at a time [s]."""
+    """From rest; `configs`: settings that change at a time [s]; `line`: what becomes of a sample on its way."""
     board = BoardConfig(sample_rate=rate, slot_irregularity=0.01, seed=seed, single_channel=single_channel)
     simulated, info, state, command = SimulatedBoard(plant, board), board.info(plant), State(), 0.0
     known = model or plant
@@ -97,7 +98,7 @@ def drive(
             })  # type: ignore[arg-type]  # fmt: skip
         sample = simulated.sample(command)
         wanted = reference(time) if callable(reference) else reference
-        output, state = controller.update(config, state, sample, wanted, time)
+        output, state = controller.update(config, state, line(sample), wanted, time)
         command = output.terms.voltage
         rows.append((time, simulated.speed, sample.voltage))
         outputs.append(output)

@@ -102,7 +102,8 @@ def _apply_law(config: Config, run: Run, sample: Sample, demand: Demand, hold: b
         terms, law = _compute_terms(config, run, seen, target, speed, step_time, allowed)
     sigma, innovation = (nan, nan) if seen is None else (seen.sigma, seen.innovation)
     plugs = terms.saturated and terms.voltage * speed < 0.0 and abs(terms.voltage) < FULL * config.voltage_limit
-    look = Seen(sample, speed, motion, target.reference, dt, config.voltage_limit, innovation, run.rhythm, plugs)
+    limit = config.voltage_limit
+    look = Seen(sample, speed, motion, target.reference, dt, limit, innovation, run.rhythm, run.asked, plugs)
     fault, trouble = detection.find_fault(config.faults, run.faults, look)
     after = Run(
         config,

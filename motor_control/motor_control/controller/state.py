@@ -4,6 +4,7 @@ One source drives at a time. A stop is latched until `reset`; whoever asks meanw
 """
 
 from dataclasses import dataclass
+from math import inf, nan
 
 from motor_control.controller.faults import detection
 from motor_control.controller.interruptions import Interruptions
@@ -12,7 +13,8 @@ from motor_control.controller.motion import Motion
 from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference import position_law
 from motor_control.controller.reference.demand import Demand, Kind, Source
-from motor_control.controller.reference.sequence import GOES_ON, Sequence
+from motor_control.controller.reference.senders import Message, Senders
+from motor_control.controller.reference.sequence import GOES_ON, LONGEST
 from motor_control.controller.run import Config, Run
 from motor_model.frozen_record import replace
 from motor_model.sensing.mains_rhythm import Rhythm
@@ -25,6 +27,8 @@ RESTARTED = "The plant was restarted."
 OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call motor/release."
 TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
 BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
+BEFORE = "They began before this controller heard any of them."
+FIRST_JOINT = LONGEST  # [s] for which who publishes motor/joint_command is there before the first command begins
 NAMES = "(names)"  # stands for who publishes motor/speed, which may be known a moment later
 
 
@@ -44,7 +48,8 @@ class State:
     refused_at: float = 0.0
     begun: float = 0.0  # when what is asked for began: a stream of demands began with its first
     referred: float = 0.0  # when the latest demand came
-    references: Sequence = Sequence()  # those of motor/reference, obeyed or not
+    references: Senders = Senders()  # of motor/reference and motor/position_reference, obeyed or not
+    introduced: float = -inf  # when the latest publisher of demands was first seen to be there
     dropped: str = ""  # why there is none any more
     held: float | None = None  # since when something has held the motor at 0 V although there is one
     held_by: str = ""  # what, as a sentence
@@ -61,31 +66,48 @@ class State:
     speakers: str = ""  # who publishes motor/speed, for the sentence about two plants
 
 
-def refer(state: State, reference: float, now: float, kind: Kind = Kind.SPEED) -> State:
+def refer(state: State, reference: float, now: float, kind: Kind = Kind.SPEED, number: int | None = None) -> State:
     """Take a reference, [rad/s] or as `kind` says; while a stop is latched it is not taken.
 
-    Where an earlier one has ended, references that go on coming are not taken either, until they begin again.
+    Where an earlier one has ended, references that go on coming are not taken either, until they begin again; nor are
+    those that were being sent when the controller came up. number: of its publisher's messages; None: not counted.
     """
-    references = state.references.hear(now, kind is Kind.SPEED and reference == 0.0)
-    needed, state = state.references.silence, replace(state, references=references)
-    if state.demand is None and not (state.latched or references.begins):
-        return refuse(state, GOES_ON.format(state.dropped, needed).strip(), now)
-    return _take(state, Demand(reference, kind), references.begins, now)
+    state = _hear(state, reference, now, kind, number)
+    latest = state.references.latest.sequence
+    if state.references.bars(state.demand is not None) and not state.latched:
+        return refuse(state, GOES_ON.format(state.dropped or BEFORE, latest.needed), now)
+    after = _take(state, Demand(reference, kind), latest.begins, now)
+    taken = after.demand is not None and not after.refused
+    return replace(after, references=after.references.obey()) if taken else after
 
 
-def doubt(state: State, why: str, now: float) -> State:
+def doubt(state: State, why: str, now: float, kind: Kind = Kind.SPEED, number: int | None = None) -> State:
     """Take no notice of a reference that may be an old one but to say why; those that go on after it are not taken."""
-    return refuse(replace(state, references=state.references.hear(now, False)), why, now)
+    return refuse(_hear(state, nan, now, kind, number), why, now)
 
 
-def command_joint(config: Config, state: State, demand: Demand | str, now: float) -> State:
+def _hear(state: State, reference: float, now: float, kind: Kind, number: int | None) -> State:
+    """Hear a reference, whether or not it is obeyed."""
+    message = Message(kind.value, number, reference, kind is Kind.SPEED and reference == 0.0, now)
+    return replace(state, references=state.references.hear(message, state.since, state.introduced))
+
+
+def introduce(state: State, now: float) -> State:
+    """Note that a publisher of demands is there that was not before."""
+    return replace(state, introduced=now)
+
+
+def command_joint(config: Config, state: State, demand: Demand | str, now: float, number: int | None = None) -> State:
     """Take one command of a stream that is meant for this motor; a text says why it cannot be obeyed: 0 V.
 
     A stream begins with 0, or after a silence. One that goes on through a stop, or was there before the controller, has
-    not seen it, and nobody knows what it would do.
+    not seen it, and nobody knows what it would do. number: of its publisher's messages; None: not counted.
     """
-    heard = state.since if state.joint_heard is None else state.joint_heard
-    silent = config.joint_timeout > 0.0 and now - heard > config.joint_timeout
+    heard, silence = state.joint_heard, config.joint_timeout
+    if heard is None:
+        heard = max(state.since, state.introduced)
+        silence = max(silence, FIRST_JOINT) if (number or 0) > 1 else silence
+    silent = config.joint_timeout > 0.0 and now - heard > silence
     drives = state.demand is not None and state.demand.source is Source.JOINT
     state = replace(state, joint_heard=now)
     if state.joint_senders:
@@ -124,8 +146,8 @@ def release(state: State) -> tuple[str, State]:
 
 def stop(state: State, reason: str, now: float) -> State:
     """Latch 0 V from the next sample on, until `reset`; `reason` is a sentence."""
-    state = replace(state, run=None, faults=None, place=None, interruptions=Interruptions())
-    return replace(state, latched=reason, demand=None, dropped=CLEARED, stops=state.stops.stop(now))
+    state = replace(drop(state, CLEARED), faults=None, place=None, interruptions=Interruptions())
+    return replace(state, latched=reason, stops=state.stops.stop(now))
 
 
 def reset(state: State, now: float) -> tuple[str, State]:
@@ -137,12 +159,13 @@ def reset(state: State, now: float) -> tuple[str, State]:
         return "No stop was latched.", state
     if refusal := state.stops.refuse(now):
         return f"Not cleared: {state.latched.replace(NAMES, state.speakers)} {refusal}", state
-    return f"Cleared: {state.latched.replace(NAMES, state.speakers)}", replace(state, latched="")
+    said = f"Cleared: {state.latched.replace(NAMES, state.speakers)}"
+    return said, replace(state, latched="", references=state.references.trust_single())
 
 
 def drop(state: State, why: str) -> State:
     """End what is asked for, and say why."""
-    return replace(state, run=None, demand=None, dropped=why)
+    return replace(state, run=None, demand=None, dropped=why, references=state.references.end())
 
 
 def meet_other_plant(state: State, why: str = OTHER_PLANT) -> State:

@@ -76,7 +76,7 @@ def test_a_stream_of_references_does_not_survive_being_held_for_long(name: str) 
         held = 200 <= k < 500
         now = 0.005 * k + (age if held else 0.0)
         state = controller.refer(state, 60.0, now)
-        sample = Sample(k * 5_000_000, speed if held else 0.0, 1.0)
+        sample = Sample(k * 5_000_000, speed if held else 0.0, 1.0, k // 20)
         output, state = controller.update(config if held else free, state, sample, None, now)
     assert output.state == DISABLED and output.terms.voltage == 0.0
 

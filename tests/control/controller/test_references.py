@@ -174,7 +174,7 @@ def test_what_holds_the_motor_for_long_ends_the_reference(name: str, seconds: fl
     for k in range(end + 20):
         held = late <= k < end
         now = 0.005 * k + (age if held else 0.0)
-        sample = Sample(k * 5_000_000, speed if held else 0.0, 1.0)
+        sample = Sample(k * 5_000_000, speed if held else 0.0, 1.0, k // 20)
         output, state = controller.update(config if held else free, state, sample, None, now)
         if held:
             assert output.state == "stopped" or output.state == "disabled" and output.terms.voltage == 0.0

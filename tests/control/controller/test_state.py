@@ -10,6 +10,7 @@ from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
 from motor_control.controller.reference.demand import Demand, Kind, Source
+from motor_control.controller.state import introduce
 from motor_model.sample import Info, Sample
 
 INFO = Info(single_channel=False)
@@ -121,6 +122,18 @@ def test_one_source_drives_and_the_other_is_told() -> None:
     output = loop.run(0.6)  # the stream has ended
     loop.state = controller.refer(loop.state, 10.0, loop.now)
     assert loop.run(DT).reference == 10.0
+
+
+@pytest.mark.parametrize(
+    ("number", "after", "obeyed"), [(1, 0.6, True), (1, 0.4, False), (900, 1.9, False), (900, 2.1, True)]
+)
+def test_a_stream_of_joint_commands_that_was_there_before_the_controller(
+    number: int, after: float, obeyed: bool
+) -> None:
+    """Found 3 s after a controller that was started again, it was taken for one that had been silent so long."""
+    state = introduce(controller.State(since=10.0), 13.0)
+    state = controller.command_joint(CONFIG, state, JOINT, 13.0 + after, number)
+    assert (state.demand is not None) is obeyed
 
 
 def test_several_senders_of_joint_commands_are_none() -> None:

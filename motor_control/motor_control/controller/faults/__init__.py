@@ -15,6 +15,7 @@ In goes what a sample shows (`evidence`), out comes a sentence, or none (`detect
                      voltage than they need
     dropouts         edges that stop and go on as if nothing had been: a loose contact
     contradiction    a reported speed that is not the one of its own edges: a driver that repeats itself, other counts
+    repetition       one sample again and again, whatever voltage is asked for: a driver that hangs
     overspeed        faster than full voltage can drive the motor of the model: edges that are none, or a load
 
 The speed is the one the law uses, or counted edges (`controller.motion`); the voltage is the one the plant says it

@@ -11,6 +11,7 @@ from motor_control.controller.faults import (
     irregular_edges,
     overspeed,
     push_at_rest,
+    repetition,
     stall,
     unexpected_edges,
 )
@@ -36,6 +37,7 @@ class State:
     insensitive: insensitive_speed.State = insensitive_speed.State()
     dropped: dropouts.State = dropouts.State()
     hums: hum.State = hum.State()
+    repeated: repetition.State = repetition.State()
 
 
 def begin(speed: float, before: State | None = None) -> State:
@@ -67,7 +69,8 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
     same, insensitive = insensitive_speed.check(config, state.insensitive, seen)
     loose, dropped = dropouts.check(config, state.dropped, seen)
     humming, hums = hum.check(config, state.hums, seen)
-    found = (still, few, irregular, odd, away, fast, wrong, kept, heavy, restless, false, humming, same, loose)
+    again, repeated = repetition.check(config, state.repeated, seen)
+    found = (still, few, irregular, odd, away, fast, wrong, kept, heavy, restless, again, false, humming, same, loose)
     return next((one for one in found if one), ""), State(
         stalled,
         missing,
@@ -83,4 +86,5 @@ def find_fault(config: Config, state: State, seen: Seen) -> tuple[str, State]:
         insensitive,
         dropped,
         hums,
+        repeated,
     )

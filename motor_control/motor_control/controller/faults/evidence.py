@@ -61,6 +61,7 @@ class Seen:
     voltage_limit: float  # [V]
     innovation: float = nan  # [rad] angle at the latest edge less the observer's prediction; NaN: no observer
     rhythm: Rhythm = Rhythm()
+    asked: float = nan  # [V] the answer to the sample before
     plugs: bool = False  # the law asks for all the voltage against the motion that `plug_limit` leaves
 
     @property

@@ -5,7 +5,6 @@ Where somebody has just asked for a motion, he knows how the plant is; who goes 
 
 from motor_control.controller.plant_watch import PlantWatch
 from motor_control.controller.reference.demand import Source
-from motor_control.controller.reference.sequence import Sequence
 from motor_control.controller.run import Config
 from motor_control.controller.state import RESTARTED, State, drop, meet_other_plant
 from motor_model.frozen_record import replace
@@ -39,8 +38,8 @@ def drop_old_reference(config: Config, state: State, plant: PlantWatch, now: flo
     if state.demand.source is Source.JOINT and config.joint_timeout and now - state.referred > config.joint_timeout:
         return drop(state, SILENT_JOINT.format(config.joint_timeout))
     if config.reference_timeout and now - state.referred > config.reference_timeout:
-        timed_out = TIMED_OUT.format(config.reference_timeout)
-        return replace(drop(state, timed_out), references=Sequence())  # what comes now comes after the user's silence
+        state = replace(state, references=state.references.forgive())  # what comes now comes after a silence
+        return drop(state, TIMED_OUT.format(config.reference_timeout))
     if state.run is not None and state.run.ignored > OFF:
         return drop(state, WAS_OFF)
     return state

@@ -3,14 +3,20 @@
 Whoever goes on sending has not seen what ended the last reference, be it a plant that was restarted, away, or switched
 off, or a stop: his motor would start by itself. References begin with 0 (the one after a 0 does, too), or after a
 silence that is long beside the time between them.
+
+Of a sender that is known (`senders`) a second one that asks for the same may be of a stream as well, however long after
+the first: there is no time between two to go by. Then it has to be silent for longest.
 """
 
 from dataclasses import dataclass
-from math import inf
+from math import inf, isnan, nan
 
 # [s] The shortest silence after which references begin: longer than any hiccup of a stream. And the longest time
 # between two that are a stream (`ros2 topic pub` sends one a second); what comes more seldom, somebody sends by hand.
 SHORTEST, LONGEST = 0.5, 2.0
+LONGEST_OF_ONE = (
+    10.0  # [s] the same where they are one sender's: a schedule has a time between two that hands have, too
+)
 TIMES = 2.0  # the longest time between two of them, which is a silence
 
 GOES_ON = (
@@ -26,14 +32,23 @@ class Sequence:
     begins: bool = False  # with it
     stops: bool = False  # it was a speed of 0
     between: float = 0.0  # the longest time between two of them that are a stream
+    longest: float = LONGEST  # [s] between two that are a stream
+    single: float = nan  # what a known sender asked for, of which no other has been heard yet
 
     @property
     def silence(self) -> float:
         """[s] without any, after which references begin."""
-        return min(max(SHORTEST, TIMES * self.between), LONGEST)
+        return min(max(SHORTEST, TIMES * self.between), self.longest)
 
-    def hear(self, now: float, stops: bool) -> "Sequence":
-        """Take one more, which is a speed of 0 or not."""
+    @property
+    def needed(self) -> float:
+        """[s] of silence after which references begin, whatever the next one asks for."""
+        return self.silence if isnan(self.single) else self.longest
+
+    def hear(self, now: float, stops: bool, value: float = nan) -> "Sequence":
+        """Take one more, which is a speed of 0 or not; value: what a known sender asks for."""
         silence = inf if self.heard is None else now - self.heard
-        between = max(self.between, silence) if silence <= LONGEST else 0.0
-        return Sequence(now, stops or self.stops or silence > self.silence, stops, between)
+        between = max(self.between, silence) if silence <= self.longest else 0.0
+        needed = self.longest if value == self.single else self.silence
+        single = value if self.heard is None else nan
+        return Sequence(now, stops or self.stops or silence > needed, stops, between, self.longest, single)

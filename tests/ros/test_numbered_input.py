@@ -1,4 +1,4 @@
-"""What comes on motor/voltage, and how long it has waited to be taken."""
+"""What comes with its number, and how long it has waited to be taken."""
 
 import time
 
@@ -7,14 +7,15 @@ from workbench import Bench
 
 from motor_msgs.msg import MotorVoltage
 from motor_ros import qos
-from motor_ros.voltage_input import VoltageInput, _wait_of
+from motor_ros.numbered_input import NumberedInput, _wait_of
 
 WAIT = 0.2  # [s]
 
 
 def test_a_message_that_is_taken_late_says_how_late(bench: Bench) -> None:  # noqa: F811
-    taken: list[tuple[float, str, int | None, int]] = []
-    voltages = VoltageInput(bench.node, lambda *one: taken.append(one), polled=True)
+    taken: list[tuple[MotorVoltage, int | None, int]] = []
+    arrives = MotorVoltage, "motor/voltage", qos.COMMANDS
+    voltages = NumberedInput(bench.node, *arrives, lambda *one: taken.append(one))
     publisher = bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
     bench.heard(publisher)
 
@@ -28,8 +29,8 @@ def test_a_message_that_is_taken_late_says_how_late(bench: Bench) -> None:  # no
     published = time.monotonic()
     time.sleep(WAIT)  # a plant that is held up
     bench.wait(lambda: arrived() and len(taken) == 2, "the next one")
-    voltage, _, number, waited = taken[1]
-    assert (voltage, number) == (2.0, 2)
+    message, number, waited = taken[1]
+    assert (message.voltage, number) == (2.0, 2)
     assert 0.5 * WAIT < waited * 1e-9 <= time.monotonic() - published
 
 

@@ -1,0 +1,160 @@
+"""Keep apart who sends references, by the numbers that the middleware gives each publisher's messages.
+
+What ends a reference ends it for everybody who was sending; each of them has to begin again for himself (`sequence`). A
+0 of somebody else, or another's reference, lets no stream go on.
+
+A sender whose first message is heard has just begun, and is judged by how long no other such one has come: a command
+in a shell is a new sender each time. One that is first heard later was there before this controller, or began while the
+middleware introduced the two: its pace tells which. Who has been there for long without a word begins with the first.
+"""
+
+from dataclasses import dataclass, replace
+from math import nan
+from typing import NamedTuple
+
+from motor_control.controller.reference.sequence import LONGEST, LONGEST_OF_ONE, Sequence
+
+MOST = 16  # senders that are remembered
+CLOSEST = 0.5  # of the shortest time between two messages: as many as are lost take longer than that each
+LISTENED = 0.2  # [s] after which a pace is known
+YOUNG = 2.5  # [s] of messages that a sender may have sent unheard: `ros2 topic pub` waits for nobody, once a second
+# [s] by which it may have begun before the controller. That takes as long to start: no controller before it has heard
+# such a sender, and a launch file starts both at once.
+SLACK = 1.0
+
+
+class Message(NamedTuple):
+    """One reference."""
+
+    topic: str
+    number: int | None  # how many its publisher has sent; None: the middleware does not count
+    value: float  # [rad/s] or [rad]
+    stops: bool  # it is a speed of 0
+    now: float  # [s] when it came
+
+
+@dataclass(frozen=True, slots=True)
+class Sender:
+    """One publisher of references, or all of a topic that nobody counts."""
+
+    topic: str
+    number: int | None  # of the latest message
+    sequence: Sequence = Sequence()
+    obeyed: int = -1  # how many references had ended when it last began
+    first: tuple[int, float] | None = None  # number and time [s] of what was first heard, until its age is known
+    period: float = 0.0  # [s] the shortest between two with successive numbers; 0: not known
+
+    def count_steps(self, message: Message) -> int:
+        """Count the messages from the latest one to this; 0: it is not this sender's."""
+        if message.topic != self.topic or (message.number is None) != (self.number is None):
+            return 0
+        if message.number is None or self.number is None:
+            return 1
+        steps = message.number - self.number
+        passed = message.now - (self.sequence.heard or 0.0)
+        lost = steps > 1 and self.period > 0.0 and passed >= CLOSEST * self.period * steps
+        return steps if steps == 1 or lost else 0
+
+    def hear(self, message: Message, since: float) -> "Sender":
+        """Take one more; since [s]: when the controller began."""
+        took = message.now - (self.sequence.heard or message.now)
+        follows = message.number is not None and message.number == (self.number or 0) + 1
+        period = min(took, self.period or took) if follows else self.period
+        sequence, first = _hear(self.sequence, message), self.first
+        if first is not None and _is_young(first, message, since):
+            sequence, first = replace(sequence, begins=True), None
+        elif first is not None and message.now - first[1] > YOUNG + LISTENED:
+            first = None
+        return replace(self, number=message.number, sequence=sequence, first=first, period=period)
+
+
+@dataclass(frozen=True, slots=True)
+class Senders:
+    """Who has sent references, latest last, and how many references have ended."""
+
+    ended: int = 0
+    known: tuple[Sender, ...] = ()
+    firsts: Sequence = Sequence()  # the first messages of senders
+
+    def hear(self, message: Message, since: float, introduced: float) -> "Senders":
+        """Take a message, whose sender is the last one then.
+
+        since [s]: when the controller began; introduced: when the latest publisher was first seen to be there.
+        """
+        found = self._find(message)
+        others = tuple(one for one in self.known if one is not found)
+        firsts = self.firsts
+        if found is not None:
+            sender = found.hear(message, since)
+        elif message.number == 1:
+            firsts = firsts.hear(message.now, message.stops)
+            sender = _start(message, firsts.begins)
+        else:
+            silence = message.now - introduced
+            quiet = silence > (LONGEST if message.number is None else LONGEST_OF_ONE)
+            sender = _start(message, quiet, unheard=not quiet)
+        return Senders(self.ended, (*others, sender)[-MOST:], firsts)
+
+    @property
+    def latest(self) -> Sender:
+        """Whose message came last."""
+        return self.known[-1]
+
+    def bars(self, driven: bool) -> bool:
+        """Tell whether the latest sender goes on with what was ended; driven: what somebody asks for is in force.
+
+        Then a sender that begins, or all those whom nobody counts, may ask for something else.
+        """
+        joins = driven and self.latest.number in (1, None)
+        return not (self.latest.obeyed == self.ended or self.latest.sequence.begins or joins)
+
+    def obey(self) -> "Senders":
+        """Obey the latest sender until a reference is ended."""
+        return replace(self, known=(*self.known[:-1], replace(self.latest, obeyed=self.ended)))
+
+    def end(self) -> "Senders":
+        """End what everybody asked for."""
+        return replace(self, ended=self.ended + 1, known=tuple(replace(one, first=None) for one in self.known))
+
+    def forgive(self) -> "Senders":
+        """Let those who are obeyed begin with what they send next: they have been silent for long enough."""
+        known = (_restart(one) if one.obeyed == self.ended else one for one in self.known)
+        return replace(self, known=tuple(known), firsts=Sequence())
+
+    def trust_single(self) -> "Senders":
+        """Take a sender that has asked once for no stream: somebody who looks expects the same again."""
+        known = (replace(one, sequence=replace(one.sequence, single=nan)) for one in self.known)
+        return replace(self, known=tuple(known))
+
+    def _find(self, message: Message) -> Sender | None:
+        """Find whose next message it is; where it may be several's, one of those who are not obeyed."""
+        able = [one for one in self.known if one.count_steps(message)]
+        return min(able, key=lambda one: (one.count_steps(message), one.obeyed == self.ended), default=None)
+
+
+def _hear(sequence: Sequence, message: Message) -> Sequence:
+    """Hear a message in a sequence; what those ask for whom nobody keeps apart says nothing of a stream."""
+    return sequence.hear(message.now, message.stops, nan if message.number is None else message.value)
+
+
+def _start(message: Message, begins: bool, unheard: bool = False) -> Sender:
+    """Start with the first message that is heard of a sender; unheard: it may have sent others before."""
+    empty = Sequence() if message.number is None else Sequence(longest=LONGEST_OF_ONE)
+    sequence = replace(_hear(empty, message), begins=begins or message.stops)
+    first = (message.number, message.now) if unheard and message.number is not None else None
+    return Sender(message.topic, message.number, sequence, first=first)
+
+
+def _restart(sender: Sender) -> Sender:
+    """Let a sender begin with its next message."""
+    return replace(sender, sequence=Sequence(longest=sender.sequence.longest), first=None)
+
+
+def _is_young(first: tuple[int, float], message: Message, since: float) -> bool:
+    """Tell by the pace of its messages whether a sender sent its very first one after the controller began."""
+    number, then = first
+    listened, steps = message.now - then, (message.number or 0) - number
+    if listened < LISTENED or steps <= 0:
+        return False
+    age = (number - 1) * listened / steps
+    return age <= YOUNG and then - age >= since - SLACK

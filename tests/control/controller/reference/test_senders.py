@@ -1,0 +1,162 @@
+"""Who goes on sending references beyond what ended one, and who begins: by the numbers of their messages."""
+
+import pytest
+
+from motor_control.controller.reference.senders import Message, Senders
+from motor_control.controller.reference.sequence import LONGEST_OF_ONE
+
+LONG_AGO, SPEED = -100.0, "speed"
+
+
+class Hall:
+    """Senders whose messages are heard one after the other, by a controller that obeys those it may."""
+
+    def __init__(self, since: float = 0.0) -> None:
+        self.senders, self.since, self.introduced = Senders(), since, since
+        self.driven = False
+
+    def says(self, number: int | None, now: float, value: float = 60.0, topic: str = SPEED) -> bool:
+        """Whether a message is obeyed."""
+        message = Message(topic, number, value, value == 0.0, now)
+        self.senders = self.senders.hear(message, self.since, self.introduced)
+        if self.senders.bars(self.driven):
+            return False
+        self.senders, self.driven = self.senders.obey(), True
+        return True
+
+    def stream(self, first: int, begin: float, count: int, period: float = 0.02, value: float = 60.0) -> list[bool]:
+        return [self.says(first + k, begin + k * period, value) for k in range(count)]
+
+    def end(self) -> None:
+        """The reference ends, as where the plant is started again."""
+        self.senders, self.driven = self.senders.end(), False
+
+
+def test_a_0_of_somebody_else_lets_no_stream_go_on() -> None:
+    """The motor ran at 60 rad/s again 20 ms after somebody had stopped it."""
+    hall = Hall()
+    assert all(hall.stream(1, 0.0, 50))
+    hall.end()
+    assert not any(hall.stream(51, 1.0, 50))
+    assert hall.says(1, 2.0, 0.0)
+    assert not any(hall.stream(101, 2.01, 50))
+    assert hall.says(2, 3.01, 30.0) and not hall.says(151, 3.02)  # nor does a speed of somebody else
+    assert hall.says(152, 3.04, 0.0) and all(hall.stream(153, 3.06, 20))  # its own does
+
+
+def test_a_stream_begins_again_after_its_own_silence() -> None:
+    hall = Hall()
+    hall.stream(1, 0.0, 50)
+    hall.end()
+    assert not hall.says(51, 1.0) and not hall.says(52, 1.49)
+    assert not hall.says(53, 2.4) and hall.says(54, 4.3)  # 0.91 s between two: twice that
+
+
+@pytest.mark.parametrize("period", [0.005, 0.02, 1.0, 5.0])
+def test_a_stream_that_was_there_before_the_controller_is_not_obeyed(period: float) -> None:
+    """A controller that was killed and started again drove the motor on at once."""
+    hall = Hall(since=10.0)
+    assert not any(hall.stream(1000, 10.5, 40, period))
+
+
+@pytest.mark.parametrize(("number", "begin"), [(1, 10.02), (1, 60.0), (900, 20.1)])
+def test_who_begins_is_obeyed_at_once(number: int, begin: float) -> None:
+    """`ros2 topic pub --once` as soon as the controller is up; a slider that has been left alone for 10 s."""
+    hall = Hall(since=10.0)
+    assert all(hall.stream(number, begin, 40))
+
+
+def test_a_sender_that_has_said_nothing_for_less_than_10_s_may_be_a_slow_stream() -> None:
+    hall = Hall(since=10.0)
+    assert not hall.says(900, 19.9) and not hall.says(901, 25.0) and hall.says(902, 25.1, 0.0)
+
+
+@pytest.mark.parametrize("period", [0.02, 1.0])
+def test_a_stream_that_began_while_the_two_were_introduced_is_obeyed_by_its_pace(period: float) -> None:
+    """`ros2 topic pub --rate 50` waits for nobody, and its first messages are lost."""
+    hall = Hall(since=10.0)
+    obeyed = hall.stream(3 if period < 1.0 else 2, 12.0, 40, period)
+    late = obeyed.index(True)
+    assert 0.2 <= late * period <= max(0.22, period) and all(obeyed[late:])
+
+
+@pytest.mark.parametrize(("age", "obeyed"), [(0.9, True), (1.2, False)])
+def test_a_launch_file_starts_a_sender_up_to_a_second_before(age: float, obeyed: bool) -> None:
+    """It takes as long to start a controller again."""
+    hall = Hall(since=10.0)
+    first = round(age / 0.02) + 1
+    assert any(hall.stream(first, 10.0, 100)) is obeyed
+
+
+def test_youth_is_no_excuse_to_go_on_beyond_an_end() -> None:
+    hall = Hall(since=10.0)
+    assert not any(hall.stream(3, 12.0, 5))
+    hall.end()
+    assert not any(hall.stream(8, 12.1, 100))
+
+
+@pytest.mark.parametrize(("value", "obeyed"), [(60.0, False), (40.0, True)])
+def test_a_second_one_5_s_later_that_says_the_same_may_be_a_stream(value: float, obeyed: bool) -> None:
+    """Only one had come before the plant was started again, and the next started the motor."""
+    hall = Hall()
+    assert hall.says(1, 0.0)
+    hall.end()
+    assert hall.says(2, 5.0, value) is obeyed
+
+
+def test_a_slow_stream_ends_and_its_third_does_not_begin() -> None:
+    hall = Hall()
+    assert hall.says(1, 0.0)
+    hall.end()
+    assert not any(hall.stream(2, 5.0, 20, 5.0))
+    assert not any(hall.stream(22, 105.0, 20, 5.0, 61.0))  # nor with another value
+    assert hall.says(42, 205.0 + LONGEST_OF_ONE + 0.1)
+
+
+def test_who_clears_a_stop_may_ask_for_the_same_again() -> None:
+    hall = Hall()
+    hall.says(1, 0.0)
+    hall.end()
+    hall.senders = hall.senders.trust_single()
+    assert hall.says(2, 1.0)
+
+
+def test_commands_in_a_shell_are_a_sender_each() -> None:
+    """One after the other they are obeyed; after an end a loop of them has to begin again."""
+    hall = Hall()
+    assert all(hall.says(1, 5.0 + k) for k in range(5))
+    hall.end()
+    assert not hall.says(1, 10.0) and not hall.says(1, 11.0) and hall.says(1, 13.1)
+
+
+def test_lost_messages_are_the_same_senders() -> None:
+    """The controller was held up for 3 s, and keeps the latest ones of a stream."""
+    hall = Hall()
+    hall.stream(1, 0.0, 50)
+    assert hall.says(201, 4.0)
+    hall.end()
+    assert not hall.says(202, 4.02)
+    assert not hall.says(402, 4.04)  # more than it can have sent: a stream of somebody else's that was not heard
+
+
+def test_topics_are_apart_and_who_is_not_counted_is_one() -> None:
+    hall = Hall()
+    hall.stream(1, 0.0, 50)
+    assert hall.says(1, 1.0, 3.0, "position")
+    hall.end()
+    assert not hall.says(51, 1.02) and not hall.says(2, 1.2, 3.0, "position")
+    other = Hall()
+    assert not other.says(None, 1.9) and other.says(None, 2.5) and other.says(None, 2.6)
+    other.end()
+    assert not other.says(None, 2.7) and other.says(None, 2.8, 0.0) and other.says(None, 2.9)
+
+
+def test_who_was_silent_for_a_timeout_may_go_on_and_a_barred_stream_may_not() -> None:
+    hall = Hall()
+    hall.stream(1, 0.0, 50)
+    hall.end()
+    hall.says(51, 1.0)
+    assert hall.says(1, 1.01, 30.0)
+    hall.senders = hall.senders.forgive()
+    hall.end()
+    assert not hall.says(52, 1.02) and hall.says(2, 1.3, 30.0)
