@@ -64,8 +64,8 @@ class SignOfOneChannel:
             self.longest = period
         elif self.armed and period < 0.8 * self.longest:
             self.sign, self.armed = -self.sign, False
-        else:
-            self.longest = max(self.longest, period)
+        elif period > self.longest:
+            self.longest = period
         self.periods = [self.periods[1], period]
 
 
