@@ -21,7 +21,8 @@ run() { pytest --assert=plain "$@" || { local code=$?; [ $code -eq 1 ] || exit $
 cores=$(nproc)
 workers=$((cores < 4 ? cores + 1 : 4)) # one more than cores, for many tests wait; each has ROS domains of its own
 run --cache-clear -n "$workers" --dist worksteal -m "not on_time"
-run -n 2 -m on_time tests/{board,driver,ros,ros2_stand_in,system,model} # these measure times: nothing else runs
+# These measure times: nothing else runs; only their files are collected.
+run -n 2 --dist worksteal -m on_time $(grep -rl --include='*.py' '^@pytest.mark.on_time$' tests)
 failed=$(grep -sc '": true' .pytest_cache/v/cache/lastfailed || true) # in both runs
 if ((status == 1 && failed > 0 && failed <= 5)); then
   echo "[test] $failed failed, and are run once more, alone: on a busy machine a live test may fail, a mistake fails twice."

@@ -24,13 +24,11 @@ else:
         kind = type(record)
         if kind not in _PLAIN:
             _check_type(kind)
-        copy = object.__new__(kind)
-        fields = copy.__dict__
-        fields.update(record.__dict__)
-        known = len(fields)
-        fields.update(changes)
-        if len(fields) != known:
+        fields = record.__dict__ | changes
+        if len(fields) != len(record.__dict__):
             raise TypeError(f"{kind.__name__} has no field {', '.join(sorted(changes.keys() - vars(record).keys()))}.")
+        copy = object.__new__(kind)
+        object.__setattr__(copy, "__dict__", fields)  # the record's own refuses to set anything
         return copy
 
     def _check_type(kind: type) -> None:

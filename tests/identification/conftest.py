@@ -8,6 +8,13 @@ from diagnosed import diagnosis
 from motor_identification.diagnosis.result import Diagnosis, Verdict
 
 
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pages without pictures, where only the text matters."""
+    for name in ("pictures.draw_overlay", "diagnosis_page.draw_map", "diagnosis_page.draw_torque"):
+        monkeypatch.setattr(f"motor_identification.reporting.html.{name}", lambda *how: "")
+
+
 @pytest.fixture(scope="module")
 def found() -> Diagnosis:
     """Coulomb friction of 0.4 V is found."""

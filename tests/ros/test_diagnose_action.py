@@ -12,6 +12,7 @@ import workbench
 from action_msgs.msg import GoalStatus
 from friction import KS
 from rclpy.action import ActionClient
+from rclpy.qos import QoSProfile
 from workbench import Bench, end
 
 from motor_model.model_file import load
@@ -21,6 +22,7 @@ from motor_msgs.msg import MotorModel
 from motor_ros import qos
 
 PATIENCE = 90.0  # [s]
+ALL = QoSProfile(depth=1000)  # feedback: of the ten that are kept else, a test that is held up misses the first
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +72,7 @@ class Asked:
 
 @pytest.fixture
 def ask(bench: Bench, node: "Popen[str]") -> Iterator[Callable[..., Asked]]:
-    client = ActionClient(bench.node, Diagnose, "motor/diagnose")
+    client = ActionClient(bench.node, Diagnose, "motor/diagnose", feedback_sub_qos_profile=ALL)
     bench.wait(client.server_is_ready, "motor/diagnose")
     bench.known_to("motor_identification")
     yield lambda **goal: Asked(bench, client, **goal)

@@ -29,7 +29,7 @@ position: {from: '/joint_states:position[right_wheel]'}
 """
 
 
-FOUND, PATIENCE = 0.6, 120.0  # [s] two announcements and a bit; for a diagnosis
+PATIENCE = 120.0  # [s] for a diagnosis
 LATE = 0.02  # [s] between commands and what a recorder says of when they came: more, and the motor looks slow
 
 
@@ -101,8 +101,7 @@ def diagnosed(bench: Bench, bag: str) -> Diagnose.Result:
     """What the action says of a bag."""
     client = ActionClient(bench.node, Diagnose, "motor/diagnose")
     bench.wait(client.server_is_ready, "motor/diagnose")
-    begun = time.monotonic()
-    bench.wait(lambda: time.monotonic() - begun > FOUND, "the server to find its client")
+    bench.known_to("motor_identification")
     sent = client.send_goal_async(Diagnose.Goal(bag_uris=[bag]))
     bench.wait(sent.done, "the goal's acceptance")
     answer = sent.result().get_result_async()

@@ -56,6 +56,8 @@ def test_what_was_asked_for_while_the_controller_stood_still_is_not_obeyed(
     """Nothing happened, so somebody looks at the motor; and then it would turn."""
     joint = plant.publisher(JointState, "motor/joint_command", qos.REFERENCE)
     plant.heard(joint)
+    plant.known_to("motor_control")  # it hears who publishes, and has looked at its clock: ten times in a diagnosis
+    plant.wait(lambda: bool(plant.diagnostics), "diagnostics")
     os.kill(process.pid, signal.SIGSTOP)
     try:
         if topic == "motor/reference":

@@ -75,7 +75,8 @@ class SpeedDecoder:
             data = np.frombuffer(b"".join([messages[k] for k in where]), dtype=layout)
             for name in set(layout.names or ()) & set(ROW.names or ()):
                 rows[name][where] = data[name]
-            rows["stamp"][where] = data["sec"].astype(np.int64) * 1_000_000_000 + data["nanosec"]
+            seconds: NDArray[np.int64] = data["sec"].astype(np.int64)
+            rows["stamp"][where] = seconds * 1_000_000_000 + data["nanosec"]
         if refusal is not None and not readable.any():
             raise refusal
         return rows[readable]

@@ -15,6 +15,7 @@ from motor_identification.recording import Floats
 MOST_LEVELS = 120  # that are looked at: more say nothing new
 FINEST = 1000.0  # steps up to the largest value; a finer lattice matters to nobody
 SCAN = 0.05  # of a period at the largest value: distance of the steps that are tried, so that no peak is jumped
+AT_ONCE = 2048  # steps, coarse ones first: most lattices are found among the first
 PEAK = 0.6  # mean cosine of the phases, from which on a step is refined
 MOST_SCATTER = 0.12  # of a step: beyond, noise hides the lattice (uniform phases have 0.29)
 LEAST_SCATTER = 1e-3  # of a step: better than that is no more evidence
@@ -60,18 +61,21 @@ def _find_step(values: bytes) -> float:
     levels = np.frombuffer(values)
     top = float(levels[-1])
     tried = np.asarray(np.arange(LEAST_PLACES - 1.0, FINEST, SCAN) / top, dtype=np.float64)  # 1/step
-    for begin in range(0, len(tried), 2048):  # coarse steps first: most lattices are found at once
-        step = _best_step(levels, tried[begin : begin + 2048], len(tried))
+    score = _mean_cosine(levels, tried[:AT_ONCE])
+    for begin in range(0, len(tried), AT_ONCE):
+        if begin == AT_ONCE:  # all others together, which takes a third of the cosines
+            score = np.concatenate([score, _mean_cosine(levels, tried[AT_ONCE:])])
+        part = slice(begin, begin + AT_ONCE)
+        step = _best_step(levels, tried[part], score[part], len(tried))
         if step > 0.0:
             # Levels far from 0 lie nearly on a coarser lattice too, with every number one less.
             finer = tried[(tried >= 1.0 / step) & (tried < MOST_COARSE / step)]
-            return _best_step(levels, finer, len(tried))
+            return _best_step(levels, finer, _mean_cosine(levels, finer), len(tried))
     return 0.0
 
 
-def _best_step(levels: Floats, tried: Floats, count: int) -> float:
+def _best_step(levels: Floats, tried: Floats, score: Floats, count: int) -> float:
     """The step with the least scatter among those near 1/tried whose lattice is no chance; 0 without."""
-    score = _mean_cosine(levels, tried)
     steps = dict.fromkeys(_refine(levels, 1.0 / float(one)) for one in tried[score > PEAK])  # neighbours end in one
     lattices = [step for step in steps if _is_lattice(levels, step, count)]
     return min(lattices, key=lambda step: max(_scatter(levels, step), LEAST_SCATTER), default=0.0)  # or the first

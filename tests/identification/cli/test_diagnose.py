@@ -188,6 +188,7 @@ def test_shows_progress_on_a_terminal_and_ends_at_ctrl_c(bags: Path, number: sig
     assert shown.endswith(b"The diagnosis was interrupted; nothing was written.\r\n")
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_explores_until_nothing_is_open(bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     directory = tmp_path / "found"
     model = ["--model", str(bags / "true.yaml"), "--voltage", "10"]
@@ -207,6 +208,7 @@ def test_explores_until_nothing_is_open(bags: Path, tmp_path: Path, capsys: pyte
     assert f"{directory} is not empty" in capsys.readouterr().err
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_explores_no_longer_than_asked_for(bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     options = ["--profile", "step", "--rounds", "1", "--model", str(bags / "true.yaml")]
     assert explore([str(tmp_path / "found"), *options]) == 0

@@ -3,6 +3,7 @@
 import struct
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import lz4.frame
@@ -29,6 +30,7 @@ SPEED, INFO, VOLTAGE = (f"motor_msgs/msg/Motor{name}" for name in ("Speed", "Inf
 Write = Callable[[Path], None]
 BOARD = BoardConfig()
 PACKED = {"zstd": zstandard.compress, "lz4": lz4.frame.compress}
+GIGABYTE = 1 << 30
 
 
 def move(volts: NDArray[np.float64], config: BoardConfig = BOARD) -> tuple[Info, list[Sample]]:
@@ -55,7 +57,18 @@ def recording(name: str = "motor") -> Write:
 
 def long_standstill(folder: Path) -> None:
     """A minute at 0 V, then two seconds of motion: the pieces of the recording were without any."""
-    write(folder, *move(np.concatenate([np.zeros(12_000), MOTION])))
+    write(folder, *_stand_and_move())
+
+
+@cache
+def _stand_and_move() -> tuple[Info, list[Sample]]:
+    return move(np.concatenate([np.zeros(12_000), MOTION]))
+
+
+@cache
+def _gigabyte(kind: str) -> bytes:
+    """A gigabyte, packed to a hundred kilobytes."""
+    return bytes(PACKED[kind](bytes(GIGABYTE)))
 
 
 def wired_backwards(folder: Path) -> None:
@@ -113,9 +126,8 @@ def bomb(kind: str) -> Write:
     """A chunk of a hundred kilobytes that unpacks to gigabytes, as its head says."""
 
     def make(folder: Path) -> None:
-        size = 1 << 30
-        packed = PACKED[kind](bytes(size))
-        head = struct.pack("<QQQII", 1, 2, size, 0, len(kind)) + kind.encode() + struct.pack("<Q", len(packed))
+        packed = _gigabyte(kind)
+        head = struct.pack("<QQQII", 1, 2, GIGABYTE, 0, len(kind)) + kind.encode() + struct.pack("<Q", len(packed))
         chunk = mcap_mutation.join([(mcap_mutation.CHUNK, head + packed)])
         put(folder, base("golden")[:-8].replace(mcap_mutation.MAGIC, mcap_mutation.MAGIC + chunk, 1))
 
@@ -124,7 +136,7 @@ def bomb(kind: str) -> Write:
 
 def packed_file(folder: Path) -> None:
     """A file that is zstd and unpacks without an end."""
-    (folder / "input.mcap.zstd").write_bytes(zstandard.compress(bytes(1 << 30)))
+    (folder / "input.mcap.zstd").write_bytes(_gigabyte("zstd"))
 
 
 def defined(line: bytes) -> Write:

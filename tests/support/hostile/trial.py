@@ -23,6 +23,8 @@ from hostile.kind import ROOT, Kind
 
 # What commands import once they have work to do, beside what fits and experiments need.
 NEEDED = (
+    "matplotlib.backends.backend_svg",
+    "matplotlib.pyplot",
     "motor_control.configuration",
     "motor_control.controller.observer",
     "motor_control.tuning.gain_file",

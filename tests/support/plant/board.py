@@ -14,9 +14,10 @@ So the sign is wrong for a slot or two around a fast reversal, and for longer wh
 voltage or a reversal leaves no maximum: that is what one channel can know. Before the second edge the speed is 0.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
@@ -35,38 +36,57 @@ class Report:
     latest_edge: Integers  # number of the edge that edge_time is; -1 before the first
 
 
-@dataclass
+# sign; that of the latest voltage other than 0; armed; still speeding up; [s] longest period since the voltage turned;
+# the last two periods
+Rule = tuple[int, int, bool, bool, float, float, float]
+AT_FIRST: Rule = (0, 1, False, False, 0.0, 0.0, 0.0)
+
+
+@njit(cache=True)
+def hear_voltage(rule: Rule, volts: float) -> Rule:
+    """The rule once a voltage is latched."""
+    sign, wanted, armed, speeding_up, longest, before, last = rule
+    way = 1 if volts > 0.0 else -1 if volts < 0.0 else wanted
+    if way != wanted:
+        armed = way == -sign
+        speeding_up = not last >= 0.9 * before > 0.0  # or has only just started
+        longest = last
+    return sign, way, armed, speeding_up, longest, before, last
+
+
+@njit(cache=True)
+def hear_edge(rule: Rule, period: float, stood: bool) -> Rule:
+    """The rule once an edge has come, `period` seconds after the one before it, which may be before a standstill."""
+    sign, wanted, armed, speeding_up, longest, _, last = rule
+    if stood:
+        sign, armed, period = wanted, False, 0.0
+    elif armed and speeding_up:
+        speeding_up = period < 1.1 * last
+        longest = period
+    elif armed and period < 0.8 * longest:
+        sign, armed = -sign, False
+    else:
+        longest = max(longest, period)
+    return sign, wanted, armed, speeding_up, longest, last, period
+
+
 class SignOfOneChannel:
     """The direction a single channel may claim, told of voltages and periods in order of time."""
 
-    sign: int = 0
-    wanted: int = 1  # of the latest voltage other than 0
-    armed: bool = False
-    speeding_up: bool = False
-    longest: float = 0.0  # [s] period since the voltage turned
-    periods: list[float] = field(default_factory=lambda: [0.0, 0.0])
+    def __init__(self) -> None:
+        self._rule = AT_FIRST
+
+    @property
+    def sign(self) -> int:
+        return self._rule[0]
 
     def voltage(self, volts: float) -> None:
         """A voltage is latched."""
-        wanted = (volts > 0.0) - (volts < 0.0) or self.wanted
-        if wanted != self.wanted:
-            self.armed = wanted == -self.sign
-            self.speeding_up = not self.periods[1] >= 0.9 * self.periods[0] > 0.0  # or has only just started
-            self.longest = self.periods[1]
-        self.wanted = wanted
+        self._rule = hear_voltage(self._rule, float(volts))
 
     def edge(self, period: float, stood: bool) -> None:
-        """An edge has come, `period` seconds after the one before it, which may have been before a standstill."""
-        if stood:
-            self.sign, self.armed, period = self.wanted, False, 0.0
-        elif self.armed and self.speeding_up:
-            self.speeding_up = period < 1.1 * self.periods[1]
-            self.longest = period
-        elif self.armed and period < 0.8 * self.longest:
-            self.sign, self.armed = -self.sign, False
-        else:
-            self.longest = max(self.longest, period)
-        self.periods = [self.periods[1], period]
+        """An edge has come."""
+        self._rule = hear_edge(self._rule, float(period), bool(stood))
 
 
 def report(
@@ -97,7 +117,8 @@ def report(
         periods[back | np.concatenate([[False], back[:-1]])] = 0.0
     moved = np.ones_like(ways) if single else ways
     counts = np.concatenate([[0], np.cumsum(moved)])[seen]
-    signs = _signs(voltage, seen, stamps, periods) if single else np.concatenate([[0], ways])[seen]
+    stood = np.diff(stamps, prepend=np.iinfo(np.int64).min // 2) > STANDSTILL
+    signs = _signs(voltage, seen, periods, stood, AT_FIRST) if single else np.concatenate([[0], ways])[seen]
     if len(stamps) == 0:
         nothing = np.zeros(len(sample_time))
         return Report(nothing, counts, counts.copy(), nothing.copy(), latest)
@@ -110,18 +131,15 @@ def report(
     return Report(speed, counts, edge_time, edge_period, latest)
 
 
-def _signs(voltage: Floats, seen: Integers, stamps: Integers, periods: Floats) -> Integers:
+@njit(cache=True)
+def _signs(voltage: Floats, seen: Integers, periods: Floats, stood: NDArray[np.bool_], rule: Rule) -> Integers:
     """Sign that one channel claims at each sample, shape (K,)."""
-    rule = SignOfOneChannel()
-    stood = np.diff(stamps, prepend=np.iinfo(np.int64).min // 2) > STANDSTILL
-    edges = list(zip(periods.tolist(), stood.tolist(), strict=True))
-    signs, told, before = [], 0, np.nan
-    for volts, count in zip(voltage.tolist(), seen.tolist(), strict=True):
-        for period, after_standstill in edges[told:count]:
-            rule.edge(period, after_standstill)
-        told = count
-        signs.append(rule.sign)
-        if volts != before:  # the same again tells the rule nothing
-            rule.voltage(volts)
-            before = volts
-    return np.array(signs, dtype=np.int64)
+    signs = np.empty(len(seen), dtype=np.int64)
+    told = 0
+    for k in range(len(seen)):
+        while told < seen[k]:
+            rule = hear_edge(rule, periods[told], stood[told])
+            told += 1
+        signs[k] = rule[0]
+        rule = hear_voltage(rule, voltage[k])
+    return signs

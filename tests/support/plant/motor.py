@@ -19,7 +19,7 @@ from numba import njit
 from numpy.typing import NDArray
 from scipy.signal import lfilter
 
-from .forces import State, bridge, drive, outer_load, push_at_rest
+from .forces import State, bridge, drive, inlined, outer_load, push_at_rest
 from .parameters import Values, record_of
 from .runge_kutta import Mode, find_change, take_step
 
@@ -101,7 +101,7 @@ def _rest(
     return take_step(y, mode, t, used, v, slope, outer, p), mode, used, True
 
 
-@njit(cache=True)
+@inlined
 def _advance(
     y: State, mode: Mode, t: float, h: float, v: float, slope: float, outer: float, p: Any
 ) -> tuple[State, Mode, float, bool]:
@@ -135,7 +135,7 @@ def _put(nodes: Floats, count: int, t: float, y: State) -> tuple[Floats, int]:
     return nodes, count + 1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _run(
     p: Any,
     bounds: Floats,

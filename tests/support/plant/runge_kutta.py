@@ -4,7 +4,7 @@ from typing import Any
 
 from numba import njit
 
-from .forces import State, push_at_rest, rates
+from .forces import State, bridge, inlined, push_at_rest, rates
 
 # way: -1, 0 (held), +1; contact: the flank the load hangs on: -1, +1, 0 in the play, 2 before the first motion; the
 # angles between which the motor is free
@@ -12,21 +12,24 @@ Mode = tuple[float, float, float, float]
 _INSTANT = 1e-14  # [s] to which changes are located
 
 
-@njit(cache=True)
+@inlined
 def _shift(y: State, k: State, h: float) -> State:
     return y[0] + h * k[0], y[1] + h * k[1], y[2] + h * k[2], y[3] + h * k[3], y[4] + h * k[4], y[5] + h * k[5]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def take_step(y: State, mode: Mode, t: float, h: float, v: float, slope: float, outer: float, p: Any) -> State:
     """One classic Runge-Kutta step; the voltage is v + slope·(time into the step)."""
     way = mode[0]
     share = (1.0 - p.compliance_fraction) * (1.0 - p.load_fraction if mode[1] == 0.0 else 1.0)
     half = 0.5 * h
-    a = rates(y, t, v, outer, way, share, p)
-    b = rates(_shift(y, a, half), t + half, v + slope * half, outer, way, share, p)
-    c = rates(_shift(y, b, half), t + half, v + slope * half, outer, way, share, p)
-    d = rates(_shift(y, c, h), t + h, v + slope * h, outer, way, share, p)
+    first = middle = last = bridge(v, t, p)
+    if slope != 0.0 or p.supply_ripple != 0.0:
+        middle, last = bridge(v + slope * half, t + half, p), bridge(v + slope * h, t + h, p)
+    a = rates(y, t, first, outer, way, share, p)
+    b = rates(_shift(y, a, half), t + half, middle, outer, way, share, p)
+    c = rates(_shift(y, b, half), t + half, middle, outer, way, share, p)
+    d = rates(_shift(y, c, h), t + h, last, outer, way, share, p)
     return _shift(_shift(_shift(_shift(y, a, h / 6.0), b, h / 3.0), c, h / 3.0), d, h / 6.0)
 
 

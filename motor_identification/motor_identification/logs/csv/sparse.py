@@ -60,7 +60,8 @@ class Filled:
         times = read_clock(self.table, time)
         if np.any(np.diff(times) < 0.0):
             return rows  # time begins again
-        middles = times[rows] + 0.5 * np.diff(times[rows], append=times[rows[-1]])
+        told: NDArray[np.float64] = times[rows]
+        middles = told + 0.5 * np.diff(told, append=told[-1:])
         return np.asarray(np.maximum(np.searchsorted(times, middles, side="right") - 1, rows), dtype=np.int64)
 
     def _share(self, name: str) -> str:

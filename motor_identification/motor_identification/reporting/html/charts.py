@@ -22,7 +22,7 @@ def draw_map(before: Map, after: Map | None, recording: str) -> str:
     with svg_style():
         from matplotlib import pyplot as plt
 
-        figure, axes = plt.subplots(figsize=SIZE, constrained_layout=True)
+        figure, axes = plt.subplots(figsize=SIZE)
         place, width = _places(before)
         floor = np.nan_to_num(before.floor)
         lowest = _lowest(before, after)
@@ -95,7 +95,7 @@ def draw_torque(missing: MissingTorque, recording: str) -> str:
     with svg_style():
         from matplotlib import pyplot as plt
 
-        figure, axes = plt.subplots(figsize=SIZE, constrained_layout=True)
+        figure, axes = plt.subplots(figsize=SIZE)
         middle = 0.5 * (missing.edges[1:] + missing.edges[:-1])
         axes.axhline(0.0, color=FLOOR, linewidth=0.8)
         axes.errorbar(

@@ -22,9 +22,7 @@ def draw_overlay(before: Curves, after: Curves | None, title: str, size: tuple[f
     with svg_style():
         from matplotlib import pyplot as plt
 
-        figure, (speed, rest) = plt.subplots(
-            2, 1, figsize=size, sharex=True, height_ratios=(3, 2), constrained_layout=True
-        )
+        figure, (speed, rest) = plt.subplots(2, 1, figsize=size, sharex=True, height_ratios=(3, 2))
         few = len(before.time) < FEW
         _draw_speeds(speed, before, after, few)
         _draw_residuals(rest, before, after, few)

@@ -48,9 +48,10 @@ def svg_style() -> Iterator[None]:
 
 
 def to_svg(figure: "Figure", title: str) -> str:
-    """Return the figure as an <svg> element; `title` is what a screen reader says."""
+    """Return the figure, which has no layout yet, as an <svg> element; `title` is what a screen reader says."""
     from matplotlib import pyplot as plt
 
+    _lay_out(figure)
     stream = StringIO()
     figure.savefig(stream, format="svg", transparent=True, dpi=160, metadata={"Date": None, "Creator": None})
     plt.close(figure)
@@ -67,3 +68,13 @@ def to_svg(figure: "Figure", title: str) -> str:
     text = re.sub(r'(<svg[^>]*?) height="[^"]*"', r"\1", text, count=1)
     label = title.replace("&", "&amp;").replace('"', "&quot;").replace("<", "&lt;")
     return text.replace("<svg", f'<svg role="img" aria-label="{label}"', 1).strip()
+
+
+def _lay_out(figure: "Figure") -> None:
+    """Make room for every text; a figure that had this engine for its own would be drawn twice for it."""
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+    from matplotlib.layout_engine import ConstrainedLayoutEngine
+
+    FigureCanvasSVG(figure)  # in which texts are as wide as they will be
+    figure.dpi = 72.0  # as in SVG
+    ConstrainedLayoutEngine().execute(figure)

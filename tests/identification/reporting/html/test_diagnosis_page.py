@@ -30,13 +30,6 @@ def html(found: Diagnosis) -> str:
     return render_diagnosis(found, Files("found.yaml"))
 
 
-@pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pages without pictures, where only the text matters."""
-    for name in ("pictures.draw_overlay", "diagnosis_page.draw_map", "diagnosis_page.draw_torque"):
-        monkeypatch.setattr(f"motor_identification.reporting.html.{name}", lambda *how: "")
-
-
 class Reader(HTMLParser):
     """Collects what a page refers to, its tags and its text."""
 
