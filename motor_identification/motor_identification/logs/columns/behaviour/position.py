@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
+from motor_model.errors import RecordingError
 
 Floats = NDArray[np.float64]
 
@@ -21,7 +22,7 @@ def find_position(table: Table, names: Sequence[str], time: str | None) -> str:
 
     Without a column of times rows are taken for regular.
     """
-    steps = np.ones(len(table)) if time is None else np.diff(table.numbers(time), append=np.nan)
+    steps = np.ones(len(table)) if time is None else np.diff(_read_times(table, time), append=np.nan)
     steps[~(steps >= 0.0)] = 0.0  # where time begins again
     changing = {name for name in names if np.any(table.numbers(name) != table.numbers(name)[0])}  # no drive that stays
     able = [(one, other) for one, other in permutations(names, 2) if other in changing]
@@ -31,6 +32,14 @@ def find_position(table: Table, names: Sequence[str], time: str | None) -> str:
         if pairs.get(best, 0.0) > INTEGRAL:
             return best[0]
     return ""
+
+
+def _read_times(table: Table, time: str) -> Floats:
+    """A column of times, numbers or dates [s]."""
+    try:
+        return table.numbers(time)
+    except RecordingError:
+        return np.asarray(table.nanoseconds(time) * 1e-9, dtype=np.float64)
 
 
 def correlate_ways(table: Table, position: str, speed: str, steps: Floats) -> float:

@@ -94,7 +94,17 @@ def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
     if named:
         return named[0]
     unnamed = {one.name: table.numbers(one.name) for one in headings if one.quantity is None}
-    return find_clock({name: values for name, values in unnamed.items() if not _is_way(table, name, unnamed)})
+    clock = find_clock({name: values for name, values in unnamed.items() if not _is_way(table, name, unnamed)})
+    dates = _find_dates(table)
+    if dates and clock and correlate(table.numbers(clock), read_clock(table, dates)) > SAME_CLOCK:
+        return clock
+    return dates or clock
+
+
+def _find_dates(table: Table) -> str | None:
+    """Find the column of dates or times of day that go on, where no name tells it; None without one."""
+    words = (name for name in table.names if not is_numeric(table, name))
+    return next((name for name in words if runs_forward(read_clock(table, name))), None)
 
 
 def _is_way(table: Table, name: str, columns: Mapping[str, Floats]) -> bool:

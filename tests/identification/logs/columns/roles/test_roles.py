@@ -120,6 +120,20 @@ def test_a_way_without_times_is_no_clock() -> None:
         assert find_roles(table(**{"column 1": "j", "column 2": "u", "column 3": "y"}), Said()).time == "column 1"
 
 
+def test_dates_without_a_name_are_the_clock() -> None:
+    """A board's clock beside them, which goes with them, is the better one; a way is none."""
+    dates = np.array([f"2026-03-14T15:09:{26 + k // 100}.{k % 100:02d}" for k in range(200)])
+    logged = {"column 1": dates, "column 2": DRIVE, "column 3": MOVED}
+    assert find_roles(columns(**logged), Said()).time == "column 1"
+    assert find_roles(columns(**logged, **{"column 4": TIME}), Said()).time == "column 4"
+    of_both = Said(voltage="column 2")
+    speed = np.gradient(MOVED, TIME)
+    assert find_roles(columns(**logged, **{"column 4": speed}), of_both).time == "column 1"
+    way = np.cumsum(1.0 + 0.15 * np.sin(np.arange(200.0) / 30.0))
+    of_way = Said(voltage="column 2", motion="column 4")
+    assert find_roles(columns(**logged, **{"column 4": way}), of_way).time == "column 1"
+
+
 @pytest.mark.parametrize(("changed", "again"), [(0, True), (1, True), (3, False)])
 def test_the_motion_under_another_name_does_not_drive_it(changed: int, again: bool) -> None:
     """A matrix of times and speeds beside both as vectors, of which somebody mended a row."""
