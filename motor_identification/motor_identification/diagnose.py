@@ -21,7 +21,7 @@ from motor_identification.diagnosis.selection.backward_elimination import elimin
 from motor_identification.diagnosis.selection.determination import drop_undetermined, drop_undetermined_at_once
 from motor_identification.diagnosis.selection.forward_selection import select_forward
 from motor_identification.diagnosis.selection.restarts import retry_with_another_first, retry_with_pair
-from motor_identification.diagnosis.selection.rivals import add_rivals_beside_torque
+from motor_identification.diagnosis.selection.rivals import check_beside_torque
 from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.diagnosis.selection.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
 from motor_identification.diagnosis.selection.torque_selection import select_beside_torque
@@ -159,7 +159,7 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     if beside is None:
         selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
         if selection.model.complete and selection.model.above_floor:
-            selection = add_rivals_beside_torque(selection, reporter)
+            selection = check_beside_torque(selection, reporter)
     elif beside.steps and _fits_torque(beside.model, start.model):
         selection = eliminate_backward(keep_confirmed(selection, beside.model.effects), reporter)
     else:

@@ -64,24 +64,47 @@ def _drop_without_own_evidence(
     return [test for test in tests if has_same_evidence(test.model, without, current)]
 
 
-def add_rivals_beside_torque(selection: Selection, reporter: ProgressReporter) -> Selection:
-    """Add to every finding the rivals that it has beside the random torque that is left.
+def check_beside_torque(selection: Selection, reporter: ProgressReporter) -> Selection:
+    """Drop the findings that the random torque that is left has no need of, and add to the others their rivals there.
 
-    For what is chosen as if the rest was white: a slow torque makes the one likelier than the other by hundreds.
+    For what is chosen as if the rest was white: a slow torque makes the one likelier than the other by hundreds, and
+    anything likelier than nothing.
     """
-    begun = begin_beside_torque(selection.model, selection.hold_out, selection.workers)
+    begun, lacking = _drop_needless(selection, reporter)
     steps = []
-    for step in selection.steps:
-        effect, current = step.found.effect, begun.model
+    for step in begun.steps:
+        effect, current, without = step.found.effect, begun.model, lacking[step.found.effect]
         reporter.report(f"checking {effect}", 0.9, effect, current.held.gap)
-        without = refit_without(current, effect, begun.hold_out)
         others = list_replacements(step, without.effects, current.effects)
         tests = try_effects(without, begun.hold_out, others, begun.workers, lambda test: None)
         tests = drop_chance_harmonics(tests)
         told = [test for test in tests if test.evidence > thresholds.TIE_LIKELIHOOD]  # what does nothing is no rival
         rivals = _list_rivals([_settle(test, current, begun.hold_out) for test in told], effect, current)
         steps.append(replace(step, rivals=sort_by_table({*step.rivals, *rivals})))
-    return replace(selection, steps=tuple(steps))
+    model = selection.model
+    for effect in [name for name in model.effects if name not in begun.model.effects]:
+        model = refit_without(model, effect, selection.hold_out)
+    return replace(selection, steps=tuple(steps), model=model)
+
+
+def _drop_needless(selection: Selection, reporter: ProgressReporter) -> tuple[Selection, dict[str, Model]]:
+    """Drop findings, the least likely first, until each is likelier than nothing beside the random torque that is left.
+
+    With the model that is left beside that torque, and those that lack one finding of it each.
+    """
+    begun = begin_beside_torque(selection.model, selection.hold_out, selection.workers, selection.steps)
+    while True:
+        model, lacking = begun.model, dict[str, Model]()
+        for step in begun.steps:
+            reporter.report(f"checking {step.found.effect}", 0.9, step.found.effect, model.held.gap)
+            lacking[step.found.effect] = refit_without(model, step.found.effect, begun.hold_out)
+        likeliest = max(begun.steps, key=lambda step: lacking[step.found.effect].likelihood, default=None)
+        if likeliest is None:
+            return begun, lacking
+        without = lacking[likeliest.found.effect]
+        if model.likelihood - without.likelihood > thresholds.TIE_LIKELIHOOD:
+            return begun, lacking
+        begun = begun.replace_step(likeliest, None, without)
 
 
 def _list_rivals(tests: Sequence[CandidateTest], effect: str, current: Model) -> tuple[str, ...]:

@@ -10,11 +10,12 @@ from stub_selections import step_of, stub_selection
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import validate_model
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
 from motor_identification.diagnosis.selection import rivals as module
 from motor_identification.diagnosis.selection.rivals import (
-    add_rivals_beside_torque,
+    check_beside_torque,
     list_replacements,
 )
 from motor_identification.diagnosis.selection.selection import SelectionStep
@@ -72,7 +73,7 @@ def test_what_moves_nearly_alike_is_fitted_to_the_end_before_it_is_called_less_l
 @pytest.mark.parametrize(
     ("evidence", "loss", "rivals"),
     [
-        (BELOW * thresholds.TIE_LIKELIHOOD, 0.0, ()),  # it does nothing
+        (BELOW * thresholds.TIE_LIKELIHOOD, 1.0, ()),  # it does nothing
         (ABOVE * thresholds.TIE_LIKELIHOOD, BELOW * thresholds.RIVAL_MARGIN, ("coulomb_friction",)),
         (ABOVE * thresholds.TIE_LIKELIHOOD, ABOVE * thresholds.RIVAL_MARGIN, ()),
     ],
@@ -96,8 +97,35 @@ def test_what_does_as_well_beside_the_torque_that_is_left_is_a_rival(
         "try_effects",
         lambda model, hold_out, names, *_: [CandidateTest(name, model, friction) for name in names],
     )
-    left = add_rivals_beside_torque(selection, SILENT)
+    left = check_beside_torque(selection, SILENT)
     assert left.steps == (replace(selection.steps[0], rivals=rivals),) and left.model is selection.model
+
+
+@pytest.mark.parametrize(
+    ("times", "kept"), [(BELOW, ("coulomb_friction",)), (ABOVE, ("coulomb_friction", "dead_zone"))]
+)
+def test_what_the_torque_that_is_left_has_no_need_of_is_dropped(
+    monkeypatch: pytest.MonkeyPatch, times: float, kept: tuple[str, ...]
+) -> None:
+    """Whatever it was needed for as if the rest was white; and the least likely first, each beside the others."""
+    likelihoods = {
+        ("coulomb_friction", "dead_zone"): 50.0,
+        ("coulomb_friction",): 50.0 - times * thresholds.TIE_LIKELIHOOD,
+    }
+    before, effects = stub_model(9.0), ("coulomb_friction", "dead_zone")
+    steps = [SelectionStep(before, stub_test(name, before, 5.0, 900.0), (), (), 0.99) for name in effects]
+    plain = replace(stub_selection(2.0, *steps), model=with_effects(stub_model(2.0), *effects))
+
+    def refit(model: Model, effect: str, hold_out: HoldOut) -> Model:
+        left = tuple(name for name in model.effects if name != effect)
+        return with_effects(stub_model(3.0, likelihood=likelihoods.get(left, 0.0)), *left)
+
+    begun = replace(plain, model=with_effects(stub_model(2.0, likelihood=50.0), *effects))
+    monkeypatch.setattr(module, "begin_beside_torque", lambda *_: begun)
+    monkeypatch.setattr(module, "refit_without", refit)
+    monkeypatch.setattr(module, "try_effects", lambda *_: [])
+    left = check_beside_torque(plain, SILENT)
+    assert tuple(step.found.effect for step in left.steps) == kept == left.model.effects
 
 
 @pytest.mark.parametrize(
