@@ -14,9 +14,8 @@ from math import inf, isnan, nan
 # [s] The shortest silence after which references begin: longer than any hiccup of a stream. And the longest time
 # between two that are a stream (`ros2 topic pub` sends one a second); what comes more seldom, somebody sends by hand.
 SHORTEST, LONGEST = 0.5, 2.0
-LONGEST_OF_ONE = (
-    10.0  # [s] the same where they are one sender's: a schedule has a time between two that hands have, too
-)
+# [s] The same where they are one sender's: a schedule has a time between two that hands have, too.
+LONGEST_OF_ONE = 10.0
 TIMES = 2.0  # the longest time between two of them, which is a silence
 
 GOES_ON = (
