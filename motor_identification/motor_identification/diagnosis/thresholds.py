@@ -149,6 +149,10 @@ PRESLIDING_SHARE = 0.4
 # Of log likelihood: what a bridge that slews gains beyond the lag that stands in for it. Measured: 130 to 1,900 where
 # a bridge slews (and -14 where one level each way leaves nothing to tell them by), -45 to -2,000 for lags.
 SLEWING_GAIN = 20.0
+# Of log likelihood: what a friction over the angle gains beyond a torque ripple, and its size, of the ripple's that
+# stands in for it. Measured: 130 to 1,000 and 1.1 to 1.3 where there is such a friction; beside ripples -2,000 to -20,
+# and 50 to 950 of 0.28 to 0.37, of large ripples of slow motors, which no line describes.
+ANGLE_FRICTION_GAIN, ANGLE_FRICTION_SIZE = 20.0, 0.6
 
 # Times the gap without it: where nothing explains what is missing, what leaves less is worth telling. Measured: 0.46
 # for friction under a coasting bridge, of a real motor whose current is gone before the off time ends.
