@@ -17,9 +17,10 @@ from motor_identification.discrepancy.rest import ROBUST, Rest
 from motor_identification.discrepancy.rests import list_training_rests
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.recording import Floats
+from motor_model.effects import EFFECT_BY_NAME
 
 CAUSE = "a friction that goes with the angle (a tight spot in every turn)"
-VARIABLE, RIPPLE = "angle", "torque_ripple"
+VARIABLE = "angle"
 WINDOW, STEPS = 3.0, 12  # cycles over all turns about the ripple's own that are looked at, and in how many steps
 RIDGE = 1e-9  # of a column's power: in a motor that turns one way, friction and load are one column
 
@@ -29,15 +30,16 @@ def find_angle_friction(effect: str, without: Model, current: Model) -> Structur
 
     without: the model that lacks the ripple.
     """
-    values = current.estimate.parameters.values
-    if effect != RIPPLE or values["ripple_cycles"] <= 0.0:
+    row = EFFECT_BY_NAME[effect]
+    if not row.periodic or row.on_disc:
         return None
+    ripple_size, own_cycles = (current.estimate.parameters.value(spec.name) for spec in row.parameters[:2])
     rests = list_training_rests(without.estimate, list_error_data(without.estimate))
-    about = values["ripple_cycles"] + WINDOW * np.linspace(-1.0, 1.0, 2 * STEPS + 1) / max(current.turns, 1.0)
+    about = own_cycles + WINDOW * np.linspace(-1.0, 1.0, 2 * STEPS + 1) / max(current.turns, 1.0)
     ripple, _ = max(_fit_line(current, rests, float(cycles), holds=False) for cycles in about)
     friction, size = max(_fit_line(current, rests, float(cycles), holds=True) for cycles in about)
     gain = friction - ripple
-    if gain <= thresholds.ANGLE_FRICTION_GAIN or size <= thresholds.ANGLE_FRICTION_SIZE * values["ripple_voltage"]:
+    if gain <= thresholds.ANGLE_FRICTION_GAIN or size <= thresholds.ANGLE_FRICTION_SIZE * ripple_size:
         return None
     count = sum(len(rest.errors.increments) for rest in rests)
     share = -np.expm1(-2.0 * friction / count)
