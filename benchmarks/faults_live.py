@@ -110,14 +110,19 @@ def drive_another_plant(stage: Stage) -> None:
     stage.until(lambda: any(moment.voltage for moment in stage.moments), "a voltage at the wrong motor")
 
 
-def restart_plant(stage: Stage) -> None:
-    """A plant is killed and started again 5 s later, and references keep coming."""
+def _drive_by_stream(stage: Stage) -> None:
+    """Drive a plant by a controller to which references keep coming."""
     stage.plant()
     stage.controller()
     reference = stage.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
     stage.bench.heard(reference)
     stage.bench.node.create_timer(0.02, lambda: reference.publish(Float64(data=0.5 * MOTOR.top)))
     stage.until(lambda: any(moment.voltage for moment in stage.moments), "motion")
+
+
+def restart_plant(stage: Stage) -> None:
+    """A plant is killed and started again 5 s later, and references keep coming."""
+    _drive_by_stream(stage)
     stage.programs[0].kill()
     stage.hear(5.0)
     count = len(stage.moments)
@@ -127,12 +132,7 @@ def restart_plant(stage: Stage) -> None:
 
 def restart_controller(stage: Stage) -> None:
     """A controller is killed and started again, as by systemd, and references keep coming."""
-    stage.plant()
-    stage.controller()
-    reference = stage.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
-    stage.bench.heard(reference)
-    stage.bench.node.create_timer(0.02, lambda: reference.publish(Float64(data=0.5 * MOTOR.top)))
-    stage.until(lambda: any(moment.voltage for moment in stage.moments), "motion")
+    _drive_by_stream(stage)
     stage.hear(3.0)
     stage.programs[-1].kill()
     stage.hear(2.0)

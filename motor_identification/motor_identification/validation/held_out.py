@@ -12,7 +12,7 @@ from motor_identification.measurement.edit_intervals import exclude_intervals, j
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.error_data import ErrorData, make_error_data, measure_response
 from motor_identification.noise.likelihood import Noise, log_likelihood
-from motor_identification.recording import Bools, Floats, Recording
+from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_model.parameters import Parameters
 
 # Of a slot squared (or of one that would blur angles as much), a second: drifts of the simulated angle that held-out
@@ -79,10 +79,14 @@ class HeldOut:
         """[rad/s] the validation RMS error: time-weighted, of simulated minus measured mean speed."""
         return float(np.sqrt(self.weight @ self.residuals**2))
 
+    def list_calm(self, wild: float) -> Integers:
+        """List the intervals outside of the share of the time in which most is left, whatever that is."""
+        worst = np.argsort(-(self.residuals**2))
+        return np.asarray(worst[np.cumsum(self.weight[worst]) > wild])
+
     def find_calm_gap(self, wild: float) -> float:
         """Find the gap [rad/s] outside of the share of the time in which most is left."""
-        worst = np.argsort(-np.abs(self.residuals))
-        calm = worst[np.cumsum(self.weight[worst]) > wild * self.weight.sum()]
+        calm = self.list_calm(wild)
         left = float(self.weight[calm].sum())
         return sqrt(float(self.weight[calm] @ self.residuals[calm] ** 2) / left) if left > 0.0 else self.gap
 

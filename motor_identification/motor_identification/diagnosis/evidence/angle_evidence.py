@@ -10,10 +10,11 @@ import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.evidence.presliding_evidence import fit_torques
 from motor_identification.diagnosis.fits.disturbed_fit import list_error_data
 from motor_identification.discrepancy.free_curves import respond
 from motor_identification.discrepancy.motion_history import MotionHistory
-from motor_identification.discrepancy.rest import ROBUST, Rest
+from motor_identification.discrepancy.rest import Rest
 from motor_identification.discrepancy.rests import list_training_rests
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.recording import Floats
@@ -22,7 +23,6 @@ from motor_model.effects import EFFECT_BY_NAME
 CAUSE = "a friction that goes with the angle (a tight spot in every turn)"
 VARIABLE = "angle"
 WINDOW, STEPS = 3.0, 12  # cycles over all turns about the ripple's own that are looked at, and in how many steps
-RIDGE = 1e-9  # of a column's power: in a motor that turns one way, friction and load are one column
 
 
 def find_angle_friction(effect: str, without: Model, current: Model) -> Structure | None:
@@ -51,16 +51,8 @@ def _fit_line(model: Model, rests: list[Rest], cycles: float, holds: bool) -> tu
 
     holds: it is a friction's, against the motion.
     """
-    columns = [_list_torques(rest.history, cycles, holds) for rest in rests]
-    count = columns[0].shape[1]
-    normal, moment = np.zeros((count, count)), np.zeros(count)
-    for rest, torques in zip(rests, columns, strict=True):
-        responses = respond(rest.history, torques, model.lag)
-        white = rest.errors.whiten(model.errors, model.lag, responses)[1][:, ~rest.errors.still]
-        normal += white[1:] @ white[1:].T
-        moment += white[1:] @ np.clip(white[0], -ROBUST, ROBUST)
-    power = np.diag(np.maximum(np.diag(normal), np.finfo(float).tiny))
-    sizes = np.linalg.solve(normal + RIDGE * power, moment)
+    responses = [respond(rest.history, _list_torques(rest.history, cycles, holds), model.lag) for rest in rests]
+    sizes, moment = fit_torques(model, [rest.errors for rest in rests], responses)
     return 0.5 * float(moment @ sizes), float(np.hypot(*sizes[-2:]))
 
 

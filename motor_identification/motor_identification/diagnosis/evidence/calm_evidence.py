@@ -4,8 +4,6 @@ When a robot starts its wheels slip, the play of its gears is taken up and its m
 those moments, a hundredth of the time, is more than what friction does in all the rest, which it explains.
 """
 
-import numpy as np
-
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model, find_lasting_interval
 
@@ -28,8 +26,7 @@ def measure_calm_share(without: Model, model: Model) -> float:
     before, after = without.held.leave_out(model.held.instants).joined(length), model.held.joined(length)
     if before.residuals.shape != after.residuals.shape:
         return 0.0
-    worst = np.argsort(-(after.residuals**2))
-    calm = worst[np.cumsum(after.weight[worst]) > thresholds.WILD_TIME]
+    calm = after.list_calm(thresholds.WILD_TIME)
     parts = (before.residuals, after.residuals, after.floors(model.noise.share))
     was, rest, noise = (float(after.weight[calm] @ part[calm] ** 2) for part in parts)
     return (was - rest) / (was - noise) if was > thresholds.NEAR_FLOOR_SEEN**2 * noise else 0.0

@@ -89,15 +89,24 @@ def _refit(model: Model, rests: Sequence[Rest], angle: float) -> list[ErrorData]
         replace(errors, increments=errors.increments - response[0])
         for (errors, _), response in zip(rests, responses, strict=True)
     ]
-    normal, moment = np.zeros((4, 4)), np.zeros(4)
-    for row, response in zip(known, responses, strict=True):
-        white = row.whiten(model.errors, model.lag, response[1:])[1][:, ~row.still]
+    sizes, _ = fit_torques(model, known, [response[1:] for response in responses])
+    rows = zip(known, responses, strict=True)
+    return [replace(row, increments=row.increments - sizes @ response[1:]) for row, response in rows]
+
+
+def fit_torques(model: Model, rows: Sequence[ErrorData], responses: Sequence[Floats]) -> tuple[Floats, Floats]:
+    """Fit torques to what a model leaves: their sizes (C,), and moments (C,) with the white residuals.
+
+    responses: of every row to each torque of unit size, shape (C, I).
+    """
+    count = len(responses[0])
+    normal, moment = np.zeros((count, count)), np.zeros(count)
+    for row, response in zip(rows, responses, strict=True):
+        white = row.whiten(model.errors, model.lag, response)[1][:, ~row.still]
         normal += white[1:] @ white[1:].T
         moment += white[1:] @ np.clip(white[0], -ROBUST, ROBUST)
     power = np.diag(np.maximum(np.diag(normal), np.finfo(float).tiny))
-    sizes = np.linalg.solve(normal + RIDGE * power, moment)
-    rows = zip(known, responses, strict=True)
-    return [replace(row, increments=row.increments - sizes @ response[1:]) for row, response in rows]
+    return np.asarray(np.linalg.solve(normal + RIDGE * power, moment), dtype=np.float64), moment
 
 
 def _list_torques(motion: MotionHistory, ks: float, angle: float) -> Floats:
