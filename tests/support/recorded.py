@@ -33,3 +33,18 @@ def as_speed(recording: Recording, window: int = 1, lag: float | None = None) ->
 def without_count(recording: Recording) -> Recording:
     """The log does not say which encoder it was."""
     return replace(recording, info=replace(recording.info, edges_per_revolution=0))
+
+
+def as_period_speed(recording: Recording, falls: bool = False) -> Recording:
+    """Only a slot over the time between the latest two edges is logged, with the sign of the way.
+
+    falls: over the time since the latest edge, where that is longer.
+    """
+    slot = recording.info.edge_angle
+    way = np.sign(recording.speed)
+    since = (recording.sample_time - recording.edge_time) * 1e-9
+    period = np.maximum(recording.edge_period, since) if falls else recording.edge_period
+    known = recording.edge_period > 0.0
+    speed = np.divide(way * slot, period, out=np.zeros(len(way)), where=known)
+    logged = without_count(as_speed(recording))
+    return replace(logged, speed=speed, edge_period=np.zeros(len(speed)))

@@ -12,6 +12,7 @@ import numpy as np
 from motor_identification.measurement.edges import Edges, extract_edges, mark_one_way
 from motor_identification.measurement.edit_intervals import append_standstills
 from motor_identification.measurement.intervals import Intervals, index_intervals
+from motor_identification.measurement.pulse_intervals import make_pulse_intervals, measure_slot
 from motor_identification.measurement.sampled_counts import Changes, extract_count_changes, locate_fixes
 from motor_identification.measurement.sanity_checks import check_counts
 from motor_identification.measurement.standstill import find_standstills_at_edges, find_standstills_at_reversals
@@ -122,6 +123,8 @@ def _from_noisy_angles(recording: Recording, noise: float) -> Intervals:
 
 def _from_speed(recording: Recording) -> Intervals:
     """A logged speed is a mean over the source's window, with the noise that was said or is found in the values."""
+    if measure_slot(recording) > 0.0:
+        return make_pulse_intervals(recording)
     sensor = find_speed_sensor(recording)
     start, end = _find_windows(sensor)
     inside = start >= -1e-9

@@ -6,7 +6,8 @@ programs write a row when its voltage has been applied: then the motion seems to
 which no effect does, since a dead time is never negative. So every timing is fitted beside what shapes most motions,
 and one that is much likelier is taken; a row more only where the motion still comes too early. Then, of speeds as they
 were before any filter, whether the motion goes by the rows' stamps or by a clock that these are late on, and whether
-each was computed with the length of its own row (`row_times.py`).
+each was computed with the length of its own row (`row_times.py`). Or a speed is a slot over the time between the latest
+two edges, and the older the slower (`pulse_slot.py`).
 """
 
 from collections.abc import Callable, Sequence
@@ -18,6 +19,7 @@ import numpy as np
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
+from motor_identification.timing.pulse_slot import find_regressed_slot, find_stays_slot, match_residuals
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row_times
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.smoothing import AS_LIKELY, Likelihood, find_filter
@@ -29,6 +31,9 @@ from motor_model.sample import Measurement
 # where it is another; up to 17 in all (0.004 a row) where it is as assumed and something else is missing; 0 to 25
 # (0.03) in logs of others, of which nobody knows.
 LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
+# The same of a slot that a regression shows. Measured: 0.3 to 0.6 a row of speeds by periods, below 0 of nine in ten
+# others for which one is found, 0.1 at most.
+LEAST_PULSE_GAIN_OF_ROW = 0.2
 LEAST_SPEEDS = 50
 TOO_EARLY = Timing(1.0, -1.5, "")  # half a row more than any program makes speeds early
 
@@ -50,7 +55,7 @@ def find_timing(
         return None
     shaper = Shaper(recordings, estimate, restrict, _list_shaping(beside))
     found = _find_as_stamped(shaper)
-    if found is not None and _are_open(recordings):
+    if found is not None and found.slot == 0.0 and _are_open(recordings):
         rows = _find_row_times(shaper, found)
         again = _find_as_stamped(replace(shaper, rows=rows)) if rows != AS_STAMPED else None
         found = found if again is None else replace(again, rows=rows)
@@ -85,6 +90,9 @@ def _find_as_stamped(shaper: Shaper) -> Timing | None:
     timing = _find_instants(shaper)
     if timing is None:
         return None
+    periods = _find_periods(shaper, timing)
+    if periods is not None:
+        return periods
     usual = (ASSUMED, OTHERS[0]) if _are_open(shaper.recordings) else ()
     found = find_filter(shaper, (timing, *(one for one in usual if one != timing)))
     if found.filter:  # smoothed speeds come late: whether they come early shows in what was smoothed
@@ -92,6 +100,27 @@ def _find_as_stamped(shaper: Shaper) -> Timing | None:
         again = _find_instants(replace(shaper, recordings=sharp))
         found = replace(again, filter=found.filter) if again in OTHERS[1:] else found
     return found
+
+
+def _find_periods(shaper: Shaper, timing: Timing) -> Timing | None:
+    """Find that speeds are a slot over the times between edges, beside a timing of instants or means; else None."""
+    if not _are_open(shaper.recordings):
+        return None
+    usual, least = (OTHERS[2] if timing.is_early else OTHERS[0]), 0.0
+    slot = find_stays_slot(shaper.recordings)
+    if slot == 0.0:
+        slot, least = find_regressed_slot(shaper, usual), LEAST_PULSE_GAIN_OF_ROW
+    if slot == 0.0:
+        return None
+    periods = replace(usual, slot=slot)
+    fitted = shaper.fit(periods)
+    if not timing.is_early:  # what is the older the slower hides that the voltage held until the row
+        early = replace(OTHERS[2], slot=slot)
+        other = shaper.fit(early)
+        if _is_likelier(other.residuals, fitted.residuals):
+            periods, fitted = early, other
+    before, after = match_residuals(shaper.fit(replace(periods, slot=0.0)), fitted)
+    return periods if _measure_gain(before, after) > max(LEAST_GAIN, least * len(after)) else None
 
 
 def _find_instants(shaper: Shaper) -> Timing | None:

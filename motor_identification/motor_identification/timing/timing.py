@@ -2,10 +2,11 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import tau
 
 import numpy as np
 
-from motor_identification.recording import Recording
+from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.speed_sensor import is_assumed
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes
@@ -18,6 +19,10 @@ LEAST_DELAY = 0.05  # rows: with a longer dead time nothing comes too early
 TAKEN = (
     "The speeds are taken as {}: as means over the row before they fit the motion much worse "
     "(--speed-window {:.3g} --speed-lag {:.3g} says so to an import)."
+)
+PERIODS = (
+    "The speeds are taken as a slot of {:.3g} rad (some {:.3g} a turn) over the time between the latest two edges: the "
+    "slower, the older. Values that repeat, or fall with the time since, are left out; noise is a share of each."
 )
 SMOOTHED = "The speeds are smoothed: {}, as noise and motion show. What was smoothed is taken."
 EARLY = (
@@ -39,6 +44,7 @@ class Timing:
     name: str
     filter: SpeedFilter | None = None  # that they passed
     rows: RowTimes = AS_STAMPED  # how the times of rows are read, once a filter is undone
+    slot: float = 0.0  # [rad] over whose times between edges speeds were computed
 
     def set_on(self, recordings: Sequence[Recording]) -> tuple[Recording, ...]:
         """Read recordings with this timing, those of which nobody said another; the first one's notes say so."""
@@ -57,6 +63,8 @@ class Timing:
         if self.is_early:
             held, lag = np.append(recording.voltage[1:], recording.voltage[-1]), lag + 1.0
             recording = replace(recording, voltage=held)
+        if self.slot > 0.0:
+            recording = replace(recording, edge_period=_divide(self.slot, np.abs(recording.speed)))
         return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=lag * row))
 
     @property
@@ -77,13 +85,20 @@ class Timing:
     def _describe(self, recording: Recording, timed: Recording) -> list[str]:
         """Say how a recording is read otherwise than it says."""
         row, notes = recording.info.sample_period, []
-        if self.name and is_open(recording):
+        if self.slot and is_open(recording):
+            notes.append(PERIODS.format(self.slot, tau / self.slot))
+        elif self.name and is_open(recording):
             notes.append(TAKEN.format(self.name, self.window * row, timed.info.speed_lag))
         if self.is_early and is_open(recording):
             notes.append(EARLY)
         if self.filter and self._smooths(recording, self.filter):
             notes.append(SMOOTHED.format(self.filter.describe(row)))
         return [*notes, *(self.rows.describe(recording, timed) if is_open(recording) else ())]
+
+
+def _divide(slot: float, speed: Floats) -> Floats:
+    """[s] that a slot [rad] takes at speeds (K,) [rad/s]; 0 where they are 0."""
+    return np.divide(slot, speed, out=np.zeros(len(speed)), where=speed > 0.0)
 
 
 ASSUMED = Timing(1.0, 0.5, "")

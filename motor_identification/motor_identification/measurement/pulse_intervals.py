@@ -1,0 +1,90 @@
+"""Make intervals from speeds that are one slot over the time between the latest two edges: the period method.
+
+Such a value is the exact mean from one edge to the next, but its row does not say when they came: the latest within the
+row, or within a slot's time where that is shorter, so that on average it is half that old. A slow motor's row repeats a
+value until the next edge, or shows the time since the latest one; neither measures. Where values are 0, less than a
+slot has passed since the last that was not.
+"""
+
+from math import sqrt
+
+import numpy as np
+
+from motor_identification.measurement.edit_intervals import append_standstills
+from motor_identification.measurement.intervals import Intervals, index_intervals
+from motor_identification.measurement.standstill import LEAST_STANDSTILL
+from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_identification.sensor.pulse_periods import mark_decays
+from motor_identification.sensor.value_lattice import find_lattice
+from motor_identification.sensor.white_noise import estimate_white_noise
+
+FRESH = 0.5  # of a row: with two edges within it for certain its value is a new one
+STEADY = 2.0  # times its neighbours that a value may be, or they it, where it may be old
+LEAST_NOISE = 0.005  # of a value: no cheap disc is more regular
+SAME_SLOT = 1e-6  # relative: what a time between edges was computed from, or it from that
+UNIFORM_SIGMA = 1.0 / sqrt(12.0)  # standard deviation of what is uniform over 1
+
+
+def make_pulse_intervals(recording: Recording) -> Intervals:
+    """Make the intervals of speeds whose `edge_period` [s] is the time between two edges that each was computed from.
+
+    Each has an error of its own at either end: what the disc is off, and what the motor gains while the edge may come.
+    """
+    row, slot = recording.sample_period, measure_slot(recording)
+    kept = np.flatnonzero(_mark_measured(recording))
+    within = np.minimum(recording.edge_period[kept], row)  # [s] the latest edge came
+    seen = recording.time[kept] - 0.5 * within - recording.edge_period[kept] >= 0.0
+    kept, within = kept[seen], within[seen]
+    period, speed, end = recording.edge_period[kept], recording.speed[kept], recording.time[kept] - 0.5 * within
+    gain = np.abs(np.gradient(speed, end)) if len(end) > 1 else np.zeros(len(end))
+    noise = _measure_noise(speed, recording.voltage[kept]) * slot
+    blur = np.hypot(noise, gain * period * within * UNIFORM_SIGMA) / sqrt(2.0)
+    moving = index_intervals(
+        np.round(end - period, 9),
+        np.round(end, 9),
+        speed,
+        blur,
+        independent=True,
+        gear=float(recording.info.gear),
+        window=float(np.median(period)) if len(period) else row,
+        noise=float(np.median(blur)) if len(blur) else noise,
+    )
+    return append_standstills(moving, _find_standstills(recording, kept, end), slot)
+
+
+def measure_slot(recording: Recording) -> float:
+    """Measure the slot [rad] over whose times speeds were computed; 0 where no row says from what time, or not all."""
+    slots = np.abs(recording.speed * recording.edge_period)[recording.speed != 0.0]
+    slot = float(np.median(slots)) if len(slots) else 0.0
+    return slot if np.all(np.abs(slots - slot) <= SAME_SLOT * slot) else 0.0
+
+
+def _mark_measured(recording: Recording) -> Bools:
+    """Mark rows (K,) that bring a new time between two edges."""
+    time, speed, period, row = recording.time, recording.speed, recording.edge_period, recording.sample_period
+    new = (period > 0.0) & ((period < row) | (np.diff(speed, prepend=np.nan) != 0.0))
+    at = np.flatnonzero(new)
+    before, after = speed[at[:-1]], speed[at[1:]]
+    small, large = (side(np.abs(before), np.abs(after)) for side in (np.minimum, np.maximum))
+    alike = (before * after > 0.0) & (large < STEADY * small)
+    steady = np.append(False, alike) & np.append(alike, False)
+    new[at] = (period[at] < FRESH * row) | (steady & ~mark_decays(time, period, row)[at])
+    return np.asarray(new)
+
+
+def _measure_noise(speed: Floats, voltage: Floats) -> float:
+    """Measure the noise of speeds (K,), as a share of the usual one: where an error of a slot has that size."""
+    usual = sqrt(float(np.mean(speed**2))) if len(speed) else 0.0
+    if usual == 0.0:
+        return LEAST_NOISE
+    return max(max(estimate_white_noise(speed, voltage), find_lattice(speed) * UNIFORM_SIGMA) / usual, LEAST_NOISE)
+
+
+def _find_standstills(recording: Recording, kept: Integers, end: Floats) -> tuple[Floats, Floats]:
+    """Find start and end [s] of the times from the edge before values of 0 to the last of them."""
+    stands = np.diff((recording.speed == 0.0).astype(np.int8), prepend=0, append=0)
+    first, last = np.flatnonzero(stands > 0), np.flatnonzero(stands < 0) - 1
+    start = np.append(0.0, end)[np.searchsorted(kept, first)]
+    stop = recording.time[last]
+    long = stop - start > LEAST_STANDSTILL * recording.sample_period
+    return start[long], stop[long]

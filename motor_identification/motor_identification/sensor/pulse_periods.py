@@ -1,0 +1,109 @@
+"""Recognise speeds that were computed as one slot over the time between the latest two edges: the period method.
+
+Such a value stays until the next edge, which comes a slot over its own value after the one before: the slower the
+motor, the longer. No window of counts and no even frame does so. Between edges some programs let the value fall as a
+slot over the time since the latest one: that tells when it came, and of no new one.
+"""
+
+from dataclasses import dataclass
+from math import log
+
+import numpy as np
+
+from motor_identification.recording import Bools, Floats, Integers
+from motor_identification.sensor.value_lattice import find_lattice
+
+FEWEST = 8  # values that stayed for two rows or more, as long as the next one says
+AGAINST = 9.0  # of them that one value which does not come as its slot says weighs as much as: nine in ten fit
+# Of the squares by which the stays differ, what a slot leaves at most: stays of even frames differ by chance, if at
+# all, which leaves 1 or more. Measured: 0.1 to 0.6 of speeds by periods.
+LEFT = 0.85
+OFF, OFF_SLOT = 0.05, 0.03  # of a row and of a slot's time, for stamps and slots that are a little off
+SLOW = 1.05  # rows that a slot takes at what is slow
+STAYED = 1.5  # rows that a value was there for more than one of them
+STEPS = 10.0  # of what values are rounded to, at least: of fewer nobody knows how much time a slot took
+EVEN = 0.02  # of a value: how much neighbours differ by at an even speed
+EXACT = 0.05  # rows by which the time since the latest edge may grow otherwise than the rows' own
+GRID = 1.02  # from one slot that is tried to the next
+ALIKE = 0.98  # of the best score: slots that explain the values as well
+LONGEST = 200.0  # rows that a slot takes at nearly the fastest speed, at most
+ENDS = (0.02, 0.98)  # quantiles of the speeds, between which slots are tried
+
+
+def find_slot_by_stays(time: Floats, speed: Floats) -> float:
+    """Find the slot [rad] over whose times speeds (K,) [rad/s] at times (K,) [s] were computed; 0 where none shows."""
+    changed = np.flatnonzero((np.diff(speed) != 0.0) & (speed[1:] != 0.0)) + 1
+    if len(changed) < FEWEST:
+        return 0.0
+    row = float(np.median(np.diff(time)))
+    low, high = np.quantile(np.abs(speed[changed]), ENDS) * row
+    slots = low * GRID ** np.arange(log(LONGEST * high / low) / log(GRID))
+    stays = [_measure_stays(time, speed, changed, slot, row) for slot in slots]
+    most = max((stay.score for stay in stays if stay.tells), default=0.0)
+    alike = [stay.tells and stay.score >= ALIKE * most for stay in stays]
+    return float(np.exp(np.mean(np.log(slots[alike])))) if any(alike) else 0.0
+
+
+def mark_decays(time: Floats, period: Floats, row: float) -> Bools:
+    """Mark rows (K,) at which the time since the latest edge is shown: a slot's time grew as much as the rows' own.
+
+    period: [s] that a slot takes at each row's speed; 0 where that is 0. row: [s] from one to the next.
+    """
+    grows = np.abs(np.diff(period) - np.diff(time)) < EXACT * row
+    return np.append(False, grows & (period[:-1] > 0.0) & (period[1:] > row))
+
+
+@dataclass(frozen=True)
+class _Stays:
+    """How well a slot says when values come."""
+
+    held: int  # values that it explains and that came two rows or more after the one before
+    against: int  # slow values that it does not explain
+    open: int  # fast values that stayed for longer than it says: by chance, or by another slot
+    apart: Floats  # [s] from the one before to each slow value that it explains, shape (S,)
+    period: Floats  # [s] the slot's time at those
+
+    @property
+    def score(self) -> float:
+        return self.held - AGAINST * self.against - self.open
+
+    @property
+    def tells(self) -> bool:
+        """Whether enough values stay as long as the slot says, and their stays differ as it says."""
+        if self.held < FEWEST or self.score < 0.0:
+            return False
+        varied = float(np.sum((self.apart - np.mean(self.apart)) ** 2))
+        return float(np.sum((self.apart - self.period) ** 2)) < LEFT * varied
+
+
+def _measure_stays(time: Floats, speed: Floats, changed: Integers, slot: float, row: float) -> _Stays:
+    """Compare when values come with when they should: from the last edge to this one a slot's time has passed.
+
+    Both edges came somewhere within the rows that show them first.
+    """
+    period = np.divide(slot, np.abs(speed), out=np.zeros(len(speed)), where=speed != 0.0)
+    new = changed[~mark_decays(time, period, row)[changed]]
+    takes, rows = period[new], np.diff(time, prepend=time[0] - row)[new]
+    room = OFF * row + OFF_SLOT * takes
+    apart, fits = (np.zeros((2, len(new)), kind) for kind in (np.float64, np.bool_))
+    zeros = np.cumsum(speed == 0.0)
+    for back in (1, 2):
+        first, second = new[:-back], new[back:]
+        along = (zeros[first] == zeros[second]) & (speed[first] * speed[second] > 0.0)
+        late = time[second] - time[first] - takes[back:]
+        apart[back - 1, back:] = np.where(along, time[second] - time[first], 0.0)
+        fits[back - 1, back:] = along & (late < (rows + room)[back:]) & (late > -rows[:-back] - room[back:])
+    # A value of the row before that is smaller than the one before may only have said how long ago the edge was.
+    falls = np.append([False, False], np.abs(speed[new[1:-1]]) < np.abs(speed[new[:-2]]))[: len(new)]
+    fits[1] &= falls & (apart[0] < STAYED * row)
+    slow, fitting = (takes > SLOW * row) & (apart[0] > 0.0), fits.any(axis=0)
+    stay = np.where(fits[0], apart[0], apart[1])
+    told = slow & fitting
+    # Edges are hidden where one value follows an equal one: at an even speed, of which timers tell no more.
+    even = np.append(False, np.abs(np.diff(takes)) < EVEN * takes[1:]) & (apart[0] > takes)
+    too_long = ~slow & (apart[0] > STAYED * row) & ~fits[0] & ~even
+    fine = np.abs(speed[new]) >= STEPS * find_lattice(speed)
+    told, slow, too_long = told & fine, slow & fine, too_long & fine
+    marks = (told & (stay > STAYED * row), slow & ~fitting & ~even, too_long)
+    held, against, left = (int(np.count_nonzero(some)) for some in marks)
+    return _Stays(held, against, left, stay[told], takes[told])

@@ -1,0 +1,75 @@
+"""Speeds over the times between edges are means between edges that came before their rows."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from recorded import as_period_speed
+from swinging import recorded
+
+from motor_identification.measurement.build_intervals import make_intervals
+from motor_identification.measurement.pulse_intervals import LEAST_NOISE, make_pulse_intervals, measure_slot
+from motor_identification.recording import Recording
+from motor_identification.timing.timing import OTHERS
+
+EDGES = 24
+SLOT = 2.0 * np.pi / EDGES
+
+
+def timed(falls: bool = False, rate: float = 200.0) -> Recording:
+    """As a timing with the slot reads it."""
+    logged = as_period_speed(recorded(edges=EDGES, sample_rate=rate), falls)
+    return replace(OTHERS[0], slot=SLOT).set_on([logged])[0]
+
+
+@pytest.mark.parametrize("falls", [False, True])
+def test_each_is_the_mean_from_one_edge_to_the_next(falls: bool) -> None:
+    """The stamps of the plant say when: ends are off by half the time in which the latest edge may have come."""
+    stamped, data = recorded(edges=EDGES, sample_rate=200.0), make_intervals(timed(falls))
+    moving = data.slack == 0.0
+    assert np.allclose(data.duration[moving] * np.abs(data.speed[moving]), SLOT)
+    row = np.searchsorted(stamped.time, data.time[data.last][moving])
+    latest = (stamped.edge_time[row] - stamped.sample_time[0]) * 1e-9
+    within = np.minimum(stamped.edge_period[row], stamped.info.sample_period)
+    off = np.abs(data.time[data.last][moving] - latest) / within
+    assert np.mean(off <= 0.55) > 0.95
+    assert 0.2 < float(np.mean(off)) < 0.37  # 0.25 of what is uniform over 1, from its middle
+    assert data.independent
+
+
+def test_values_that_repeat_or_fall_bring_nothing_new() -> None:
+    held, falling = timed(), timed(falls=True)
+    for recording in (held, falling):
+        count = np.count_nonzero(make_pulse_intervals(recording).slack == 0.0)
+        edges = np.abs(np.diff(recording.edge_count))
+        assert count <= np.count_nonzero(edges)
+        assert count > 0.8 * np.count_nonzero(edges)
+
+
+def test_a_motor_that_stands_turns_by_less_than_a_slot() -> None:
+    recording = timed()
+    stands = (recording.time > 5.0) & (recording.time < 6.0)
+    stopped = replace(
+        recording,
+        speed=np.where(stands, 0.0, recording.speed),
+        edge_period=np.where(stands, 0.0, recording.edge_period),
+    )
+    data = make_pulse_intervals(stopped)
+    still = np.flatnonzero((data.slack > 0.0) & (data.time[data.first] > 4.0) & (data.time[data.last] < 7.0))
+    assert len(still) == 1
+    assert data.slack[still[0]] == pytest.approx(SLOT)
+    assert data.time[data.first[still[0]]] == pytest.approx(5.0, abs=0.02)
+    assert data.time[data.last[still[0]]] == pytest.approx(6.0, abs=0.01)
+
+
+def test_noise_is_a_share_of_a_slot_and_what_the_motor_gains() -> None:
+    data = make_pulse_intervals(timed(rate=500.0))
+    moving = data.slack == 0.0
+    assert np.min(data.blur[moving]) >= LEAST_NOISE * SLOT / np.sqrt(2.0)
+    assert np.max(data.blur[moving]) < SLOT
+    assert np.max(data.blur[moving]) > 2.0 * np.min(data.blur[moving])
+
+
+def test_no_slot_without_periods() -> None:
+    assert measure_slot(as_period_speed(recorded(edges=EDGES))) == 0.0
+    assert measure_slot(timed()) == pytest.approx(SLOT)

@@ -1,0 +1,67 @@
+"""How long values stay tells the slot over whose times they were computed, and that others were not."""
+
+import numpy as np
+import pytest
+from recorded import as_period_speed, as_speed
+from swinging import recorded
+
+from motor_identification.recording import Floats
+from motor_identification.sensor import pulse_periods
+from motor_identification.sensor.pulse_periods import find_slot_by_stays, mark_decays
+
+
+def logged(edges: int, rate: float, falls: bool = False) -> tuple[Floats, Floats]:
+    recording = as_period_speed(recorded(edges=edges, sample_rate=rate), falls)
+    return recording.time, recording.speed
+
+
+@pytest.mark.parametrize("falls", [False, True])
+@pytest.mark.parametrize(("edges", "rate"), [(6, 50.0), (12, 200.0), (48, 200.0), (96, 500.0)])
+def test_the_slot_is_found(edges: int, rate: float, falls: bool) -> None:
+    slot = 2.0 * np.pi / edges
+    assert find_slot_by_stays(*logged(edges, rate, falls)) == pytest.approx(slot, rel=0.05)
+
+
+def test_rows_that_lack_now_and_then_tell_it_too() -> None:
+    time, speed = logged(24, 500.0)
+    kept = np.sort(np.random.default_rng(1).permutation(len(time))[: len(time) * 9 // 10])
+    assert find_slot_by_stays(time[kept], speed[kept]) == pytest.approx(2.0 * np.pi / 24, rel=0.05)
+
+
+def test_a_fast_motor_shows_none() -> None:
+    assert find_slot_by_stays(*logged(192, 50.0)) == 0.0
+
+
+@pytest.mark.parametrize("rate", [50.0, 500.0])
+def test_what_stays_for_other_reasons_is_none(rate: float) -> None:
+    """Counts within a window, values held for even frames, and values rounded to few digits."""
+    counted = as_speed(recorded(edges=12, sample_rate=rate))
+    assert find_slot_by_stays(counted.time, counted.speed) == 0.0
+    exact = as_speed(recorded(sample_rate=rate))
+    for rows in (2, 3):
+        held = exact.speed[np.arange(len(exact)) // rows * rows]
+        assert find_slot_by_stays(exact.time, held) == 0.0
+    for step in (0.5, 5.0):
+        assert find_slot_by_stays(exact.time, np.round(exact.speed / step) * step) == 0.0
+
+
+def test_too_few_changes_tell_nothing() -> None:
+    assert find_slot_by_stays(np.arange(100.0), np.zeros(100)) == 0.0
+    assert find_slot_by_stays(np.arange(100.0), np.repeat([1.0, 2.0], 50)) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("name", "strict"), [("FEWEST", 10_000), ("LEFT", 0.01), ("AGAINST", 10_000.0), ("STEPS", 1e9)]
+)
+def test_each_limit_decides(name: str, strict: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    time, speed = logged(12, 200.0)
+    rounded = np.round(speed / 0.02) * 0.02
+    assert find_slot_by_stays(time, rounded) > 0.0
+    monkeypatch.setattr(pulse_periods, name, strict)
+    assert find_slot_by_stays(time, rounded) == 0.0
+
+
+def test_the_time_since_an_edge_grows_with_the_rows() -> None:
+    time = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
+    period = np.array([0.0, 2.0, 3.0, 4.04, 5.1])
+    assert mark_decays(time, period, 1.0).tolist() == [False, False, True, True, False]

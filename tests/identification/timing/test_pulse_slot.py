@@ -1,0 +1,79 @@
+"""Speeds by the period method are told by how long they stay, or by how late they are the slower they are."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from recorded import as_period_speed
+from swinging import noisy, recorded
+
+from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.search.global_search import search_globally
+from motor_identification.identify import Request, identify
+from motor_identification.recording import Recording, check
+from motor_identification.timing import speed_timing
+from motor_identification.timing.pulse_slot import find_regressed_slot, find_stays_slot
+from motor_identification.timing.shaped_fit import Shaper
+from motor_identification.timing.speed_timing import find_timing
+from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing
+from motor_model.parameters import PAPER_KV
+
+
+def timing_of(recording: Recording) -> Timing | None:
+    estimate, _ = search_globally(make_problem([recording], ()), SearchConfig())
+    return find_timing([recording], estimate)
+
+
+def shaper_of(recording: Recording) -> Shaper:
+    estimate, _ = search_globally(make_problem([recording], ()), SearchConfig())
+    return Shaper([recording], estimate, None)
+
+
+def logged(edges: int, rate: float = 50.0) -> Recording:
+    return check(as_period_speed(recorded(edges=edges, sample_rate=rate)))
+
+
+def test_a_slow_motor_shows_the_slot_by_its_stays() -> None:
+    recording = logged(12)
+    assert find_stays_slot([recording]) == pytest.approx(2.0 * np.pi / 12, rel=0.05)
+    found = timing_of(recording)
+    assert found is not None and (found.window, found.lag) == (INSTANT, 0.0)
+    assert found.slot == find_stays_slot([recording])
+
+
+def test_a_fast_motor_shows_it_by_what_comes_late() -> None:
+    recording = logged(48)
+    assert find_stays_slot([recording]) == 0.0
+    found = timing_of(recording)
+    assert found is not None
+    assert found.slot == pytest.approx(2.0 * np.pi / 48, rel=0.25)
+
+
+def test_values_of_instants_and_means_show_none() -> None:
+    for instant in (True, False):
+        recording = check(noisy(0.05, instant=instant))
+        assert find_regressed_slot(shaper_of(recording), OTHERS[0] if instant else ASSUMED) == 0.0
+
+
+@pytest.mark.parametrize(("name", "edges"), [("LEAST_GAIN", 12), ("LEAST_PULSE_GAIN_OF_ROW", 48)])
+def test_they_have_to_be_much_likelier(name: str, edges: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert (timing_of(logged(edges)) or ASSUMED).slot > 0.0
+    monkeypatch.setattr(speed_timing, name, 1e6)
+    assert (timing_of(logged(edges)) or ASSUMED).slot == 0.0
+
+
+def test_a_voltage_that_held_until_the_row_is_told_beside_it() -> None:
+    recording = logged(12)
+    late = check(replace(recording, voltage=np.append(0.0, recording.voltage[:-1])))
+    found = timing_of(late)
+    assert found is not None and found.lag == -1.0 and found.slot > 0.0
+
+
+def test_the_motor_is_right_and_the_notes_say_how_it_was_read() -> None:
+    recording = logged(12, 200.0)
+    read = identify([recording], Request(effects=("coulomb_friction",)))
+    assert read.parameters.value("kv") == pytest.approx(PAPER_KV, rel=0.002)
+    assert read.parameters.value("ks") == pytest.approx(0.5, rel=0.02)
+    (said,) = (note for note in read.notes if "latest two edges" in note)
+    assert "a slot of 0.521 rad (some 12.1 a turn)" in said
