@@ -19,6 +19,7 @@ from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import estimate_white_noise
 
 FRESH = 0.5  # of a row: with two edges within it for certain its value is a new one
+OLDER = 1.1  # rows: an edge came within the row before, stamps are a little off
 STEADY = 2.0  # times its neighbours that a value may be, or they it, where it may be old
 LEAST_NOISE = 0.005  # of a value: no cheap disc is more regular
 SAME_SLOT = 1e-6  # relative: what a time between edges was computed from, or it from that
@@ -63,13 +64,17 @@ def _mark_measured(recording: Recording) -> Bools:
     """Mark rows (K,) that bring a new time between two edges."""
     time, speed, period, row = recording.time, recording.speed, recording.edge_period, recording.sample_period
     new = (period > 0.0) & ((period < row) | (np.diff(speed, prepend=np.nan) != 0.0))
-    at = np.flatnonzero(new)
+    at = np.flatnonzero(new & ~mark_decays(time, period, row))
+    # An edge is a slot's time after the one before: where a value comes sooner, that was the time since one.
+    sooner = np.diff(time[at]) < period[at[1:]] - OLDER * row
+    at = at[~np.append(sooner, False)]
     before, after = speed[at[:-1]], speed[at[1:]]
     small, large = (side(np.abs(before), np.abs(after)) for side in (np.minimum, np.maximum))
     alike = (before * after > 0.0) & (large < STEADY * small)
     steady = np.append(False, alike) & np.append(alike, False)
-    new[at] = (period[at] < FRESH * row) | (steady & ~mark_decays(time, period, row)[at])
-    return np.asarray(new)
+    measured = np.zeros(len(time), np.bool_)
+    measured[at[(period[at] < FRESH * row) | steady]] = True
+    return measured
 
 
 def _measure_noise(speed: Floats, voltage: Floats) -> float:

@@ -45,12 +45,13 @@ def find_slot_by_stays(time: Floats, speed: Floats) -> float:
 
 
 def mark_decays(time: Floats, period: Floats, row: float) -> Bools:
-    """Mark rows (K,) at which the time since the latest edge is shown: a slot's time grew as much as the rows' own.
+    """Mark rows (K,) that show the time since the latest edge: from one to the next it grows as much as the rows' own.
 
     period: [s] that a slot takes at each row's speed; 0 where that is 0. row: [s] from one to the next.
     """
     grows = np.abs(np.diff(period) - np.diff(time)) < EXACT * row
-    return np.append(False, grows & (period[:-1] > 0.0) & (period[1:] > row))
+    pair = grows & (period[:-1] > 0.0) & (period[1:] > row)
+    return np.append(pair, False) | np.append(False, pair)
 
 
 @dataclass(frozen=True)

@@ -64,4 +64,4 @@ def test_each_limit_decides(name: str, strict: float, monkeypatch: pytest.Monkey
 def test_the_time_since_an_edge_grows_with_the_rows() -> None:
     time = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
     period = np.array([0.0, 2.0, 3.0, 4.04, 5.1])
-    assert mark_decays(time, period, 1.0).tolist() == [False, False, True, True, False]
+    assert mark_decays(time, period, 1.0).tolist() == [False, True, True, True, False]
