@@ -88,10 +88,8 @@ def _find_as_stamped(shaper: Shaper) -> Timing | None:
     None where the motion comes too early for any timing.
     """
     timing = _find_instants(shaper)
-    if timing is None:
-        return None
-    periods = _find_periods(shaper, timing)
-    if periods is not None:
+    periods = _find_periods(shaper, timing or ASSUMED)
+    if periods is not None or timing is None:
         return periods
     usual = (ASSUMED, OTHERS[0]) if _are_open(shaper.recordings) else ()
     found = find_filter(shaper, (timing, *(one for one in usual if one != timing)))
