@@ -8,6 +8,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "support"
 
 import numpy as np
 from numpy.typing import NDArray
+from period_method import compute_period_speeds
 from plant.motor import move
 from scipy.signal import butter, lfilter
 
@@ -15,6 +16,8 @@ Floats = NDArray[np.float64]
 SUPPLIES = (3.0, 5.0, 6.0, 7.4, 12.0, 24.0, 48.0)
 RATES = (20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 SENSORS = ("positions", "speeds", "tachogenerator")  # counted, counted from row to row, of the row's own instant
+TIMED = "times between edges"
+DISC, SILENCE, SILENT_ROWS = 0.01, 0.1, 10.0  # of a slot; [s] and rows without an edge after which a speed is 0
 NOISE, CONVERTER = (1e-3, 2e-2), (1.3 / 1024, 1e-9)  # of a tachogenerator: of the top speed, and steps of that
 EXCITATIONS = ("step", "steps one way", "staircase", "prbs one way", "prbs", "ramps", "sweep", "speed loop")
 # Chance of each effect, and its size: of the supply, of the time constant, or a number.
@@ -38,6 +41,7 @@ class Logger:
     before: bool = False  # the voltage that held until the row, not the one from there on
     nominal: bool = False  # counts are divided by the period that the loop should have
     memory: float = 0.0  # share of the speed shown before that a new one keeps
+    falls: bool = False  # speeds from times between edges fall with the time since the latest
     filter: str = ""  # what else filters the speeds, with its number: see `filter_of`
 
     @property
@@ -53,6 +57,7 @@ class Logger:
             (self.whole, "whole ms"),
             (self.before, "voltage until then"),
             (self.nominal, "nominal period"),
+            (self.falls, "falling"),
             (self.memory > 0.0, f"smoothed {self.memory:g}"),
             (bool(self.filter), self.filter),
         )
@@ -171,6 +176,14 @@ def _move(case: Case, time: Floats, volts: Floats) -> tuple[Floats, Floats]:
     return np.asarray(motion.angle[motion.at]), np.asarray(motion.speed[motion.at])
 
 
+def time_edges(case: Case, time: Floats, volts: Floats) -> Floats:
+    """[rad/s] what a board that times edges shows at the rows."""
+    motion = move(case.values, time, volts, step=min(2e-5, case.lag / 2000.0))
+    disc = DISC * np.random.default_rng([24, case.seed]).standard_normal(case.counts)
+    slot, silence = 2.0 * np.pi / case.counts, max(SILENCE, SILENT_ROWS / case.rate)
+    return compute_period_speeds(motion.time, motion.angle, time, slot, disc, case.logger.falls, silence)
+
+
 def _draw_instants(case: Case) -> Floats:
     """The instants of the rows [s]; a loop that takes its time is never faster than twice its rate."""
     count = int(span_of(case) * case.rate)
@@ -214,6 +227,8 @@ def write(case: Case, path: Path) -> None:
     if case.sensor == SENSORS[1]:
         periods = np.diff(time) if logger.loop and not logger.nominal else 1.0 / case.rate
         shown = np.append(0.0, np.diff(shown) / periods) / 6.0
+    elif case.sensor == TIMED:
+        shown = time_edges(case, time, volts) * 30.0 / np.pi
     elif case.sensor == SENSORS[2]:
         top, noise = case.supply / case.values["kv"], NOISE[0] * (NOISE[1] / NOISE[0]) ** random.random()
         step = top * random.choice(CONVERTER)
