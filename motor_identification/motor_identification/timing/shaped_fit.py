@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import inf, isfinite, log
 
 import numpy as np
 
@@ -67,3 +68,19 @@ class Shaper:
         }
         theta = map_theta(begin.problem.unknowns, begin.theta, problem.unknowns, starts)
         return ShapedFit(fit_speeds(Estimate(problem, theta), np.inf, ITERATIONS, TOLERANCE))
+
+
+def measure_gain(before: Floats, after: Floats) -> float:
+    """Measure how much likelier residuals are, each as noise of which a part is that of the row before (AR(1))."""
+    count = min(len(before), len(after))  # at the beginning a row may have no whole window
+    old, new = (_innovate(one[-count:]) for one in (before, after))
+    if not (isfinite(old) and isfinite(new)) or old <= 0.0:
+        return 0.0
+    return 0.5 * count * log(old / new) if new > 0.0 else inf
+
+
+def _innovate(residuals: Floats) -> float:
+    """Compute the power that the best prediction of each residual from the one before leaves."""
+    power = float(np.sum(residuals**2))
+    alike = float(residuals[1:] @ residuals[:-1]) / power if power > 0.0 else 0.0
+    return power * (1.0 - alike**2)

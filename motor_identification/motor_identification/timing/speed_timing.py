@@ -12,16 +12,13 @@ two edges, and the older the slower (`pulse_slot.py`).
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from math import inf, isfinite, log
-
-import numpy as np
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
-from motor_identification.timing.pulse_slot import find_regressed_slot, find_stays_slot, match_residuals
+from motor_identification.timing.pulse_slot import find_likeliest_slot, find_stays_slot, judge_slot
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row_times
-from motor_identification.timing.shaped_fit import Shaper
+from motor_identification.timing.shaped_fit import Shaper, measure_gain
 from motor_identification.timing.smoothing import AS_LIKELY, Likelihood, find_filter
 from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, Timing, is_open
 from motor_model.effects import EFFECT_BY_NAME, LAGS
@@ -31,9 +28,9 @@ from motor_model.sample import Measurement
 # where it is another; up to 17 in all (0.004 a row) where it is as assumed and something else is missing; 0 to 25
 # (0.03) in logs of others, of which nobody knows.
 LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
-# The same of a slot that a regression shows. Measured: 0.3 to 0.6 a row of speeds by periods, below 0 of nine in ten
-# others for which one is found, 0.1 at most.
-LEAST_PULSE_GAIN_OF_ROW = 0.2
+# The same, in all, of a slot that no stays show. Measured: 10 to 1,000 of speeds over times between edges, below 0 of
+# 19 in 20 others, 61 at most.
+LEAST_PULSE_GAIN = 30.0
 LEAST_SPEEDS = 50
 TOO_EARLY = Timing(1.0, -1.5, "")  # half a row more than any program makes speeds early
 
@@ -104,21 +101,16 @@ def _find_periods(shaper: Shaper, timing: Timing) -> Timing | None:
     """Find that speeds are a slot over the times between edges, beside a timing of instants or means; else None."""
     if not _are_open(shaper.recordings):
         return None
-    usual, least = (OTHERS[2] if timing.is_early else OTHERS[0]), 0.0
-    slot = find_stays_slot(shaper.recordings)
-    if slot == 0.0:
-        slot, least = find_regressed_slot(shaper, usual), LEAST_PULSE_GAIN_OF_ROW
-    if slot == 0.0:
+    usual, least = (OTHERS[2] if timing.is_early else OTHERS[0]), LEAST_GAIN
+    if slot := find_stays_slot(shaper.recordings):
+        found = judge_slot(shaper, usual, slot)
+    else:
+        found, least = find_likeliest_slot(shaper, usual), LEAST_PULSE_GAIN
+    if found.gain <= least:
         return None
-    periods = replace(usual, slot=slot)
-    fitted = shaper.fit(periods)
-    if not timing.is_early:  # what is the older the slower hides that the voltage held until the row
-        early = replace(OTHERS[2], slot=slot)
-        other = shaper.fit(early)
-        if _is_likelier(other.residuals, fitted.residuals):
-            periods, fitted = early, other
-    before, after = match_residuals(shaper.fit(replace(periods, slot=0.0)), fitted)
-    return periods if _measure_gain(before, after) > max(LEAST_GAIN, least * len(after)) else None
+    periods, early = (replace(one, slot=found.slot) for one in (usual, OTHERS[2]))
+    is_early = early != periods and _is_likelier(shaper.fit(early).residuals, shaper.fit(periods).residuals)
+    return early if is_early else periods
 
 
 def _find_instants(shaper: Shaper) -> Timing | None:
@@ -146,20 +138,4 @@ def _are_open(recordings: Sequence[Recording]) -> bool:
 
 def _is_likelier(one: Floats, other: Floats) -> bool:
     """Decide whether one timing's residuals (I,) are much likelier than another's."""
-    return _measure_gain(other, one) > max(LEAST_GAIN, LEAST_GAIN_OF_ROW * len(one))
-
-
-def _measure_gain(before: Floats, after: Floats) -> float:
-    """Measure how much likelier residuals are, each as noise of which a part is that of the row before (AR(1))."""
-    count = min(len(before), len(after))  # at the beginning a row may have no whole window
-    old, new = (_innovate(one[-count:]) for one in (before, after))
-    if not (isfinite(old) and isfinite(new)) or old <= 0.0:
-        return 0.0
-    return 0.5 * count * log(old / new) if new > 0.0 else inf
-
-
-def _innovate(residuals: Floats) -> float:
-    """Compute the power that the best prediction of each residual from the one before leaves."""
-    power = float(np.sum(residuals**2))
-    alike = float(residuals[1:] @ residuals[:-1]) / power if power > 0.0 else 0.0
-    return power * (1.0 - alike**2)
+    return measure_gain(other, one) > max(LEAST_GAIN, LEAST_GAIN_OF_ROW * len(one))
