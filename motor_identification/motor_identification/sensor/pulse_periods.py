@@ -51,7 +51,7 @@ def mark_decays(time: Floats, period: Floats, row: float) -> Bools:
     """
     grows = np.abs(np.diff(period) - np.diff(time)) < EXACT * row
     pair = grows & (period[:-1] > 0.0) & (period[1:] > row)
-    return np.append(pair, False) | np.append(False, pair)
+    return np.asarray(np.append(pair, False) | np.append(False, pair))
 
 
 @dataclass(frozen=True)

@@ -101,16 +101,17 @@ def _find_periods(shaper: Shaper, timing: Timing) -> Timing | None:
     """Find that speeds are a slot over the times between edges, beside a timing of instants or means; else None."""
     if not _are_open(shaper.recordings):
         return None
-    usual, least = (OTHERS[2] if timing.is_early else OTHERS[0]), LEAST_GAIN
     if slot := find_stays_slot(shaper.recordings):
-        found = judge_slot(shaper, usual, slot)
+        found, least = judge_slot(shaper, _choose_instants(shaper, slot), slot), LEAST_GAIN
     else:
-        found, least = find_likeliest_slot(shaper, usual), LEAST_PULSE_GAIN
-    if found.gain <= least:
-        return None
-    periods, early = (replace(one, slot=found.slot) for one in (usual, OTHERS[2]))
-    is_early = early != periods and _is_likelier(shaper.fit(early).residuals, shaper.fit(periods).residuals)
-    return early if is_early else periods
+        found, least = find_likeliest_slot(shaper, OTHERS[2] if timing.is_early else OTHERS[0]), LEAST_PULSE_GAIN
+    return replace(_choose_instants(shaper, found.slot), slot=found.slot) if found.gain > least else None
+
+
+def _choose_instants(shaper: Shaper, slot: float) -> Timing:
+    """Choose whether voltages hold from rows on or held until them, of speeds over the times of a slot [rad]."""
+    later, early = (shaper.fit(replace(timing, slot=slot)).residuals for timing in (OTHERS[0], OTHERS[2]))
+    return OTHERS[2] if _is_likelier(early, later) else OTHERS[0]
 
 
 def _find_instants(shaper: Shaper) -> Timing | None:

@@ -1,4 +1,4 @@
-"""Speeds by the period method are told by how long they stay, or by how late they are the slower they are."""
+"""Speeds over the times between edges are told by how long they stay, or by how late they are the slower they are."""
 
 from dataclasses import replace
 
@@ -12,17 +12,17 @@ from motor_identification.estimation.request import SearchConfig
 from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.identify import Request, identify
 from motor_identification.recording import Recording, check
-from motor_identification.timing import speed_timing
-from motor_identification.timing.pulse_slot import find_regressed_slot, find_stays_slot
+from motor_identification.timing import pulse_slot, speed_timing
+from motor_identification.timing.pulse_slot import find_likeliest_slot, find_stays_slot, judge_slot
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing
 from motor_model.parameters import PAPER_KV
 
 
-def timing_of(recording: Recording) -> Timing | None:
+def timing_of(recording: Recording) -> Timing:
     estimate, _ = search_globally(make_problem([recording], ()), SearchConfig())
-    return find_timing([recording], estimate)
+    return find_timing([recording], estimate) or ASSUMED
 
 
 def shaper_of(recording: Recording) -> Shaper:
@@ -38,36 +38,47 @@ def test_a_slow_motor_shows_the_slot_by_its_stays() -> None:
     recording = logged(12)
     assert find_stays_slot([recording]) == pytest.approx(2.0 * np.pi / 12, rel=0.05)
     found = timing_of(recording)
-    assert found is not None and (found.window, found.lag) == (INSTANT, 0.0)
-    assert found.slot == find_stays_slot([recording])
+    assert (found.window, found.lag, found.slot) == (INSTANT, 0.0, find_stays_slot([recording]))
 
 
 def test_a_fast_motor_shows_it_by_what_comes_late() -> None:
     recording = logged(48)
     assert find_stays_slot([recording]) == 0.0
-    found = timing_of(recording)
-    assert found is not None
-    assert found.slot == pytest.approx(2.0 * np.pi / 48, rel=0.25)
+    assert timing_of(recording).slot == pytest.approx(2.0 * np.pi / 48, rel=0.4)
+
+
+def test_the_true_slot_is_likelier_than_others() -> None:
+    shaper, slot = shaper_of(logged(48)), 2.0 * np.pi / 48
+    gains = [judge_slot(shaper, OTHERS[0], factor * slot) for factor in (0.1, 1.0, 10.0)]
+    assert gains[1].gain > max(gains[0].gain, gains[2].gain, 100.0)
+    assert gains[1].rows > 500
+    assert judge_slot(shaper, OTHERS[0], 1e6).gain == -np.inf  # by which no row would bring a value
 
 
 def test_values_of_instants_and_means_show_none() -> None:
-    for instant in (True, False):
-        recording = check(noisy(0.05, instant=instant))
-        assert find_regressed_slot(shaper_of(recording), OTHERS[0] if instant else ASSUMED) == 0.0
+    for timing in (OTHERS[0], ASSUMED):
+        shaper = shaper_of(check(noisy(0.05, instant=timing is OTHERS[0])))
+        assert find_likeliest_slot(shaper, OTHERS[0]).gain < 0.5 * speed_timing.LEAST_PULSE_GAIN
 
 
-@pytest.mark.parametrize(("name", "edges"), [("LEAST_GAIN", 12), ("LEAST_PULSE_GAIN_OF_ROW", 48)])
+@pytest.mark.parametrize(("name", "edges"), [("LEAST_GAIN", 12), ("LEAST_PULSE_GAIN", 48)])
 def test_they_have_to_be_much_likelier(name: str, edges: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert (timing_of(logged(edges)) or ASSUMED).slot > 0.0
+    assert timing_of(logged(edges)).slot > 0.0
     monkeypatch.setattr(speed_timing, name, 1e6)
-    assert (timing_of(logged(edges)) or ASSUMED).slot == 0.0
+    assert timing_of(logged(edges)).slot == 0.0
+
+
+def test_a_slot_is_looked_for_more_closely_where_one_is_likely(monkeypatch: pytest.MonkeyPatch) -> None:
+    shaper = shaper_of(logged(48))
+    close = find_likeliest_slot(shaper, OTHERS[0])
+    monkeypatch.setattr(pulse_slot, "STEPS", ())
+    assert find_likeliest_slot(shaper, OTHERS[0]).gain < close.gain
 
 
 def test_a_voltage_that_held_until_the_row_is_told_beside_it() -> None:
     recording = logged(12)
-    late = check(replace(recording, voltage=np.append(0.0, recording.voltage[:-1])))
-    found = timing_of(late)
-    assert found is not None and found.lag == -1.0 and found.slot > 0.0
+    found = timing_of(check(replace(recording, voltage=np.append(0.0, recording.voltage[:-1]))))
+    assert found.lag == -1.0 and found.slot > 0.0
 
 
 def test_the_motor_is_right_and_the_notes_say_how_it_was_read() -> None:
