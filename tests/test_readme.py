@@ -112,7 +112,8 @@ def test_what_the_readme_says_of_simulated_motors_is_what_the_pages_have() -> No
     number = r" (\d+) \|"
     right, part, silent, wrong = column_sums("any_motor.md", r"^\| [a-z ]+ \|" + 4 * number + "$")
     counts = {"any_motor.md": (right + part + silent + wrong, right, part + silent, wrong)}
-    for page in ("foreign_logs.md", "foreign_loggers.md", "foreign_effects.md", "run_gains.md"):
+    pages = ("foreign_logs.md", "foreign_loggers.md", "foreign_effects.md", "foreign_periods.md", "run_gains.md")
+    for page in pages:
         every, right, part, silent, wrong = column_sums(page, r"^\| all \|" + 5 * number)
         counts[page] = (every, right, part + silent, wrong)
     every, named = column_sums("false_names.md", r"^\| all \|" + 2 * number)

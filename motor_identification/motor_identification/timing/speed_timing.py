@@ -16,7 +16,7 @@ from dataclasses import replace
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
-from motor_identification.timing.pulse_slot import find_likeliest_slot, find_stays_slot, judge_slot
+from motor_identification.timing.pulse_slot import find_likeliest_slot, find_stays_slot
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row_times
 from motor_identification.timing.shaped_fit import Shaper, measure_gain
 from motor_identification.timing.smoothing import AS_LIKELY, Likelihood, find_filter
@@ -30,7 +30,7 @@ from motor_model.sample import Measurement
 LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
 # The same, in all, of a slot that no stays show. Measured: 10 to 1,000 of speeds over times between edges, below 0 of
 # 19 in 20 others, 61 at most.
-LEAST_PULSE_GAIN = 30.0
+LEAST_PULSE_GAIN = 25.0
 LEAST_SPEEDS = 50
 TOO_EARLY = Timing(1.0, -1.5, "")  # half a row more than any program makes speeds early
 
@@ -98,14 +98,17 @@ def _find_as_stamped(shaper: Shaper) -> Timing | None:
 
 
 def _find_periods(shaper: Shaper, timing: Timing) -> Timing | None:
-    """Find that speeds are a slot over the times between edges, beside a timing of instants or means; else None."""
+    """Find that speeds are a slot over the times between edges, beside a timing of instants or means; else None.
+
+    How long values stay is proof enough: where edges come as seldom as rows, a fit tells little.
+    """
     if not _are_open(shaper.recordings):
         return None
-    if slot := find_stays_slot(shaper.recordings):
-        found, least = judge_slot(shaper, _choose_instants(shaper, slot), slot), LEAST_GAIN
-    else:
-        found, least = find_likeliest_slot(shaper, OTHERS[2] if timing.is_early else OTHERS[0]), LEAST_PULSE_GAIN
-    return replace(_choose_instants(shaper, found.slot), slot=found.slot) if found.gain > least else None
+    slot = find_stays_slot(shaper.recordings)
+    if slot == 0.0:
+        found = find_likeliest_slot(shaper, OTHERS[2] if timing.is_early else OTHERS[0])
+        slot = found.slot if found.gain > LEAST_PULSE_GAIN else 0.0
+    return replace(_choose_instants(shaper, slot), slot=slot) if slot > 0.0 else None
 
 
 def _choose_instants(shaper: Shaper, slot: float) -> Timing:
