@@ -16,7 +16,7 @@ from motor_identification.logs.columns.cautions import (
 )
 from motor_identification.logs.columns.direction import guess_direction
 from motor_identification.logs.columns.drive import supply_scale
-from motor_identification.logs.columns.heading import Heading, is_in_volts, read_heading
+from motor_identification.logs.columns.heading import Heading, is_in_volts, is_of_joint_states, read_heading
 from motor_identification.logs.columns.increments import count_anew
 from motor_identification.logs.columns.motor_drive import read_drive
 from motor_identification.logs.columns.movement import (
@@ -173,6 +173,8 @@ def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: floa
         return Unit("count", "")
     if heading.unit and _kind_of(heading) is kind:
         return Unit(heading.unit, ELECTRICAL if "erpm" in heading.name.lower() else "")
+    if is_of_joint_states(heading):
+        return Unit(ASKED[kind][0], "as ROS's joint states have them; otherwise: --unit")
     if is_in_volts(heading):
         return Unit("", "", ASKED[kind])  # its steps are those of an analogue-to-digital converter
     guessed = (
