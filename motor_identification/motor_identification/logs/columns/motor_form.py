@@ -11,6 +11,7 @@ from motor_identification.logs.columns.behaviour.following import is_speed_by_dr
 from motor_identification.logs.columns.behaviour.standing_start import begins_at_rest
 from motor_identification.logs.columns.cautions import (
     caution_beyond_full,
+    caution_no_means,
     caution_running_without_drive,
     caution_set_point,
 )
@@ -89,6 +90,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     if kind is Kind.SPEED and said.constant_voltage is None:
         caution_set_point(table, pair, notes)
         caution_running_without_drive(table, pair, notes)
+        caution_no_means(table, pair, notes)
     why = f" ({unit.why})" if unit.why else ""
     notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}{beside_it}.")
     if rows.time is None and not said.steady:

@@ -1,7 +1,7 @@
 """Reads a text table: all of its columns, chunk by chunk, with the line of each row."""
 
 import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
@@ -114,8 +114,10 @@ def _columns(
     left_out: list[int] = []
     sentences: list[int] = []
     garbled: list[int] = []
+    remarks: list[int] = []
     rows = drop_sentences(_rows(path, lines, dialect), width, dialect.decimal_comma, sentences)
     rows = drop_words(rows, dialect.decimal_comma, left_out)
+    rows = _cut_remarks(rows, width, dialect.decimal_comma, remarks)
     while chunk := list(islice(rows, _CHUNK)):
         longer = [line for line, row in chunk if any(row[width:])]
         if len(longer) > GARBLED * len(chunk):
@@ -136,6 +138,8 @@ def _columns(
         parts[-1] = [column[:-1] for column in parts[-1]]
     if garbled:
         notes.append(f"Left out: {_lines(garbled)} with more cells than columns are named ({width}).")
+    if remarks:
+        notes.append(f"Left out: words behind the last named column, in {_lines(remarks)}.")
     if left_out:
         notes.append(f"Left out: {_lines(left_out)} without a number (comments, names of columns).")
     if sentences:
@@ -143,6 +147,18 @@ def _columns(
     names = _unique(dialect.header)
     columns = {name: np.concatenate([part[k] for part in parts]) for k, name in enumerate(names)}
     return np.array([line for chunk_lines in numbers for line in chunk_lines], np.int64), columns
+
+
+def _cut_remarks(
+    rows: Iterable[tuple[int, list[str]]], width: int, comma: bool, remarks: list[int]
+) -> Iterator[tuple[int, list[str]]]:
+    """Cut words off behind the last column that has a name, as of remarks beside a table; their lines are noted."""
+    for line, row in rows:
+        beyond = [cell for cell in row[width:] if cell]
+        if beyond and not any(is_number(cell, comma) for cell in beyond):
+            remarks.append(line)
+            row = row[:width]
+        yield line, row
 
 
 def _lines(numbers: Sequence[int]) -> str:
