@@ -8,6 +8,7 @@ import numpy as np
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 from motor_identification.logs.rows.row_times import ROW_TIMES
 from motor_model.errors import RecordingError
 
@@ -68,6 +69,22 @@ def miss_drive(table: Table) -> RecordingError:
     return RecordingError(
         f"{table.path}: no column is the voltage or duty: say which one of {_list_names(table.names)} is (--voltage "
         "COL), or --constant-voltage V for a log of one step."
+    )
+
+
+def lack_motion(table: Table, time: str | None) -> RecordingError:
+    """Ask for the motion among columns that may be it by their names, or say that none can be."""
+    headings = [read_heading(name) for name in table.names if name not in (time, ROW_TIMES, CONSTANT)]
+    known = {Quantity.TIME, Quantity.DUTY, Quantity.SUPPLY, Quantity.CURRENT, Quantity.REFERENCE}
+    if [one.quantity for one in headings if one.quantity in (Quantity.VOLTAGE, Quantity.DUTY)] == [Quantity.VOLTAGE]:
+        known.add(Quantity.VOLTAGE)  # of several drives, one in volts may be a tachogenerator's
+    if open_ones := [one.name for one in headings if one.quantity not in known]:
+        return ask_column(table, "motion", "--speed, --position or --count", open_ones)
+    names = [f"{one.name} is a {one.quantity.value}" for one in headings if one.quantity]
+    taken = [f"{time} the time"] if time and time != ROW_TIMES else []
+    return RecordingError(
+        f"{table.path}: no column is the motion ({', '.join([*names[:SHOWN], *taken])}): log the motor's speed, "
+        "position or count beside them, or say which column it is (--speed, --position or --count COL)."
     )
 
 
