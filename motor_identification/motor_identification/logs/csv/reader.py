@@ -24,6 +24,7 @@ from motor_identification.logs.csv.table_end import NEARLY_ALL, cut_at_end
 from motor_model.errors import RecordingError
 
 _CHUNK = 50_000  # rows: lists of texts take ten times the memory of arrays
+LONG_ROW = 10  # numbers: fewer may be a table of one sample
 
 
 def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
@@ -67,7 +68,7 @@ def table_of(path: Path, text: Sequence[str], notes: list[str], wanted: Sequence
     notes += _say_rows_above(lines, dialect)
     numbers, columns = _columns(path, lines, dialect, notes)
     if len(numbers) < 2:
-        raise RecordingError(f"{path} has {len(numbers)} rows below its column names: at least 2 samples are needed.")
+        raise RecordingError(_too_few(path, len(numbers), dialect.header))
     return Table(path, numbers, columns, dialect.decimal_comma, tuple(notes))
 
 
@@ -97,13 +98,22 @@ def _named_by_lines(dialect: Dialect, taken: Lines) -> Dialect:
 def _no_rows(path: Path, lines: Sequence[str]) -> str:
     rows = sum(bool(line.strip()) for line in lines) - 1
     if rows < 2:
-        return f"{path} has {rows} rows below its column names: at least 2 samples are needed."
+        return _too_few(path, rows, ())
     alone = [is_number(line.strip(), comma=True) or is_number(line.strip(), comma=False) for line in lines[:LOOKED_AT]]
     if sum(alone) > NEARLY_ALL * len(alone) - 1:
         return (
             f"{path} has one column of numbers: give a table that has the voltage or duty and the motion side by side."
         )
     return f"{path} has no rows of numbers in its first lines: give a table with a line of column names and then rows."
+
+
+def _too_few(path: Path, rows: int, header: Sequence[str]) -> str:
+    if rows == 1 and len(header) > LONG_ROW and header[0] == "column 1":
+        return (
+            f"{path} is one row of {len(header)} numbers, a signal alone: give a table that has the voltage or duty "
+            "and the motion side by side, and a line for each sample."
+        )
+    return f"{path} has {rows} row{'' if rows == 1 else 's'} below its column names: at least 2 samples are needed."
 
 
 def _columns(
