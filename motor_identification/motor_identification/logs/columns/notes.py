@@ -54,14 +54,23 @@ def ask_motion(
 def ask_drive(table: Table, candidates: Sequence[str]) -> RecordingError:
     """Ask for the voltage among columns whose names tell nothing, of which a log of one step has none."""
     asked = ask_column(table, "voltage or duty", "--voltage", candidates)
+    if told := _find_reference(table):
+        return RecordingError(
+            f"{asked} {told} is what a controller was told: where what it gave to the motor is none of them, log that, "
+            "too."
+        )
     return RecordingError(f"{asked} Where it is none of them, as in a log of one step: --constant-voltage V.")
+
+
+def _find_reference(table: Table) -> str:
+    """The first column that says what a controller should do; empty without one."""
+    headings = (read_heading(name) for name in table.names)
+    return next((one.name for one in headings if one.quantity is Quantity.REFERENCE), "")
 
 
 def miss_drive(table: Table) -> RecordingError:
     """Ask for the voltage where no column can be it; a controller's log without it tells nothing of the motor."""
-    headings = [read_heading(name) for name in table.names]
-    told = next((one.name for one in headings if one.quantity is Quantity.REFERENCE), "")
-    if told:
+    if told := _find_reference(table):
         return RecordingError(
             f"{table.path}: no column is the voltage or duty. {told} is what a controller was told, and what it gave "
             "to the motor is not there: log that, too; or say which column it is (--voltage COL)."

@@ -59,3 +59,11 @@ def test_what_cannot_move_is_not_asked_about() -> None:
     assert asked("t", "command", "load").endswith("Say --speed, --position or --count and one of load.")
     assert asked("t", "pwm", "volts").endswith("one of volts.")  # may be a tachogenerator's
     assert asked("t", "volts", "target").startswith("log.csv: no column is the motion (volts is a voltage")
+
+
+def test_a_set_point_beside_columns_that_may_drive_is_told() -> None:
+    table = Table(Path("log.csv"), np.arange(2), {name: np.arange(2.0) for name in ("left_velocity_cmd", "x", "y")})
+    assert str(ask_drive(table, ["x", "y"])).endswith(
+        "one of x, y. left_velocity_cmd is what a controller was told: "
+        "where what it gave to the motor is none of them, log that, too."
+    )
