@@ -54,7 +54,8 @@ EFFECTS = (
         "drag·ω·|ω|",
         "staircase",
         "drag (quadratic_drag)",
-        (P("drag", "V·s²/rad²", 0.0, 0.0, 2.0, Scale(voltage=1, speed=-2), starts=(0.05,)),),
+        # A fan's winding takes half of the voltage at its largest speed; with nine tenths of it a motor nearly stalls.
+        (P("drag", "V·s²/rad²", 0.0, 0.0, 0.7, Scale(voltage=1, speed=-2), starts=(0.05,)),),
         linear_onset=True,
     ),
     Effect(

@@ -4,6 +4,7 @@ from math import inf
 
 import pytest
 
+from motor_model.effect import Extent
 from motor_model.effects import EFFECT_BY_NAME, EFFECTS, SPECS, VECTOR_NAMES, normalised, specs_of
 from motor_model.errors import ModelError
 from motor_model.excitation import PROFILES
@@ -78,3 +79,10 @@ def test_effects_come_once_in_the_order_of_the_table_with_what_they_imply() -> N
     assert normalised(tuple(reversed(EFFECT_BY_NAME))) == tuple(EFFECT_BY_NAME)
     with pytest.raises(ModelError, match="'friction' is not an effect; the effects are coulomb_friction, "):
         normalised(("friction",))
+
+
+@pytest.mark.parametrize(("share", "searched"), [(0.25, True), (0.5, True), (0.69, True), (0.71, False), (0.9, False)])
+def test_a_drag_leaves_a_motor_some_of_its_voltage(share: float, searched: bool) -> None:
+    """At the largest speed, by the largest voltage: a coasting bridge bends the static curve as much more would."""
+    low, high = EFFECT_BY_NAME["quadratic_drag"].parameters[0].box(Extent(12.0, 130.0, 20.0))
+    assert (low <= share * 12.0 / 130.0**2 <= high) == searched

@@ -51,7 +51,7 @@ def conclude(
         sensor_floor=last.sensor_floor,
         disturbance=last.estimate_disturbance() if last.complete else None,  # else structure is in it
         structure=selection.structure,
-        undetectable=hidden,
+        undetectable=leave_out_named(hidden, findings, undetermined),
         suggested_experiment=suggestion,
         before=base.held,
         after=last.held,
@@ -65,6 +65,12 @@ def conclude(
         undetermined=undetermined,
         gain_scatter=last.errors.gain,
     )
+
+
+def leave_out_named(hidden: Sequence[str], findings: Sequence[Finding], undetermined: Sequence[str]) -> tuple[str, ...]:
+    """Leave out of the effects that could not be shown those that may be there: a rival, or one without a size."""
+    named = {*undetermined, *(rival for one in findings for rival in one.ambiguous_with)}
+    return tuple(effect for effect in hidden if effect not in named)
 
 
 def _list_gaps(selection: Selection) -> list[float]:

@@ -13,7 +13,7 @@ from motor_identification.logs.excitation import describe_excitation, hardly_mov
 from motor_identification.logs.formats.source import Source, read_source
 from motor_identification.logs.log import Log, read_motor
 from motor_identification.logs.motor_rows import separate_motors
-from motor_identification.logs.rows.drive.constant_voltage import CONSTANT, give_voltage
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT, give_voltage, wait_for_motion
 from motor_identification.logs.rows.row_times import (
     ROW_TIMES,
     give_times,
@@ -89,6 +89,7 @@ def _read_motors(given: Table, said: Said) -> tuple[list[Motor], list[str]]:
     motors = []
     for form in guess.forms:
         rows = filled.rows_of(form.time, form.motion, form.voltage, form.supply)
+        rows = wait_for_motion(rows, form)
         log = read_motor(replace(rows, notes=rows.notes[len(table.notes) :]), form)
         motors.append(Motor(form.label, replace(log, findings=(*log.findings, *describe_excitation(log)))))
     return motors, [*table.notes, *guess.findings]

@@ -22,6 +22,7 @@ from motor_identification.logs.rows.parts import (
     split_at_restarts,
     split_by_column,
 )
+from motor_identification.logs.rows.row_lengths import divide_by_regular_rows
 from motor_identification.logs.rows.stamps import drop_stray_stamps, separate_stamps, unwrap_clock
 from motor_identification.logs.run import Run
 from motor_identification.logs.signals import Floats, Integers, Signals, read_signals
@@ -93,12 +94,14 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     signals, full = unwrap_clock(signals, time_unit_size(form.time_unit))
     signals, stray = drop_stray_stamps(signals)
     signals, restarts = split_at_restarts(signals, form)
+    stamped = signals
     signals, stamps = separate_stamps(signals)
+    signals, divided = divide_by_regular_rows(stamped, signals) if form.kind is Kind.SPEED else (signals, [])
     signals, first = drop_first_rows(signals)
     signals, absurd = drop_absurd_beginnings(signals) if form.kind is Kind.SPEED else (signals, [])
     signals, gaps = split_at_gaps(signals)
     signals, clock = restore_even_clock(signals, form.even_clock, form.kind is Kind.SPEED)
-    said += [*full, *stray, *restarts, *stamps, *first, *absurd, *gaps, *clock]
+    said += [*full, *stray, *restarts, *stamps, *divided, *first, *absurd, *gaps, *clock]
     check_rest(signals, table, form)
     check_steps(signals)
     info = replace(info, sample_period=float(np.median(signals.steps())) * 1e-9)

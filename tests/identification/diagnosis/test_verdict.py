@@ -10,7 +10,7 @@ from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.result import Finding, Nearest, Verdict
 from motor_identification.diagnosis.selection.selection import Selection
-from motor_identification.diagnosis.verdict import decide, find_missed_edges, find_nearest
+from motor_identification.diagnosis.verdict import decide, find_missed_edges, find_nearest, leave_out_named
 from motor_identification.discrepancy.structure import Structure
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -130,3 +130,10 @@ def test_what_comes_nearest_are_the_first_effects_that_do_most(gaps: list[float]
     ]
     found = find_nearest(selection_of(models[-1], *steps), 24.0)
     assert found == (None if told is None else Nearest(told, pytest.approx(gaps[len(told) - 1])))
+
+
+def test_what_may_be_missing_is_not_told_to_be_unseen() -> None:
+    hidden = ("coulomb_friction", "dead_zone", "backlash")
+    assert leave_out_named(hidden, (), ()) == hidden
+    assert leave_out_named(hidden, (), ("coulomb_friction",)) == ("dead_zone", "backlash")
+    assert leave_out_named(hidden, (finding("dead_zone"),), ()) == ("coulomb_friction", "backlash")

@@ -172,7 +172,7 @@ def test_split_makes_a_run_of_every_change_and_lets_time_start_again(read: Read)
         ("", "log.csv is empty: it needs"),
         ("\n \n", "log.csv is empty: it needs"),
         ("t,u,y\n", "log.csv has 0 rows below its column names"),
-        (table((0, 1, 2)), "log.csv has 1 rows below its column names"),
+        (table((0, 1, 2)), "log.csv has 1 row below its column names"),
         (table((0, 1, 2), (1, 2, 3), header="t,u,speed"), "log.csv has no column y: name one of t, u, speed."),
         (table((0, 1, 2, 3), (1, 2, 3, 4), header="t,u,y,y"), "log.csv has 2 columns named y: rename"),
         (table((0, 1, 2), (1, "abc", 3)), "log.csv, line 3, column u: 'abc' is not a number"),

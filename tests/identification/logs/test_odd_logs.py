@@ -160,6 +160,14 @@ def test_a_few_garbled_rows_are_left_out_and_many_refused(tmp_path: Path) -> Non
         imported(tmp_path, "\n".join(many), SAID)
 
 
+def test_remarks_beside_the_table_are_left_out(tmp_path: Path) -> None:
+    lines = table(plain, "ms,pwm,rpm").split("\n")
+    remarked = [*lines[:1], *(f"{line},,slipped" if k % 10 > 5 else line for k, line in enumerate(lines[1:]) if line)]
+    found, without = (imported(tmp_path, "\n".join(one), SAID) for one in (remarked, lines))
+    assert np.array_equal(column(found, "speed"), column(without, "speed"))
+    assert "Left out: words behind the last named column, in 160 lines (the first is 8)." in "\n".join(found.findings)
+
+
 @pytest.mark.parametrize("words", [("CW", "CCW"), ("1", "0"), ("0", "1"), ("fwd", "rev"), ("1", "-1")])
 def test_a_direction_beside_a_duty_without_sign(tmp_path: Path, words: tuple[str, str]) -> None:
     text = table(lambda k: f"{MS[k]},{abs(DUTY[k])},{words[int(DUTY[k] < 0)]},{COUNT[k]}", "ms,pwm,dir,count")

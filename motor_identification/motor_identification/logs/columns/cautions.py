@@ -1,4 +1,4 @@
-"""What a user is told to check of a drive: duties beyond the full one, a set-point, a mark that drives nothing."""
+"""What a user is told to check: duties beyond the full one, a set-point, a mark that drives nothing, no means."""
 
 import numpy as np
 
@@ -10,6 +10,8 @@ from motor_identification.logs.csv.table import Table
 ROUNDED = 0.01  # of full duty, by which rounding may go beyond it
 FEWEST_ROWS = 50  # before any drive, in which a motor that was just switched off would become slower
 GOES_ON = 0.9  # of its speed in the first half of those rows, that a motor which is driven has in the second
+NO_MEAN = 1e-9  # of the RMS: means that were subtracted leave 1e-16, and those that were measured are larger
+ONE_SIDED = 1e-3  # of its range, by which a drive goes further one way: one that is the same both ways has no mean
 FAST = 0.25  # of its largest speed, which noise of a motor that stands does not reach
 
 
@@ -47,4 +49,17 @@ def caution_running_without_drive(table: Table, pair: Pair, notes: Notes) -> Non
         notes.findings.append(
             f"Caution: {pair.motion} is {speed_before:.3g} in the first {rows} rows, where {pair.voltage} is 0: "
             "nothing drives a motor at 0 V. It may be a mark, or the change of a voltage: log that voltage itself."
+        )
+
+
+def caution_no_means(table: Table, pair: Pair, notes: Notes) -> None:
+    """Tell of a drive and a motion whose means were taken out, as `detrend` does: what stands at 0 V then moves."""
+    drive, motion = table.numbers(pair.voltage), table.numbers(pair.motion)
+    with np.errstate(over="ignore", invalid="ignore"):  # a damaged cell may be any number
+        one_sided = abs(float(np.max(drive) + np.min(drive))) > ONE_SIDED * float(np.ptp(drive))
+        without = [abs(float(np.mean(one))) < NO_MEAN * float(np.sqrt(np.mean(one**2))) for one in (drive, motion)]
+    if one_sided and all(without):
+        notes.findings.append(
+            f"Caution: {pair.voltage} and {pair.motion} both have a mean of 0, as where a trend was taken out: "
+            "friction, a dead zone and a constant load are not seen without those means. Import what was measured."
         )

@@ -42,6 +42,7 @@ REACHED = 0.5  # of a register of 16 bits, below which a largest duty tells noth
 FEWEST_MILLIVOLTS = 2000.0  # of what is called a voltage: fewer may be a duty of 255 or 1,023
 VOLTAGE_WORDS = frozenset({"voltage", "volt", "volts", "voltaje", "spannung", "tension", "tensión"})
 LARGEST_VOLTS = 60.0  # whole numbers beyond are a duty
+MOST_VOLTS = 1000.0  # and any numbers beyond these, of machines on a mains voltage, are no volts
 _LARGEST_UNNAMED = 24.0  # and where no name says that they are volts
 
 
@@ -65,8 +66,14 @@ def voltage_drive(heading: Heading, values: Floats) -> Drive:
         if FEWEST_MILLIVOLTS <= largest <= 1e3 * LARGEST_VOLTS and set(heading.words) & VOLTAGE_WORDS:
             return Drive(1e-3, "in mV (assumed; otherwise: --full-duty, --voltage-scale)")
         return duty_drive(heading, values)
+    if largest > MOST_VOLTS and heading.quantity is not None:
+        if set(heading.words) & VOLTAGE_WORDS:
+            return Drive(None, f"goes up to {largest:.4g}, more than a motor's volts", sure=False)
+        return duty_drive(heading, values)  # an input, or a controller's u
     if heading.quantity is None and largest > LARGEST_VOLTS:
         return Drive(None, f"goes up to {largest:.4g}, more than a motor's volts", sure=False)
+    if not set(heading.words) & VOLTAGE_WORDS and LARGEST_VOLTS < largest in FULL_DUTIES and _is_cut_off(values):
+        return duty_drive(heading, values)
     return Drive(1.0, "in V (assumed; otherwise: --full-duty, --voltage-scale)")
 
 
@@ -104,8 +111,13 @@ def _why_in_volts(heading: Heading, values: Floats, largest: float) -> str:
         return ""
     if largest <= _MOST_VOLTS:
         return "no duty is so small"
-    cut_off = np.count_nonzero(np.abs(values) == largest) >= _CUT_OFF and bool(np.any(values % 1.0))
+    cut_off = _is_cut_off(values) and bool(np.any(values % 1.0))
     return f"it is cut off at {largest:g}" if largest in _SUPPLIES and cut_off else ""
+
+
+def _is_cut_off(values: Floats) -> bool:
+    """Whether commands, shape (K,), come to their largest again and again."""
+    return np.count_nonzero(np.abs(values) == np.max(np.abs(values), initial=0.0)) >= _CUT_OFF
 
 
 def _is_odd_timer(largest: float) -> bool:
@@ -138,12 +150,23 @@ def drives(heading: Heading) -> bool:
 def leave_out_idle_efforts(table: Table, headings: Sequence[Heading]) -> list[Heading]:
     """Leave out efforts that are zero in every row, where another column drives: most robots' joint states have such.
 
-    Of other names a drive that is zero is that of a motor which is not driven; so is an effort beside efforts alone.
+    Of other names a drive that is zero is that of a motor which is not driven; so is an effort beside efforts alone,
+    but for one among a joint's other fields, beside a command that is none of them.
     """
     efforts = [one for one in headings if drives(one) and _EFFORT in one.words]
-    if len(efforts) == sum(map(drives, headings)):
+    others = [one for one in headings if drives(one) and one not in efforts]
+    if not others:
+        fields = [one for one in efforts if _is_field_of_joint(table, one)]
+        others = [one for one in efforts if one not in fields]
+        efforts = fields
+    if not others:
         return list(headings)
     return [one for one in headings if one not in efforts or np.any(table.numbers(one.name))]
+
+
+def _is_field_of_joint(table: Table, effort: Heading) -> bool:
+    """Whether the effort has the position or the velocity of the same joint beside it."""
+    return any(effort.name.replace(_EFFORT, field) in table.names for field in ("position", "velocity"))
 
 
 def find_same_levels(drive: Floats, motion: Floats) -> int:

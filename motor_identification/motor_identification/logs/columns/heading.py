@@ -25,6 +25,7 @@ _ORDERS = frozenset(["command", "cmd", "commanded"])  # of a speed or a position
 _PULSES = frozenset(["esc", "signal", "pwm", "throttle", "pulse", "width", "command", "cmd", "output"])
 _MILLI = re.compile(r"(?<![^\W\d_])m([AVS])(?![^\W_])")  # units of one word, whatever their capitals
 _VOLTS_AT_THE_END = re.compile(r"[^\W_][\s_]V$")  # `left_v` is a velocity
+_SENSORS = frozenset(["encoder", "enc", "qei"])
 _AXES, _JOINT_FIELDS = frozenset(["yaw", "pitch", "roll"]), frozenset(["position", "velocity", "effort"])
 _TELLING = frozenset().union(MEASURED, *(WORDS[kind] for kind in (*MOVES, Quantity.VOLTAGE, Quantity.DUTY)))
 _KNOWN = frozenset().union(*WORDS.values(), MEASURED, FILTERED)
@@ -68,6 +69,14 @@ def read_heading(name: str) -> Heading:
 def is_in_volts(heading: Heading) -> bool:
     """Whether a name says that its column is in volts, whatever else it says: `Tacho (V)`, `encoder_V`."""
     return heading.unit in ("V", "mV") or bool(_VOLTS_AT_THE_END.search(heading.name))
+
+
+def is_of_joint_states(heading: Heading) -> bool:
+    """Whether a name says that its column is of ROS's joint states, which are in radians."""
+    return bool({"jointstate", "jointstates"} & set(heading.words)) or any(
+        pair in (("joint", "states"), ("joint", "state"))
+        for pair in zip(heading.words, heading.words[1:], strict=False)
+    )
 
 
 def words_besides(heading: Heading) -> tuple[str, ...]:
@@ -163,11 +172,18 @@ def _quantity(words: tuple[str, ...], unit: str) -> Quantity | None:
         return _moves_by_unit(by_unit, told, words)
     if MOVES & set(told) and (_ORDERS | {"commande"}) & set(words):
         return Quantity.REFERENCE
-    if told[:1] == [Quantity.POSITION] and words[-1] == "dot":  # theta_dot
+    if _is_speed_after_all(words, told):
         return Quantity.SPEED
     if Quantity.VOLTAGE in told and Quantity.DUTY in told:
         return Quantity.VOLTAGE
     return _quantity_of_an_output(words, told) or (told[0] if told else None)
+
+
+def _is_speed_after_all(words: tuple[str, ...], told: list[Quantity]) -> bool:
+    """Whether another word than the first tells a speed: `theta_dot`, and `velocity_encoder`, which measures it."""
+    if told[:2] == [Quantity.COUNT, Quantity.SPEED]:
+        return not WORDS[Quantity.COUNT] & set(words) - _SENSORS
+    return told[:1] == [Quantity.POSITION] and words[-1] == "dot"
 
 
 def _quantity_of_an_output(words: tuple[str, ...], told: list[Quantity]) -> Quantity | None:

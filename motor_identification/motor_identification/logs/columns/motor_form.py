@@ -11,12 +11,13 @@ from motor_identification.logs.columns.behaviour.following import is_speed_by_dr
 from motor_identification.logs.columns.behaviour.standing_start import begins_at_rest
 from motor_identification.logs.columns.cautions import (
     caution_beyond_full,
+    caution_no_means,
     caution_running_without_drive,
     caution_set_point,
 )
 from motor_identification.logs.columns.direction import guess_direction
 from motor_identification.logs.columns.drive import supply_scale
-from motor_identification.logs.columns.heading import Heading, is_in_volts, read_heading
+from motor_identification.logs.columns.heading import Heading, is_in_volts, is_of_joint_states, read_heading
 from motor_identification.logs.columns.increments import count_anew
 from motor_identification.logs.columns.motor_drive import read_drive
 from motor_identification.logs.columns.movement import (
@@ -89,6 +90,7 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     if kind is Kind.SPEED and said.constant_voltage is None:
         caution_set_point(table, pair, notes)
         caution_running_without_drive(table, pair, notes)
+        caution_no_means(table, pair, notes)
     why = f" ({unit.why})" if unit.why else ""
     notes.findings.append(f"Motion{whose}: {pair.motion}, a {kind.value} in {unit.name or '?'}{why}{beside_it}.")
     if rows.time is None and not said.steady:
@@ -173,6 +175,8 @@ def _unit(heading: Heading, values: Floats, kind: Kind, said: Said, period: floa
         return Unit("count", "")
     if heading.unit and _kind_of(heading) is kind:
         return Unit(heading.unit, ELECTRICAL if "erpm" in heading.name.lower() else "")
+    if is_of_joint_states(heading):
+        return Unit(ASKED[kind][0], "as ROS's joint states have them; otherwise: --unit")
     if is_in_volts(heading):
         return Unit("", "", ASKED[kind])  # its steps are those of an analogue-to-digital converter
     guessed = (

@@ -8,6 +8,7 @@ import numpy as np
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
 from motor_identification.logs.csv.table import Table
+from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 from motor_identification.logs.rows.row_times import ROW_TIMES
 from motor_model.errors import RecordingError
 
@@ -53,14 +54,23 @@ def ask_motion(
 def ask_drive(table: Table, candidates: Sequence[str]) -> RecordingError:
     """Ask for the voltage among columns whose names tell nothing, of which a log of one step has none."""
     asked = ask_column(table, "voltage or duty", "--voltage", candidates)
+    if told := _find_reference(table):
+        return RecordingError(
+            f"{asked} {told} is what a controller was told: where what it gave to the motor is none of them, log that, "
+            "too."
+        )
     return RecordingError(f"{asked} Where it is none of them, as in a log of one step: --constant-voltage V.")
+
+
+def _find_reference(table: Table) -> str:
+    """The first column that says what a controller should do; empty without one."""
+    headings = (read_heading(name) for name in table.names)
+    return next((one.name for one in headings if one.quantity is Quantity.REFERENCE), "")
 
 
 def miss_drive(table: Table) -> RecordingError:
     """Ask for the voltage where no column can be it; a controller's log without it tells nothing of the motor."""
-    headings = [read_heading(name) for name in table.names]
-    told = next((one.name for one in headings if one.quantity is Quantity.REFERENCE), "")
-    if told:
+    if told := _find_reference(table):
         return RecordingError(
             f"{table.path}: no column is the voltage or duty. {told} is what a controller was told, and what it gave "
             "to the motor is not there: log that, too; or say which column it is (--voltage COL)."
@@ -68,6 +78,22 @@ def miss_drive(table: Table) -> RecordingError:
     return RecordingError(
         f"{table.path}: no column is the voltage or duty: say which one of {_list_names(table.names)} is (--voltage "
         "COL), or --constant-voltage V for a log of one step."
+    )
+
+
+def lack_motion(table: Table, time: str | None) -> RecordingError:
+    """Ask for the motion among columns that may be it by their names, or say that none can be."""
+    headings = [read_heading(name) for name in table.names if name not in (time, ROW_TIMES, CONSTANT)]
+    known = {Quantity.TIME, Quantity.DUTY, Quantity.SUPPLY, Quantity.CURRENT, Quantity.REFERENCE}
+    if [one.quantity for one in headings if one.quantity in (Quantity.VOLTAGE, Quantity.DUTY)] == [Quantity.VOLTAGE]:
+        known.add(Quantity.VOLTAGE)  # of several drives, one in volts may be a tachogenerator's
+    if open_ones := [one.name for one in headings if one.quantity not in known]:
+        return ask_column(table, "motion", "--speed, --position or --count", open_ones)
+    names = [f"{one.name} is a {one.quantity.value}" for one in headings if one.quantity]
+    taken = [f"{time} the time"] if time and time != ROW_TIMES else []
+    return RecordingError(
+        f"{table.path}: no column is the motion ({', '.join([*names[:SHOWN], *taken])}): log the motor's speed, "
+        "position or count beside them, or say which column it is (--speed, --position or --count COL)."
     )
 
 

@@ -1,7 +1,7 @@
 """Reads a text table: all of its columns, chunk by chunk, with the line of each row."""
 
 import csv
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 from pathlib import Path
@@ -24,6 +24,7 @@ from motor_identification.logs.csv.table_end import NEARLY_ALL, cut_at_end
 from motor_model.errors import RecordingError
 
 _CHUNK = 50_000  # rows: lists of texts take ten times the memory of arrays
+LONG_ROW = 10  # numbers: fewer may be a table of one sample
 
 
 def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
@@ -67,7 +68,7 @@ def table_of(path: Path, text: Sequence[str], notes: list[str], wanted: Sequence
     notes += _say_rows_above(lines, dialect)
     numbers, columns = _columns(path, lines, dialect, notes)
     if len(numbers) < 2:
-        raise RecordingError(f"{path} has {len(numbers)} rows below its column names: at least 2 samples are needed.")
+        raise RecordingError(_too_few(path, len(numbers), dialect.header))
     return Table(path, numbers, columns, dialect.decimal_comma, tuple(notes))
 
 
@@ -97,13 +98,22 @@ def _named_by_lines(dialect: Dialect, taken: Lines) -> Dialect:
 def _no_rows(path: Path, lines: Sequence[str]) -> str:
     rows = sum(bool(line.strip()) for line in lines) - 1
     if rows < 2:
-        return f"{path} has {rows} rows below its column names: at least 2 samples are needed."
+        return _too_few(path, rows, ())
     alone = [is_number(line.strip(), comma=True) or is_number(line.strip(), comma=False) for line in lines[:LOOKED_AT]]
     if sum(alone) > NEARLY_ALL * len(alone) - 1:
         return (
             f"{path} has one column of numbers: give a table that has the voltage or duty and the motion side by side."
         )
     return f"{path} has no rows of numbers in its first lines: give a table with a line of column names and then rows."
+
+
+def _too_few(path: Path, rows: int, header: Sequence[str]) -> str:
+    if rows == 1 and len(header) > LONG_ROW and header[0] == "column 1":
+        return (
+            f"{path} is one row of {len(header)} numbers, a signal alone: give a table that has the voltage or duty "
+            "and the motion side by side, and a line for each sample."
+        )
+    return f"{path} has {rows} row{'' if rows == 1 else 's'} below its column names: at least 2 samples are needed."
 
 
 def _columns(
@@ -114,8 +124,10 @@ def _columns(
     left_out: list[int] = []
     sentences: list[int] = []
     garbled: list[int] = []
+    remarks: list[int] = []
     rows = drop_sentences(_rows(path, lines, dialect), width, dialect.decimal_comma, sentences)
     rows = drop_words(rows, dialect.decimal_comma, left_out)
+    rows = _cut_remarks(rows, width, dialect.decimal_comma, remarks)
     while chunk := list(islice(rows, _CHUNK)):
         longer = [line for line, row in chunk if any(row[width:])]
         if len(longer) > GARBLED * len(chunk):
@@ -136,6 +148,8 @@ def _columns(
         parts[-1] = [column[:-1] for column in parts[-1]]
     if garbled:
         notes.append(f"Left out: {_lines(garbled)} with more cells than columns are named ({width}).")
+    if remarks:
+        notes.append(f"Left out: words behind the last named column, in {_lines(remarks)}.")
     if left_out:
         notes.append(f"Left out: {_lines(left_out)} without a number (comments, names of columns).")
     if sentences:
@@ -143,6 +157,18 @@ def _columns(
     names = _unique(dialect.header)
     columns = {name: np.concatenate([part[k] for part in parts]) for k, name in enumerate(names)}
     return np.array([line for chunk_lines in numbers for line in chunk_lines], np.int64), columns
+
+
+def _cut_remarks(
+    rows: Iterable[tuple[int, list[str]]], width: int, comma: bool, remarks: list[int]
+) -> Iterator[tuple[int, list[str]]]:
+    """Cut words off behind the last column that has a name, as of remarks beside a table; their lines are noted."""
+    for line, row in rows:
+        beyond = [cell for cell in row[width:] if cell]
+        if beyond and not any(is_number(cell, comma) for cell in beyond):
+            remarks.append(line)
+            row = row[:width]
+        yield line, row
 
 
 def _lines(numbers: Sequence[int]) -> str:

@@ -2,7 +2,7 @@
 
 SciPy's reader, compiled, is ended by the operating system where a damaged file names a type of numbers that there is
 not: every type, size and dimension is checked here before anything is read by it. What holds no real numbers (long
-texts, cells of several, sparse matrices, objects) is left out.
+texts, cells of several but of texts, sparse matrices, objects of newer classes) is left out.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ from motor_model.errors import MotorError
 HEADER = 128  # bytes
 MATRIX, COMPRESSED = 14, 15
 TYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8"}
-CELL, STRUCT, TEXT, NUMERIC = 1, 2, 4, range(6, 16)  # beyond: objects, whose elements are in another order
+CELL, STRUCT, OBJECT, TEXT, NUMERIC = 1, 2, 3, 4, range(6, 16)
+OPAQUE = 17  # an object of newer classes, whose elements are in another order
+CLASS = "@"  # before the class of an object, in the place of its fields
 COMPLEX = 0x0800  # in the flags
 DEEPEST, MOST_FIELDS, MOST_DIMENSIONS = 6, 1000, 32
 MOST_ALIKE, LONGEST_TEXT = 64, 100  # structs in one variable, and characters of a label
@@ -49,7 +51,7 @@ class Element:
 
 
 @dataclass
-class _Tally:
+class Tally:
     """A file's byte order, and how much of it has been read."""
 
     order: str
@@ -72,28 +74,46 @@ class _Tally:
 def read_variables(data: bytes) -> dict[str, Value]:
     """Read matrices of shape (rows, columns) by name, structs as dictionaries of such, several of them by 1, 2, ….
 
+    An object of an older class, such as iddata, is a dictionary of its fields under `@iddata`.
+
     Raises:
         BrokenFileError: a tag, a size, a type or a dimension cannot be.
         TooLargeError: it is unpacked more than 512 MiB, 64 million numbers or 20,000 variables and fields.
+    """
+    found: dict[str, Value] = {}
+    tally, matrices = list_matrices(data)
+    for one in matrices:
+        name, value = read_matrix(one, tally, 0)
+        if value is not None:
+            found[name] = value
+    return found
+
+
+def list_matrices(data: bytes) -> tuple[Tally, Iterator[memoryview]]:
+    """List the variables of a file, unpacked one by one; the tally counts what is read of them.
+
+    Raises:
+        BrokenFileError: it has no header; a size cannot be.
+        TooLargeError: it is unpacked more than 512 MiB.
     """
     if len(data) > MOST_BYTES:
         raise TooLargeError(f"more than {MOST_BYTES >> 20} MiB")
     if len(data) < HEADER or data[126:128] not in (b"IM", b"MI"):
         raise BrokenFileError("it has no header")
-    tally = _Tally("<" if data[126:128] == b"IM" else ">")
-    found: dict[str, Value] = {}
+    tally = Tally("<" if data[126:128] == b"IM" else ">")
+    return tally, _list_matrices(data, tally)
+
+
+def _list_matrices(data: bytes, tally: Tally) -> Iterator[memoryview]:
     unpacked = len(data)
-    for element in _elements(memoryview(data), HEADER, tally.order):
+    for element in split_elements(memoryview(data), HEADER, tally.order):
         tally.add(elements=1)
         if element.type == COMPRESSED:
             inner = _unpack(element.data, MOST_BYTES - unpacked)
             unpacked += len(inner)
-            element = next(_elements(inner, 0, tally.order), element)
+            element = next(split_elements(inner, 0, tally.order), element)
         if element.type == MATRIX:
-            name, value = _matrix(element.data, tally, 0)
-            if value is not None:
-                found[name] = value
-    return found
+            yield element.data
 
 
 def _unpack(data: memoryview, most: int) -> memoryview:
@@ -107,7 +127,7 @@ def _unpack(data: memoryview, most: int) -> memoryview:
     return memoryview(inner)
 
 
-def _elements(data: memoryview, position: int, order: str) -> Iterator[Element]:
+def split_elements(data: memoryview, position: int, order: str) -> Iterator[Element]:
     """The pieces one after the other; small ones have type and size in one word."""
     while position + 8 <= len(data):
         kind, size = unpack_from(order + "II", data, position)
@@ -124,10 +144,10 @@ def _elements(data: memoryview, position: int, order: str) -> Iterator[Element]:
         )
 
 
-def _matrix(data: memoryview, tally: _Tally, depth: int) -> tuple[str, Value | None]:
+def read_matrix(data: memoryview, tally: Tally, depth: int) -> tuple[str, Value | None]:
     """Name and value of a matrix; None where it has no real numbers."""
     tally.add(elements=1)
-    parts = _elements(data, 0, tally.order)
+    parts = split_elements(data, 0, tally.order)
     head = [part for _, part in zip(range(3), parts, strict=False)]
     if len(head) < 3 or len(head[0].data) < 8:
         return "", None
@@ -139,15 +159,35 @@ def _matrix(data: memoryview, tally: _Tally, depth: int) -> tuple[str, Value | N
     name = bytes(head[2].data).decode("latin-1")
     if kind in NUMERIC and not flags & COMPLEX and len(shape) == 2:
         return name, _numbers(next(parts, None), shape, tally)
+    if kind == OBJECT and prod(shape) == 1 and depth < DEEPEST:
+        text = bytes(next(parts, head[2]).data).decode("latin-1")
+        return name, {CLASS + text: _structs(parts, 1, tally, depth)[0]}
     if kind == STRUCT and 1 <= prod(shape) <= MOST_ALIKE and depth < DEEPEST:
         alike = _structs(parts, prod(shape), tally, depth)
         return name, alike[0] if len(alike) == 1 else {str(k): one for k, one in enumerate(alike, start=1)}
     if kind == TEXT and len(shape) == 2 and shape[0] == 1 and 0 < shape[1] <= LONGEST_TEXT:
         return name, _text(next(parts, None))
-    if kind == CELL and prod(shape) == 1 and depth < DEEPEST:
-        inner = next(parts, None)
-        return name, _matrix(inner.data, tally, depth + 1)[1] if inner is not None and inner.type == MATRIX else None
+    if kind == CELL and 1 <= prod(shape) <= MOST_ALIKE and depth < DEEPEST:
+        inner = [read_matrix(part.data, tally, depth + 1)[1] for part in parts if part.type == MATRIX]
+        if len(inner) == 1:
+            return name, inner[0]
+        texts = [one for one in inner if isinstance(one, str)]
+        return name, "\n".join(texts) if texts and len(texts) == len(inner) else None
     return name, None
+
+
+def read_kind(matrix: memoryview, tally: Tally) -> int:
+    """Read the kind of a matrix; 0 where it is none."""
+    head = next(split_elements(matrix, 0, tally.order), None)
+    return int(unpack_from(tally.order + "I", head.data)[0]) & 0xFF if head is not None and len(head.data) > 3 else 0
+
+
+def read_numbers(matrix: memoryview, tally: Tally) -> NDArray[Any] | None:
+    """Read real numbers of any dimensions; None where a matrix has none."""
+    if read_kind(matrix, tally) not in NUMERIC:
+        return None
+    _, shape, _, *rest = split_elements(matrix, 0, tally.order)
+    return _numbers(next(iter(rest), None), _shape(shape.data, tally.order), tally)
 
 
 def _shape(data: memoryview, order: str) -> tuple[int, ...]:
@@ -160,7 +200,7 @@ def _shape(data: memoryview, order: str) -> tuple[int, ...]:
     return shape
 
 
-def _numbers(part: Element | None, shape: tuple[int, ...], tally: _Tally) -> NDArray[Any]:
+def _numbers(part: Element | None, shape: tuple[int, ...], tally: Tally) -> NDArray[Any]:
     if part is None or part.type not in TYPES:
         raise BrokenFileError("there is no such type of numbers")
     kind = np.dtype(tally.order + TYPES[part.type])
@@ -176,7 +216,7 @@ def _text(part: Element | None) -> str | None:
     return None if part is None or part.type not in codes else bytes(part.data).decode(codes[part.type], "replace")
 
 
-def _structs(parts: Iterator[Element], count: int, tally: _Tally, depth: int) -> list[dict[str, Value]]:
+def _structs(parts: Iterator[Element], count: int, tally: Tally, depth: int) -> list[dict[str, Value]]:
     sizes, names = next(parts, None), next(parts, None)
     if sizes is None or names is None or len(sizes.data) < 4:
         raise BrokenFileError("a struct has no fields")
@@ -188,7 +228,7 @@ def _structs(parts: Iterator[Element], count: int, tally: _Tally, depth: int) ->
     for _ in range(count):
         found: dict[str, Value] = {}
         for begin, part in zip(range(0, len(texts), length), parts, strict=False):
-            value = _matrix(part.data, tally, depth + 1)[1] if part.type == MATRIX else None
+            value = read_matrix(part.data, tally, depth + 1)[1] if part.type == MATRIX else None
             if value is not None:
                 found[texts[begin : begin + length].split(b"\0")[0].decode("latin-1")] = value
         alike.append(found)

@@ -14,6 +14,7 @@ from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.hdf5.reader import SIGNATURE
 from motor_identification.logs.formats.mat_7_3 import MARK, read_variables_7_3
 from motor_identification.logs.formats.mat_elements import BrokenFileError, TooLargeError, Value, read_variables
+from motor_identification.logs.formats.mat_objects import read_objects, spread_iddata
 from motor_identification.logs.formats.mat_version_4 import is_version_4, read_matrices
 from motor_identification.logs.formats.numpy_arrays import MARK as NUMPY
 from motor_identification.logs.formats.numpy_arrays import is_archive_of_arrays, read_arrays
@@ -43,6 +44,11 @@ def read_matlab(path: Path) -> Table:
         read = _reader(data)
         variables = read(data)
         objects = "" in variables  # what MATLAB keeps of them has no name
+        if objects and read is read_variables:
+            signals = _read_signals(data)
+            objects = not signals
+            variables.update({name: one for name, one in signals.items() if name not in variables})
+        variables, other_sets = spread_iddata(variables)
         for name, value in variables.items():
             if name:
                 _collect(name, value, vectors)
@@ -57,10 +63,7 @@ def read_matlab(path: Path) -> Table:
         raise RecordingError(f"{path} holds {OBJECTS}, which only MATLAB reads: {SAVE_THEM}.")
     lengths = [len(vector) for vector in vectors.values() if len(vector) >= 2]
     if not lengths:
-        raise RecordingError(
-            f"{path} has no vectors of numbers: save time, voltage and motion as vectors (of an iddata: u = data.u; "
-            "y = data.y)."
-        )
+        raise RecordingError(f"{path} has no vectors of numbers: save time, voltage and motion as vectors.")
     named = {n: [name for name, vector in vectors.items() if len(vector) == n] for n in set(lengths)}
     length = max(named, key=lambda n: (_tell_a_motor(named[n]), min(len(named[n]), SIGNALS), n))
     fitting = {name: vectors[name] for name in named[length]}
@@ -71,8 +74,17 @@ def read_matlab(path: Path) -> Table:
     fitting.update({name: np.full(length, vector[0]) for name, vector in told.items() if name not in fitting})
     others = [name for name, vector in vectors.items() if name and 2 <= len(vector) != length]
     notes = [f"Left out, as they have other lengths: {', '.join(others[:8])}."] if others else []
+    notes += [f"Left out, as another iddata is longer: {', '.join(other_sets[:8])}."] if other_sets else []
     notes += [f"Not read: {OBJECTS}; {SAVE_THEM}, if the motion is in them."] if objects else []
     return Table(path, np.arange(1, length + 1), fitting, notes=tuple(notes))
+
+
+def _read_signals(data: bytes) -> dict[str, Value]:
+    """The signals in objects; none where they cannot be read, as of a version that nobody knows."""
+    try:
+        return read_objects(data)
+    except BrokenFileError:
+        return {}
 
 
 def _tell_a_motor(names: Sequence[str]) -> bool:

@@ -11,6 +11,7 @@ import numpy as np
 
 from motor_identification.logs.signals import Floats, Signals
 from motor_identification.sensor.parabola_scatter import WINDOW, measure_scatter
+from motor_identification.sensor.value_lattice import find_lattice
 
 LEAST_ROWS = 50
 MOST_ROWS = 20_000  # that the motion is looked at in
@@ -44,6 +45,33 @@ def divide_by_own_rows(signals: Signals, wanted: bool | None = None) -> tuple[Si
         "which the motion follows (assumed; otherwise: --no-nominal-period)."
     )
     return replace(signals, motion=motion), [said]
+
+
+def divide_by_regular_rows(stamped: Signals, regular: Signals) -> tuple[Signals, list[str]]:
+    """Divide speeds by regular rows where counts were divided by the steps of coarse stamps; and say so.
+
+    Rows of 5 ms have 4, 5 or 6 ms between whole milliseconds, and 20 counts in each are three speeds: times those
+    steps they are on a lattice again, and follow the motion more closely.
+
+    Args:
+        stamped: rows as they were stamped.
+        regular: the same rows at regular times, or others, which are left as they are.
+    """
+    if len(stamped) != len(regular) or np.array_equal(stamped.time, regular.time):
+        return regular, []
+    motion, known, told = np.array(regular.motion, np.float64), np.ones(len(regular), np.bool_), []
+    for run in regular.runs.values():
+        before, steps = (np.diff(one.time[run]).astype(np.float64) for one in (stamped, regular))
+        if not np.all(before > 0.0):
+            return regular, []
+        motion[run][1:] *= before / steps
+        known[run.start] = False  # nobody knows its step
+        told.append(_compare(np.asarray(regular.time[run] * 1e-9, np.float64), regular.motion[run], motion[run]))
+    as_they_are, by_rows = np.sum(told, axis=0)
+    if not (as_they_are > 0.0 and by_rows < BETTER * as_they_are and find_lattice(motion[known]) > 0.0):
+        return regular, []
+    said = "Speeds are counts divided by the steps of those stamps: they are divided by the regular rows (found)."
+    return replace(regular, motion=motion), [said]
 
 
 def _compare(time: Floats, *motions: Floats) -> tuple[float, ...]:

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.cautions import FEWEST_ROWS, caution_running_without_drive
+from motor_identification.logs.columns.cautions import FEWEST_ROWS, caution_no_means, caution_running_without_drive
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair
 from motor_identification.logs.csv.table import Table
@@ -35,3 +35,20 @@ def test_a_motor_that_runs_before_anything_drives_it(before: "np.ndarray", rows:
     assert len(notes.findings) == told
     if told:
         assert f"in the first {rows} rows, where mark is 0" in notes.findings[0]
+
+
+@pytest.mark.parametrize(
+    ("drive", "taken_out", "told"),
+    [
+        (np.repeat([2.0, 5.0, 3.0, 4.5], 50), (True, True), True),
+        (np.repeat([2.0, 5.0, 3.0, 4.5], 50), (True, False), False),
+        (np.repeat([2.0, 5.0, 3.0, 4.5], 50), (False, True), False),
+        (np.repeat([5.0, -5.0, 0.0, 0.0], 50), (True, True), False),  # as much one way as the other
+    ],
+)
+def test_means_that_were_taken_out(drive: "np.ndarray", taken_out: tuple[bool, bool], told: bool) -> None:
+    speed = 3.0 * np.convolve(drive, np.exp(-TIME / 0.1), "full")[:200]
+    drive, speed = (one - np.mean(one) * out for one, out in zip((drive, speed), taken_out, strict=True))
+    notes = Notes([], [])
+    caution_no_means(Table(Path("log.csv"), np.arange(200), {"u": drive, "y": speed}), Pair("", "u", "y"), notes)
+    assert [("a mean of 0" in one) for one in notes.findings] == [True] * told

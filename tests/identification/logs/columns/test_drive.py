@@ -63,6 +63,28 @@ def test_whole_numbers_beyond_a_small_motors_volts_are_a_duty(top: float, scale:
     assert voltage_drive(read_heading("u [mV]"), values).scale == 1e-3
 
 
+@pytest.mark.parametrize(
+    ("name", "values", "full"),
+    [
+        ("Chirp", 65_530.25 * WAVE / np.max(np.abs(WAVE)), 65535.0),
+        ("u", 1001.5 * WAVE / np.max(np.abs(WAVE)), 1023.0),
+        ("u", 999.5 * WAVE / np.max(np.abs(WAVE)), None),  # of a machine on a mains voltage
+        ("u", np.clip(300.0 * WAVE, -255.0, 255.0), 255.0),  # a controller's output, cut off at a register's end
+        ("u", np.clip(300.0 * WAVE, -254.0, 254.0), None),
+        ("u", 255.0 * WAVE / np.max(np.abs(WAVE)), None),  # comes there once
+        ("voltage", np.clip(300.0 * WAVE, -255.0, 255.0), None),
+    ],
+)
+def test_more_than_any_motors_volts_is_a_duty(name: str, values: np.ndarray, full: float | None) -> None:
+    drive = voltage_drive(read_heading(name), values)
+    assert (drive.full, drive.scale) == (full, None if full else 1.0)
+
+
+def test_what_is_called_a_voltage_and_is_more_than_any_motors_is_asked_about() -> None:
+    drive = voltage_drive(read_heading("voltage"), 1001.5 * WAVE / np.max(np.abs(WAVE)))
+    assert (drive.scale, drive.full, drive.sure) == (None, None, False) and "more than a motor's volts" in drive.why
+
+
 def test_a_supply_stays_where_the_duty_turns() -> None:
     duty = 255.0 * WAVE
     assert is_supply(12.0 - np.abs(WAVE), duty)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.heading import is_of_joint_states, read_heading
 from motor_identification.logs.columns.vocabulary import Quantity
 
 ROWS = """
@@ -64,6 +64,9 @@ pos_deg           | position       | deg   |
 Position (m)      | position       | m     |
 theta             | position       |       |
 encoder_count     | count          | count |
+velocity_encoder  | speed          |       |
+encoder_ticks_speed | count        |       |
+encoder position  | count          |       |
 wheel_left_ticks  | count          | count | left
 I (A)             | current        | A     |
 targetSpeed       | reference      |       |
@@ -167,3 +170,17 @@ def test_earlier_quantities_win() -> None:
     assert read_heading("battery voltage").quantity is Quantity.SUPPLY
     assert read_heading("speed error").quantity is Quantity.OTHER
     assert read_heading("pwm voltage").quantity is Quantity.VOLTAGE
+
+
+@pytest.mark.parametrize(
+    ("name", "joint"),
+    [
+        ("/joint_states/arm/position", True),
+        ("joint_states.velocity[0]", True),
+        ("JointState_position", True),
+        ("joint position", False),
+        ("states/joint/position", False),
+    ],
+)
+def test_names_of_joint_states(name: str, joint: bool) -> None:
+    assert is_of_joint_states(read_heading(name)) == joint

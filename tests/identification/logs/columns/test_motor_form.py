@@ -163,3 +163,12 @@ def test_units_of_both_kinds_are_asked_for_where_the_numbers_tell_neither(rows: 
     make_form(table, Pair("", "u", motion), Roles("t", (), None, None), Said(), ROWS, notes)
     (question,) = [text for column, text in notes.questions if column == motion]
     assert ("rad/s" in question and "rev" in question) == either
+
+
+def test_joint_states_are_in_radians() -> None:
+    for motion, unit in (("/joint_states/arm/velocity", "rad/s"), ("/joint_states/arm/position", "rad")):
+        notes = Notes([], [])
+        made = form(Said(supply_voltage=12.0), notes, motion)
+        assert made.unit == unit and not notes.questions and "as ROS's joint states have them" in notes.findings[-1]
+        asked = Notes([], [])
+        assert form(Said(supply_voltage=12.0, unit="deg"), asked, motion).unit == "deg"

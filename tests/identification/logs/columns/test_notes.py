@@ -10,6 +10,7 @@ from motor_identification.logs.columns.notes import (
     ask_column,
     ask_drive,
     ask_motion,
+    lack_motion,
     miss_drive,
     miss_motion,
 )
@@ -46,3 +47,23 @@ def test_a_controllers_log_without_what_it_gave_is_no_log_of_one_step() -> None:
     """A speed that comes to its set point at 12 V all the time is no motor's."""
     asked = str(miss_drive(Table(Path("log.csv"), np.arange(3), {"t": np.arange(3), "setpoint_rpm": np.ones(3)})))
     assert "setpoint_rpm is what a controller was told" in asked and "--constant-voltage" not in asked
+
+
+def test_what_cannot_move_is_not_asked_about() -> None:
+    def asked(*names: str) -> str:
+        return str(lack_motion(Table(Path("log.csv"), np.arange(2), {name: np.arange(2.0) for name in names}), "t"))
+
+    assert asked("t", "target", "command").startswith(
+        "log.csv: no column is the motion (target is a reference, command is a duty, t the time): log the motor's speed"
+    )
+    assert asked("t", "command", "load").endswith("Say --speed, --position or --count and one of load.")
+    assert asked("t", "pwm", "volts").endswith("one of volts.")  # may be a tachogenerator's
+    assert asked("t", "volts", "target").startswith("log.csv: no column is the motion (volts is a voltage")
+
+
+def test_a_set_point_beside_columns_that_may_drive_is_told() -> None:
+    table = Table(Path("log.csv"), np.arange(2), {name: np.arange(2.0) for name in ("left_velocity_cmd", "x", "y")})
+    assert str(ask_drive(table, ["x", "y"])).endswith(
+        "one of x, y. left_velocity_cmd is what a controller was told: "
+        "where what it gave to the motor is none of them, log that, too."
+    )

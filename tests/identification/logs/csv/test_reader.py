@@ -46,7 +46,7 @@ def test_a_time_beyond_292_years_is_none(tmp_path: Path) -> None:
     ("text", "complaint"),
     [
         ("", "is empty: it needs a line of column names"),
-        ("t,y\n0,1\n", "has 1 rows below its column names: at least 2 samples"),
+        ("t,y\n0,1\n", "has 1 row below its column names: at least 2 samples"),
         ("t,z\n0,1\n1,1\n", "has no column y: name one of t, z"),
         ("t,y,y\n0,1,1\n1,1,1\n", "has 2 columns named y: rename all but one"),
     ],
@@ -54,6 +54,13 @@ def test_a_time_beyond_292_years_is_none(tmp_path: Path) -> None:
 def test_a_table_that_does_not_do(tmp_path: Path, text: str, complaint: str) -> None:
     with pytest.raises(RecordingError, match=complaint):
         table(tmp_path, text)
+
+
+@pytest.mark.parametrize(("numbers", "complaint"), [(11, "is one row of 11 numbers"), (10, "has 1 row")])
+def test_a_row_of_one_signal(tmp_path: Path, numbers: int, complaint: str) -> None:
+    (tmp_path / "log.csv").write_text(",".join(map(str, range(numbers))))
+    with pytest.raises(RecordingError, match=complaint):
+        read_table(tmp_path / "log.csv")
 
 
 def test_rows_above_the_rows_are_told(tmp_path: Path) -> None:

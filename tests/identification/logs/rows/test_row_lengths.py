@@ -11,7 +11,7 @@ from position_rows import rows
 from motor_identification.logs.form import CsvForm, Kind
 from motor_identification.logs.log import read_log
 from motor_identification.logs.rows import row_lengths
-from motor_identification.logs.rows.row_lengths import divide_by_own_rows
+from motor_identification.logs.rows.row_lengths import divide_by_own_rows, divide_by_regular_rows
 from motor_identification.logs.signals import Signals
 
 Floats = NDArray[np.float64]
@@ -94,3 +94,29 @@ def test_an_import_says_it_and_lets_it_be_said(tmp_path: Path) -> None:
     assert np.std(np.diff(speeds[None])[1:]) < 0.1 * np.std(np.diff(speeds[False])[1:])
     window = read_log(tmp_path / "log.csv", replace(FORM, speed_window=0.01))  # somebody knows what they are
     assert not any("--no-nominal-period" in line for line in window.findings)
+
+
+def stamped_counts(by_stamps: bool) -> tuple[Signals, Signals, Floats]:
+    """Counts of a loop of 4.96 ms, divided by the steps of its whole milliseconds, or by the loop's own."""
+    even = 4.96e-3 * np.arange(ROWS)
+    stamps = np.floor(even * 1e3 + 0.3) * 1e-3
+    counts = np.diff(np.floor(travel(even) * 465.0 / (2.0 * np.pi)), prepend=0.0)
+    steps = np.diff(stamps if by_stamps else even, prepend=-4.96e-3)
+    speed = counts * 2.0 * np.pi / 465.0 / steps
+    return signals(stamps, speed), signals(even, speed), counts
+
+
+def test_counts_by_the_steps_of_coarse_stamps_are_divided_by_regular_rows() -> None:
+    stamped, regular, counts = stamped_counts(by_stamps=True)
+    found, said = divide_by_regular_rows(stamped, regular)
+    turned = found.motion[1:] * 4.96e-3 * 465.0 / (2.0 * np.pi)
+    assert np.allclose(turned, counts[1:], atol=1e-3) and said[0].endswith("(found).")
+
+
+def test_speeds_by_other_rows_than_their_stamps_are_left() -> None:
+    stamped, regular, _ = stamped_counts(by_stamps=False)
+    assert divide_by_regular_rows(stamped, regular) == (regular, [])
+    noisy = replace(stamped, motion=stamped.motion + np.random.default_rng(1).standard_normal(ROWS))
+    assert divide_by_regular_rows(noisy, replace(regular, motion=noisy.motion))[1] == []
+    assert divide_by_regular_rows(stamped, stamped)[1] == []
+    assert divide_by_regular_rows(stamped.only(np.arange(ROWS) > 0), regular)[1] == []

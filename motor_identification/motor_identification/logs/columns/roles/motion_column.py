@@ -7,7 +7,7 @@ import numpy as np
 from motor_identification.logs.columns.behaviour.position import find_position
 from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
-from motor_identification.logs.columns.notes import ask_column, ask_motion, miss_motion
+from motor_identification.logs.columns.notes import ask_motion, lack_motion, miss_motion
 from motor_identification.logs.columns.vocabulary import FILTERED, MEASURED, RAW, UNITS, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
@@ -51,8 +51,7 @@ def find_motion_column(
         raise miss_motion(table, still[0])
     if len(unnamed) > 1:
         raise ask_motion(table, headings, None, unnamed)
-    names = [name for name in table.names if name != time] or table.names
-    raise ask_column(table, "motion", "--speed, --position or --count", names)
+    raise lack_motion(table, time)
 
 
 def _is_summed_up(table: Table, name: str, others: Sequence[str]) -> bool:

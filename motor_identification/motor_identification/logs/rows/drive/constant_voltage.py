@@ -1,14 +1,52 @@
-"""The drive of a log of one step that has no column of it: so many volts in every row, where the user says so."""
+"""The drive of a log of one step that has no column of it: so many volts where the user says so, once the motor moves.
+
+A log that begins before its step shows a motor that stands much longer than it then takes to come up to its speed.
+"""
 
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import CsvForm, Kind
+
+Floats = NDArray[np.float64]
 
 CONSTANT = "(constant voltage)"  # column
+STANDS = 0.05  # of the largest speed
+RISEN = 0.63  # of its last speed: a time constant after the step
+LONGER = 3.0  # times what it takes to rise: no bridge and no network is as late as that, which would be a delay
+FEWEST_ROWS = 10  # that tell a motor which stands from a first row of zeros
 
 
 def give_voltage(table: Table, voltage: float) -> Table:
     """Add a column of one voltage [V]."""
     return replace(table, cells={**table.cells, CONSTANT: np.full(len(table), voltage)})
+
+
+def wait_for_motion(table: Table, form: CsvForm) -> Table:
+    """Take the constant voltage from the rows in which a motor stands before its step, and say so."""
+    if form.voltage != CONSTANT or form.split or form.time is None:
+        return table
+    motion = table.numbers(form.motion)
+    standing = count_standing_rows(motion if form.kind is Kind.SPEED else np.diff(motion, prepend=motion[:1]))
+    if not standing:
+        return table
+    voltage = table.numbers(CONSTANT).copy()
+    voltage[: standing - 1] = 0.0
+    note = (
+        f"The motor stands in the first {standing} rows, longer than any delay: its voltage is taken to come in the "
+        "last of them, and a delay is not to be had from it."
+    )
+    return replace(table, cells={**table.cells, CONSTANT: voltage}, notes=(*table.notes, note))
+
+
+def count_standing_rows(speed: Floats) -> int:
+    """Count the rows before a motor moves, of speeds (K,) in any unit; 0 where a delay may be as long."""
+    size = np.abs(speed)
+    moves = size > STANDS * np.max(size, initial=0.0)
+    first = int(np.argmax(moves)) if moves.any() else 0
+    last = float(np.median(size[-(len(size) // 4 + 1) :]))
+    risen = first + int(np.argmax(size[first:] >= RISEN * last))
+    return first if first >= max(FEWEST_ROWS, LONGER * (risen - first)) else 0

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from log_columns import DRIVE, KINDS, MOVED, TIME, columns, table
 
+from motor_identification.logs.columns.drive import leave_out_idle_efforts
+from motor_identification.logs.columns.heading import read_heading
 from motor_identification.logs.columns.roles.roles import find_roles
 from motor_identification.logs.columns.said import Pair, Said
 from motor_model.errors import RecordingError
@@ -27,6 +29,16 @@ def test_an_effort_that_is_zero_all_the_time_gives_way_to_what_drives() -> None:
     assert find_roles(table(t="t", velocity="y", effort="0"), Said()).pairs == (Pair("", "effort", "velocity"),)
     with pytest.raises(RecordingError, match="Say --voltage and one of effort, command"):
         find_roles(table(t="t", velocity="y", effort="r", command="u"), Said())
+
+
+def test_idle_efforts_of_joints_give_way_to_a_command_that_is_called_an_effort() -> None:
+    """As PlotJuggler exports a bag: /joint_states has fields of each joint, the command is on /effort_control."""
+    joint = {"/joint_states/arm/position": "y", "/joint_states/arm/effort": "0"}
+    pairs = find_roles(table(t="t", **{"/effort_control/data.0": "u"}, **joint), Said()).pairs
+    assert pairs == (Pair("", "/effort_control/data.0", "/joint_states/arm/position"),)
+    told = table(t="t", **{"/effort_control/data.0": "u"}, **(joint | {"/joint_states/arm/effort": "r"}))
+    headings = [read_heading(name) for name in told.names]
+    assert leave_out_idle_efforts(told, headings) == headings  # an effort that is there may be the drive
 
 
 @pytest.mark.parametrize("name", ["pwm_left pwm_right", "pwm1 pwm2", "effort_left effort_right"])

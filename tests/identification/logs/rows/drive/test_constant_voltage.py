@@ -8,7 +8,11 @@ import pytest
 from motor_identification.logs.columns.said import Said
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.imported import import_log
-from motor_identification.logs.rows.drive.constant_voltage import CONSTANT, give_voltage
+from motor_identification.logs.rows.drive.constant_voltage import (
+    CONSTANT,
+    count_standing_rows,
+    give_voltage,
+)
 from motor_model.errors import RecordingError
 
 TIME = np.arange(200) * 0.01
@@ -44,3 +48,29 @@ def test_without_names_the_position_is_found_beside_its_speed(tmp_path: Path) ->
     path.write_text("\n".join(rows))
     imported = import_log(path, Said(constant_voltage=-8.0, unit="deg"))
     assert "Motion: column 2, a position in deg." in imported.findings
+
+
+@pytest.mark.parametrize(
+    ("standing", "rise", "counted"),
+    [(100, 0.1, 100), (40, 0.1, 40), (25, 0.1, 0), (9, 0.02, 0), (12, 0.02, 12), (0, 0.1, 0)],
+)
+def test_rows_before_a_motor_moves(standing: int, rise: float, counted: int) -> None:
+    """Rows are 10 ms apart: a motor that rises in 0.1 s may have a delay of less than 0.3 s."""
+    speed = np.concatenate([np.zeros(standing), 300.0 * (1.0 - np.exp(-TIME[1:] / rise))])
+    assert abs(count_standing_rows(speed) - counted) <= 1
+    assert count_standing_rows(-speed) == count_standing_rows(speed)
+    assert count_standing_rows(np.zeros(50)) == 0
+
+
+@pytest.mark.parametrize("position", [False, True])
+def test_a_log_that_begins_before_its_step(tmp_path: Path, position: bool) -> None:
+    speed = np.concatenate([np.zeros(100), SPEED])
+    name, motion = ("pos_deg", np.cumsum(6.0 * speed * 0.01)) if position else ("speed_rpm", speed)
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join([f"time_ms,{name}", *(f"{10 * k},{v:g}" for k, v in enumerate(motion))]))
+    imported = import_log(path, Said(constant_voltage=9.0))
+    (run,) = imported.motors[0].log.runs
+    volts = np.array([sample.voltage for sample in run.samples])
+    came = int(np.argmax(volts))
+    assert set(volts) == {0.0, 9.0} and 98 <= came <= 101 and np.all(volts[came:] == 9.0)
+    assert any("stands in the first 10" in line for line in imported.motors[0].log.findings)
