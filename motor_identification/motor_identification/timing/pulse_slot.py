@@ -15,10 +15,12 @@ from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.pulse_periods import find_slot_by_stays
 from motor_identification.timing.shaped_fit import ShapedFit, Shaper, measure_gain
 from motor_identification.timing.timing import Timing
+from motor_model.errors import RecordingError
 
 # Slots that are tried: so many rows at the usual speed (shorter ones make no difference), then nearer to the likeliest.
 GRID = tuple(0.003 * 3.0**k for k in range(7))
 STEPS = (1.7, 1.3, 1.12)
+LEAST_ROWS = 30  # that tell
 
 
 @dataclass(frozen=True)
@@ -52,11 +54,14 @@ def find_likeliest_slot(shaper: Shaper, instants: Timing) -> SlotGain:
 def judge_slot(shaper: Shaper, instants: Timing, slot: float, plain: ShapedFit | None = None) -> SlotGain:
     """Judge a slot [rad]. plain: the recordings fitted by `instants`, if they were already."""
     plain = plain or shaper.fit(instants)
-    periods = shaper.fit(replace(instants, slot=slot))
-    moving = [np.flatnonzero(data.slack == 0.0) for data in periods.estimate.problem.intervals]
-    rows = _find_rows(plain.estimate.problem, periods.estimate.problem, moving)
-    if not all(len(some) for some in moving):
+    try:
+        periods = shaper.fit(replace(instants, slot=slot))
+    except RecordingError:  # by so long a slot hardly any row brings a value of its own
         return SlotGain(slot, -np.inf, 0)
+    moving = [np.flatnonzero(data.slack == 0.0) for data in periods.estimate.problem.intervals]
+    if not all(len(some) for some in moving) or sum(map(len, moving)) < LEAST_ROWS:
+        return SlotGain(slot, -np.inf, 0)
+    rows = _find_rows(plain.estimate.problem, periods.estimate.problem, moving)
     alone = replace(shaper, restrict=_restrict_to(rows, shaper.restrict)).fit(instants)
     before, after = _list_errors(alone), _list_errors(periods)
     return SlotGain(slot, measure_gain(before, after), len(after))

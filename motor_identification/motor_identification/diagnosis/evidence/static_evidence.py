@@ -16,6 +16,8 @@ from motor_identification.recording import Floats, Recording
 from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME, LAGS
 
+STAYING = 0.5  # of the time in motion at places where a motor stays: with less it goes from place to place
+
 
 def find_untold(model: Model) -> tuple[str, ...]:
     """Find the static effects of a model whose recordings stay at too few places to tell so many apart.
@@ -29,14 +31,22 @@ def find_untold(model: Model) -> tuple[str, ...]:
 
 
 def count_places(judged: HeldOut) -> int:
-    """Count the places, fifths of the largest voltage and speed, at which motors stay; rest at 0 V is none."""
+    """Count the places, fifths of the largest voltage and speed, at which motors stay; rest at 0 V is none.
+
+    A motor that hardly stays passes many: as many as would have equal shares (Laakso and Taagepera, Comp. Political
+    Studies 12, 1979, of parties).
+    """
     rows = zip(judged.recordings, judged.intervals, judged.scored, strict=True)
     parts = [(*_place(recording, data), data.duration * scored) for recording, data, scored in rows]
     voltage, speed, weight = (np.concatenate(part) for part in zip(*parts, strict=True))
     places = np.column_stack([_round_to_fifths(voltage), _round_to_fifths(speed)])
     found, which = np.unique(places, axis=0, return_inverse=True)
     share = np.bincount(which.reshape(-1), weight) / max(float(weight.sum()), 1e-300)
-    return int(np.count_nonzero(found.any(axis=1) & (share >= LEVEL_SHARE)))
+    share = share[found.any(axis=1)]
+    stays = share >= LEVEL_SHARE
+    if share[stays].sum() >= STAYING * share.sum():
+        return int(np.count_nonzero(stays))
+    return int(share.sum() ** 2 / np.sum(share**2))
 
 
 def _place(recording: Recording, data: Intervals) -> tuple[Floats, Floats]:

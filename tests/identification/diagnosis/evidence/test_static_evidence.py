@@ -46,6 +46,11 @@ def test_places_are_where_a_motor_stays(levels: tuple[float, ...], places: int) 
     assert count_places(judged(staying(levels))) == places
 
 
+def test_a_motor_that_hardly_stays_passes_many_places() -> None:
+    swinging = staying(tuple(9.0 * np.sin(0.5 * np.arange(100.0))), 0.3)
+    assert 8 < count_places(judged(swinging)) < 40
+
+
 def stub(effects: tuple[str, ...], rms_voltage: float = 0.1, seen: bool = True, confirms: bool = True) -> Model:
     held = judged(staying(), seen, confirms)
     return cast(Model, SimpleNamespace(effects=effects, held=held, errors=SimpleNamespace(rms_voltage=rms_voltage)))
