@@ -12,6 +12,7 @@ from motor_model.dynamics.current import current_at
 from motor_model.dynamics.forces import warmth
 from motor_model.dynamics.motor import advance
 from motor_model.dynamics.rippling import turn_on
+from motor_model.dynamics.rows import Commands, Reached, find_switch, is_plain, pass_rows
 from motor_model.dynamics.state import State, at_rest, turning
 from motor_model.dynamics.straight import begin_lag, find_straight, find_torques, prepare_hold
 from motor_model.effects import INDEX
@@ -69,24 +70,29 @@ def roll_out_with_current(  # noqa: C901
     encoder showed at out_time, where that is not empty: a simulated angle drifts, and its phase would be lost.
     Where the command changes at the very out_time, the current is that just before. Angles are the output's.
     """
-    delay = p[DELAY]
-    switches = len(command_time)
+    told = Commands(command_time, command, p[DELAY])
     t = out_time[0]
     angle[0], speed[0] = 0.0, start_speed
-    j = np.searchsorted(command_time, t - delay, side="right") - 1
+    j = np.searchsorted(command_time, t - told.delay, side="right") - 1
     u = command[max(j, 0)] if j >= 0 or start_speed != 0.0 else 0.0
     acted = u if start_speed != 0.0 else 0.0
-    s = at_rest(0.0)
-    if start_speed != 0.0:
-        s = turning(p, start_speed, effective_voltage(p, u))
+    s = turning(p, start_speed, effective_voltage(p, u)) if start_speed != 0.0 else at_rest(0.0)
     _put_current(p, acted, s, t, current, 0)
-    switch = command_time[j + 1] + delay if j + 1 < switches else inf
+    switch = find_switch(told, j)
     straight, lagging = find_straight(p), begin_lag()
     hold = prepare_hold(p, u, find_torques(p, t))
     loaded = p[STEP_TIME] if p[STEP] != 0.0 and p[STEP_TIME] > t else inf
     if len(anchor) > 0:
         s = State(s.angle, s.speed, s.drive, s.play, s.direction, shaft_angle_at(p, anchor[0]))
-    for k in range(1, len(out_time)):
+    plain, k = is_plain(p, straight) and len(current) == 0, 0
+    while k + 1 < len(out_time):
+        k += 1
+        if plain and s.play == 0.0 and (abs(s.speed) > straight.least or s.speed == 0.0):
+            t, s, u, k, j, switch, hold = pass_rows(
+                p, straight.least, told, Reached(t, s, u, k, j, switch, hold), loaded, out_time, angle, speed
+            )
+            if k == len(out_time):
+                break
         until = out_time[k]
         while True:
             stop = min(until, switch, loaded)
@@ -107,7 +113,7 @@ def roll_out_with_current(  # noqa: C901
                 break
             j += 1
             u = command[j]
-            switch = command_time[j + 1] + delay if j + 1 < switches else inf
+            switch = find_switch(told, j)
             if straight.least < inf:
                 hold = prepare_hold(p, u, hold.torques)
         angle[k], speed[k] = s.angle, s.speed

@@ -115,6 +115,8 @@ def is_bent(p: Floats) -> bool:
 @compiled
 def drive_of(p: Floats, u: float) -> tuple[float, float]:
     """Split the drive, R·current, under an effective voltage u: its constant part, and the back-EMF per speed."""
+    if p[SAG] == 0.0 and p[COAST] == 0.0:  # as of most motors: the same without divisions
+        return u, back_emf_constant(p)
     share = u / p[U_MAX]
     sag = 1.0 + p[SAG] * share * share
     return u / sag, back_emf_constant(p) * (1.0 - p[COAST] * (1.0 - abs(share))) / sag

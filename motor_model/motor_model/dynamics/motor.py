@@ -57,6 +57,12 @@ MAX_PIECES = 100_000  # between two outputs; a guard against endless chatter, ne
 
 
 @compiled
+def holding_level(p: Floats, w: float) -> float:
+    """Return the net voltage [V] up to which a motor at rest holds, in copper of warmth w."""
+    return max(w * max(p[KS], p[BREAKAWAY]), LEAST_LEVEL * p[U_MAX])
+
+
+@compiled
 def _hold(p: Floats, s: State, source: float, load: float, level: float, h: float) -> tuple[float, float, float]:
     """A motor at rest: how long it holds (up to h), v at the end of that, and the direction it starts in (0: holds)."""
     tau = p[LAG]
@@ -90,8 +96,7 @@ def piece(p: Floats, u: float, s: State, t: float, h: float) -> tuple[State, flo
         drive = source - back_emf * s.speed
     if s.speed == 0.0:
         load = w * loads_at(p, s.angle + s.turned, t)
-        level = max(w * max(p[KS], p[BREAKAWAY]), LEAST_LEVEL * p[U_MAX])
-        held, drive, started = _hold(p, s, source, load, level, h)
+        held, drive, started = _hold(p, s, source, load, holding_level(p, w), h)
         if held > 0.0:
             return State(s.angle, 0.0, drive, play, direction, s.turned), held
         if started * direction < 0.0:

@@ -129,7 +129,7 @@ def _turn_beside(
 ) -> tuple[float, float, float, Lagging]:
     """Speed, v and travel after h [s] of the motion beside the swing."""
     if p[LAG] == 0.0:
-        then, travel = turn(p, hold, s, h, w)
+        then, travel = turn(p, hold, s.speed, h, w)
         return then, s.drive, travel, latest
     return turn_lagging(p, hold, s, h, w, least, latest)
 

@@ -94,15 +94,15 @@ def prepare_hold(p: Floats, u: float, torques: Torques) -> Hold:
 
 
 @compiled
-def turn(p: Floats, hold: Hold, s: State, h: float, w: float) -> tuple[float, float]:
-    """Speed and travel after h [s] of a turning motor without inductance, in copper of warmth w."""
+def turn(p: Floats, hold: Hold, speed: float, h: float, w: float) -> tuple[float, float]:
+    """Speed and travel after h [s] of a motor without inductance that turns at a speed, in copper of warmth w."""
     if w == 1.0:
-        push = hold.ahead_push if s.speed > 0.0 else hold.back_push
-        return relaxed(hold.rate, push - hold.rate * s.speed, s.speed, h)
+        push = hold.ahead_push if speed > 0.0 else hold.back_push
+        return relaxed(hold.rate, push - hold.rate * speed, speed, h)
     inertia = p[KA] * w
-    torque = hold.torques.ahead if s.speed > 0.0 else hold.torques.back
+    torque = hold.torques.ahead if speed > 0.0 else hold.torques.back
     rate = (hold.back_emf + w * hold.torques.slope) / inertia
-    return relaxed(rate, (hold.source - w * torque) / inertia - rate * s.speed, s.speed, h)
+    return relaxed(rate, (hold.source - w * torque) / inertia - rate * speed, speed, h)
 
 
 @compiled
