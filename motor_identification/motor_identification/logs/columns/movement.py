@@ -91,14 +91,17 @@ def guess_position_unit(values: Floats) -> Unit:
         for name, (turn, rounded) in turns.items()
         if _is_whole(turn / step, WHOLE_BY_POSITIONS, rounded + error) and not _is_printed(values, step)
     ]
+    few = [
+        name
+        for name, (turn, rounded) in turns.items()
+        if name not in whole and _is_whole(turn / step, WHOLE_BY_POSITIONS, rounded + error, FEWEST_MAGNETS)
+    ]
     others = "no whole number"
+    if few and whole:  # some magnets a turn of a motor, or that many times as many of its gear
+        return Unit("", "", tuple(name for name in turns if name in {*whole, *few}))
     if len(whole) != 1:  # of steps so coarse that a turn has hardly any of them, no encoder is made
         fine = [name for name, (turn, _) in turns.items() if turn / step >= FEWEST_COUNTS]
-        coarse = any(
-            _is_whole(turn / step, WHOLE_BY_POSITIONS, rounded + error, FEWEST_MAGNETS)
-            for turn, rounded in turns.values()
-        )
-        if len(fine) != 1 or coarse:
+        if len(fine) != 1 or few:
             return Unit("", "", tuple(whole) or asked)
         whole, others = fine, f"fewer than {FEWEST_COUNTS}"
     number = turns[whole[0]][0] / step

@@ -66,6 +66,8 @@ def test_the_unit_of_positions_by_wraps_and_steps() -> None:
     assert guess_position_unit(np.rint(angle * 97 / tau) * 360 / 97).name == "deg"
     assert guess_position_unit(np.rint(np.degrees(angle))).candidates == ("count", "deg")
     assert guess_position_unit(angle).candidates == ("rad", "deg", "rev", "count")
+    six = np.round(np.rint(angle * 6 / tau) / 6, 5)  # of three magnets, or 2,160 counts in degrees
+    assert guess_position_unit(six).candidates == ("deg", "rev")
 
 
 def test_steps_too_coarse_for_a_turn_in_other_units_are_degrees() -> None:
