@@ -47,7 +47,10 @@ class _Reading:
 
 def held_until(shaper: Shaper) -> bool:
     """Decide whether the voltages of a shaper's recordings held until their rows."""
-    first = shaper.fit(ASSUMED).estimate
+    fitted = shaper.fit(ASSUMED)
+    first = fitted.estimate
+    if fitted.delay > LEAST_DELAY * first.problem.sample_period:
+        return False
     as_logged = _fit_beside_torque(first)
     if as_logged.delay > LEAST_DELAY:
         return False
