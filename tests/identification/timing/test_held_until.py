@@ -1,6 +1,7 @@
 """Voltages of counted logs held until their rows where the motion says so beyond doubt, and nowhere else."""
 
 from dataclasses import dataclass, replace
+from types import SimpleNamespace
 from typing import cast
 
 import numpy as np
@@ -98,20 +99,16 @@ def test_every_limit_decides(
         delay: float
         likelihood: float
 
-    @dataclass
-    class Stub:
-        def fit(self, timing: Timing) -> "Stub":
-            return self
-
-        @property
-        def estimate(self) -> "Stub":
-            return self
+    first = SimpleNamespace(problem=SimpleNamespace(sample_period=ROW))
+    fitted = SimpleNamespace(delay=0.0, estimate=first)
 
     monkeypatch.setattr(module, "count_intervals", lambda estimate: rows)
     monkeypatch.setattr(module, "_read_later", lambda estimate: None)
     readings = {True: Reading(later, gain), False: Reading(logged, 0.0)}
     monkeypatch.setattr(module, "_fit_beside_torque", lambda estimate: readings[estimate is None])
-    assert module.held_until(cast(Shaper, Stub())) == told
+    assert module.held_until(cast(Shaper, SimpleNamespace(fit=lambda timing: fitted))) == told
+    fitted.delay = 0.06 * ROW  # late, before any torque is looked at
+    assert not module.held_until(cast(Shaper, SimpleNamespace(fit=lambda timing: fitted)))
 
 
 def looped(before: bool, seed: int = 0) -> Recording:
