@@ -8,7 +8,8 @@ from motor_ros.messages import info_message, info_of, time_message
 
 
 def test_an_info_comes_back() -> None:
-    assert info_of(info_message(Info(name="wheel"), time_message(5))) == Info(name="wheel")
+    for info in (Info(name="wheel"), Info(source="import", voltage_assumed=True)):
+        assert info_of(info_message(info, time_message(5))) == info
 
 
 @pytest.mark.parametrize(

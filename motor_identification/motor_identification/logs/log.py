@@ -116,7 +116,8 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     parts = signals.runs.items()
     made = [Run(label, _from_rest(samples[rows], form, signals.voltage[rows.start])) for label, rows in parts]
     runs, still = leave_out_still_runs(made)
-    return Log(motion.info, runs, (about, *said, *motion.findings, applied, *rest, *still))
+    info = replace(motion.info, voltage_assumed=form.voltage_before is None and not found)
+    return Log(info, runs, (about, *said, *motion.findings, applied, *rest, *still))
 
 
 def _samples(motion: Motion, held: Floats) -> tuple[Sample, ...]:

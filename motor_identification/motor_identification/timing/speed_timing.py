@@ -7,7 +7,8 @@ which no effect does, since a dead time is never negative. So every timing is fi
 and one that is much likelier is taken; a row more only where the motion still comes too early. Then, of speeds as they
 were before any filter, whether the motion goes by the rows' stamps or by a clock that these are late on, and whether
 each was computed with the length of its own row (`row_times.py`). Or a speed is a slot over the time between the latest
-two edges, and the older the slower (`pulse_slot.py`).
+two edges, and the older the slower (`pulse_slot.py`). Counts are read at their rows: of those, only the voltages may be
+of another time (`held_until.py`).
 """
 
 from collections.abc import Callable, Sequence
@@ -16,11 +17,12 @@ from dataclasses import replace
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
+from motor_identification.timing.held_until import held_until
 from motor_identification.timing.pulse_slot import find_likeliest_slot, find_stays_slot
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row_times
 from motor_identification.timing.shaped_fit import Shaper, measure_gain
 from motor_identification.timing.smoothing import AS_LIKELY, Likelihood, find_filter
-from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, Timing, is_open
+from motor_identification.timing.timing import ASSUMED, LEAST_DELAY, OTHERS, UNTIL, Timing, is_open, is_voltage_open
 from motor_model.effects import EFFECT_BY_NAME, LAGS
 from motor_model.sample import Measurement
 
@@ -43,14 +45,18 @@ def find_timing(
 ) -> Timing | None:
     """Find when the speeds of recordings were made, and how smoothed they are, as their motion shows.
 
-    None if as assumed, or as was said. estimate: of the same motor, as the assumed timing gives it. restrict: to what a
-    fit may see; all, without. beside: effects that are known to be in the motor; of what only makes it late, and of
-    what repeats with its angle, the timing is found without.
+    Of counts, which are of their rows' instants, whether voltages held until these. None if as assumed, or as was said.
+    estimate: of the same motor, as the assumed timing gives it. restrict: to what a fit may see; all, without. beside:
+    effects that are known to be in the motor; of what only makes it late, and of what repeats with its angle, the
+    timing is found without.
     """
-    few = sum(len(recording) for recording in recordings) < LEAST_SPEEDS
-    if few or any(recording.info.measurement is not Measurement.SPEED for recording in recordings):
+    if sum(len(recording) for recording in recordings) < LEAST_SPEEDS:
         return None
     shaper = Shaper(recordings, estimate, restrict, _list_shaping(beside))
+    if all(map(is_voltage_open, recordings)):
+        return UNTIL if held_until(shaper) else None
+    if any(recording.info.measurement is not Measurement.SPEED for recording in recordings):
+        return None
     found = _find_as_stamped(shaper)
     if found is not None and found.slot == 0.0 and _are_open(recordings):
         rows = _find_row_times(shaper, found)

@@ -56,13 +56,14 @@ class Timing:
     def _set(self, recording: Recording) -> Recording:
         if self.filter and self._smooths(recording, self.filter):
             recording = replace(recording, speed=self.filter.undo(recording.speed))
+        if self.is_early and is_voltage_open(recording):
+            return _hold_until(recording)
         if not is_open(recording):
             return recording
         recording = self.rows.set_on(recording)
         info, row, lag = recording.info, recording.info.sample_period, self.lag
         if self.is_early:
-            held, lag = np.append(recording.voltage[1:], recording.voltage[-1]), lag + 1.0
-            recording = replace(recording, voltage=held)
+            recording, lag = _hold_until(recording), lag + 1.0
         if self.slot > 0.0:
             recording = replace(recording, edge_period=_divide(self.slot, np.abs(recording.speed)))
         return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=lag * row))
@@ -89,7 +90,7 @@ class Timing:
             notes.append(PERIODS.format(self.slot, tau / self.slot))
         elif self.name and is_open(recording):
             notes.append(TAKEN.format(self.name, self.window * row, timed.info.speed_lag))
-        if self.is_early and is_open(recording):
+        if self.is_early and (is_open(recording) or is_voltage_open(recording)):
             notes.append(EARLY)
         if self.filter and self._smooths(recording, self.filter):
             notes.append(SMOOTHED.format(self.filter.describe(row)))
@@ -102,9 +103,10 @@ def _divide(slot: float, speed: Floats) -> Floats:
 
 
 ASSUMED = Timing(1.0, 0.5, "")
+UNTIL = Timing(1.0, -0.5, "")
 OTHERS = (
     Timing(INSTANT, 0.0, OWN),
-    Timing(1.0, -0.5, ""),
+    UNTIL,
     Timing(INSTANT, -1.0, OWN),
 )
 
@@ -125,6 +127,11 @@ def list_readings(recording: Recording, passed: SpeedFilter | None = None) -> tu
     return (*plain, *smoothed)
 
 
+def is_voltage_open(recording: Recording) -> bool:
+    """Decide whether a recording is of counts, of which nobody said from when on their rows' voltages hold."""
+    return recording.info.measurement is Measurement.COUNTS and recording.info.voltage_assumed
+
+
 def is_open(recording: Recording) -> bool:
     """Decide whether a recording is of speeds of which nobody said when they were made, nor that they are counts.
 
@@ -133,3 +140,8 @@ def is_open(recording: Recording) -> bool:
     info = recording.info
     unsaid = info.measurement is Measurement.SPEED and not info.edges_per_revolution and is_assumed(info)
     return unsaid and abs(info.speed_lag - ASSUMED.lag * info.sample_period) < LEAST_DELAY * info.sample_period
+
+
+def _hold_until(recording: Recording) -> Recording:
+    """Read a recording's voltages as those that held until their rows."""
+    return replace(recording, voltage=np.append(recording.voltage[1:], recording.voltage[-1]))

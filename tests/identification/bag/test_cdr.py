@@ -95,8 +95,9 @@ INFO = Info("wheel", "hardware", Measurement.COUNTS, 2800, False, 1e-6, 0.001, 0
 
 
 def test_info_comes_back_in_all_its_fields() -> None:
-    data = serialize_message(info_message(INFO, time_message(5)))
-    assert decode_info(data, INFO_DEFINITION) == INFO
+    for info in (INFO, replace(INFO, source="import", voltage_assumed=True)):
+        data = serialize_message(info_message(info, time_message(5)))
+        assert decode_info(data, INFO_DEFINITION) == info
 
 
 def test_a_name_that_is_not_utf_8_is_shown_by_its_bytes() -> None:

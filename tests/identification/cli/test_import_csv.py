@@ -28,7 +28,7 @@ def test_a_bag_that_identification_reads(log: Path, tmp_path: Path, capsys: pyte
     assert recording.info.measurement is Measurement.SPEED and recording.info.name == "wheel"
     assert np.array_equal(recording.sample_time, np.arange(20) * 20_000_000)
     assert recording.speed == pytest.approx(np.radians(10.0 * np.arange(20)))
-    assert np.array_equal(recording.voltage, 1.0 + np.arange(20) % 2)
+    assert np.array_equal(recording.voltage, 1.0 + np.arange(20) % 2) and recording.info.voltage_assumed
     info, speed, voltage = topics(bag)
     assert [topic.message_count for topic in (info, speed, voltage)] == [1, 20, 20]
     assert [profile.durability for profile in info.qos] == ["transient_local"]

@@ -99,11 +99,14 @@ def test_an_import_believes_the_motion_unless_it_is_told_otherwise(tmp_path: Pat
     log = read_log(late, counts)
     assert [one.voltage for one in log.runs[0].samples[:-1]] == pytest.approx(volts[1:], abs=1e-4)
     assert any("answers its own voltage" in line and "--no-voltage-before" in line for line in log.findings)
+    assert not log.info.voltage_assumed
     told = read_log(late, replace(counts, voltage_before=False))
+    assert not told.info.voltage_assumed
     assert [one.voltage for one in told.runs[0].samples] == pytest.approx(volts, abs=1e-4)
     usual = read_log(write(tmp_path / "usual.csv", volts, np.round(np.cumsum(50.0 * speeds(volts)))), counts)
     assert [one.voltage for one in usual.runs[0].samples] == pytest.approx(volts, abs=1e-4)
     assert not any("answers" in line for line in usual.findings)
+    assert usual.info.voltage_assumed  # a fit sees more than an import, and may yet find it otherwise
 
 
 def test_logged_speeds_may_be_made_of_rows_after_their_own(tmp_path: Path) -> None:

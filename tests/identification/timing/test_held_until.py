@@ -1,0 +1,159 @@
+"""Voltages of counted logs held until their rows where the motion says so beyond doubt, and nowhere else."""
+
+from dataclasses import dataclass, replace
+from types import SimpleNamespace
+from typing import cast
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from plant import profiles, record
+from recorded import as_counts
+from swinging import RUBBING
+
+from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.result import Verdict
+from motor_identification.estimation.problem import make_problem
+from motor_identification.estimation.request import SearchConfig
+from motor_identification.estimation.search.global_search import search_globally
+from motor_identification.identify import Request, identify
+from motor_identification.recording import Recording, check, recording_of
+from motor_identification.timing import held_until as module
+from motor_identification.timing.shaped_fit import Shaper
+from motor_identification.timing.speed_timing import find_timing
+from motor_identification.timing.timing import UNTIL, Timing, read_again
+from motor_model.sample import Info, Measurement, Sample
+
+Floats = NDArray[np.float64]
+
+ROW = 0.02  # [s]
+
+
+def counted(assumed: bool = True, seed: int = 0, **motor: float) -> Recording:
+    """Counts at rows of 20 ms, of which an import assumed that voltages hold from them on."""
+    drive = profiles.random(6.0, 20.0, seed=seed)
+    recording, _ = record(RUBBING | motor, *drive, seed=seed, edges=960, sample_rate=1.0 / ROW, single_channel=False)
+    return assume(as_counts(recording), assumed)
+
+
+def assume(recording: Recording, assumed: bool = True) -> Recording:
+    info = replace(recording.info, source="import", voltage_assumed=assumed)
+    return check(replace(recording, info=info))
+
+
+def until(recording: Recording) -> Recording:
+    """A row holds the voltage that was applied until it."""
+    return replace(recording, voltage=np.append(0.0, recording.voltage[:-1]))
+
+
+def timing_of(*recordings: Recording) -> Timing | None:
+    estimate, _ = search_globally(make_problem(recordings, ()), SearchConfig())
+    return find_timing(recordings, estimate)
+
+
+def test_the_voltages_that_counts_answer_are_told() -> None:
+    assert timing_of(counted()) is None
+    assert timing_of(until(counted())) == UNTIL
+    assert timing_of(until(counted()), until(counted(seed=1))) == UNTIL
+
+
+def test_what_was_said_is_believed() -> None:
+    assert timing_of(until(counted(assumed=False))) is None
+    assert timing_of(until(counted()), until(counted(assumed=False, seed=1))) is None
+    assert timing_of(until(counted()).between(0.0, 0.8)) is None  # too few to tell
+
+
+@pytest.mark.parametrize(("rows", "told"), [(0.3, True), (0.7, False), (1.5, False)])
+def test_a_dead_time_is_no_later_row(rows: float, told: bool) -> None:
+    """By either reading it is late; what is left of it with voltages a row later says which is meant."""
+    late = counted(delay=rows * ROW)
+    assert timing_of(late) is None
+    assert (timing_of(until(late)) == UNTIL) == told
+
+
+def test_no_motion_is_late_by_a_sensor_or_a_winding_that_comes_early() -> None:
+    assert timing_of(counted(electrical_time_constant=0.01)) is None
+    late = counted()
+    smoothed = np.round(np.convolve(late.edge_count, [0.25, 0.5, 0.25])[: len(late)]).astype(np.int64)
+    smoothed[:2] = late.edge_count[0]
+    assert timing_of(check(replace(late, edge_count=smoothed))) is None
+
+
+@pytest.mark.parametrize(
+    ("logged", "later", "gain", "rows", "told"),
+    [
+        (0.04, 0.0, 21.0, 500, True),
+        (0.06, 0.0, 21.0, 500, False),
+        (0.0, 0.49, 21.0, 500, True),
+        (0.0, 0.51, 21.0, 500, False),
+        (0.0, 0.0, 19.0, 500, False),
+        (0.0, 0.0, 41.0, 2000, True),
+        (0.0, 0.0, 39.0, 2000, False),
+    ],
+)
+def test_every_limit_decides(
+    logged: float, later: float, gain: float, rows: int, told: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    @dataclass
+    class Reading:
+        delay: float
+        likelihood: float
+
+    first = SimpleNamespace(problem=SimpleNamespace(sample_period=ROW))
+    fitted = SimpleNamespace(delay=0.0, estimate=first)
+
+    monkeypatch.setattr(module, "count_intervals", lambda estimate: rows)
+    monkeypatch.setattr(module, "_read_later", lambda estimate: None)
+    readings = {True: Reading(later, gain), False: Reading(logged, 0.0)}
+    monkeypatch.setattr(module, "_fit_beside_torque", lambda estimate: readings[estimate is None])
+    assert module.held_until(cast(Shaper, SimpleNamespace(fit=lambda timing: fitted))) == told
+    fitted.delay = 0.06 * ROW  # late, before any torque is looked at
+    assert not module.held_until(cast(Shaper, SimpleNamespace(fit=lambda timing: fitted)))
+
+
+def looped(before: bool, seed: int = 0) -> Recording:
+    """A loop that holds speeds by counts, beside a random torque that it answers, in rows of 20 ms."""
+    random = np.random.default_rng(seed)
+    rows, fine, lag, size = 1500, 20, 0.1, 2.0 * np.pi / 2000
+    wanted = np.repeat(random.uniform(-40.0, 40.0, rows // 50), 50)
+    angle = speed = torque = old = 0.0
+    samples = []
+    applied = 0.0
+    for k in range(rows):
+        count = int(np.floor(angle / size))
+        moved = (count - old) * size / ROW
+        volts = float(np.clip(0.1 * (wanted[k] - moved) + 0.08 * wanted[k], -6.0, 6.0))
+        samples.append(Sample(round(k * ROW * 1e9), moved, applied if before else volts, count))
+        old, applied = count, volts
+        for _ in range(fine):
+            torque += 0.02 * (-torque) + 0.1 * 0.2 * random.standard_normal()
+            speed += ROW / fine * ((volts + torque) / 0.1 - speed) / lag
+            angle += ROW / fine * speed
+    info = Info("loop", "import", Measurement.COUNTS, 2000, False, 0.0, ROW, max_voltage=6.0, voltage_assumed=True)
+    return check(recording_of(samples, info, "loop"))
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_loop_that_answers_a_random_torque_is_not_answered_before(seed: int) -> None:
+    assert timing_of(looped(before=False, seed=seed)) is None
+    assert timing_of(looped(before=True, seed=seed)) == UNTIL
+
+
+def test_a_timing_of_counts_is_that_of_their_voltages_alone() -> None:
+    logged = counted()
+    read = read_again(until(logged), UNTIL)
+    assert read.voltage[:-1] == pytest.approx(logged.voltage[:-1]) and read.info == logged.info
+    assert "taken as those that held until their rows" in read.notes[-1]
+    said = counted(assumed=False)
+    assert read_again(said, UNTIL).voltage is said.voltage and read_again(said, UNTIL).notes == ()
+
+
+def test_a_fit_and_a_diagnosis_use_what_was_found() -> None:
+    late = until(counted())
+    fit = identify([late], Request(("coulomb_friction",)))
+    for name, value in RUBBING.items():
+        assert fit.parameters.values[name] == pytest.approx(value, rel=0.01)
+    assert fit.timing == UNTIL and any("held until their rows" in note for note in fit.notes)
+    found = diagnose([late])
+    assert [one.effect for one in found.findings] == ["coulomb_friction"] and found.verdict is Verdict.EXPLAINED
+    assert any("held until their rows" in note for note in found.model.notes)
