@@ -42,6 +42,7 @@ class MotorControl(Node):
         self._answers = Answers(self)
         self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
+        self._hold_ups = HoldUps(self)
         refer, approach = partial(self._refer, Kind.SPEED), partial(self._refer, Kind.POSITION)
         self._inputs = (
             NumberedInput(self, Float64, "motor/reference", qos.COMMANDS, refer),
@@ -53,7 +54,6 @@ class MotorControl(Node):
         steady_timer(self, WATCH_EVERY, self._on_watch)
         steady_timer(self, 1.0, lambda: self._answers.diagnose(self._settings.config, self._state.demand))
         self.add_on_set_parameters_callback(self._on_parameters)
-        self._hold_ups = HoldUps(self)
         self.get_logger().info(describe_start(self._settings.config))
 
     def close(self) -> None:

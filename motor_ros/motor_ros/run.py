@@ -120,25 +120,28 @@ def steady_timer(node: Node, period: float, callback: Callable[[], None]) -> Tim
 
 
 class HoldUps:
-    """Notices that this process stood still: what comes then may have been sent long ago, and says not when."""
+    """Notices that this process stood still: what comes then may have been sent long ago, and says not when.
+
+    It is made before whatever may hold old messages, so that none of them is missed: a process may stand still in the
+    first instant, too.
+    """
 
     def __init__(
         self, node: Node, clock: Callable[[], float] = lambda: time.clock_gettime(time.CLOCK_BOOTTIME)
     ) -> None:
         """`clock` [s] goes on while the computer is suspended."""
         self._clock = clock
-        self._looked: float | None = None
-        self._woke = -inf
+        self._looked, self._woke = clock(), -inf
         steady_timer(node, LOOK_FOR_HOLD_UPS_EVERY, self._look)
 
     def in_doubt(self) -> bool:
         """Whether a message that comes now may be an old one."""
         self._look()
-        return self._looked is not None and self._looked - self._woke <= LATE_MESSAGES
+        return self._looked - self._woke <= LATE_MESSAGES
 
     def _look(self) -> None:
         now = self._clock()
-        if self._looked is not None and now - self._looked > HELD_UP:
+        if now - self._looked > HELD_UP:
             self._woke = now
         self._looked = now
 

@@ -42,12 +42,12 @@ class DiffDrive(Node):
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         self._transforms = self._load_transforms() if self._values["publish_tf"] else None
         self._tf = self.create_publisher(self._transforms, "/tf", qos.TRANSFORMS) if self._transforms else None
+        self._hold_ups = HoldUps(self)
         kind = TwistStamped if self._values["stamped"] else TwistMessage
         self.create_subscription(kind, "cmd_vel", self._on_cmd_vel, qos.REFERENCE)
         steady_timer(self, 1.0 / float(self._values["rate"]), self._on_timer)
         steady_timer(self, 1.0, self._on_second)
         self.add_on_set_parameters_callback(self._on_parameters)
-        self._hold_ups = HoldUps(self)
 
     def close(self) -> None:
         """Stop both wheels and let go of them."""
