@@ -22,10 +22,12 @@ from motor_control.speakers import Speakers
 from motor_model.errors import MotorError
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
+from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
+from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.messages import info_of, sample_of
 from motor_ros.numbered_input import NumberedInput
 from motor_ros.parameters import declare
-from motor_ros.run import STOOD_STILL, HoldUps, quick_executor, run, steady_timer
+from motor_ros.run import quick_executor, run
 from motor_ros.topics import publishers_of
 
 WATCH_EVERY = 0.02  # [s]

@@ -7,7 +7,7 @@ from typing import Any, Generic, TypeVar
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from motor_ros.run import HoldUps
+from motor_ros.clocks.hold_ups import HoldUps
 from motor_ros.topics import publishers_of
 
 MessageType = TypeVar("MessageType")

@@ -16,7 +16,7 @@ from rclpy.subscription import Subscription
 
 from motor_msgs.msg import MotorSpeed
 from motor_ros import qos
-from motor_ros.run import steady_timer
+from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.topics import publishers_of
 
 RCLError = rclpy_implementation.RCLError

@@ -13,11 +13,11 @@ from motor_model.gearing.gear import angle_of_count
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
+from motor_ros.clocks.hold_ups import HoldUps
 from motor_ros.gate import OFF, STOPPED, Gate
 from motor_ros.messages import diagnostic_message, info_message, speed_message
 from motor_ros.numbered_input import NumberedInput
 from motor_ros.other_plant import OtherPlant
-from motor_ros.run import HoldUps
 
 
 class Plant:

@@ -8,8 +8,8 @@ from workbench import Bench
 
 from motor_msgs.msg import MotorVoltage
 from motor_ros import qos
+from motor_ros.clocks.hold_ups import HoldUps
 from motor_ros.numbered_input import NumberedInput, _wait_of
-from motor_ros.run import HoldUps
 
 WAIT = 0.2  # [s]
 

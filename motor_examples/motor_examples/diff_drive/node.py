@@ -19,9 +19,11 @@ from motor_examples.diff_drive.odometry import Pose, advance_pose
 from motor_examples.diff_drive.parameters import PROGRAM, ROWS, config_of
 from motor_model.errors import MotorError
 from motor_ros import qos
+from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
+from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.interface_types import NotInstalled, load_message
 from motor_ros.parameters import declare
-from motor_ros.run import STOOD_STILL, HoldUps, quick_executor, run, steady_timer
+from motor_ros.run import quick_executor, run
 
 NO_TF = "tf2_msgs is not installed here: no transforms on /tf; the pose is on odom."
 

@@ -25,9 +25,7 @@ TIMES = 2.0  # the longest time between two of them, which is a silence
 # other, if they take between half and twice as long.
 EVEN = 0.05
 
-GOES_ON = (
-    "{} References that go on coming are not obeyed until they begin again, with 0 or after a silence of {:g} s."
-)
+GOES_ON = "{} References that go on coming are not obeyed until they begin again, with 0 or after a silence of {:g} s."
 
 
 @dataclass(frozen=True, slots=True)
