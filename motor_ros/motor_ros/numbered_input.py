@@ -7,7 +7,7 @@ from typing import Any, Generic, TypeVar
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
-from motor_ros.clocks.hold_ups import HoldUps
+from motor_ros.clocks.hold_ups import HELD_UP, HoldUps
 from motor_ros.topics import publishers_of
 
 MessageType = TypeVar("MessageType")
@@ -58,9 +58,10 @@ class NumberedInput(Generic[MessageType]):
 
 
 def _wait_of(about: dict[str, Any], now: int, doubt: bool) -> int:
-    """How long a message has waited [ns], by the clock that stamped it and may be set back; 0 where nobody stamps.
+    """How long a message has waited [ns], by the clock that stamped it and may be set; 0 where nobody stamps.
 
-    Nothing is received while a process stands still; in doubt a message is as old as it is by when it was sent.
+    A process that has not stood still lets none wait for as long as that takes to be noticed. While it does nothing is
+    received: in doubt a message is as old as it is by when it was sent.
     """
-    stamps: list[int | None] = [about["received_timestamp"], *([about["source_timestamp"]] if doubt else [])]
-    return max([now - stamp for stamp in stamps if stamp] + [0])
+    received, sent = (max(now - (about[f"{kind}_timestamp"] or now), 0) for kind in ("received", "source"))
+    return max(received, sent) if doubt else min(received, round(HELD_UP * 1e9))

@@ -44,6 +44,7 @@ def test_a_message_that_is_taken_late_says_how_late(bench: Bench) -> None:  # no
         (2_990, 500, True, 2_500),
         (3_000, 3_500, True, 0),
         (4_000, 4_000, False, 0),  # our clock was set back
+        (1_000 - 3_600 * 10**9, 500, False, 10**9),  # and forward: an old voltage, but none of somebody who went on
         (0, 0, True, 0),  # nobody stamps
         (None, None, True, 0),
     ],
