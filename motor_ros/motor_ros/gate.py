@@ -99,7 +99,8 @@ class Gate:
         ours = holder is not None and holder.sent(name, number, now) and not self._goes_on(name, number, now)
         if holder is not None and now - holder.at <= HOLD and not ours:
             return replace(self, aside=Sender(name, number, now))
-        if holder is not None and self._goes_on_unheard(holder, ours, number, now):
+        unheard = holder is not None and self._goes_on_unheard(holder, ours, number, now)
+        if holder is not None and unheard and not ours:
             return replace(self.come_up(holder.at), sender=None, away=True).take(voltage, now, name, number, waited)
         told = self._tell_senders(number, now) if ours else replace(self, aside=None)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
@@ -108,7 +109,7 @@ class Gate:
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
         begun = begun and not handed
         told = replace(told, command=voltage, received=now - waited, sender=sender, first=first, handed=handed)
-        if voltage != 0.0 and waited > max(AWAY, self.timeout * 1e9):  # what its sender's pace says began before, too
+        if voltage != 0.0 and (unheard or waited > max(AWAY, self.timeout * 1e9)):  # it began before, whatever its pace
             return replace(told, first=replace(first, number=None), begun=False, away=True)
         return replace(told, begun=begun)
 

@@ -167,6 +167,22 @@ def test_who_went_on_sending_while_the_plant_stood_still_begins_at_0_volt(before
     assert plant.take(0.0, at, "", number).take(6.0, at + 20 * MS, "", number + 1).voltage(at + 20 * MS) == 6.0
 
 
+@pytest.mark.parametrize("period", [5, 20, 50])
+@pytest.mark.parametrize("before", [20, 60])
+@pytest.mark.parametrize("away", [1_100, 3_000])
+def test_what_was_kept_of_a_stream_comes_at_once_and_makes_it_no_younger(before: int, period: int, away: int) -> None:
+    """The latest ten, in which it seemed to have sent all that went before as quickly, since the plant stood still."""
+    plant = stream(gate(), 6.0, range(0, before * period, period), 1)
+    back, number = before * period + away, before + away // period
+    for k in range(-9, 1):
+        plant = plant.take(6.0, T0 + back * MS + k, "", number + k)
+    for k in range(1, 100):
+        now = T0 + (back + k * period) * MS
+        plant = plant.take(6.0, now, "", number + k)
+        assert plant.voltage(now) == 0.0
+    assert "went on being sent" in plant.problem(now)
+
+
 @pytest.mark.parametrize("name", ["", "other"])
 @pytest.mark.parametrize(
     ("away", "period", "number", "acts"),
