@@ -21,7 +21,7 @@ class HoldUps:
     """Notices that this process stood still: what comes then may have been sent long ago, and says not when.
 
     It is made before whatever may hold old messages, so that none of them is missed: a process may stand still in the
-    first instant, too.
+    first instant, too. But a start may take its time: after one that did, a message is as old as its sender says.
     """
 
     def __init__(
@@ -30,6 +30,7 @@ class HoldUps:
         """`clock` [s] goes on while the computer is suspended."""
         self._clock = clock
         self._looked, self._woke = clock(), -inf
+        self._looks, self._began_late = 0, False
         steady_timer(node, LOOK_FOR_HOLD_UPS_EVERY, self._look)
 
     def in_doubt(self) -> bool:
@@ -37,8 +38,13 @@ class HoldUps:
         self._look()
         return self._looked - self._woke <= LATE_MESSAGES
 
+    def bars(self, waited: int) -> bool:
+        """Whether a message that comes now, and has waited for so long [ns] if nobody's clock is wrong, may be old."""
+        return self.in_doubt() and (waited > HELD_UP * 1e9 or not self._began_late)
+
     def _look(self) -> None:
         now = self._clock()
         if now - self._looked > HELD_UP:
-            self._woke = now
+            self._woke, self._began_late = now, self._looks == 0
+        self._looks += 1
         self._looked = now
