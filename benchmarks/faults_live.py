@@ -21,6 +21,7 @@ from workbench import program
 
 from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
+from motor_ros.messages import time_message, voltage_message
 
 # [s] from when it could be known; where a plant that does nothing is believed for 0.5 s to be off; and watched
 KNOWN, KNOWN_BY_TIME, WATCHED = 0.15, 0.6, 3.0
@@ -73,6 +74,23 @@ def refer_to_stopped_controller(stage: Stage) -> None:
     reference = stage.bench.publisher(Float64, "motor/reference", qos.REFERENCE)
     stage.bench.heard(reference)
     stage.stand_still(stage.programs[-1], lambda: reference.publish(Float64(data=0.5 * MOTOR.top)))
+
+
+def command_stopped_plant(stage: Stage) -> None:
+    """A voltage comes while a plant is stopped."""
+    stage.plant()
+    stage.until(lambda: len(stage.moments) > 50, "the plant")
+    voltage = stage.bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+    stage.bench.heard(voltage)
+    stage.stand_still(stage.programs[0], lambda: voltage.publish(voltage_message(6.0, time_message(0), "user")))
+
+
+def resume_plant(stage: Stage) -> None:
+    """A plant that is driven is stopped, and the voltages keep coming."""
+    stage.plant()
+    stage.until(lambda: len(stage.moments) > 50, "the plant")
+    stage.send(6.0)
+    stage.stand_still(stage.programs[0])
 
 
 def drive_stopped_robot(stage: Stage) -> None:
@@ -169,6 +187,8 @@ LIVE_FAULTS = (
     LiveFault("a second plant in one namespace, plain voltage", start_second_plant, "Another node publishes"),
     LiveFault("`experiment` stopped for 1.5 s (Ctrl-Z), and goes on", resume_experiment, "The samples stopped"),
     LiveFault("a controller stopped for 1.5 s, a reference meanwhile", refer_to_stopped_controller, "stood still"),
+    LiveFault("a plant stopped for 1.5 s, a voltage meanwhile", command_stopped_plant, "held up"),
+    LiveFault("a plant stopped for 1.5 s, 200 voltages a second keep coming", resume_plant, "went on being sent"),
     LiveFault("`diff_drive` stopped for 1.5 s, a velocity meanwhile", drive_stopped_robot, "stood still"),
     LiveFault(
         "voltages go to another plant, references keep coming", drive_another_plant, "begin again", KNOWN_BY_TIME

@@ -34,7 +34,7 @@ ROS |= {"builtin_interfaces", "geometry_msgs", "nav_msgs"}
 # Where ROS may be imported: node files, command files, the modules that turn messages into plain values, and the one
 # that looks up what is installed.
 SHELLS = re.compile(
-    r"(/node\.py|/messages\.py|/answers\.py|/speakers\.py|/diagnose_action\.py|/cli/(options/)?\w+\.py|/live/\w+\.py|motor_ros/motor_ros/(command/)?\w+\.py|motor_(board|control|driver|sim)/parameters\.py|/diff_drive/(motor|parameters)\.py|/service/(parameters|call_waiter)\.py|/bag/definition\.py)$"
+    r"(/node\.py|/messages\.py|/answers\.py|/speakers\.py|/diagnose_action\.py|/cli/(options/)?\w+\.py|/live/\w+\.py|motor_ros/motor_ros/((clocks|command)/)?\w+\.py|motor_(board|control|driver|sim)/parameters\.py|/diff_drive/(motor|parameters)\.py|/service/(parameters|call_waiter)\.py|/bag/definition\.py)$"
 )
 # Effects are rows of a table, and nothing else knows one of them by name; but for:
 SPECIAL = {

@@ -22,9 +22,10 @@ from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 from motor_model.sensing.encoder import Lines
 from motor_ros import qos
+from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.messages import diagnostic_message
 from motor_ros.parameters import declare
-from motor_ros.run import run, steady_timer
+from motor_ros.run import run
 
 HELD_UP = "The emulated board was held up {} times, which is not real time: close other programs."
 SUPPLY_FULL_SCALE = 60_000  # [mV] on A0's divider

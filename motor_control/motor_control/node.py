@@ -22,10 +22,12 @@ from motor_control.speakers import Speakers
 from motor_model.errors import MotorError
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
+from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
+from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.messages import info_of, sample_of
 from motor_ros.numbered_input import NumberedInput
 from motor_ros.parameters import declare
-from motor_ros.run import STOOD_STILL, HoldUps, quick_executor, run, steady_timer
+from motor_ros.run import quick_executor, run
 from motor_ros.topics import publishers_of
 
 WATCH_EVERY = 0.02  # [s]
@@ -42,18 +44,18 @@ class MotorControl(Node):
         self._answers = Answers(self)
         self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
+        self._hold_ups = held = HoldUps(self)
         refer, approach = partial(self._refer, Kind.SPEED), partial(self._refer, Kind.POSITION)
         self._inputs = (
-            NumberedInput(self, Float64, "motor/reference", qos.COMMANDS, refer),
-            NumberedInput(self, Float64, "motor/position_reference", qos.COMMANDS, approach),
-            NumberedInput(self, JointState, "motor/joint_command", qos.COMMANDS, self._on_joint_command),
+            NumberedInput(self, Float64, "motor/reference", qos.COMMANDS, refer, hold_ups=held),
+            NumberedInput(self, Float64, "motor/position_reference", qos.COMMANDS, approach, hold_ups=held),
+            NumberedInput(self, JointState, "motor/joint_command", qos.COMMANDS, self._on_joint_command, hold_ups=held),
         )
         self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
         self.create_service(Trigger, "motor/release", lambda _, response: self._on_release(response))
         steady_timer(self, WATCH_EVERY, self._on_watch)
         steady_timer(self, 1.0, lambda: self._answers.diagnose(self._settings.config, self._state.demand))
         self.add_on_set_parameters_callback(self._on_parameters)
-        self._hold_ups = HoldUps(self)
         self.get_logger().info(describe_start(self._settings.config))
 
     def close(self) -> None:
@@ -86,16 +88,16 @@ class MotorControl(Node):
         for one in self._inputs:
             one.poll()
 
-    def _refer(self, kind: Kind, message: Float64, number: int | None, _: int) -> None:
+    def _refer(self, kind: Kind, message: Float64, number: int | None, waited: int) -> None:
         now, asks = time.monotonic(), kind is Kind.POSITION or message.data != 0.0
-        if asks and self._hold_ups.in_doubt():
+        if asks and self._hold_ups.bars(waited):
             self._state = controller.doubt(self._state, STOOD_STILL, now, kind, number)
         else:
             self._state = controller.refer(self._state, message.data, now, kind, number)
 
-    def _on_joint_command(self, message: JointState, number: int | None, _: int) -> None:
+    def _on_joint_command(self, message: JointState, number: int | None, waited: int) -> None:
         demand = joint_demand_of(message, self._settings.config)
-        if isinstance(demand, Demand) and demand.value != 0.0 and self._hold_ups.in_doubt():
+        if isinstance(demand, Demand) and demand.value != 0.0 and self._hold_ups.bars(waited):
             demand = STOOD_STILL
         if demand is not None:
             config, now = self._settings.config, time.monotonic()

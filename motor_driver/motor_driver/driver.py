@@ -23,6 +23,10 @@ LATE = (
     "the board on {} answers later than {:.0f} ms, so that the motor does what was right a while ago: the link holds "
     "bytes back (a wireless adapter, a network, a hub)"
 )
+REPLAYED = (
+    "the board on {} obeyed a command that this driver had not sent, or an old one again: see who else writes to that "
+    "port, or what repeats bytes on the way"
+)
 ASKED = ("sample_period", "command_timeout", "decay", "latch", "reset_cause")  # of a hello: they change without a reset
 LOST = "the link to the board on {} was lost"
 
@@ -208,6 +212,8 @@ class Driver:
             self._readout.restart(frame, self.board, now)
             self.motion = self._nothing_seen()
         session.latest, session.heard, session.silent = frame, now, False
+        if session.hear_another(frame):
+            self._halt(REPLAYED.format(session.port))
         if session.switch.hear(frame):
             self._halt(reason_off(frame), motor=bool(frame.flags & Flag.OVERCURRENT))
         return [self._reading(session.exchange, self._readout, frame, now, restarted)]

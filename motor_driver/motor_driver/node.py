@@ -9,11 +9,12 @@ from motor_driver.driver import Driver, Reading
 from motor_driver.link import Link
 from motor_driver.link_events import Closed, Event, Opened, Received
 from motor_driver.parameters import PROGRAM, ROWS, config_of
+from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.gate import Gate
 from motor_ros.messages import time_message
 from motor_ros.parameters import declare
 from motor_ros.plant import Plant
-from motor_ros.run import run, steady_timer
+from motor_ros.run import run
 
 WATCH_EVERY = 0.01  # [s]
 NO_THREAD = "The thread of the serial port has ended, which is a mistake in the driver: start it again, and report it."

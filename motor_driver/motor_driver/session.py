@@ -10,6 +10,7 @@ from motor_driver.protocol import Decoder, Encoder
 from motor_driver.switch import Switch
 
 REPEAT = 10_000_000  # [ns] after which an unchanged command is sent again
+NUMBERS = 1 << 16  # of frames, which wrap
 
 
 @dataclass
@@ -27,6 +28,8 @@ class Session:
     silent: bool = False
     sent: tuple[int, int] | None = None  # latest duty, and when [ns]
     greeted: bool = False
+    count: int = 0  # frames sent since it runs
+    obeyed: int | None = None  # number of the newest command that it had, while the output is on
 
     @property
     def runs(self) -> bool:
@@ -37,6 +40,7 @@ class Session:
         """The board runs from now on."""
         self.exchange, self.heard, self.silent = exchange, now, False
         self.switch, self.latest, self.sent = Switch(), None, None
+        self.count, self.obeyed = 0, None
 
     def end(self) -> None:
         """The board was reset."""
@@ -50,10 +54,21 @@ class Session:
             frames += [self.switch.asks(wish, self.latest, now), self.exchange.asks(now)]
             if self.switch.listening:
                 frames.append(self._command(duty, now))
-        data = b"".join(self.encoder.send(frame) for frame in frames if frame is not None)
+        due = [frame for frame in frames if frame is not None]
+        self.count += len(due)
+        data = b"".join(map(self.encoder.send, due))
         if not self.greeted:
             self.greeted, data = True, b"\0" + data
         return data
+
+    def hear_another(self, frame: Telemetry) -> bool:
+        """Tell whether the board has obeyed a command that is not ours, or an old one again: a line keeps the order."""
+        before, self.obeyed = self.obeyed, None
+        if not (frame.enabled and self.switch.listening):
+            return False
+        ours = (self.encoder.seq - 1 - frame.command) % NUMBERS < min(self.count, NUMBERS // 2)
+        self.obeyed = frame.command if ours else before
+        return before is not None and not (ours and (frame.command - before) % NUMBERS < NUMBERS // 2)
 
     def _command(self, duty: int, now: int) -> Command | None:
         """Say a new duty at once, and go on saying it: the board stops without."""

@@ -6,7 +6,8 @@
 
 Who was left aside beside another that drove has to begin at 0 V, too, once that one has ended: it is most often one
 that was forgotten, and the motor has just been stopped. So has who went on sending while nothing of it was heard for a
-second and more, because its link was away: the motor has stood meanwhile, and nobody expects it to go on by itself.
+second and more, because its link was away or the plant stood still: the motor has stood meanwhile, and nobody expects
+it to go on by itself.
 
 That there are two is said once the first is heard again after the other: one sender that was held up sends what it has
 missed all at once, more than is kept, and its numbers jump ahead as another's would. Its next numbers go on from there.
@@ -50,7 +51,8 @@ HANDED = (
 )
 AWAY_LINK = (
     "{:.3g} V went on being sent on motor/voltage while the plant heard none of it for more than 1 s, as over a link "
-    "that is away: the motor gets 0 V until 0 V is sent, or motor/enable is called with data: true."
+    "that is away, or to a plant that stands still: the motor gets 0 V until 0 V is sent, or motor/enable is called "
+    "with data: true."
 )
 INSISTED = (
     "motor/enable was being called with data: true, again and again, when the output was switched off: pause for "
@@ -73,7 +75,7 @@ class Gate:
     faults: RepeatedStops = RepeatedStops()  # stops for what the motor did
     begun: bool = False  # the voltages have started from 0 V, or were allowed by motor/enable
     handed: bool = False  # they have not, since one that was left aside took over
-    away: bool = False  # they have not, since one that was not heard for long has gone on
+    away: bool = False  # they have not, since one that was not heard for long, or heard that late, has gone on
     first: Sender | None = None  # the sender's first command that was heard since then
     command: float = 0.0  # [V]
     received: int | None = None  # [ns]
@@ -97,7 +99,8 @@ class Gate:
         ours = holder is not None and holder.sent(name, number, now) and not self._goes_on(name, number, now)
         if holder is not None and now - holder.at <= HOLD and not ours:
             return replace(self, aside=Sender(name, number, now))
-        if holder is not None and self._goes_on_unheard(holder, ours, number, now):
+        unheard = holder is not None and self._goes_on_unheard(holder, ours, number, now)
+        if holder is not None and unheard and not ours:
             return replace(self.come_up(holder.at), sender=None, away=True).take(voltage, now, name, number, waited)
         told = self._tell_senders(number, now) if ours else replace(self, aside=None)
         sender = holder.after(number, now) if holder is not None and ours else Sender(name, number, now)
@@ -105,8 +108,10 @@ class Gate:
         handed = voltage != 0.0 and (self.handed or (not ours and self.conflict(now)))
         begun = self.begun or voltage == 0.0 or _began(first, number, now, self.since, self.sample_period * 1e9)
         begun = begun and not handed
-        told = replace(told, command=voltage, received=now - waited)
-        return replace(told, sender=sender, first=first, begun=begun, handed=handed)
+        told = replace(told, command=voltage, received=now - waited, sender=sender, first=first, handed=handed)
+        if voltage != 0.0 and (unheard or waited > max(AWAY, self.timeout * 1e9)):  # it began before, whatever its pace
+            return replace(told, first=replace(first, number=None), begun=False, away=True)
+        return replace(told, begun=begun)
 
     def _goes_on_unheard(self, holder: Sender, ours: bool, number: int | None, now: int) -> bool:
         """Whether a sender, the latest or another, has sent for long while nothing was heard, and the motor stood."""

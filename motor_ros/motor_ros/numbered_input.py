@@ -7,6 +7,7 @@ from typing import Any, Generic, TypeVar
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
+from motor_ros.clocks.hold_ups import HELD_UP, HoldUps
 from motor_ros.topics import publishers_of
 
 MessageType = TypeVar("MessageType")
@@ -29,7 +30,10 @@ class NumberedInput(Generic[MessageType]):
         profile: QoSProfile,
         take: Callable[[MessageType, int | None, int], None],
         polled: bool = True,
+        hold_ups: HoldUps | None = None,
     ) -> None:
+        """`hold_ups`: after one, messages are as old as their sender says; it may be on a computer of another time."""
+        self._hold_ups = hold_ups
         self._kind, self._take, self._most = kind, take, profile.depth if polled else 0
         self._subscription = node.create_subscription(kind, topic, self._on_message, profile)
         if polled:
@@ -45,13 +49,19 @@ class NumberedInput(Generic[MessageType]):
     def _on_message(self, message: MessageType, about: dict[str, Any]) -> None:
         number = about["publication_sequence_number"]
         counted = number is not None and 0 < number < NOT_COUNTED
-        self._take(message, number if counted else None, _wait_of(about["received_timestamp"], time.time_ns()))
+        doubt = self._hold_ups is not None and self._hold_ups.in_doubt()
+        self._take(message, number if counted else None, _wait_of(about, time.time_ns(), doubt))
 
     def senders(self, node: Node) -> str:
         """The nodes that can send, in words."""
         return ", ".join(publishers_of(node, self._subscription.topic_name))
 
 
-def _wait_of(received: int | None, now: int) -> int:
-    """How long a message has waited [ns], by the clock that stamped it and may be set back; 0 where nobody stamps."""
-    return max(now - received, 0) if received else 0
+def _wait_of(about: dict[str, Any], now: int, doubt: bool) -> int:
+    """How long a message has waited [ns], by the clock that stamped it and may be set; 0 where nobody stamps.
+
+    A process that has not stood still lets none wait for as long as that takes to be noticed. While it does nothing is
+    received: in doubt a message is as old as it is by when it was sent.
+    """
+    received, sent = (max(now - (about[f"{kind}_timestamp"] or now), 0) for kind in ("received", "source"))
+    return max(received, sent) if doubt else min(received, round(HELD_UP * 1e9))

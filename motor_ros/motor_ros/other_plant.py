@@ -2,7 +2,9 @@
 
 Whose voltages are on motor/voltage then? Those of a recording are of another day, and those that answer samples of
 another plant are not meant for this one. A publisher that has died is listed for a while, so that only samples count:
-they are heard while there is more than one publisher, and are another's where this plant has not sent them.
+they are heard while there is more than one publisher, and are another's where this plant has not sent them. But one
+that comes while this plant runs has not died: it is another's before it has said anything. A recording may begin with
+references or voltages, and only then have samples.
 """
 
 import struct
@@ -16,8 +18,8 @@ from rclpy.subscription import Subscription
 
 from motor_msgs.msg import MotorSpeed
 from motor_ros import qos
-from motor_ros.run import steady_timer
-from motor_ros.topics import publishers_of
+from motor_ros.clocks.steady_timer import steady_timer
+from motor_ros.topics import publisher_ids, publishers_of
 
 RCLError = rclpy_implementation.RCLError
 LOOK_EVERY = 0.05  # [s] all that has come is looked at then: an executor would take as long for it as for the sampling
@@ -56,6 +58,9 @@ class OtherPlant:
         self._order: deque[Stamp] = deque()
         self._ours: set[Stamp] = set()
         self._heard: int | None = None  # [ns] another's latest sample
+        self._count = 0  # of publishers
+        self._ids: frozenset[tuple[int, ...]] = frozenset()  # at the first look ours, and what was there before
+        self._unheard: frozenset[tuple[int, ...]] = frozenset()  # those that came, and have said nothing yet
         self._subscription: Subscription | None = None
         self._may_listen = True
         steady_timer(node, LOOK_EVERY, self._look)
@@ -69,8 +74,8 @@ class OtherPlant:
             self._ours.discard(self._order.popleft())
 
     def speaks(self, now: int) -> bool:
-        """Whether another plant's samples were heard just before `now` [ns]."""
-        return self._heard is not None and now - self._heard <= SILENT
+        """Whether another plant's samples were heard just before `now` [ns], or are to be expected."""
+        return bool(self._unheard) or (self._heard is not None and now - self._heard <= SILENT)
 
     def problem(self, now: int) -> str:
         """What is wrong at `now` [ns], as a sentence; empty if nothing is."""
@@ -79,7 +84,10 @@ class OtherPlant:
         return ANOTHER.format(self._topic, ", ".join(publishers_of(self._node, self._topic)))
 
     def _look(self) -> None:
-        several = self._node.count_publishers(self._topic) > 1
+        if (count := self._node.count_publishers(self._topic)) != self._count:
+            self._count = count
+            self._meet(publisher_ids(self._node, self._topic), time.monotonic_ns())
+        several = count > 1
         if several and self._subscription is None and self._may_listen:
             self._listen()
         elif not several and self._subscription is not None:
@@ -87,6 +95,12 @@ class OtherPlant:
             self._subscription = None
         while self._subscription and (taken := self._subscription.handle.take_message(MotorSpeed, True)):
             self._hear(taken[0])
+
+    def _meet(self, ids: frozenset[tuple[int, ...]], now: int) -> None:
+        new = ids - self._ids if self._ids else frozenset()
+        spoke, self._ids, self._unheard = self.speaks(now), ids, (self._unheard | new) & ids
+        if new and not spoke:
+            self._node.get_logger().error(self.problem(now))
 
     def _listen(self) -> None:
         try:
@@ -102,6 +116,6 @@ class OtherPlant:
         if read_stamp(data) in self._ours:
             return
         now = time.monotonic_ns()
-        spoke, self._heard = self.speaks(now), now
+        spoke, self._heard, self._unheard = self.speaks(now), now, frozenset()
         if not spoke:
             self._node.get_logger().error(self.problem(now))

@@ -13,6 +13,7 @@ from motor_model.gearing.gear import angle_of_count
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
+from motor_ros.clocks.hold_ups import HoldUps
 from motor_ros.gate import OFF, STOPPED, Gate
 from motor_ros.messages import diagnostic_message, info_message, speed_message
 from motor_ros.numbered_input import NumberedInput
@@ -43,7 +44,7 @@ class Plant:
         self._joint = node.create_publisher(JointState, "joint_states", qos.JOINT_STATES)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         taken = MotorVoltage, "motor/voltage", qos.COMMANDS, self._on_voltage
-        self._input = NumberedInput(node, *taken, polled=changed is None)
+        self._input = NumberedInput(node, *taken, polled=changed is None, hold_ups=HoldUps(node))
         node.create_service(SetBool, "motor/enable", self._on_enable)
         self.publish_info()
 

@@ -3,36 +3,25 @@
 import os
 import signal
 import sys
-import time
 import warnings
 from collections.abc import Callable, Mapping
-from math import inf
 from pathlib import Path
 from types import FrameType
 
 import rclpy
-from rclpy.clock import Clock, ClockType
 from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
-from rclpy.timer import Timer
 
 from motor_model.errors import MotorError
 from motor_model.program.internal_error import report
+from motor_ros.clocks.clock_watch import ClockWatch
 from motor_ros.loopback import stay_on_this_machine
 from motor_ros.parameters import unknown_parameters
 from motor_ros.program import INVALID_ARGUMENTS, Program, answer, plain_sentence
 
 LOOK_FOR_SIGNALS_EVERY = 0.1  # [s] how long an idle node takes at most to notice Ctrl-C
-LOOK_FOR_HOLD_UPS_EVERY = 0.1  # [s]
-HELD_UP = 1.0  # [s] without a look, after which nobody expects what he has sent meanwhile to happen now
-LATE_MESSAGES = 3.5  # [s] after it in which old messages may come: writers ask every 3 s who has missed some
-STOOD_STILL = (
-    "What was asked for while this node stood still (Ctrl-Z, a suspended or overloaded computer) is not obeyed, nor "
-    f"what comes within {LATE_MESSAGES:g} s after it, but for 0: ask again then."
-)
-STEADY = Clock(clock_type=ClockType.STEADY_TIME)
 CAUSES: dict[int, str] = {
     signal.SIGINT: "Ctrl-C",
     signal.SIGTERM: "it was told to end",
@@ -114,42 +103,14 @@ def quick_executor() -> Executor:
     return executor
 
 
-def steady_timer(node: Node, period: float, callback: Callable[[], None]) -> Timer:
-    """Call back every `period` [s], whatever ROS time does: it may be simulated, or set."""
-    return node.create_timer(period, callback, clock=STEADY)
-
-
-class HoldUps:
-    """Notices that this process stood still: what comes then may have been sent long ago, and says not when."""
-
-    def __init__(
-        self, node: Node, clock: Callable[[], float] = lambda: time.clock_gettime(time.CLOCK_BOOTTIME)
-    ) -> None:
-        """`clock` [s] goes on while the computer is suspended."""
-        self._clock = clock
-        self._looked: float | None = None
-        self._woke = -inf
-        steady_timer(node, LOOK_FOR_HOLD_UPS_EVERY, self._look)
-
-    def in_doubt(self) -> bool:
-        """Whether a message that comes now may be an old one."""
-        self._look()
-        return self._looked is not None and self._looked - self._woke <= LATE_MESSAGES
-
-    def _look(self) -> None:
-        now = self._clock()
-        if self._looked is not None and now - self._looked > HELD_UP:
-            self._woke = now
-        self._looked = now
-
-
 def spin(node: Node, until: Callable[[], bool], make_executor: Callable[[], Executor] = SingleThreadedExecutor) -> None:
     """Run the node's callbacks until the condition holds or ROS is shut down from outside."""
     executor = make_executor()
     executor.add_node(node)
     try:
-        while rclpy.ok() and not until():
-            executor.spin_once(timeout_sec=LOOK_FOR_SIGNALS_EVERY)
+        with ClockWatch(node, executor):
+            while rclpy.ok() and not until():
+                executor.spin_once(timeout_sec=LOOK_FOR_SIGNALS_EVERY)
     except ExternalShutdownException:
         pass
     finally:

@@ -9,11 +9,12 @@ from motor_model.model_file import load
 from motor_model.parameters import paper_motor
 from motor_model.sensing.board import SimulatedBoard
 from motor_model.sensing.motion_check import MotionCheck
+from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.gate import Gate
 from motor_ros.messages import time_message
 from motor_ros.parameters import SHARED_PARAMETERS, declare, max_voltage_row
 from motor_ros.plant import Plant
-from motor_ros.run import quick_executor, run, steady_timer
+from motor_ros.run import quick_executor, run
 from motor_sim.parameters import PARAMETERS, PROGRAM, board_config_of
 
 MOST_BEHIND = 0.5  # [s] a process that was held up longer than this does not catch up

@@ -18,7 +18,7 @@ TIMEOUT = 200  # [tick] of the output under test
 
 steps = st.lists(
     st.tuples(
-        st.sampled_from(["off", "enable", "stale enable", "command", "check", "latch"]),
+        st.sampled_from(["off", "enable", "stale enable", "command", "old command", "check", "latch"]),
         st.integers(-400, 400),  # duty
         st.integers(0, 150),  # [tick] that pass before
     ),
@@ -33,6 +33,7 @@ class Model:
     on: bool = False
     latch: int = 0
     newest: int = 0
+    number: int = 0  # of the newest frame that acted
     heard: int = 0
 
     def off(self) -> None:
@@ -43,20 +44,22 @@ class Model:
 def test_the_output_keeps_the_rules(script: list[tuple[str, int, int]], start: int, latch: int) -> None:
     lib, output, model = core.load(), core.Output(top=256, timeout=TIMEOUT, boot=7, latch=latch), Model(latch=latch)
     now = start
-    for what, duty, wait in script:
+    for number, (what, duty, wait) in enumerate(script, start):
         now += wait
+        number -= 1 + duty % 40 if what == "old command" else 0  # sent before
         if what == "off":
             lib.output_off(byref(output))
             model.off()
         elif "enable" in what:
             named = (model.latch + (what != "enable")) % 256
-            lib.output_enable(byref(output), byref(core.WireEnable(1, 7, named)), now % WRAP)
+            lib.output_enable(byref(output), byref(core.WireEnable(1, 7, named)), number % 65536, now % WRAP)
             if what == "enable" and not model.on:
-                model.on, model.newest, model.heard = True, 0, now
-        elif what == "command":
-            lib.output_command(byref(output), byref(core.WireCommand(duty)), 3, now % WRAP)
-            model.heard = now
-            model.newest = max(-256, min(256, duty)) if model.on else 0
+                model.on, model.newest, model.number, model.heard = True, 0, number, now
+        elif "command" in what:
+            lib.output_command(byref(output), byref(core.WireCommand(duty)), number % 65536, now % WRAP)
+            if not model.on or number > model.number:
+                model.number, model.heard = number, now
+                model.newest = max(-256, min(256, duty)) if model.on else 0
         elif what == "check":
             lib.output_check(byref(output), now % WRAP)
             if model.on and now - model.heard > TIMEOUT:

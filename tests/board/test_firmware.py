@@ -22,7 +22,7 @@ def test_says_hello_by_itself_at_power_up(bench: Bench, chip: str) -> None:
     bench.run(4)
     hello = bench.last(Hello)
     kind = Board[chip.upper()]
-    assert hello == Hello(1, 4, 1, kind, 0, 0, 1, 500, 256, 0, 10_000, 2_000, 100, ResetCause.POWER_ON, hello.boot, 0)
+    assert hello == Hello(1, 4, 2, kind, 0, 0, 1, 500, 256, 0, 10_000, 2_000, 100, ResetCause.POWER_ON, hello.boot, 0)
     assert bench.events[0].seq == 0 and bench.chip.pins.share == 0.0
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import pytest
 from board_frames import HELLO, TELEMETRY, enabled
 
 from motor_driver.config import Config
@@ -11,7 +12,7 @@ from motor_driver.frames.from_host import Command, Configure, Enable, Identify, 
 from motor_driver.frames.table import Frame
 from motor_driver.handshake import Handshake
 from motor_driver.protocol import Arrival, Decoder
-from motor_driver.session import REPEAT, Session
+from motor_driver.session import NUMBERS, REPEAT, Session
 
 
 def opened() -> Session:
@@ -61,3 +62,28 @@ def test_a_reset_board_is_asked_who_it_is() -> None:
     session.end()
     assert not session.runs and session.exchange is None
     assert frames(session.due(1, True, 100)) == [Identify()]
+
+
+@pytest.mark.parametrize("sent", [40, 3 * NUMBERS + 40])  # numbers wrap
+def test_a_board_that_obeys_what_was_not_sent_or_an_old_command_again_is_noticed(sent: int) -> None:
+    session = running()
+    session.due(0, True, 100)
+    session.switch.hear(enabled())
+    session.encoder._next, session.count = (session.encoder.seq + sent) % NUMBERS, session.count + sent
+    newest = session.encoder.seq - 1
+
+    def obeys(*numbers: int) -> list[bool]:
+        session.obeyed = None
+        return [session.hear_another(replace(enabled(), command=number % NUMBERS)) for number in numbers]
+
+    assert obeys(newest - 2, newest - 2, newest - 1, newest) == [False] * 4
+    assert obeys(newest - 1, newest - 2) == [False, True] and obeys(newest, newest + 1) == [False, True]
+    assert obeys(newest, newest - 20, newest) == [False, True, False]
+
+
+def test_what_a_board_had_heard_of_a_driver_before_is_nothing_to_stop_for() -> None:
+    session = running()
+    session.due(0, True, 100)
+    assert not any(session.hear_another(replace(enabled(), command=command)) for command in (5000, 5000, 2, 2))
+    off = replace(enabled(), flags=0, command=5000)
+    assert not session.hear_another(off) and not session.hear_another(replace(enabled(), command=1))

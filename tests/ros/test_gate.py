@@ -152,6 +152,37 @@ def test_who_begins_as_the_first_one_ends_takes_over_at_once() -> None:
     assert plant.voltage(T0 + 1095 * MS) == -9.0
 
 
+@pytest.mark.parametrize(("late", "acts"), [(900, True), (1_100, False)])
+@pytest.mark.parametrize("before", [0, 40])
+def test_who_went_on_sending_while_the_plant_stood_still_begins_at_0_volt(before: int, late: int, acts: bool) -> None:
+    """What the middleware had kept came one by one when it went on, as if nothing had been missed."""
+    plant = stream(gate(), 6.0, range(0, before * 20, 20), 1)
+    woke = before * 20 + late
+    for number, sent in enumerate(range(before * 20, woke, 20), before + 1):
+        plant = plant.take(6.0, T0 + woke * MS, "", number, (woke - sent) * MS)
+    plant = stream(plant, 6.0, range(woke + 20, woke + 1_000, 20), before + late // 20 + 1)
+    at, number = T0 + (woke + 1_000) * MS, before + late // 20 + 50
+    assert plant.voltage(at) == (6.0 if acts else 0.0)
+    assert acts or "went on being sent" in plant.problem(at)
+    assert plant.take(0.0, at, "", number).take(6.0, at + 20 * MS, "", number + 1).voltage(at + 20 * MS) == 6.0
+
+
+@pytest.mark.parametrize("period", [5, 20, 50])
+@pytest.mark.parametrize("before", [20, 60])
+@pytest.mark.parametrize("away", [1_100, 3_000])
+def test_what_was_kept_of_a_stream_comes_at_once_and_makes_it_no_younger(before: int, period: int, away: int) -> None:
+    """The latest ten, in which it seemed to have sent all that went before as quickly, since the plant stood still."""
+    plant = stream(gate(), 6.0, range(0, before * period, period), 1)
+    back, number = before * period + away, before + away // period
+    for k in range(-9, 1):
+        plant = plant.take(6.0, T0 + back * MS + k, "", number + k)
+    for k in range(1, 100):
+        now = T0 + (back + k * period) * MS
+        plant = plant.take(6.0, now, "", number + k)
+        assert plant.voltage(now) == 0.0
+    assert "went on being sent" in plant.problem(now)
+
+
 @pytest.mark.parametrize("name", ["", "other"])
 @pytest.mark.parametrize(
     ("away", "period", "number", "acts"),

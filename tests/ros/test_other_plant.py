@@ -85,6 +85,20 @@ def test_a_recording_that_is_played_is_no_command(quiet: Bench) -> None:
     quiet.wait(lambda: rig.plant._other._subscription is None, "the plant to listen no longer")
 
 
+def test_a_publisher_that_comes_is_another_plant_before_it_says_anything(quiet: Bench) -> None:
+    """A recording began with references, and a controller obeyed them until its first sample."""
+    rig = Rig(quiet)
+    quiet.wait(lambda: rig.sample() == 6.0 and bool(rig.plant._other._ids), "a first look")
+    quiet.publisher(MotorSpeed, "motor/speed")
+    quiet.wait(lambda: rig.sample() == 0.0, "0 V")
+    assert "(/bench, /bench)" in rig.plant._other.problem(time.monotonic_ns())
+    rig.plant._other._unheard = frozenset()  # it has gone
+    assert rig.sample() == 0.0  # who sent meanwhile begins at 0 V
+    assert rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response()).success
+    rig.plant.gate = rig.plant.gate.take(6.0, time.monotonic_ns())
+    assert rig.sample() == 6.0
+
+
 @pytest.mark.on_time
 def test_two_plants_of_one_name_are_both_at_0_volt(bench: Bench, start: Start) -> None:
     """As processes; the second one would move with each voltage that the first one gets."""

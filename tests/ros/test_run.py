@@ -2,7 +2,6 @@
 
 import signal
 import subprocess
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -86,26 +85,3 @@ def test_ctrl_c_is_heard_although_whoever_started_us_holds_it_back() -> None:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, numbers)
         for number, handler in before.items():
             signal.signal(number, handler)
-
-
-@pytest.mark.parametrize(("stood", "doubt"), [(0.9 * run.HELD_UP, False), (1.1 * run.HELD_UP, True)])
-@pytest.mark.parametrize("looked", [False, True])
-def test_what_comes_after_a_node_stood_still_is_in_doubt(
-    monkeypatch: pytest.MonkeyPatch, stood: float, doubt: bool, looked: bool
-) -> None:
-    """The message may be there before the timer's turn comes, or after it."""
-    timers: list[Callable[[], object]] = []
-    monkeypatch.setattr(run, "steady_timer", lambda node, period, callback: timers.append(callback))
-    now = [50.0]
-    hold_ups = run.HoldUps(None, lambda: now[0])  # type: ignore[arg-type]
-    assert not hold_ups.in_doubt()  # a start may take its time
-    now[0] += stood
-    if looked:
-        timers[0]()
-    assert hold_ups.in_doubt() is doubt
-    for _ in range(34):
-        now[0] += 0.1
-        timers[0]()
-    assert hold_ups.in_doubt() is doubt
-    now[0] += 0.2
-    assert not hold_ups.in_doubt()

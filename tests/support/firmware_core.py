@@ -179,7 +179,7 @@ ARGUMENTS: dict[str, list[Any]] = {
     "edge_timer_at": [c_void_p, c_uint32, c_bool],
     "edge_timer_forget": [c_void_p, c_uint32],
     "output_off": [c_void_p],
-    "output_enable": [c_void_p, c_void_p, c_uint32],
+    "output_enable": [c_void_p, c_void_p, c_uint16, c_uint32],
     "output_command": [c_void_p, c_void_p, c_uint16, c_uint32],
     "output_check": [c_void_p, c_uint32],
     "output_latch": [c_void_p],

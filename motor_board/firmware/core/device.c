@@ -6,7 +6,7 @@
 
 #define FIRMWARE_MAJOR 1
 #define FIRMWARE_MINOR 4
-#define FIRMWARE_PATCH 1
+#define FIRMWARE_PATCH 2
 
 static uint32_t limited(uint32_t value, uint32_t low, uint32_t high)
 {
@@ -184,7 +184,7 @@ static void act_enable(struct device *device, const struct frame *frame, uint32_
 {
     struct wire_enable enable;
     wire_get_enable(frame->body, &enable);
-    output_enable(&device->output, &enable, now);
+    output_enable(&device->output, &enable, frame->seq, now);
     if (enable.on != 1 || device->output.on) {
         device->guard.tripped = GUARD_WELL;
     }

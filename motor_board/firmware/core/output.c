@@ -1,5 +1,7 @@
 #include "output.h"
 
+#define AHEAD 0x7FFFu /* numbers wrap: so many are newer than one, the others older */
+
 void output_off(struct output *output)
 {
     output->on = false;
@@ -8,19 +10,23 @@ void output_off(struct output *output)
     output->latch++;
 }
 
-void output_enable(struct output *output, const struct wire_enable *frame, uint32_t now)
+void output_enable(struct output *output, const struct wire_enable *frame, uint16_t seq, uint32_t now)
 {
     if (frame->on != 1) {
         output_off(output);
     } else if (!output->on && frame->boot == output->boot && frame->latch == output->latch) {
         output->on = true;
         output->timed_out = false;
+        output->command = seq;
         output->heard = now;
     }
 }
 
 void output_command(struct output *output, const struct wire_command *frame, uint16_t seq, uint32_t now)
 {
+    if (output->on && (uint16_t)(seq - output->command - 1u) >= AHEAD) {
+        return; /* sent before: what is repeated, or somebody else's */
+    }
     output->command = seq;
     output->heard = now;
     if (output->on) {

@@ -14,7 +14,7 @@ struct output {
     int16_t top;      /* full duty */
     int16_t newest;   /* duty commanded last; 0 while off */
     int16_t duty;     /* duty at the pins */
-    uint16_t command; /* seq of the newest command */
+    uint16_t command; /* seq of the newest command, or of the enable */
     uint32_t heard;   /* [tick] of the newest command, or of the enable */
     uint32_t timeout; /* [tick] */
 };
@@ -23,9 +23,9 @@ struct output {
 void output_off(struct output *output);
 
 /* Switches on if the frame names the present boot and latch, or off. */
-void output_enable(struct output *output, const struct wire_enable *frame, uint32_t now);
+void output_enable(struct output *output, const struct wire_enable *frame, uint16_t seq, uint32_t now);
 
-/* Takes the newest command; it acts at the next output_latch, if on. */
+/* Takes a command, while on only one that is newer than the latest; it acts at the next output_latch, if on. */
 void output_command(struct output *output, const struct wire_command *frame, uint16_t seq, uint32_t now);
 
 /* Switches off if no command came for too long. */

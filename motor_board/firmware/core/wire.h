@@ -181,7 +181,7 @@ struct wire_telemetry {
     uint32_t edge_time; /* [tick] of the latest edge up to the sample, if edge_valid */
     uint32_t edge_period; /* [tick] between the latest two edges, with quadrature 2 and 4 the mean over the latest period of A if there is one; 0: fewer than two, or too far apart */
     uint16_t supply; /* [mV] 65535: not measured */
-    uint16_t command; /* seq of the newest command received */
+    uint16_t command; /* seq of the newest command received, or of the enable since */
     uint8_t flags; /* flag */
     uint8_t errors; /* quadrature 4: transitions of both channels at once, which no motion makes, wraps; else 0 */
     uint8_t boot;

@@ -111,8 +111,8 @@ def _answer(config: Config, state: State, sample: Sample, age: float, now: float
     name, reason = find_obstacle(config, state, sample)
     mistake = find_mistake(config, demand, sample) if name == RUNNING and demand is not None else ""
     if demand is not None and not state.latched:
-        no_number = mistake or (reason if not is_finite(sample) else "")
-        often, interruptions = count_interruption(state.interruptions, no_number, now, config.faults.stall_time)
+        passing = mistake or (reason if config.voltage_limit == 0.0 or not is_finite(sample) else "")
+        often, interruptions = count_interruption(state.interruptions, passing, now, config.faults.stall_time)
         state = replace(state, interruptions=interruptions)
         if often:
             return _stop_for_good(state, often, nan, sample.speed, now)

@@ -1,4 +1,4 @@
-"""Count what interrupts a run again and again: samples or references that are no numbers between good ones.
+"""Count what interrupts a run again and again: samples or references that are no numbers, or a `voltage_limit` of 0.
 
 One of them is 0 V until the next good one comes. But half of all samples at 0 V and half at full voltage is half of the
 voltage, for ever, and every check that looks for a voltage that lasts sees none.
@@ -10,7 +10,7 @@ MOST = 3  # interruptions
 # [s] of the one before, at least: what comes more seldom leaves the checks for faults time enough. They take as long as
 # `stall_time`, and begin anew after an interruption; so it is `STALLS` of that where that is more.
 WITHIN, STALLS = 1.0, 2.0
-SENTENCE = "{} It comes and goes, {} times within {} of one another: see who else publishes."
+SENTENCE = "{} It comes and goes, {} times within {} of one another: see who else publishes, or sets parameters."
 
 
 @dataclass(frozen=True, slots=True)

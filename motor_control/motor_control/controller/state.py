@@ -75,7 +75,7 @@ def refer(state: State, reference: float, now: float, kind: Kind = Kind.SPEED, n
     state = _hear(state, reference, now, kind, number)
     latest = state.references.latest.sequence
     if state.references.bars(state.demand is not None) and not state.latched:
-        return refuse(state, GOES_ON.format(state.dropped or BEFORE, latest.needed), now)
+        return refuse(state, GOES_ON.format(state.dropped or BEFORE, round(latest.needed, 1)), now)
     after = _take(state, Demand(reference, kind), latest.begins, now)
     taken = after.demand is not None and not after.refused
     return replace(after, references=after.references.obey()) if taken else after

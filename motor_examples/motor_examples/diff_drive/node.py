@@ -19,9 +19,12 @@ from motor_examples.diff_drive.odometry import Pose, advance_pose
 from motor_examples.diff_drive.parameters import PROGRAM, ROWS, config_of
 from motor_model.errors import MotorError
 from motor_ros import qos
+from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
+from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.interface_types import NotInstalled, load_message
+from motor_ros.numbered_input import NumberedInput
 from motor_ros.parameters import declare
-from motor_ros.run import STOOD_STILL, HoldUps, quick_executor, run, steady_timer
+from motor_ros.run import quick_executor, run
 
 NO_TF = "tf2_msgs is not installed here: no transforms on /tf; the pose is on odom."
 
@@ -42,12 +45,13 @@ class DiffDrive(Node):
         self._diagnostics = self.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         self._transforms = self._load_transforms() if self._values["publish_tf"] else None
         self._tf = self.create_publisher(self._transforms, "/tf", qos.TRANSFORMS) if self._transforms else None
+        self._hold_ups = HoldUps(self)
         kind = TwistStamped if self._values["stamped"] else TwistMessage
-        self.create_subscription(kind, "cmd_vel", self._on_cmd_vel, qos.REFERENCE)
+        taken = kind, "cmd_vel", qos.REFERENCE, self._on_cmd_vel
+        self._input: NumberedInput[Any] = NumberedInput(self, *taken, hold_ups=self._hold_ups)
         steady_timer(self, 1.0 / float(self._values["rate"]), self._on_timer)
         steady_timer(self, 1.0, self._on_second)
         self.add_on_set_parameters_callback(self._on_parameters)
-        self._hold_ups = HoldUps(self)
 
     def close(self) -> None:
         """Stop both wheels and let go of them."""
@@ -60,17 +64,18 @@ class DiffDrive(Node):
             self.get_logger().warning(NO_TF)
             return None
 
-    def _on_cmd_vel(self, message: Any) -> None:
+    def _on_cmd_vel(self, message: Any, _: int | None, waited: int) -> None:
         told, age = message, 0.0
         if isinstance(message, TwistStamped):
             told, age = message.twist, stamp_age(message.header.stamp, self.get_clock().now().nanoseconds)
         twist = Twist(told.linear.x, told.angular.z)
-        if twist != STILL and self._hold_ups.in_doubt():
+        if twist != STILL and self._hold_ups.bars(waited):
             self._state = drive.refuse_command(self._state, STOOD_STILL, time.monotonic())
             return
         self._state = drive.take_command(self._config, self._state, twist, time.monotonic(), age)
 
     def _on_timer(self) -> None:
+        self._input.poll()
         wheels = (self._left.wheel, self._right.wheel)
         decision, self._state = drive.step(self._config, self._state, wheels, time.monotonic())
         self._tell(decision)

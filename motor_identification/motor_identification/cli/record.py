@@ -93,7 +93,8 @@ def _listen(
     import rclpy
 
     from motor_identification.live.recorder import Recorder
-    from motor_ros.run import spin, start_ros, steady_timer
+    from motor_ros.clocks.steady_timer import steady_timer
+    from motor_ros.run import spin, start_ros
 
     start_ros([])
     try:

@@ -15,9 +15,10 @@ from motor_identification.monitoring.heard import Heard
 from motor_identification.monitoring.load_watch import load_watch
 from motor_msgs.msg import MotorHealth
 from motor_ros import qos
+from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.messages import diagnostic_message
 from motor_ros.parameters import declare
-from motor_ros.run import run, steady_timer
+from motor_ros.run import run
 
 LOOK_EVERY = 0.1  # [s] how long a verdict may wait to be sent
 LEVELS = {

@@ -17,8 +17,8 @@ from motor_identification.bag import FLUSH_EVERY, Qos
 from motor_identification.live.qos_profiles import DEPTH, offered, to_hear
 from motor_model.errors import RecordingError
 from motor_model.printable import escape
+from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.interface_types import NotInstalled, load_message
-from motor_ros.run import steady_timer
 
 LOOK_EVERY = 0.2  # [s] how long a topic that appears later may go unheard
 DRAIN_EVERY = 0.02  # [s] how long a message waits in DDS, which stamps it and has room for a thousand

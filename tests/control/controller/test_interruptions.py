@@ -1,4 +1,4 @@
-"""What is no number, again and again."""
+"""What is no number, or no voltage, again and again."""
 
 from dataclasses import replace
 from math import inf, nan
@@ -24,7 +24,8 @@ def stopped(every: int, how: str, value: float = nan) -> tuple[float, str]:
         bad = k % every == 0
         sample = Sample(k * 5_000_000, value if bad and how == "sample" else 1.0, 3.0, k, k * 5_000_000, SLOT)
         reference = (value if bad else 50.0) if how == "reference" else 50.0 if k == 1 else None
-        output, state = controller.update(CONFIG, state, sample, reference, 0.005 * k)
+        config = replace(CONFIG, voltage_limit=0.0) if bad and how == "limit" else CONFIG
+        output, state = controller.update(config, state, sample, reference, 0.005 * k)
         assert output.state == (STOPPED if bad or state.latched else RUNNING)
         if state.latched:
             assert output.fault == state.latched and "motor/reset" in output.reason
@@ -43,7 +44,15 @@ def test_the_third_in_a_row_of_interruptions_stops_the_motor(how: str, value: fl
         assert "comes and goes, 3 times within a second" in reason
 
 
-@pytest.mark.parametrize("how", ["sample", "reference"])
+def test_a_voltage_limit_of_0_that_comes_and_goes_is_one() -> None:
+    """It was half of the voltage for ever, on a line that hums, too."""
+    for every in (2, 100):
+        when, reason = stopped(every, "limit")
+        assert when == pytest.approx(3 * every * 0.005)
+        assert reason.startswith("voltage_limit is 0 V") and "or sets parameters" in reason
+
+
+@pytest.mark.parametrize("how", ["sample", "reference", "limit"])
 def test_seldom_ones_do_not(how: str) -> None:
     assert stopped(202, how) == (inf, "")  # every 1.01 s
 

@@ -160,3 +160,13 @@ def test_who_was_silent_for_a_timeout_may_go_on_and_a_barred_stream_may_not() ->
     hall.senders = hall.senders.forgive()
     hall.end()
     assert not hall.says(52, 1.02) and hall.says(2, 1.3, 30.0)
+
+
+@pytest.mark.parametrize("shell", [False, True])  # each command of a loop is a new sender
+def test_a_schedule_does_not_survive_what_ends_it(shell: bool) -> None:
+    hall = Hall()
+    for k in range(3):
+        assert hall.says(1 if shell else 1 + k, 15.0 * k)
+    hall.end()
+    assert not any(hall.says(1 if shell else 4 + k, 45.0 + 15.0 * k) for k in range(5))
+    assert hall.says(1 if shell else 9, 112.0)  # a hand
