@@ -80,16 +80,32 @@ class _Stays:
 
 
 def _measure_stays(time: Floats, speed: Floats, changed: Integers, slot: float, row: float) -> _Stays:
-    """Compare when values come with when they should: from the last edge to this one a slot's time has passed.
-
-    Both edges came somewhere within the rows that show them first.
-    """
+    """Compare when values come with when they should: from the last edge to this one a slot's time has passed."""
     period = np.divide(slot, np.abs(speed), out=np.zeros(len(speed)), where=speed != 0.0)
     new = changed[~mark_decays(time, period, row)[changed]]
-    takes, rows = period[new], np.diff(time, prepend=time[0] - row)[new]
+    takes = period[new]
+    apart, fits = _compare(time, speed, new, takes, row)
+    slow, fitting = (takes > SLOW * row) & (apart[0] > 0.0), fits.any(axis=0)
+    stay = np.where(fits[0], apart[0], apart[1])
+    # Edges are hidden where one value follows an equal one: at an even speed, of which timers tell no more.
+    even = np.append(False, np.abs(np.diff(takes)) < EVEN * takes[1:]) & (apart[0] > takes)
+    too_long = ~slow & (apart[0] > STAYED * row) & ~fits[0] & ~even
+    fine = np.abs(speed[new]) >= STEPS * find_lattice(speed)
+    told = slow & fitting & fine
+    marks = (told & (stay > STAYED * row), slow & ~fitting & ~even & fine, too_long & fine)
+    held, against, left = (int(np.count_nonzero(some)) for some in marks)
+    return _Stays(held, against, left, stay[told], takes[told])
+
+
+def _compare(time: Floats, speed: Floats, new: Integers, takes: Floats, row: float) -> tuple[Floats, Bools]:
+    """How long [s] new values came after the one before and the one before that, and whether the slot says so; (2, N).
+
+    Both edges came somewhere within the rows that show them first. 0 where the motor turned or stood in between.
+    takes: [s] a slot's time at each, shape (N,).
+    """
+    rows, zeros = np.diff(time, prepend=time[0] - row)[new], np.cumsum(speed == 0.0)
     room = OFF * row + OFF_SLOT * takes
-    apart, fits = (np.zeros((2, len(new)), kind) for kind in (np.float64, np.bool_))
-    zeros = np.cumsum(speed == 0.0)
+    apart, fits = np.zeros((2, len(new))), np.zeros((2, len(new)), np.bool_)
     for back in (1, 2):
         first, second = new[:-back], new[back:]
         along = (zeros[first] == zeros[second]) & (speed[first] * speed[second] > 0.0)
@@ -99,14 +115,4 @@ def _measure_stays(time: Floats, speed: Floats, changed: Integers, slot: float, 
     # A value of the row before that is smaller than the one before may only have said how long ago the edge was.
     falls = np.append([False, False], np.abs(speed[new[1:-1]]) < np.abs(speed[new[:-2]]))[: len(new)]
     fits[1] &= falls & (apart[0] < STAYED * row)
-    slow, fitting = (takes > SLOW * row) & (apart[0] > 0.0), fits.any(axis=0)
-    stay = np.where(fits[0], apart[0], apart[1])
-    told = slow & fitting
-    # Edges are hidden where one value follows an equal one: at an even speed, of which timers tell no more.
-    even = np.append(False, np.abs(np.diff(takes)) < EVEN * takes[1:]) & (apart[0] > takes)
-    too_long = ~slow & (apart[0] > STAYED * row) & ~fits[0] & ~even
-    fine = np.abs(speed[new]) >= STEPS * find_lattice(speed)
-    told, slow, too_long = told & fine, slow & fine, too_long & fine
-    marks = (told & (stay > STAYED * row), slow & ~fitting & ~even, too_long)
-    held, against, left = (int(np.count_nonzero(some)) for some in marks)
-    return _Stays(held, against, left, stay[told], takes[told])
+    return apart, fits
