@@ -38,31 +38,37 @@ def find_stays_slot(recordings: Sequence[Recording]) -> float:
     return float(np.median(found)) if found else 0.0
 
 
-def find_likeliest_slot(shaper: Shaper, instants: Timing) -> SlotGain:
-    """Find the slot by which the speeds of a shaper's recordings are likeliest, by the rows that `instants` has."""
-    plain = shaper.fit(instants)
+def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> SlotGain:
+    """Find the slot by which a shaper's speeds are likeliest beside another timing.
+
+    instants: whether voltages hold from the rows on or held until them.
+    """
+    plain = shaper.fit(other)
     row = min(recording.sample_period for recording in shaper.recordings)
     usual = row * _measure_usual_speed(shaper.recordings)
-    best = max((judge_slot(shaper, instants, usual * share, plain) for share in GRID), key=_gain_of)
+
+    def judge(slot: float) -> SlotGain:
+        return judge_slot(shaper, replace(instants, slot=slot), other, plain)
+
+    best = max(map(judge, (usual * share for share in GRID)), key=_gain_of)
     if best.gain > 0.0:
         for step in STEPS:
-            near = [judge_slot(shaper, instants, slot, plain) for slot in (best.slot / step, best.slot * step)]
-            best = max(best, *near, key=_gain_of)
+            best = max(best, judge(best.slot / step), judge(best.slot * step), key=_gain_of)
     return best
 
 
-def judge_slot(shaper: Shaper, instants: Timing, slot: float, plain: ShapedFit | None = None) -> SlotGain:
-    """Judge a slot [rad]. plain: the recordings fitted by `instants`, if they were already."""
-    plain = plain or shaper.fit(instants)
+def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit) -> SlotGain:
+    """Judge a timing with a slot beside another one without. plain: the recordings fitted by that."""
+    slot = timing.slot
     try:
-        periods = shaper.fit(replace(instants, slot=slot))
+        periods = shaper.fit(timing)
     except RecordingError:  # by so long a slot hardly any row brings a value of its own
         return SlotGain(slot, -np.inf, 0)
     moving = [np.flatnonzero(data.slack == 0.0) for data in periods.estimate.problem.intervals]
     if not all(len(some) for some in moving) or sum(map(len, moving)) < LEAST_ROWS:
         return SlotGain(slot, -np.inf, 0)
     rows = _find_rows(plain.estimate.problem, periods.estimate.problem, moving)
-    alone = replace(shaper, restrict=_restrict_to(rows, shaper.restrict)).fit(instants)
+    alone = replace(shaper, restrict=_restrict_to(rows, shaper.restrict)).fit(other)
     before, after = _list_errors(alone), _list_errors(periods)
     return SlotGain(slot, measure_gain(before, after), len(after))
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from recorded import as_period_speed
+from scipy.signal import lfilter
 from swinging import noisy, recorded
 
 from motor_identification.estimation.problem import make_problem
@@ -13,7 +14,7 @@ from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.identify import Request, identify
 from motor_identification.recording import Recording, check
 from motor_identification.timing import pulse_slot, speed_timing
-from motor_identification.timing.pulse_slot import find_likeliest_slot, find_stays_slot, judge_slot
+from motor_identification.timing.pulse_slot import SlotGain, find_likeliest_slot, find_stays_slot, judge_slot
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing
@@ -47,31 +48,44 @@ def test_a_fast_motor_shows_it_by_what_comes_late() -> None:
     assert timing_of(recording).slot == pytest.approx(2.0 * np.pi / 48, rel=0.4)
 
 
+def judge(shaper: Shaper, slot: float) -> SlotGain:
+    return judge_slot(shaper, replace(OTHERS[0], slot=slot), OTHERS[0], shaper.fit(OTHERS[0]))
+
+
 def test_the_true_slot_is_likelier_than_others() -> None:
     shaper, slot = shaper_of(logged(48)), 2.0 * np.pi / 48
-    gains = [judge_slot(shaper, OTHERS[0], factor * slot) for factor in (0.1, 1.0, 10.0)]
+    gains = [judge(shaper, factor * slot) for factor in (0.1, 1.0, 10.0)]
     assert gains[1].gain > max(gains[0].gain, gains[2].gain, 100.0)
     assert gains[1].rows > 500
-    assert judge_slot(shaper, OTHERS[0], 1e6).gain == -np.inf  # by which no row would bring a value
+    assert judge(shaper, 1e6).gain == -np.inf  # by which no row would bring a value
 
 
 def test_values_of_instants_and_means_show_none() -> None:
     for timing in (OTHERS[0], ASSUMED):
         shaper = shaper_of(check(noisy(0.05, instant=timing is OTHERS[0])))
-        assert find_likeliest_slot(shaper, OTHERS[0]).gain < 0.5 * speed_timing.LEAST_PULSE_GAIN
+        assert find_likeliest_slot(shaper, OTHERS[0], timing).gain < 0.0
 
 
-def test_what_stays_do_not_show_has_to_be_much_likelier(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(speed_timing, "LEAST_PULSE_GAIN", 1e6)
+def test_smoothed_speeds_come_late_too_and_show_none() -> None:
+    recording = check(noisy(0.05))
+    speed = np.asarray(lfilter([0.3], [1.0, -0.7], recording.speed))
+    found = timing_of(check(replace(recording, speed=speed)))
+    assert found.slot == 0.0 and found.filter is not None
+
+
+@pytest.mark.parametrize("name", ["LEAST_GAIN", "LEAST_PULSE_GAIN_OF_ROW"])
+def test_what_stays_do_not_show_has_to_be_much_likelier(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert timing_of(logged(48)).slot > 0.0
+    monkeypatch.setattr(speed_timing, name, 1e6)
     assert timing_of(logged(48)).slot == 0.0
     assert timing_of(logged(12)).slot > 0.0
 
 
 def test_a_slot_is_looked_for_more_closely_where_one_is_likely(monkeypatch: pytest.MonkeyPatch) -> None:
     shaper = shaper_of(logged(48))
-    close = find_likeliest_slot(shaper, OTHERS[0])
+    close = find_likeliest_slot(shaper, OTHERS[0], OTHERS[0])
     monkeypatch.setattr(pulse_slot, "STEPS", ())
-    assert find_likeliest_slot(shaper, OTHERS[0]).gain < close.gain
+    assert find_likeliest_slot(shaper, OTHERS[0], OTHERS[0]).gain < close.gain
 
 
 def test_a_voltage_that_held_until_the_row_is_told_beside_it() -> None:
