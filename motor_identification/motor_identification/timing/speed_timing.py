@@ -30,8 +30,8 @@ from motor_model.sample import Measurement
 # where it is another; up to 17 in all (0.004 a row) where it is as assumed and something else is missing; 0 to 25
 # (0.03) in logs of others, of which nobody knows.
 LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
-# A row, of a slot that no stays show. Measured: 0.01 to 0.9 of most speeds over times between edges; of 107 other logs at
-# most 0.04 where it is 14 and less in all, and below 0.009 where it is more.
+# A row, of a slot that no stays show. Measured: 0.01 to 0.9 of most speeds over times between edges; of 107 other logs
+# at most 0.04 where it is 14 and less in all, and below 0.009 where it is more.
 LEAST_PULSE_GAIN_OF_ROW = 0.01
 LEAST_SPEEDS = 50
 TOO_EARLY = Timing(1.0, -1.5, "")  # half a row more than any program makes speeds early
