@@ -17,6 +17,7 @@ from dataclasses import replace
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
+from motor_identification.sensor.speed_sensor import find_speed_sensor
 from motor_identification.timing.held_until import held_until
 from motor_identification.timing.pulse_slot import find_likeliest_slot, find_stays_slot
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row_times
@@ -106,8 +107,12 @@ def _find_as_stamped(shaper: Shaper) -> Timing | None:
 
 
 def _find_periods(shaper: Shaper, other: Timing) -> Timing | None:
-    """Find that speeds are a slot over the times between edges, much likelier than by another timing; else None."""
-    if not _are_open(shaper.recordings):
+    """Find that speeds are a slot over the times between edges, much likelier than by another timing; else None.
+
+    Not of counts, nor of what is held for even frames.
+    """
+    sensors = [find_speed_sensor(recording) for recording in shaper.recordings]
+    if not _are_open(shaper.recordings) or any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors):
         return None
     found = find_likeliest_slot(shaper, OTHERS[2] if other.is_early else OTHERS[0], other)
     if found.gain <= max(LEAST_GAIN, LEAST_PULSE_GAIN_OF_ROW * found.rows):

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from recorded import as_period_speed
+from recorded import as_period_speed, as_speed, without_count
 from scipy.signal import lfilter
-from swinging import noisy, recorded
+from swinging import held_late, noisy, recorded
 
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
@@ -71,6 +71,16 @@ def test_smoothed_speeds_come_late_too_and_show_none() -> None:
     speed = np.asarray(lfilter([0.3], [1.0, -0.7], recording.speed))
     found = timing_of(check(replace(recording, speed=speed)))
     assert found.slot == 0.0 and found.filter is not None
+
+
+def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(speed_timing, "LEAST_GAIN", -np.inf)
+    monkeypatch.setattr(speed_timing, "LEAST_PULSE_GAIN_OF_ROW", -np.inf)
+    plain = check(noisy(0.05))
+    assert timing_of(plain).slot > 0.0
+    assert timing_of(check(without_count(as_speed(recorded(edges=96))))).slot == 0.0
+    held = check(held_late(plain, 4, 0))
+    assert timing_of(held).slot == 0.0
 
 
 @pytest.mark.parametrize("name", ["LEAST_GAIN", "LEAST_PULSE_GAIN_OF_ROW"])
