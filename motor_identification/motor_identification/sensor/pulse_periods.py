@@ -40,10 +40,16 @@ def find_slot_by_stays(time: Floats, speed: Floats) -> float:
     row = float(np.median(np.diff(time)))
     low, high = np.quantile(np.abs(speed[changed]), ENDS) * row
     slots = low * GRID ** np.arange(log(LONGEST * high / low) / log(GRID))
-    stays = [_measure_stays(time, speed, changed, slot, row) for slot in slots]
+    fine = np.abs(speed) >= STEPS * find_lattice(speed)
+    stays = [_measure_stays(time, speed, changed, fine, slot, row) for slot in slots]
     most = max((stay.score for stay in stays if stay.tells), default=0.0)
     alike = [stay.tells and stay.score >= ALIKE * most for stay in stays]
     return float(np.exp(np.mean(np.log(slots[alike])))) if any(alike) else 0.0
+
+
+def divide_slot(slot: float, speed: Floats) -> Floats:
+    """Divide a slot [rad] by speeds (K,) [rad/s]: the time [s] that it takes; 0 where they are 0."""
+    return np.asarray(np.divide(slot, np.abs(speed), out=np.zeros(len(speed)), where=speed != 0.0))
 
 
 def mark_decays(time: Floats, period: Floats, row: float) -> Bools:
@@ -79,9 +85,12 @@ class _Stays:
         return float(np.sum((self.apart - self.period) ** 2)) < LEFT * varied
 
 
-def _measure_stays(time: Floats, speed: Floats, changed: Integers, slot: float, row: float) -> _Stays:
-    """Compare when values come with when they should: from the last edge to this one a slot's time has passed."""
-    period = np.divide(slot, np.abs(speed), out=np.zeros(len(speed)), where=speed != 0.0)
+def _measure_stays(time: Floats, speed: Floats, changed: Integers, fine: Bools, slot: float, row: float) -> _Stays:
+    """Compare when values come with when they should: from the last edge to this one a slot's time has passed.
+
+    fine: rows (K,) whose values are many of the steps that they are rounded to.
+    """
+    period = divide_slot(slot, speed)
     new = changed[~mark_decays(time, period, row)[changed]]
     takes = period[new]
     apart, fits = _compare(time, speed, new, takes, row)
@@ -90,9 +99,8 @@ def _measure_stays(time: Floats, speed: Floats, changed: Integers, slot: float, 
     # Edges are hidden where one value follows an equal one: at an even speed, of which timers tell no more.
     even = np.append(False, np.abs(np.diff(takes)) < EVEN * takes[1:]) & (apart[0] > takes)
     too_long = ~slow & (apart[0] > STAYED * row) & ~fits[0] & ~even
-    fine = np.abs(speed[new]) >= STEPS * find_lattice(speed)
-    told = slow & fitting & fine
-    marks = (told & (stay > STAYED * row), slow & ~fitting & ~even & fine, too_long & fine)
+    told = slow & fitting & fine[new]
+    marks = (told & (stay > STAYED * row), slow & ~fitting & ~even & fine[new], too_long & fine[new])
     held, against, left = (int(np.count_nonzero(some)) for some in marks)
     return _Stays(held, against, left, stay[told], takes[told])
 

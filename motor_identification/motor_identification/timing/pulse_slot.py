@@ -2,7 +2,8 @@
 
 Where a motor is slow enough, how long values stay tells the slot. Else its motion does: such a value is the mean from
 one edge to the next, on average a whole period slot/|v| old, so that of all slots the motor is fitted to the speeds as
-each would have them, and the likeliest is compared with the same rows' values as of their own instants.
+each would have them, and the likeliest is compared with the same rows' values by the likeliest other timing. Not where
+speeds show a filter: both come late, and what was smoothed has a noise of its own.
 """
 
 from collections.abc import Callable, Sequence
@@ -25,7 +26,7 @@ LEAST_ROWS = 30  # that tell
 
 @dataclass(frozen=True)
 class SlotGain:
-    """How much likelier speeds over the times of a slot are than the same rows' values of their own instants."""
+    """How much likelier speeds over the times of a slot are than the same rows' values by another timing."""
 
     slot: float  # [rad]
     gain: float  # of log likelihood

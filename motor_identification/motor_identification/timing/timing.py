@@ -6,7 +6,8 @@ from math import tau
 
 import numpy as np
 
-from motor_identification.recording import Floats, Recording
+from motor_identification.recording import Recording
+from motor_identification.sensor.pulse_periods import divide_slot
 from motor_identification.sensor.speed_sensor import is_assumed
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes
@@ -65,7 +66,7 @@ class Timing:
         if self.is_early:
             recording, lag = _hold_until(recording), lag + 1.0
         if self.slot > 0.0:
-            recording = replace(recording, edge_period=_divide(self.slot, np.abs(recording.speed)))
+            recording = replace(recording, edge_period=divide_slot(self.slot, recording.speed))
         return replace(recording, info=replace(info, speed_window=self.window * row, speed_lag=lag * row))
 
     @property
@@ -95,11 +96,6 @@ class Timing:
         if self.filter and self._smooths(recording, self.filter):
             notes.append(SMOOTHED.format(self.filter.describe(row)))
         return [*notes, *(self.rows.describe(recording, timed) if is_open(recording) else ())]
-
-
-def _divide(slot: float, speed: Floats) -> Floats:
-    """[s] that a slot [rad] takes at speeds (K,) [rad/s]; 0 where they are 0."""
-    return np.divide(slot, speed, out=np.zeros(len(speed)), where=speed > 0.0)
 
 
 ASSUMED = Timing(1.0, 0.5, "")
