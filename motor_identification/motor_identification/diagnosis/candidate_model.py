@@ -195,6 +195,11 @@ class Model:
         share = max((one.share for one in self.structure if one.certain), default=0.0)
         return max(self.held.gap * sqrt(max(1.0 - share, 0.0)), self.floor)
 
+    def measure_lags(self) -> float:
+        """Measure the time that it is judged by, in time constants of the motor."""
+        rows = zip(self.held.intervals, self.held.scored, strict=True)
+        return sum(_measure_time(data, marks) for data, marks in rows) * self.lag.rate
+
     @property
     def sensor_floor(self) -> float:
         """[rad/s] the gap that the sensor alone would leave, irregular slots told from a random torque."""

@@ -74,11 +74,13 @@ class CandidateTest:
     def is_likely(self, least: float) -> bool:
         """Decide whether the evidence is beyond a least, beside a random torque without its few best moments too.
 
-        Unless much of the gap goes, and so not in a few moments. An instant is one of many, and chosen.
+        Unless much of the gap goes, and so not in a few moments. An instant is one of many, and chosen. What comes
+        slowly in motion that the fit has seen is what a slow torque does, too, and has to be as likely.
         """
-        if self.model.beside_torque and needs_instant(self.effect):
+        if self.model.beside_torque and (needs_instant(self.effect) or self._comes_slowly_as_seen):
             least = max(least, thresholds.INSTANT_LIKELIHOOD)
-            return self.evidence > least and self.steadiness > likelihood_threshold()
+            grows = self._comes_slowly_as_seen and self.model.held.gap > self.held_before.gap
+            return self.evidence > least and self.steadiness > likelihood_threshold() and not grows
         return self.evidence > least and (not self.model.beside_torque or self.steadiness > least or self.predicts)
 
     @property
@@ -87,6 +89,10 @@ class CandidateTest:
         effect = EFFECT_BY_NAME[self.effect]
         free = effect.anywhere or effect.periodic
         return not free and self.model.held.gap < thresholds.PREDICTING_GAP * self.held_before.gap
+
+    @property
+    def _comes_slowly_as_seen(self) -> bool:
+        return self.before.held.seen and EFFECT_BY_NAME[self.effect].anywhere and not needs_instant(self.effect)
 
     @cached_property
     def relevant(self) -> bool:
@@ -111,7 +117,8 @@ class CandidateTest:
         # A slow torque, which most of the gap may be of, is another one beside what is fast or speaks for itself.
         free = EFFECT_BY_NAME[self.effect].periodic or said > likelihood_threshold()
         shrinks = self.model.held.gap <= self.held_before.gap * (thresholds.GAP_CHANCE if free else 1.0)
-        least = thresholds.RELEVANT_WHITE_SHARE * self.model.score.scored * self._speaking
+        rows = min(self.model.score.scored, thresholds.RELEVANT_ROWS * self.model.measure_lags())
+        least = thresholds.RELEVANT_WHITE_SHARE * rows * self._speaking
         return shrinks and said > 0.0 and (2.0 * self.steadiness > least or self.predicts)
 
 

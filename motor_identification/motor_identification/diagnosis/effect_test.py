@@ -24,11 +24,12 @@ EFFECT_ORDER = {name: number for number, name in enumerate(EFFECT_BY_NAME)}  # t
 Heard = Callable[[CandidateTest], None]  # told of each test as it is done
 
 
-def list_candidates(effects: Sequence[str], judged: HeldOut | None = None) -> list[str]:
+def list_candidates(effects: Sequence[str], judged: HeldOut | None = None, beside_torque: bool = False) -> list[str]:
     """List the effects a model can be given next: what it does not have, whose own condition it has.
 
     judged: what it is judged by. Where the fits have seen that, nothing that comes slowly, which takes up whatever a
-    model lacks, and nothing that happens once in each of several recordings; and in a single response nothing that
+    model lacks, unless it has to be likelier than a slow torque of one recording (`beside_torque`), and nothing that
+    happens once in each of several recordings; and in a single response nothing that
     happens once or repeats with the angle: some instants, or some line, are found in any. Where values have white noise
     and nothing is counted, as a tachogenerator's, there is no disc for anything to be on; and where rows of speeds are
     uneven it does not show.
@@ -39,16 +40,17 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None) -> li
         if effect.name not in effects
         and effect.fitted
         and (effect.implies is None or effect.implies in effects)
-        and (judged is None or _can_be_judged(effect, judged))
+        and (judged is None or _can_be_judged(effect, judged, beside_torque))
     ]
 
 
-def _can_be_judged(effect: Effect, judged: HeldOut) -> bool:
+def _can_be_judged(effect: Effect, judged: HeldOut, beside_torque: bool) -> bool:
     if effect.on_disc and not any(data.tells_of_disc for data in judged.intervals):
         return False
     if not judged.seen or not (effect.anywhere or effect.periodic):
         return True
-    return judged.confirms and (effect.periodic or (needs_instant(effect.name) and len(judged.recordings) == 1))
+    once = (needs_instant(effect.name) or beside_torque) and len(judged.recordings) == 1
+    return judged.confirms and (effect.periodic or once)
 
 
 def try_effects(

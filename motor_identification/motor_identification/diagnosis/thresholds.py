@@ -38,6 +38,8 @@ COMMON_LIKELIHOOD = 3.0
 # Of the evidence of what is at an instant, the least of what needs none and comes first. Measured: 0.97 of a friction
 # that a load step stood in for, in steps one way beside a torque; what is chosen first stays in such a recording.
 COMES_FIRST = 0.9
+# Pairs that are fitted of those that a scan promises about as much of; more of them are other words for the same.
+PROMISES_TRIED = 4
 # Of log likelihood: what is less likely by e^5 = 150 is no rival of a finding. Measured: where one recording tells two
 # effects apart at all, they differ by 615 and more.
 RIVAL_MARGIN = 5.0
@@ -71,6 +73,9 @@ WILD_TIME = 0.05
 CALM_SHARE = 0.7
 # Of the white residual's power beside a random torque, which no floor is known for: less is nothing to name.
 RELEVANT_WHITE_SHARE = 0.01
+# Rows of a time constant that this is of, at most: finer ones, of a slow motor, say no more about its motion. Measured:
+# a warm-up by 63, which takes away a third of the gap, in 28,000 rows of a motor of 0.5 s.
+RELEVANT_ROWS = 12.0
 # Times the gap before: so much it may grow by chance where a finding is fast beside the random torque that the gap is
 # mostly of, or where the held-out motion beside that torque speaks for it. Measured: 1.03 with a ripple of 0.3 V beside
 # a torque of 0.1 V, the same with a friction by e^26 beside 0.075 V in a log at 50 Hz; where a model fits the torque

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from stub_models import FLOOR, LASTING_FLOOR, StubModel, stub_held, stub_model, stub_test
+from stub_models import COUNT, FLOOR, LASTING_FLOOR, STEP, StubModel, stub_held, stub_model, stub_test
 
 from motor_identification.diagnosis import candidate_test, thresholds
 from motor_identification.diagnosis.candidate_model import Model, Score
@@ -16,6 +16,7 @@ from motor_identification.diagnosis.candidate_test import (
     takes_away_more,
 )
 from motor_identification.noise.error_model import ErrorModel
+from motor_model.parameters import PAPER_KA, PAPER_KV
 
 
 @pytest.mark.parametrize(("gap", "lasting"), [(3.0, 3.0), (3.0, 1.0), (1.0, 0.0)])
@@ -98,6 +99,40 @@ def test_an_instant_beside_a_torque_is_one_of_many(times: float, steady: float, 
     assert test.steadiness == pytest.approx(steady) and 7.0 < likelihood_threshold() < 9.0
     assert test.is_likely(likelihood_threshold()) is likely
     assert CandidateTest("load_bias", before, model).is_likely(likelihood_threshold())  # falls by half, too
+
+
+@pytest.mark.parametrize(
+    ("times", "steady", "grows", "seen", "likely"),
+    [
+        (0.99, 9.0, 0.999, True, False),
+        (1.01, 9.0, 0.999, True, True),
+        (1.01, 7.0, 0.999, True, False),
+        (1.01, 9.0, 1.001, True, False),
+        (0.5, 9.0, 1.001, False, True),  # of motion that no fit has seen it is one effect of all
+    ],
+)
+def test_what_comes_slowly_in_motion_that_was_fitted_is_what_a_slow_torque_does(
+    times: float, steady: float, grows: float, seen: bool, likely: bool
+) -> None:
+    """It has to be as likely as what begins at an instant, and the gap must not grow."""
+    before = beside_torque(2.0, -100.0)
+    before = replace(before, held=replace(before.held, seen=seen))
+    model = beside_torque(2.0 * grows, -90.0)
+    said = times * thresholds.INSTANT_LIKELIHOOD
+    model = replace(model, score=replace(model.score, likelihood=said, moments=np.full(200, steady / 190.0)))
+    assert CandidateTest("warm_up", before, model).is_likely(likelihood_threshold()) is likely
+
+
+@pytest.mark.parametrize(("times", "relevant"), [(0.99, False), (1.01, True)])
+@pytest.mark.parametrize("rows", [100, 10_000, 1_000_000])
+def test_rows_much_finer_than_a_motor_ask_for_no_more(rows: int, times: float, relevant: bool) -> None:
+    """What is taken of the white rest is a share of a dozen rows a time constant, however many there are."""
+    before, model = beside_torque(2.0, -100.0), beside_torque(1.9, -90.0)
+    most = thresholds.RELEVANT_ROWS * COUNT * STEP * PAPER_KV / PAPER_KA
+    assert 100 < most < 1000
+    steady = times * 0.5 * thresholds.RELEVANT_WHITE_SHARE * min(rows, most)
+    score = replace(model.score, scored=rows, moments=np.full(200, steady / 190.0))
+    assert CandidateTest("quadratic_drag", before, replace(model, score=score)).relevant is relevant
 
 
 @pytest.mark.parametrize(

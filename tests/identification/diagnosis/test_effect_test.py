@@ -37,8 +37,12 @@ def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
     once, repeating = {"load_step", "warm_up"}, {"torque_ripple", "encoder_eccentricity"}
     assert set(names) - set(list_candidates((), one)) == {"warm_up"}
     assert set(names) - set(list_candidates((), several)) == once
+    assert list_candidates((), one, beside_torque=True) == names
+    assert set(names) - set(list_candidates((), several, beside_torque=True)) == once
     for response in (one, several):
-        assert set(names) - set(list_candidates((), replace(response, confirms=False))) == once | repeating
+        for beside in (False, True):
+            response = replace(response, confirms=False)
+            assert set(names) - set(list_candidates((), response, beside)) == once | repeating
     noisy = replace(one, seen=False, intervals=tuple(replace(data, independent=True) for data in one.intervals))
     assert set(names) - set(list_candidates((), noisy)) == {"encoder_eccentricity"}  # no disc
     for jitter, window, hidden in ((0.1, 0.01, {"encoder_eccentricity"}), (0.02, 0.01, set()), (0.1, 0.0, set())):

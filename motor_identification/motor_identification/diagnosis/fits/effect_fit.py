@@ -6,7 +6,6 @@ start values are needed.
 
 from dataclasses import replace
 from functools import partial
-from itertools import product
 
 import numpy as np
 
@@ -15,6 +14,8 @@ from motor_identification.diagnosis.fits.disturbed_fit import (
     fit_beside_torque,
     make_disturbed_residuals,
 )
+from motor_identification.diagnosis.fits.score_scan import Promise
+from motor_identification.diagnosis.fits.starts import list_starts, start_with
 from motor_identification.diagnosis.fits.torque_jumps import list_likely_jumps
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import LEAST_GAIN, SpeedResiduals, fit_residuals, improves_fit
@@ -50,7 +51,8 @@ def fit_with_effect(
     quick, bare = larger.coarsen(QUICK_SAMPLES), estimate.problem.coarsen(QUICK_SAMPLES)
     look = _make_target(estimate.on(bare), errors)
     best, start, spent = np.inf, estimate.theta, estimate.simulations
-    for begin in (*_list_starts(estimate, larger), *_list_jumps(estimate, larger, effect, errors)):
+    starts = [one.theta for one in list_starts(estimate, larger)]
+    for begin in (*starts, *_list_jumps(estimate, larger, effect, errors)):
         target = replace(look, problem=quick)
         end = fit_residuals(Estimate(quick, begin, spent), target, np.inf, QUICK_ITERATIONS, QUICK_TOLERANCE)
         spent, cost = end.simulations, _sum_squares(target, end.theta)
@@ -62,6 +64,15 @@ def fit_with_effect(
     target = replace(_make_target(estimate, errors), problem=larger)
     how = (ITERATIONS, TOLERANCE) if errors is None else (DISTURBED_ITERATIONS, DISTURBED_TOLERANCE)
     return fit_residuals(Estimate(larger, start, spent), target, np.inf, *how)
+
+
+def fit_promised(estimate: Estimate, promise: Promise, errors: ErrorModel) -> Estimate:
+    """Fit a motor beside a random torque with the effects of a promise more, from the sizes that it has."""
+    larger = estimate.problem.with_effects(normalised((*estimate.problem.unknowns.effects, *promise.effects)))
+    sizes = {name: size for one in promise.sizes for name, size in one.items()}
+    begin = Estimate(larger, start_with(estimate, larger, sizes), estimate.simulations)
+    target = replace(make_disturbed_residuals(estimate, errors), problem=larger)
+    return fit_residuals(begin, target, np.inf, ITERATIONS, TOLERANCE)
 
 
 def _list_jumps(estimate: Estimate, larger: Problem, effect: str, errors: ErrorModel | None) -> list[Floats]:
@@ -126,20 +137,4 @@ def promises_gain(before: float, after: float, count: int, white: bool) -> bool:
 def add_noticeable_effect(estimate: Estimate, effect: str) -> Estimate:
     """Add an effect to a fitted motor, of a size that would matter to its user; not fitted."""
     larger = estimate.problem.with_effects(normalised((*estimate.problem.unknowns.effects, effect)))
-    return Estimate(larger, _list_starts(estimate, larger)[0], estimate.simulations)
-
-
-def _list_starts(estimate: Estimate, larger: Problem) -> list[Floats]:
-    old, new = estimate.problem.unknowns, larger.unknowns
-    added = [spec for spec in new.specs if spec.name not in old.names]
-    starts = []
-    for shares in product(*(spec.starts for spec in added)):
-        sizes: dict[str, float] = {}
-        for spec, share in zip(added, shares, strict=True):
-            sizes[spec.name] = share * spec.scale.of(new.extent)
-            if spec.at_least is not None:
-                least = spec.at_least
-                sizes[spec.name] += sizes[least] if least in sizes else float(estimate.theta[old.names.index(least)])
-        values = {name: np.array(size) for name, size in sizes.items()}
-        starts.append(map_theta(old, estimate.theta, new, values))
-    return starts
+    return Estimate(larger, list_starts(estimate, larger)[0].theta, estimate.simulations)

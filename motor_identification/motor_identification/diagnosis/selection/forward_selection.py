@@ -19,6 +19,7 @@ from motor_identification.diagnosis.effect_test import (
     list_candidates,
     try_effects,
 )
+from motor_identification.diagnosis.selection.promised_pairs import find_promised_pair, promises_anything
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
@@ -37,8 +38,11 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
             selection = selection.add([step])
             continue
         refused = any(is_supported(test) and not test.relevant for test in tests)
+        refused = refused or (selection.model.at_floor and promises_anything(selection.model))
         selection = replace(selection, refused=refused)
         pair = find_pair(selection, tests, reporter) if pairs and may_hide_pair(selection) else []
+        if not pair and pairs and selection.model.beside_torque and _may_add_pair(selection):
+            pair = find_promised_pair(selection)
         if not pair:
             return selection
         further = select_forward(selection.add(pair), reporter, pairs=False)
@@ -79,8 +83,11 @@ def may_hide_pair(selection: Selection) -> bool:
 
     One response tells no two.
     """
-    model = selection.model
-    return len(selection.steps) < thresholds.PAIR_MOST_STEPS and not model.complete and model.held.confirms
+    return _may_add_pair(selection) and not selection.model.complete
+
+
+def _may_add_pair(selection: Selection) -> bool:
+    return len(selection.steps) < thresholds.PAIR_MOST_STEPS and selection.model.held.confirms
 
 
 def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[CandidateTest]:
@@ -89,7 +96,7 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
     Those that repeat with the angle only where others leave a gap; slots learnt without them hide it.
     """
     number, current = len(selection.steps) + 1, selection.model
-    left = list_candidates(current.effects, current.held)
+    left = list_candidates(current.effects, current.held, current.beside_torque)
     count = 0
 
     def heard(test: CandidateTest) -> None:
@@ -99,7 +106,8 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
         gap = min(test.model.held.gap, current.held.gap)
         reporter.report(f"step {number}: {test.effect}", share, test.effect, gap)
 
-    plain = [] if current.quiet else [effect for effect in left if not _is_periodic(effect)]
+    quiet = current.quiet and not (current.beside_torque and promises_anything(current))
+    plain = [] if quiet else [effect for effect in left if not _is_periodic(effect)]
     tests = try_effects(current, selection.hold_out, plain, selection.workers, heard)
     best = choose_finding(tests)
     if best is None or best.model.above_floor:
@@ -125,7 +133,8 @@ def find_pair(selection: Selection, tests: Sequence[CandidateTest], reporter: Pr
     """Find the two effects that explain most together where neither does alone, as two steps, if there are such."""
     current, found = selection.model, []
     for i, first in enumerate(list_partners(tests)):
-        left = [effect for effect in list_candidates(first.model.effects, current.held) if not _is_periodic(effect)]
+        others = list_candidates(first.model.effects, current.held, current.beside_torque)
+        left = [effect for effect in others if not _is_periodic(effect)]
 
         def heard(test: CandidateTest, first: CandidateTest = first) -> None:
             reporter.report(f"{first.effect} with {test.effect}", 0.5, test.effect, test.model.held.gap)

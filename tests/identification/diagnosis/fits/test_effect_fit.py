@@ -10,13 +10,11 @@ from diagnosed import fitted
 from motor_identification.diagnosis.fits.effect_fit import (
     INSTANTS_TRIED,
     _improve_instants,
-    _list_starts,
     add_noticeable_effect,
     fit_with_effect,
     promises_gain,
 )
 from motor_identification.estimation.least_squares import LEAST_GAIN, SpeedResiduals
-from motor_model.effects import EFFECT_BY_NAME
 from motor_model.parameters import PAPER_KA, PAPER_KV
 
 
@@ -35,28 +33,6 @@ def test_what_was_hidden_is_fitted_and_the_rest_comes_right() -> None:
 def test_where_a_quick_look_gains_nothing_there_is_no_fit() -> None:
     estimate, _ = fitted()
     assert fit_with_effect(estimate, "voltage_limit") is None
-
-
-@pytest.mark.parametrize(("effect", "starts"), [("coulomb_friction", 1), ("transport_delay", 4), ("load_step", 10)])
-def test_starts_are_every_combination_of_the_tables(effect: str, starts: int) -> None:
-    estimate, _ = fitted()
-    larger = estimate.problem.with_effects((effect,))
-    thetas = _list_starts(estimate, larger)
-    sizes = [len(spec.starts) for spec in EFFECT_BY_NAME[effect].parameters]
-    assert len(thetas) == starts == np.prod(sizes) and len({tuple(theta) for theta in thetas}) == starts
-    for theta in thetas:
-        assert np.all(theta >= larger.unknowns.low) and np.all(theta <= larger.unknowns.high)
-        assert np.array_equal(theta[:2], estimate.theta)  # the motor as it was
-
-
-def test_a_breakaway_starts_above_the_friction_that_is_there() -> None:
-    estimate, _ = fitted(ks=0.4)
-    sliding = fit_with_effect(estimate, "coulomb_friction")
-    assert sliding is not None
-    larger = sliding.problem.with_effects(("coulomb_friction", "static_friction"))
-    names = larger.unknowns.names
-    for theta in _list_starts(sliding, larger):
-        assert theta[names.index("breakaway_voltage")] > theta[names.index("ks")] + 0.1
 
 
 def test_a_noticeable_effect_is_not_fitted() -> None:

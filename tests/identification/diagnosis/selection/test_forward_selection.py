@@ -77,9 +77,9 @@ class Fake:
         self.gaps, self.tried = gaps, list[tuple[str, ...]]()
         monkeypatch.setattr(forward_selection, "try_effects", self.try_effects)
         monkeypatch.setattr(Selection, "add", added)
-        monkeypatch.setattr(
-            forward_selection, "list_candidates", lambda effects, judged: ["coulomb_friction", "load_bias"]
-        )
+        names = ["coulomb_friction", "load_bias"]
+        monkeypatch.setattr(forward_selection, "list_candidates", lambda effects, judged, beside_torque: names)
+        monkeypatch.setattr(forward_selection, "promises_anything", lambda model: False)
         monkeypatch.setattr(Model, "effects", ())
 
     def try_effects(self, current: Model, hold_out: Any, effects: list[str], *rest: Any) -> list[CandidateTest]:
@@ -136,7 +136,7 @@ def show_one_response(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_friction_is_selected_from_a_recording_that_hides_it(monkeypatch: pytest.MonkeyPatch) -> None:
     names = ("coulomb_friction", "quadratic_drag", "load_bias")
-    lacking = lambda effects, judged: [name for name in names if name not in effects]  # noqa: E731
+    lacking = lambda effects, judged, beside_torque: [name for name in names if name not in effects]  # noqa: E731
     monkeypatch.setattr(forward_selection, "list_candidates", lacking)
     estimate, hold_out = fitted(ks=0.4)
     start = begin_selection(estimate, hold_out, 1)
@@ -162,3 +162,40 @@ def test_it_is_told_where_something_likely_takes_away_too_little(
     monkeypatch.setattr(forward_selection, "try_effects", try_effects)
     found = select_forward(selection_of(stub_model(9.0)), SILENT, pairs=False)
     assert found.refused is refused and bool(found.steps) is (gap == 4.0)
+
+
+@pytest.mark.parametrize(("gap", "promised", "refused"), [(0.9, True, True), (0.9, False, False), (9.0, True, False)])
+def test_it_is_told_where_something_is_promised_at_the_floor(
+    gap: float, promised: bool, refused: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """No gap shows there what takes away little of a coarse sensor's; likelihoods beside a torque do."""
+    Fake(monkeypatch, [])
+    monkeypatch.setattr(forward_selection, "promises_anything", lambda model: promised)
+    found = select_forward(selection_of(stub_model(gap, 0.0)), SILENT, pairs=False)
+    assert found.refused is refused and found.model.at_floor is (gap < 1.0)
+
+
+@pytest.mark.parametrize(("beside", "promised", "tried"), [(True, True, 2), (True, False, 0), (False, True, 0)])
+def test_what_leaves_nothing_that_lasts_is_given_only_what_is_promised(
+    beside: bool, promised: bool, tried: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fake = Fake(monkeypatch, [])
+    monkeypatch.setattr(forward_selection, "promises_anything", lambda model: promised)
+    monkeypatch.setattr(forward_selection, "find_promised_pair", lambda selection: [])
+    errors = ErrorModel(0.0, 0.0, 0.0, 1.0)
+    quiet = replace(stub_model(0.9, 0.0), learned=errors if beside else None)
+    assert quiet.quiet
+    select_forward(selection_of(quiet), SILENT)
+    assert sum(map(len, fake.tried)) == tried
+
+
+@pytest.mark.parametrize("beside", [True, False])
+def test_two_that_are_promised_together_are_selected_beside_a_torque(
+    beside: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Fake(monkeypatch, [])
+    start = replace(stub_model(0.9, 0.0), learned=ErrorModel(0.0, 0.0, 0.0, 1.0) if beside else None)
+    first = stub_test("coulomb_friction", start, 0.9, 100.0)
+    pair = [step_of(first), step_of(stub_test("quadratic_drag", first.model, 0.9, 100.0), explains=1.0)]
+    monkeypatch.setattr(forward_selection, "find_promised_pair", lambda selection: [] if selection.steps else pair)
+    assert list(select_forward(selection_of(start), SILENT).steps) == (pair if beside else [])
