@@ -9,6 +9,7 @@ from motor_model.compiled import compiled
 
 PLAY = 0.05  # of the largest voltage: what a measured supply, or a controller that holds a speed, moves to and fro
 LEVELS = 5  # up to the largest voltage; what a controller does around a speed is within one or two of them
+RESPONSE = 0.1  # of the largest voltage, between two levels that a motor answers plainly
 LEVEL_SHARE = 0.05  # of the samples, at a level where a recording stays; what it passes on the way is none
 
 
@@ -31,6 +32,23 @@ def count_levels(recordings: Sequence[Recording]) -> int:
     volts = np.concatenate([recording.voltage for recording in recordings])
     levels, counts = np.unique(np.rint(LEVELS * volts / np.abs(volts).max()), return_counts=True)
     return int(np.count_nonzero((levels != 0.0) & (counts >= LEVEL_SHARE * len(volts))))
+
+
+def count_responses(recordings: Sequence[Recording]) -> int:
+    """Count the levels that recordings of one motor come to and stay at, each after another one."""
+    largest = max(float(np.abs(recording.voltage).max()) for recording in recordings)
+    return sum(_count_responses(recording.voltage / largest) for recording in recordings) if largest > 0.0 else 0
+
+
+def _count_responses(volts: Floats) -> int:
+    """Count where voltages (K,), in units of the largest, come to another level for long enough; from 0 V."""
+    ends = np.flatnonzero(np.abs(np.diff(volts)) > PLAY) + 1
+    count, last = 0, 0.0
+    for part in np.split(volts, ends):
+        level = float(np.mean(part))
+        if len(part) >= LEVEL_SHARE * len(volts) and abs(level - last) >= RESPONSE:
+            count, last = count + 1, level
+    return count
 
 
 @compiled

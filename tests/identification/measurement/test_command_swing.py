@@ -4,8 +4,14 @@ import numpy as np
 import pytest
 from plant import profiles, record
 
-from motor_identification.measurement.command_swing import PLAY, count_levels, measure_swings
-from motor_identification.recording import Floats, check
+from motor_identification.measurement.command_swing import (
+    PLAY,
+    RESPONSE,
+    count_levels,
+    count_responses,
+    measure_swings,
+)
+from motor_identification.recording import Floats, Recording, check
 
 
 def measure(volts: Floats) -> Floats:
@@ -43,3 +49,27 @@ def test_at_a_level_a_recording_stays(samples: int, levels: int) -> None:
     volts = np.concatenate([np.zeros(100 - samples), np.full(100, 8.0), np.full(samples, -4.0)])
     driven, _ = record({"kv": 0.07, "ka": 0.006}, 0.005 * np.arange(len(volts)), volts, seed=1, name="driven")
     assert count_levels([driven]) == levels and count_levels([driven] * 2) == levels
+
+
+def driven(*parts: Floats) -> Recording:
+    volts = np.concatenate(parts)
+    recording, _ = record({"kv": 0.07, "ka": 0.006}, 0.005 * np.arange(len(volts)), volts, seed=1, name="driven")
+    return recording
+
+
+@pytest.mark.parametrize(("side", "responses"), [(0.99, 1), (1.01, 4)])
+def test_a_response_is_a_step_that_is_plain(side: float, responses: int) -> None:
+    high, low = np.full(50, 8.0), np.full(50, 8.0 * (1.0 - side * RESPONSE))
+    assert count_responses([driven(high, low, high, low)]) == responses
+
+
+@pytest.mark.parametrize(("samples", "responses"), [(9, 1), (11, 2)])
+def test_a_response_lasts(samples: int, responses: int) -> None:
+    one = driven(np.zeros(100 - samples), np.full(100, 8.0), np.full(samples, -4.0))
+    assert count_responses([one]) == responses and count_responses([one] * 3) == 3 * responses
+
+
+def test_what_a_controller_moves_slowly_is_no_step() -> None:
+    assert count_responses([driven(8.0 - np.linspace(0.0, 4.0, 400))]) <= 1
+    at_rest, _ = record({"kv": 0.07, "ka": 0.006}, *profiles.pieces([0.0], 1.0), seed=1, name="at rest")
+    assert count_responses([at_rest]) == 0

@@ -163,8 +163,15 @@ def test_where_nothing_is_held_out_all_is_fitted_and_counts() -> None:
 
 @pytest.mark.parametrize(
     ("recordings", "confirms"),
-    [([STEP], False), ([STEP, STEP], True), ([drive(8.0, 6.4, 4.8)], False), ([drive(8.0, 6.4, 4.8, 3.2)], True)],
-    ids=["step", "two", "three levels", "four levels"],
+    [
+        ([STEP], False),
+        ([STEP, STEP], True),
+        ([drive(8.0, 6.4, 4.8)], False),
+        ([drive(8.0, 6.4, 4.8, 3.2)], True),
+        ([drive(8.0, 6.8, 8.0, 6.8)], False),
+        ([drive(8.0, 6.8, 8.0, 6.8, 8.0)], True),
+    ],
+    ids=["step", "two", "three levels", "four levels", "four responses", "five responses"],
 )
 def test_more_than_a_step_confirms(recordings: list[Recording], confirms: bool) -> None:
     hold_out = make_hold_out(recordings, [])
