@@ -13,6 +13,7 @@ from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.evidence.line_evidence import count_waves, drop_chance_harmonics
 from motor_identification.diagnosis.fits.effect_fit import fit_with_effect
+from motor_identification.measurement.command_swing import is_sweep
 from motor_identification.recording import Floats
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
@@ -29,10 +30,10 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None, besid
 
     judged: what it is judged by. Where the fits have seen that, nothing that comes slowly, which takes up whatever a
     model lacks, unless it has to be likelier than a slow torque of one recording (`beside_torque`), and nothing that
-    happens once in each of several recordings; and in a single response nothing that
-    happens once or repeats with the angle: some instants, or some line, are found in any. Where values have white noise
-    and nothing is counted, as a tachogenerator's, there is no disc for anything to be on; and where rows of speeds are
-    uneven it does not show.
+    happens once in each of several recordings; and in a single response nothing that happens once or repeats with the
+    angle: some instants, or some line, are found in any. Where a command's frequency goes one way, nothing that comes
+    slowly: whatever depends on frequency does. Where values have white noise and nothing is counted, as a
+    tachogenerator's, there is no disc for anything to be on; and where rows of speeds are uneven it does not show.
     """
     return [
         effect.name
@@ -47,10 +48,16 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None, besid
 def _can_be_judged(effect: Effect, judged: HeldOut, beside_torque: bool) -> bool:
     if effect.on_disc and not any(data.tells_of_disc for data in judged.intervals):
         return False
+    if _comes_slowly(effect) and judged.recordings and all(map(is_sweep, judged.recordings)):
+        return False
     if not judged.seen or not (effect.anywhere or effect.periodic):
         return True
     once = (needs_instant(effect.name) or beside_torque) and len(judged.recordings) == 1
     return judged.confirms and (effect.periodic or once)
+
+
+def _comes_slowly(effect: Effect) -> bool:
+    return effect.anywhere and not needs_instant(effect.name)
 
 
 def try_effects(

@@ -10,6 +10,8 @@ from motor_model.compiled import compiled
 PLAY = 0.05  # of the largest voltage: what a measured supply, or a controller that holds a speed, moves to and fro
 LEVELS = 5  # up to the largest voltage; what a controller does around a speed is within one or two of them
 RESPONSE = 0.1  # of the largest voltage, between two levels that a motor answers plainly
+LEAST_HALVES = 8  # of a wave, between two reversals of a sweep
+SWEPT, IN_ORDER = 1.5, 0.9  # times its frequency from end to end; rank correlation of its half waves with their order
 LEVEL_SHARE = 0.05  # of the samples, at a level where a recording stays; what it passes on the way is none
 
 
@@ -49,6 +51,21 @@ def _count_responses(volts: Floats) -> int:
         if len(part) >= LEVEL_SHARE * len(volts) and abs(level - last) >= RESPONSE:
             count, last = count + 1, level
     return count
+
+
+def is_sweep(recording: Recording) -> bool:
+    """Decide whether a command's frequency goes one way from beginning to end, so that it tells the time as well."""
+    centred = recording.voltage - 0.5 * (recording.voltage.max() + recording.voltage.min())
+    sides = np.sign(centred) * (np.abs(centred) > RESPONSE * np.abs(centred).max())
+    far = np.flatnonzero(sides)
+    turns = recording.time[far[1:]][np.diff(sides[far]) != 0.0]
+    halves = np.diff(turns)
+    if len(halves) < LEAST_HALVES:
+        return False
+    quarter = len(halves) // 4
+    ends = np.array([np.median(halves[:quarter]), np.median(halves[-quarter:])])
+    order = np.corrcoef(np.arange(len(halves)), np.argsort(np.argsort(halves, kind="stable"), kind="stable"))[0, 1]
+    return bool(ends.max() > SWEPT * ends.min() and abs(order) > IN_ORDER)
 
 
 @compiled

@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 from functools import cache
-from typing import cast
 
 import numpy as np
 import pytest
 from diagnosed import fitted
+from plant import record
 from stub_models import rescored, stub_model, stub_test
 
 from motor_identification.diagnosis import effect_test, thresholds
@@ -21,8 +21,14 @@ from motor_identification.diagnosis.effect_test import (
     try_effects,
 )
 from motor_identification.diagnosis.evidence.line_evidence import adds_only_lines, count_waves
-from motor_identification.recording import Recording
+from motor_identification.recording import Floats, Recording
 from motor_model.effects import EFFECTS
+
+
+def sine(turns: Floats) -> Recording:
+    """A motor under a sine of so many periods from sample to sample, 10 s."""
+    time, volts = np.linspace(0.0, 10.0, len(turns)), 6.0 * np.sin(2.0 * np.pi * turns)
+    return record({"kv": 0.07, "ka": 0.006}, time, volts, seed=1, name="driven")[0]
 
 
 def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
@@ -31,7 +37,7 @@ def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
     assert "coulomb_friction" in names and "static_friction" not in names  # which comes with Coulomb friction
     assert "missed_edges" not in names  # recognised in every fit, never fitted
     held = stub_model(5.0).held
-    one = replace(held, recordings=held.recordings[:1] or (cast(Recording, None),), seen=True)
+    one = replace(held, recordings=(sine(np.linspace(0.0, 20.0, 2001)),), seen=True)
     several = replace(one, recordings=2 * one.recordings)
     assert list_candidates((), replace(several, seen=False, confirms=False)) == names
     once, repeating = {"load_step", "warm_up"}, {"torque_ripple", "encoder_eccentricity"}
@@ -51,6 +57,9 @@ def test_candidates_are_what_a_model_lacks_and_can_have() -> None:
         rows = replace(data, time=0.01 * (row + jitter * (row % 2.0)), window=window)
         uneven = replace(one, seen=False, intervals=(rows,))
         assert set(names) - set(list_candidates((), uneven)) == hidden  # nor where rows of speeds are uneven
+    swept = replace(one, seen=False, recordings=(sine(np.linspace(0.0, 6.0, 2001) ** 2),))
+    assert set(names) - set(list_candidates((), swept)) == {"warm_up"}  # which goes with the frequency as well
+    assert list_candidates((), replace(swept, recordings=(*swept.recordings, *one.recordings))) == names
     sliding = list_candidates(("coulomb_friction",))
     assert "static_friction" in sliding and "coulomb_friction" not in sliding
 

@@ -7,8 +7,10 @@ from plant import profiles, record
 from motor_identification.measurement.command_swing import (
     PLAY,
     RESPONSE,
+    SWEPT,
     count_levels,
     count_responses,
+    is_sweep,
     measure_swings,
 )
 from motor_identification.recording import Floats, Recording, check
@@ -73,3 +75,31 @@ def test_what_a_controller_moves_slowly_is_no_step() -> None:
     assert count_responses([driven(8.0 - np.linspace(0.0, 4.0, 400))]) <= 1
     at_rest, _ = record({"kv": 0.07, "ka": 0.006}, *profiles.pieces([0.0], 1.0), seed=1, name="at rest")
     assert count_responses([at_rest]) == 0
+
+
+def sine(rate: Floats, offset: float = 0.0, noise: float = 0.0) -> Recording:
+    """A sine whose frequency [Hz] is this at every sample."""
+    phase = np.cumsum(2.0 * np.pi * rate * 0.005)
+    return driven(offset + 5.0 * np.sin(phase) + noise * np.random.default_rng(1).standard_normal(len(phase)))
+
+
+@pytest.mark.parametrize("offset", [0.0, 7.0])
+@pytest.mark.parametrize("noise", [0.0, 0.1])
+def test_a_frequency_that_goes_one_way_is_a_sweep(offset: float, noise: float) -> None:
+    up = np.geomspace(0.5, 4.0, 2000)
+    assert is_sweep(sine(up, offset, noise)) and is_sweep(sine(up[::-1], offset, noise))
+    assert not is_sweep(sine(np.concatenate([up, up]), offset, noise))  # twice
+    assert not is_sweep(sine(np.full(2000, 2.0), offset, noise))
+
+
+@pytest.mark.parametrize(("side", "swept"), [(0.9, False), (1.2, True)])
+def test_a_sweep_goes_far(side: float, swept: bool) -> None:
+    """The median halves of the first and the last quarter are an eighth of the way from either end."""
+    assert is_sweep(sine(np.geomspace(1.0, (side * SWEPT) ** (4.0 / 3.0), 4000))) is swept
+
+
+def test_few_steps_random_ones_and_none_are_no_sweep() -> None:
+    assert not is_sweep(driven(*(np.full(100 - 10 * k, 8.0 * (-1.0) ** k) for k in range(8))))
+    lengths = np.random.default_rng(2).integers(10, 100, 60)
+    assert not is_sweep(driven(*(np.full(n, 8.0 * (-1.0) ** k) for k, n in enumerate(lengths))))
+    assert not is_sweep(driven(np.zeros(100))) and not is_sweep(driven(np.full(100, 8.0)))

@@ -92,8 +92,8 @@ def _list_singles(columns: Sequence[_Column], rest: Floats) -> tuple[Promise, ..
 
 def _list_pairs(columns: Sequence[_Column], rest: Floats) -> tuple[Promise, ...]:
     """List two effects each, of which both have to be of a size that they can be."""
-    changes = np.array([one.change for one in columns]).reshape(len(columns), len(rest))
-    powers, along = changes @ changes.T, -changes @ rest
+    powers = np.array([[one.change @ other.change for other in columns] for one in columns])  # an hour has no room
+    along = np.array([-(one.change @ rest) for one in columns])  # for all columns in one more array
     promises = []
     for i, j in combinations(range(len(columns)), 2):
         one, other = columns[i], columns[j]
