@@ -13,11 +13,12 @@ import numpy as np
 from motor_identification.measurement.edit_intervals import append_standstills
 from motor_identification.measurement.intervals import Intervals, index_intervals
 from motor_identification.measurement.standstill import LEAST_STANDSTILL
-from motor_identification.recording import Bools, Floats, Integers, Recording
+from motor_identification.recording import Bools, Floats, Recording
 from motor_identification.sensor.pulse_periods import mark_decays
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import estimate_white_noise
 
+LEAST_ZEROS = 5.0  # rows, from the one before to the last of values of 0: fewer may be a row or two that were lost
 FRESH = 0.5  # of a row: with two edges within it for certain its value is a new one
 OLDER = 1.1  # rows: an edge came within the row before, stamps are a little off
 STEADY = 2.0  # times its neighbours that a value may be, or they it, where it may be old
@@ -50,7 +51,7 @@ def make_pulse_intervals(recording: Recording) -> Intervals:
         window=float(np.median(period)) if len(period) else row,
         noise=float(np.median(blur)) if len(blur) else noise,
     )
-    return append_standstills(moving, _find_standstills(recording, kept, end), slot)
+    return append_standstills(moving, _find_standstills(recording), slot)
 
 
 def measure_slot(recording: Recording) -> float:
@@ -85,11 +86,18 @@ def _measure_noise(speed: Floats, voltage: Floats) -> float:
     return max(max(estimate_white_noise(speed, voltage), find_lattice(speed) * UNIFORM_SIGMA) / usual, LEAST_NOISE)
 
 
-def _find_standstills(recording: Recording, kept: Integers, end: Floats) -> tuple[Floats, Floats]:
-    """Find start and end [s] of the times from the edge before values of 0 to the last of them."""
+def _find_standstills(recording: Recording) -> tuple[Floats, Floats]:
+    """Find start and end [s] of the times from the row before values of 0 to the last of them, in pieces.
+
+    In pieces, for what goes back and comes again has moved; of a standstill, if there is one.
+    """
+    time, row = np.append(recording.time, 0.0), recording.sample_period
     stands = np.diff((recording.speed == 0.0).astype(np.int8), prepend=0, append=0)
     first, last = np.flatnonzero(stands > 0), np.flatnonzero(stands < 0) - 1
-    start = np.append(0.0, end)[np.searchsorted(kept, first)]
-    stop = recording.time[last]
-    long = stop - start > LEAST_STANDSTILL * recording.sample_period
-    return start[long], stop[long]
+    pieces = []
+    for start, stop in zip(time[first - 1], time[last], strict=True):
+        rows = (stop - start) / row
+        count = int(rows / ((LEAST_STANDSTILL if rows > LEAST_STANDSTILL else LEAST_ZEROS) + 1.0))
+        pieces.append(np.linspace(start, stop, count + 1))
+    none = [np.zeros(0)]
+    return np.concatenate(none + [one[:-1] for one in pieces]), np.concatenate(none + [one[1:] for one in pieces])
