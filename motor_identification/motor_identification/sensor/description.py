@@ -31,6 +31,11 @@ def note_sensors(recordings: Sequence[Recording]) -> tuple[Recording, ...]:
     return (replace(first, notes=(*first.notes, note)), *others)
 
 
+def tells_of_speeds(note: str) -> bool:
+    """Decide whether a note says how speeds were taken to be made."""
+    return note.startswith(tuple(text.split("{")[0] for text in (HELD, LATTICE, FEW, WHITE)))
+
+
 def describe_speed_sensors(sensors: Sequence[tuple[SpeedSensor, bool]]) -> str:
     """Say what was found of speed sensors, each with whether its counts were known; empty where nothing is new."""
     held = [sensor for sensor, _ in sensors if sensor.frame > 0.0]

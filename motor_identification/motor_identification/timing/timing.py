@@ -7,6 +7,7 @@ from math import tau
 import numpy as np
 
 from motor_identification.recording import Recording
+from motor_identification.sensor.description import tells_of_speeds
 from motor_identification.sensor.pulse_periods import divide_slot
 from motor_identification.sensor.speed_sensor import is_assumed
 from motor_identification.sensor.value_lattice import find_lattice
@@ -51,7 +52,8 @@ class Timing:
         """Read recordings with this timing, those of which nobody said another; the first one's notes say so."""
         timed = [self._set(recording) for recording in recordings]
         if timed:
-            timed[0] = replace(timed[0], notes=(*timed[0].notes, *self._describe(recordings[0], timed[0])))
+            said = [note for note in timed[0].notes if not (self.slot > 0.0 and tells_of_speeds(note))]
+            timed[0] = replace(timed[0], notes=(*said, *self._describe(recordings[0], timed[0])))
         return tuple(timed)
 
     def _set(self, recording: Recording) -> Recording:

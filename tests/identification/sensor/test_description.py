@@ -8,7 +8,12 @@ from recorded import as_speed, without_count
 from servo import record_servo
 from swinging import noisy, recorded
 
-from motor_identification.sensor.description import describe_speed_sensors, note_sensors
+from motor_identification.sensor.description import (
+    ANGLE,
+    describe_speed_sensors,
+    note_sensors,
+    tells_of_speeds,
+)
 from motor_identification.sensor.speed_sensor import SpeedSensor, find_speed_sensor
 
 
@@ -66,3 +71,9 @@ def test_a_noisy_angle_is_said() -> None:
         "The angle has white noise of 1e-06 rad, more than a count: it is taken from sample to sample.",
     )
     assert note_sensors([exact]) == (exact,)
+
+
+def test_what_tells_how_speeds_were_made_is_known_by_its_words() -> None:
+    for one in (sensor(step=0.1), sensor(sigma=0.1), sensor(sigma=0.1, rows=14), sensor(frame=0.02)):
+        assert tells_of_speeds(said(one))
+    assert not tells_of_speeds(ANGLE) and not tells_of_speeds("Something else.")

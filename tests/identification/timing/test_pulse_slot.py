@@ -13,6 +13,7 @@ from motor_identification.estimation.request import SearchConfig
 from motor_identification.estimation.search.global_search import search_globally
 from motor_identification.identify import Request, identify
 from motor_identification.recording import Recording, check
+from motor_identification.sensor.description import tells_of_speeds
 from motor_identification.timing import pulse_slot, speed_timing
 from motor_identification.timing.pulse_slot import SlotGain, find_likeliest_slot, find_stays_slot, judge_slot
 from motor_identification.timing.shaped_fit import Shaper
@@ -111,3 +112,4 @@ def test_the_motor_is_right_and_the_notes_say_how_it_was_read() -> None:
     assert read.parameters.value("ks") == pytest.approx(0.5, rel=0.02)
     (said,) = (note for note in read.notes if "latest two edges" in note)
     assert "a slot of 0.521 rad (some 12.1 a turn)" in said
+    assert not any(tells_of_speeds(note) for note in read.notes)  # otherwise
