@@ -2,8 +2,8 @@
 
 Such a value is the exact mean from one edge to the next, but its row does not say when they came: the latest within the
 row, or within a slot's time where that is shorter, so that on average it is half that old. A slow motor's row repeats a
-value until the next edge, or shows the time since the latest one; neither measures. Where values are 0, less than a
-slot has passed since the last that was not.
+value until the next edge, or shows the time since the latest one; neither measures. Where values are 0, less than two
+slots pass: after a rest, or a turn, two edges have to come.
 """
 
 from math import sqrt
@@ -19,6 +19,7 @@ from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import estimate_white_noise
 
 LEAST_ZEROS = 5.0  # rows, from the one before to the last of values of 0: fewer may be a row or two that were lost
+UNTIL_TOLD = 2.0  # slots that a motor turns before a time between two edges is known, at rest or after a turn
 FRESH = 0.5  # of a row: with two edges within it for certain its value is a new one
 OLDER = 1.1  # rows: an edge came within the row before, stamps are a little off
 STEADY = 2.0  # times its neighbours that a value may be, or they it, where it may be old
@@ -51,7 +52,7 @@ def make_pulse_intervals(recording: Recording) -> Intervals:
         window=float(np.median(period)) if len(period) else row,
         noise=float(np.median(blur)) if len(blur) else noise,
     )
-    return append_standstills(moving, _find_standstills(recording), slot)
+    return append_standstills(moving, _find_standstills(recording), UNTIL_TOLD * slot)
 
 
 def measure_slot(recording: Recording) -> float:

@@ -67,7 +67,7 @@ def test_a_motor_that_stands_turns_by_less_than_a_slot(seconds: float, pieces: i
     still = np.flatnonzero((data.slack > 0.0) & within)
     assert len(still) == pieces
     if pieces:
-        assert data.slack[still] == pytest.approx(SLOT)
+        assert data.slack[still] == pytest.approx(2.0 * SLOT)
         begin, end = data.time[data.first[still]], data.time[data.last[still]]
         assert begin[0] == pytest.approx(5.0, abs=0.02) and end[-1] == pytest.approx(5.0 + seconds, abs=0.01)
         assert np.array_equal(begin[1:], end[:-1])
