@@ -4,7 +4,7 @@ from math import log
 
 from motor_control.tuning.linear_loop import Gains, Plant
 from motor_control.tuning.speed_feedback import MEASURED, OBSERVER, Sight, cancelling
-from motor_control.tuning.step_response import small_step
+from motor_control.tuning.step_response import RISEN, small_step
 from motor_model.errors import MotorError
 
 SLOWEST = 1000.0  # times less than the largest kp; beyond that a wish is a slip of the pen
@@ -22,8 +22,8 @@ TOO_SLOW = "A time constant of {:.3g} s is too long for this law: ask for {:.3g}
 
 
 def time_constant_of(sight: Sight, plant: Plant, gains: Gains) -> float:
-    """[s] of a small step."""
-    return small_step(plant, sight.law(gains), sight.forward(plant, 1.0)).time_constant
+    """[s] of a small step, which is simulated no further."""
+    return small_step(plant, sight.law(gains), sight.forward(plant, 1.0), RISEN).time_constant
 
 
 def quiet_kp(sight: Sight, bare: Plant, speeds: tuple[float, ...], most: float, largest: float) -> float:

@@ -1,6 +1,7 @@
 """The speed that a loop answers a step of the reference with: linear motor, real law, real voltage limit."""
 
 from dataclasses import dataclass
+from math import ceil, inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,25 +40,42 @@ class StepResponse:
 
 
 def respond(
-    plant: Plant, gains: Gains, reference: float, duration: float, low: float, high: float, feedforward: float = 0.0
+    plant: Plant,
+    gains: Gains,
+    reference: float,
+    duration: float,
+    low: float,
+    high: float,
+    feedforward: float = 0.0,
+    until: float = inf,
 ) -> StepResponse:
-    """Close the loop at rest and step the reference [rad/s]; low..high [V] is allowed, feedforward [V] is added."""
+    """Close the loop at rest and step the reference [rad/s]; low..high [V] is allowed, feedforward [V] is added.
+
+    It ends after `duration` [s], or as soon as it shows when the shaft first had the speed `until` [rad/s].
+    """
     motor = sampled(plant)
     config, state = pi.Config(gains.kp, gains.ki, UNLIMITED), pi.State()
     count = int((duration + plant.sensor_lag) / plant.sample_period) + 2
     x: Floats = np.zeros(len(motor.new))
     speed, voltage = np.empty(count), np.zeros(count + motor.whole + 1)  # the voltages before the step come first
-    for k in range(count):
+    k, end, more = 0, count, ceil(abs(plant.shift) / plant.sample_period) + 2
+    while k < end:
         error = reference - float(x[0])
         terms, state = pi.update(config, state, error, feedforward, plant.sample_period, low, high)
         speed[k], voltage[k + motor.whole + 1] = x[0], terms.voltage
+        if end == count and speed[k] >= until:
+            end = min(count, k + more)  # the shaft is earlier or later by so much
         x = np.asarray(motor.phi @ x + motor.old * voltage[k] + motor.new * voltage[k + 1])
-    time = np.asarray(np.arange(count) * plant.sample_period, dtype=np.float64)
-    shaft = np.asarray(np.interp(time, time + plant.shift, speed), dtype=np.float64)
-    return StepResponse(reference, time, shaft, voltage[motor.whole + 1 :])
+        k += 1
+    time = np.asarray(np.arange(end) * plant.sample_period, dtype=np.float64)
+    shaft = np.asarray(np.interp(time, time + plant.shift, speed[:end]), dtype=np.float64)
+    return StepResponse(reference, time, shaft, voltage[motor.whole + 1 :][:end])
 
 
-def small_step(plant: Plant, gains: Gains, feedforward: float) -> StepResponse:
-    """Simulate a step that no voltage limit is felt in, from 0 to 1 rad/s; feedforward [V] is what that adds."""
+def small_step(plant: Plant, gains: Gains, feedforward: float, until: float = inf) -> StepResponse:
+    """Simulate a step that no voltage limit is felt in, from 0 to 1 rad/s; feedforward [V] is what that adds.
+
+    until: [rad/s] once it shows when the shaft first had that speed, no more is simulated.
+    """
     duration = max(12.0 * plant.ka / (gains.kp * plant.gain + plant.kv * (feedforward > 0.0)), 20.0 * plant.late)
-    return respond(plant, gains, 1.0, duration, -UNLIMITED, UNLIMITED, feedforward)
+    return respond(plant, gains, 1.0, duration, -UNLIMITED, UNLIMITED, feedforward, until)

@@ -9,7 +9,7 @@ from tuning_bench import BARE
 
 from motor_control.tuning.linear_loop import Gains
 from motor_control.tuning.speed_feedback import cancelling
-from motor_control.tuning.step_response import StepResponse, respond, small_step
+from motor_control.tuning.step_response import RISEN, StepResponse, respond, small_step
 
 
 def test_a_slow_cancelling_loop_is_an_exponential() -> None:
@@ -43,3 +43,11 @@ def test_a_lag_of_the_sensor_shifts_what_is_measured_not_the_shaft() -> None:
 def test_one_that_never_rises_has_no_time_constant() -> None:
     flat = StepResponse(1.0, np.arange(3.0), np.array([0.0, 0.1, 0.2]), np.zeros(3))
     assert flat.time_constant == inf and flat.overshoot == 0.0
+
+
+@pytest.mark.parametrize("shift", [{}, {"sensor_lag": 0.033}, {"predicted": True, "delay": 0.021}])
+def test_a_step_that_ends_early_has_the_same_time_constant_to_the_bit(shift: dict[str, float]) -> None:
+    plant, gains = replace(BARE, **shift), cancelling(BARE, 0.02)  # type: ignore[arg-type]
+    whole, early = small_step(plant, gains, 0.0), small_step(plant, gains, 0.0, RISEN)
+    assert early.time_constant == whole.time_constant < inf
+    assert len(early.time) == len(early.speed) == len(early.voltage) < 0.2 * len(whole.time)
