@@ -5,13 +5,18 @@ from dataclasses import replace
 import numpy as np
 
 from motor_identification.diagnose import diagnose
+from motor_identification.diagnosis.evidence.slewing_evidence import slew
+from motor_identification.diagnosis.fits.torque_jumps import list_likely_jumps
+from motor_identification.estimation.estimate import Estimate
+from motor_identification.estimation.problem import make_problem
 from motor_identification.experiment import make_plan, simulate_plan
 from motor_identification.identify import Request, SearchConfig, identify
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Recording, recording_of
 from motor_model import warm_up
 from motor_model.effects import EFFECTS
 from motor_model.excitation import profile
-from motor_model.parameters import paper_motor
+from motor_model.parameters import PAPER_KA, PAPER_KV, paper_motor
 from motor_model.sensing.board import BoardConfig
 
 LEAST = SearchConfig(4, 1)
@@ -36,6 +41,14 @@ def main() -> None:
     identify([_record_step(MANY_SLOTS)], Request((), LEAST))
     disturbed = recording.voltage + np.random.default_rng(0).normal(0.0, 2.0, len(recording))
     diagnose([replace(recording, voltage=disturbed)], request=Request((), LEAST, time_limit=20.0))
+    _look_for_the_rarest(recording)
+
+
+def _look_for_the_rarest(recording: Recording) -> None:
+    """Look for jumps of the load beside a random torque, and for a bridge that slews: no diagnosis above gets there."""
+    estimate = Estimate(make_problem([recording], ()), np.log([PAPER_KV, PAPER_KA]))
+    list_likely_jumps(estimate, ErrorModel(0.01, 0.0, 0.1, 0.05), 1)
+    slew(recording, 1.0)
 
 
 def _record_step(slots: int = 96) -> Recording:
