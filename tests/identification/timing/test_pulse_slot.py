@@ -1,6 +1,7 @@
 """Speeds over the times between edges are told by how long they stay, or by how late they are the slower they are."""
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -36,17 +37,23 @@ def logged(edges: int, rate: float = 50.0) -> Recording:
     return check(as_period_speed(recorded(edges=edges, sample_rate=rate)))
 
 
+@cache
+def slot_found(edges: int) -> Timing:
+    """The timing of such a log, under the limits as they are."""
+    return timing_of(logged(edges))
+
+
 def test_a_slow_motor_shows_the_slot_by_its_stays() -> None:
     recording = logged(12)
     assert find_stays_slot([recording]) == pytest.approx(2.0 * np.pi / 12, rel=0.05)
-    found = timing_of(recording)
+    found = slot_found(12)
     assert (found.window, found.lag, found.slot) == (INSTANT, 0.0, find_stays_slot([recording]))
 
 
 def test_a_fast_motor_shows_it_by_what_comes_late() -> None:
     recording = logged(48)
     assert find_stays_slot([recording]) == 0.0
-    assert timing_of(recording).slot == pytest.approx(2.0 * np.pi / 48, rel=0.4)
+    assert slot_found(48).slot == pytest.approx(2.0 * np.pi / 48, rel=0.4)
 
 
 def judge(shaper: Shaper, slot: float) -> SlotGain:
@@ -86,7 +93,7 @@ def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.Monke
 
 @pytest.mark.parametrize("name", ["LEAST_GAIN", "LEAST_PULSE_GAIN_OF_ROW"])
 def test_what_stays_do_not_show_has_to_be_much_likelier(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert timing_of(logged(48)).slot > 0.0
+    assert slot_found(48).slot > 0.0
     monkeypatch.setattr(speed_timing, name, 1e6)
     assert timing_of(logged(48)).slot == 0.0
     assert timing_of(logged(12)).slot > 0.0
