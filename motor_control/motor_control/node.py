@@ -19,6 +19,7 @@ from motor_control.messages import joint_demand_of
 from motor_control.parameters import PROGRAM, ROWS
 from motor_control.settings import Settings
 from motor_control.speakers import Speakers
+from motor_control.toggles import Toggles
 from motor_model.errors import MotorError
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
@@ -38,7 +39,9 @@ class MotorControl(Node):
 
     def __init__(self) -> None:
         super().__init__("motor_control")
-        self._settings = Settings(declare(self, ROWS))
+        values = declare(self, ROWS)
+        self._settings, self._toggles = Settings(values), Toggles({row.name for row in ROWS if row.checked})
+        _, self._toggles = self._toggles.see(values, time.monotonic())
         self._state = controller.State(since=time.monotonic())
         self._speakers = Speakers(self)
         self._answers = Answers(self)
@@ -120,10 +123,15 @@ class MotorControl(Node):
             self._settings.refuse(f"{error} The motor gets 0 V until then.")
 
     def _on_parameters(self, changed: list[Parameter]) -> SetParametersResult:
+        values = {parameter.name: parameter.value for parameter in changed}
         try:
-            self._settings.change({parameter.name: parameter.value for parameter in changed})
+            self._settings.change(values)
         except MotorError as error:
             return SetParametersResult(successful=False, reason=str(error))
+        now = time.monotonic()
+        why, self._toggles = self._toggles.see(values, now)
+        if why and self._state.demand is not None:
+            self._state = controller.stop(self._state, why, now)
         return SetParametersResult(successful=True)
 
 

@@ -27,6 +27,7 @@ class Row:
     high: float | None = None
     read_only: bool = False
     any_kind: bool = False  # a text that may look like a number
+    checked: bool = False  # checks for faults read it: to be set to and fro in a running loop is a stop
 
     def shown(self) -> str:
         """The default as it would be typed."""

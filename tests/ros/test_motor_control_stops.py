@@ -49,6 +49,19 @@ def test_numbers_that_are_none(plant: FakePlant) -> None:
     assert plant.answer(50.0).state == "running"
 
 
+@pytest.mark.usefixtures("process")
+def test_a_parameter_that_is_set_to_and_fro_is_a_stop(plant: FakePlant) -> None:
+    """The checks that read it would begin anew each time, or look away."""
+    plant.refer(100.0)
+    for k in range(40):
+        assert plant.set("motor_control", "stall_time", 0.5 * (k % 2)) == (True, "")
+        state = plant.answer(97.0)
+        if state.state == "stopped":
+            break
+        assert state.state == "running"
+    assert k >= 3 and state.voltage == 0.0 and "stall_time was set to and fro 3 times" in state.reason
+
+
 @pytest.mark.parametrize("topic", ["motor/reference", "motor/joint_command"])
 def test_what_was_asked_for_while_the_controller_stood_still_is_not_obeyed(
     plant: FakePlant, process: subprocess.Popen[str], topic: str
