@@ -5,6 +5,9 @@ another plant are not meant for this one. A publisher that has died is listed fo
 they are heard while there is more than one publisher, and are another's where this plant has not sent them. But one
 that comes while this plant runs has not died: it is another's before it has said anything. A recording may begin with
 references or voltages, and only then have samples.
+
+A sample is this plant's once for each time that it was sent. Its stamp alone is not enough: ROS time may stand still
+(`use_sim_time` without a /clock), and then all samples of all plants have the same one.
 """
 
 import struct
@@ -23,7 +26,7 @@ from motor_ros.topics import publisher_ids, publishers_of
 
 RCLError = rclpy_implementation.RCLError
 LOOK_EVERY = 0.05  # [s] all that has come is looked at then: an executor would take as long for it as for the sampling
-REMEMBERED = 4096  # samples of our own: no busy computer hears one so late
+REMEMBERED = 4096  # samples of our own that were not heard yet: no busy computer hears one so late
 SILENT = 500_000_000  # [ns] after another's latest sample, from which on it is gone
 
 ANOTHER = (
@@ -39,7 +42,7 @@ DENIED = (
 STAMP = {0: struct.Struct(">iI"), 1: struct.Struct("<iI")}  # by the second byte: how the header's stamp is serialised
 BEFORE = 4  # bytes before it
 
-Stamp = tuple[int, int]  # of a sample, in ROS time: seconds, nanoseconds; no other plant has the same
+Stamp = tuple[int, int]  # of a sample, in ROS time: seconds, nanoseconds
 
 
 def read_stamp(data: bytes) -> Stamp | None:
@@ -55,8 +58,7 @@ class OtherPlant:
 
     def __init__(self, node: Node, publisher: Publisher) -> None:
         self._node, self._topic = node, publisher.topic_name
-        self._order: deque[Stamp] = deque()
-        self._ours: set[Stamp] = set()
+        self._ours: deque[Stamp] = deque(maxlen=REMEMBERED)  # sent since this plant listens, and not heard yet
         self._heard: int | None = None  # [ns] another's latest sample
         self._count = 0  # of publishers
         self._ids: frozenset[tuple[int, ...]] = frozenset()  # at the first look ours, and what was there before
@@ -67,11 +69,8 @@ class OtherPlant:
 
     def sent(self, message: MotorSpeed) -> None:
         """Take a sample of our own, before it is published."""
-        stamp = message.header.stamp.sec, message.header.stamp.nanosec
-        self._order.append(stamp)
-        self._ours.add(stamp)
-        if len(self._order) > REMEMBERED:
-            self._ours.discard(self._order.popleft())
+        if self._subscription is not None:
+            self._ours.append((message.header.stamp.sec, message.header.stamp.nanosec))
 
     def speaks(self, now: int) -> bool:
         """Whether another plant's samples were heard just before `now` [ns], or are to be expected."""
@@ -103,6 +102,7 @@ class OtherPlant:
             self._node.get_logger().error(self.problem(now))
 
     def _listen(self) -> None:
+        self._ours.clear()
         try:
             self._subscription = self._node.create_subscription(
                 MotorSpeed, self._topic, lambda message: None, qos.SPEED, raw=True
@@ -113,7 +113,8 @@ class OtherPlant:
             self._node.get_logger().warning(DENIED.format(self._topic))
 
     def _hear(self, data: bytes) -> None:
-        if read_stamp(data) in self._ours:
+        if (stamp := read_stamp(data)) in self._ours:
+            self._ours.remove(stamp)
             return
         now = time.monotonic_ns()
         spoke, self._heard, self._unheard = self.speaks(now), now, frozenset()

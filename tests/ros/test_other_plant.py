@@ -99,6 +99,31 @@ def test_a_publisher_that_comes_is_another_plant_before_it_says_anything(quiet: 
     assert rig.sample() == 6.0
 
 
+class StandingRig(Rig):
+    """The same, with ROS time that stands still, as `use_sim_time` without a /clock makes it."""
+
+    def stamp(self) -> int:
+        return 0
+
+
+def test_another_plant_whose_clock_stands_as_ours_does_is_noticed(
+    quiet: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All samples of both had the stamp 0, and each plant took the other's for its own."""
+    monkeypatch.setattr(other_plant, "REMEMBERED", 300)
+    rig, other = StandingRig(quiet), quiet.publisher(MotorSpeed, "motor/speed")
+    quiet.wait(lambda: rig.sample() == 6.0 and other.get_subscription_count() > 0, "the plant to listen")
+    for _ in range(other_plant.REMEMBERED + 100):  # our own are heard once each, however many have one stamp
+        assert rig.sample() == 6.0
+
+    def play() -> float:
+        other.publish(speed_message(Sample(rig.count, 0.0, 6.0), time_message(0), "motor"))
+        return rig.sample()
+
+    quiet.wait(lambda: play() == 0.0, "0 V")
+    assert rig.plant._other.speaks(time.monotonic_ns())
+
+
 @pytest.mark.on_time
 def test_two_plants_of_one_name_are_both_at_0_volt(bench: Bench, start: Start) -> None:
     """As processes; the second one would move with each voltage that the first one gets."""
