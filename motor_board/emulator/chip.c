@@ -11,6 +11,7 @@
 
 #define FREQUENCY 16000000
 #define MCUSR 0x54
+#define POWER_ON_RESET 0x01
 #define EXTERNAL_RESET 0x02
 #define SETTLE 80         /* cycles from the first change of a pin to the last one of the same write */
 #define RUN_LIMIT 1000000 /* cycles that simavr may run without looking up; falls back to 1 at every reset */
@@ -217,6 +218,14 @@ void chip_reset(struct chip *chip)
     chip->feed_out = chip->feed_in;
     avr_reset(avr);
     avr->data[MCUSR] = EXTERNAL_RESET;
+}
+
+void chip_power_up(struct chip *chip)
+{
+    avr_t *avr = chip->avr;
+    memset(avr->data + avr->ioend + 1, 0, avr->ramend - avr->ioend); /* as at the first power-up */
+    chip_reset(chip);
+    avr->data[MCUSR] = POWER_ON_RESET;
 }
 
 uint32_t chip_resets(const struct chip *chip)

@@ -60,6 +60,9 @@ size_t chip_drain(struct chip *chip, uint8_t *bytes, uint64_t *cycles, size_t ro
 /* What the reset button does. Bytes on their way in are lost. */
 void chip_reset(struct chip *chip);
 
+/* Power was off, or fell so low that the chip forgot what it knew; the EEPROM did not. */
+void chip_power_up(struct chip *chip);
+
 /* How often the chip was reset since power-up, for whatever reason. */
 uint32_t chip_resets(const struct chip *chip);
 

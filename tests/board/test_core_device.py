@@ -15,10 +15,11 @@ from motor_driver.frames.from_host import Command, Configure, Enable, Identify, 
 from motor_driver.frames.table import Frame
 
 TIMEOUT = 200  # [tick] of the output under test
+AHEAD = 2048  # numbers that count as newer
 
 steps = st.lists(
     st.tuples(
-        st.sampled_from(["off", "enable", "stale enable", "command", "old command", "check", "latch"]),
+        st.sampled_from(["off", "enable", "stale enable", "command", "old command", "far command", "check", "latch"]),
         st.integers(-400, 400),  # duty
         st.integers(0, 150),  # [tick] that pass before
     ),
@@ -47,6 +48,7 @@ def test_the_output_keeps_the_rules(script: list[tuple[str, int, int]], start: i
     for number, (what, duty, wait) in enumerate(script, start):
         now += wait
         number -= 1 + duty % 40 if what == "old command" else 0  # sent before
+        number += AHEAD - 200 + duty if what == "far command" else 0  # of another day
         if what == "off":
             lib.output_off(byref(output))
             model.off()
@@ -57,7 +59,7 @@ def test_the_output_keeps_the_rules(script: list[tuple[str, int, int]], start: i
                 model.on, model.newest, model.number, model.heard = True, 0, number, now
         elif "command" in what:
             lib.output_command(byref(output), byref(core.WireCommand(duty)), number % 65536, now % WRAP)
-            if not model.on or number > model.number:
+            if not model.on or 0 < number - model.number <= AHEAD:
                 model.number, model.heard = number, now
                 model.newest = max(-256, min(256, duty)) if model.on else 0
         elif what == "check":

@@ -18,6 +18,7 @@
 #include "registers.h"
 #include "sense.h"
 #include "serial.h"
+#include "starts.h"
 #include "supply.h"
 #include "tick.h"
 
@@ -40,7 +41,6 @@ static const struct device_config config = {
 
 static struct frame_reader reader;
 
-static uint8_t boot __attribute__((section(".noinit"))); /* outlives a reset, not a power-down */
 static uint8_t reset_cause __attribute__((section(".noinit")));
 
 /* Runs before main: after a watchdog reset the watchdog stays on, at its shortest time. */
@@ -102,7 +102,7 @@ int main(void)
 {
     bridge_start();
     wdt_enable(WDTO_60MS);
-    device_start(&board_device, &config, ++boot, reset_cause);
+    device_start(&board_device, &config, starts_next(), reset_cause);
     bridge_write(0, board_device.output.decay, WIRE_PWM_STANDARD);
     lines_start();
     supply_start();

@@ -6,7 +6,7 @@
 
 #define FIRMWARE_MAJOR 1
 #define FIRMWARE_MINOR 4
-#define FIRMWARE_PATCH 2
+#define FIRMWARE_PATCH 3
 
 static uint32_t limited(uint32_t value, uint32_t low, uint32_t high)
 {

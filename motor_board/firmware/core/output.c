@@ -1,6 +1,8 @@
 #include "output.h"
 
-#define AHEAD 0x7FFFu /* numbers wrap: so many are newer than one, the others older */
+/* Numbers wrap: so many are newer than one, the others older. More frames than that come in no LONGEST_TIMEOUT, after
+ * which the output is off: what is farther ahead was sent long before. */
+#define AHEAD 2048u
 
 void output_off(struct output *output)
 {

@@ -127,6 +127,10 @@ class Chip:
         """Press the reset button."""
         self._library.chip_reset(self._chip)
 
+    def power_up(self) -> None:
+        """Switch the board's power off and on."""
+        self._library.chip_power_up(self._chip)
+
     @property
     def resets(self) -> int:
         """How often it was reset since power-up, for whatever reason."""

@@ -109,6 +109,11 @@ class Emulator:
         self.chip.reset()
         self._drive(self.chip.cycle)
 
+    def power_up(self) -> None:
+        """Switch the board's power off and on: it has forgotten all but its EEPROM."""
+        self.chip.power_up()
+        self._drive(self.chip.cycle)
+
     def close(self) -> None:
         """Give the memory back."""
         self.chip.close()

@@ -36,6 +36,7 @@ def load_library() -> Any:
         "feed": (c_size_t, [c_void_p, c_char_p, c_size_t]),
         "drain": (c_size_t, [c_void_p, bytes_, cycles, c_size_t]),
         "reset": (None, [c_void_p]),
+        "power_up": (None, [c_void_p]),
         "resets": (c_uint32, [c_void_p]),
         "clock_zero": (c_uint64, [c_void_p]),
         "supply": (None, [c_void_p, c_uint32]),

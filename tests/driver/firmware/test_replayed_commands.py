@@ -1,18 +1,28 @@
 """Bytes that drove the motor are written to the port again, by somebody who has it open or by what repeats them."""
 
+from collections.abc import Callable
+
 from driver_rig import Rig
+from emulated_board import MS
 
 MOST = 150.0  # [ms]
 
 
+def recorded_with_times(rig: Rig, act: Callable[[], object]) -> list[tuple[int, bytes]]:
+    """What is sent while something is done, each burst with its cycle."""
+    bursts: list[tuple[int, bytes]] = []
+    send = rig._in.send
+    rig._in.send = lambda data, faults, now: (bursts.append((rig.emulator.chip.cycle, data)), send(data, faults, now))[
+        1
+    ]  # type: ignore[method-assign]
+    act()
+    rig._in.send = send  # type: ignore[method-assign]
+    return [(cycle, burst) for cycle, burst in bursts if burst]
+
+
 def recorded(rig: Rig) -> list[bytes]:
     """What drives the motor for 0.2 s."""
-    bursts: list[bytes] = []
-    send = rig._in.send
-    rig._in.send = lambda data, faults, now: (bursts.append(data), send(data, faults, now))[1]  # type: ignore[method-assign]
-    rig.run(200)
-    rig._in.send = send  # type: ignore[method-assign]
-    return [burst for burst in bursts if burst]
+    return [burst for _, burst in recorded_with_times(rig, lambda: rig.run(200))]
 
 
 def pins_under(rig: Rig, bursts: list[bytes]) -> list[float]:
@@ -39,6 +49,38 @@ def test_commands_that_come_again_do_not_act_beside_a_driver(running: Rig) -> No
 def test_commands_that_come_again_keep_no_dead_driver_s_motor_running(running: Rig) -> None:
     """For ever, as if the driver lived."""
     bursts = recorded(running)
+    running.alive = False
+    pins = pins_under(running, bursts)
+    assert pins.index(0.0) < MOST and set(pins[pins.index(0.0) :]) == {0.0}
+
+
+def test_a_whole_session_that_comes_again_after_a_power_down_drives_nothing(make_rig: Callable[..., Rig]) -> None:
+    """Start for start the chip woke up with the same number, and obeyed the recorded enable and all that followed."""
+    rig = make_rig()
+    rig.run(20)
+    rig.voltage = 6.0
+    session = recorded_with_times(rig, lambda: (rig.plug(), rig.run(600)))
+    assert rig.pins == 6.0
+    rig.alive = False
+    for _ in range(2):
+        rig.emulator.power_up()
+        start, pins = rig.emulator.chip.cycle, set()
+        for cycle, burst in session:
+            rig.run((start + cycle - rig.emulator.chip.cycle) / MS)
+            rig._in.send(burst, rig.faults, rig.now)
+            pins.add(rig.pins)
+        assert pins == {0.0}
+
+
+def test_commands_of_a_session_far_back_keep_no_motor_running(running: Rig) -> None:
+    """The numbers of frames wrap: those from half of a turn back were newer than the driver's latest."""
+    bursts = recorded(running)
+    session = running.driver.session
+    assert session is not None
+    for _ in range(40):  # the driver goes on to numbers from which the old ones are ahead, but not near
+        session.encoder._seq = (session.encoder.seq + 1000) % 65536
+        running.run(20)
+    assert running.stops == [] and running.pins == 6.0
     running.alive = False
     pins = pins_under(running, bursts)
     assert pins.index(0.0) < MOST and set(pins[pins.index(0.0) :]) == {0.0}
