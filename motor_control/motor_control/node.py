@@ -76,7 +76,7 @@ class MotorControl(Node):
     def _on_watch(self) -> None:
         self._poll()
         self._settings.refresh()
-        self._state = self._speakers.name(self._state)
+        self._state = self._speakers.look_for_players(self._speakers.name(self._state), time.monotonic())
         several = self.count_publishers("motor/joint_command") > 1
         if several != bool(self._state.joint_senders):
             names = ", ".join(publishers_of(self, "motor/joint_command"))

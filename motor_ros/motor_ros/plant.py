@@ -111,6 +111,8 @@ class Plant:
     def _on_voltage(self, message: MotorVoltage, number: int | None, waited: int) -> None:
         now, before, voltage = time.monotonic_ns(), self.gate, message.voltage
         self.gate = before.take(voltage, now, message.header.frame_id, number, waited)
+        if self.gate.first is not before.first:
+            self._other.meet_sender()
         if self.gate.refused > before.refused:
             self._node.get_logger().error(
                 f"{voltage} on motor/voltage is not a number: the motor gets 0 V.", throttle_duration_sec=1.0

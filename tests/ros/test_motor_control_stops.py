@@ -6,6 +6,7 @@ import subprocess
 import time
 
 import pytest
+import rclpy
 from controller_bench import FakePlant
 from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import JointState
@@ -60,6 +61,33 @@ def test_a_parameter_that_is_set_to_and_fro_is_a_stop(plant: FakePlant) -> None:
             break
         assert state.state == "running"
     assert k >= 3 and state.voltage == 0.0 and "stall_time was set to and fro 3 times" in state.reason
+
+
+@pytest.mark.usefixtures("process")
+def test_references_of_a_recording_are_not_obeyed(plant: FakePlant) -> None:
+    """The motor ran as it had run then, and at the recording's last speed for ever after its end."""
+    plant.refer(50.0)
+    assert plant.answer(40.0).state == "running"
+    player = rclpy.create_node("rosbag2_player", context=plant._context)
+    recorded = player.create_publisher(Float64, "motor/reference", qos.REFERENCE)
+
+    def play() -> str:
+        recorded.publish(Float64(data=100.0))
+        state = plant.answer(40.0)
+        return state.reason if state.voltage == 0.0 else ""
+
+    plant.wait(lambda: "A recording is played that asks for a motion (/rosbag2_player)" in play(), "0 V")
+    for _ in range(20):
+        assert play()
+    player.destroy_node()
+    plant.wait(lambda: "recording" in plant.answer(40.0).reason, "what ended it")
+
+    def ask() -> bool:
+        plant._reference.publish(Float64(data=0.0))
+        plant._reference.publish(Float64(data=30.0))
+        return plant.answer(40.0).reference == 30.0
+
+    plant.wait(ask, "a fresh reference to be obeyed")
 
 
 @pytest.mark.parametrize("topic", ["motor/reference", "motor/joint_command"])

@@ -28,6 +28,10 @@ OTHER_DRIVES = "{} is not obeyed while {} drives the motor: end that, or call mo
 TWO_SENDERS = "Several nodes publish motor/joint_command {}, and none is obeyed: end all but one."
 BEGIN_JOINT = "motor/joint_command is not obeyed until it begins again: with 0, or after a silence of {:g} s."
 BEFORE = "They began before this controller heard any of them."
+PLAYED = (
+    "A recording is played that asks for a motion ({}), and nothing is obeyed until that has ended. To drive a motor "
+    "by a recording, use ros2 run motor_identification play BAG --topics motor/reference."
+)
 FIRST_JOINT = LONGEST  # [s] for which who publishes motor/joint_command is there before the first command begins
 NAMES = "(names)"  # stands for who publishes motor/speed, which may be known a moment later
 
@@ -44,6 +48,7 @@ class State:
     demand: Demand | None = None  # the latest one, as long as it is obeyed
     joint_heard: float | None = None  # when the latest joint command came
     joint_senders: str = ""  # who publishes motor/joint_command, where they are several
+    players: str = ""  # of recordings, who publish demands
     refused: str = ""  # why a demand was not taken
     refused_at: float = 0.0
     begun: float = 0.0  # when what is asked for began: a stream of demands began with its first
@@ -73,6 +78,8 @@ def refer(state: State, reference: float, now: float, kind: Kind = Kind.SPEED, n
     those that were being sent when the controller came up. number: of its publisher's messages; None: not counted.
     """
     state = _hear(state, reference, now, kind, number)
+    if state.players:
+        return refuse(state, PLAYED.format(state.players), now)
     latest = state.references.latest.sequence
     if state.references.bars(state.demand is not None) and not state.latched:
         return refuse(state, GOES_ON.format(state.dropped or BEFORE, round(latest.needed, 1)), now)
@@ -97,6 +104,13 @@ def introduce(state: State, now: float) -> State:
     return replace(state, introduced=now)
 
 
+def meet_players(state: State, players: str) -> State:
+    """Note who plays a recording that asks for a motion; from then on nothing is obeyed that was asked for before."""
+    if players and not state.players and state.demand is not None:
+        state = drop(state, PLAYED.format(players))
+    return replace(state, players=players)
+
+
 def command_joint(config: Config, state: State, demand: Demand | str, now: float, number: int | None = None) -> State:
     """Take one command of a stream that is meant for this motor; a text says why it cannot be obeyed: 0 V.
 
@@ -110,7 +124,9 @@ def command_joint(config: Config, state: State, demand: Demand | str, now: float
     silent = config.joint_timeout > 0.0 and now - heard > silence
     drives = state.demand is not None and state.demand.source is Source.JOINT
     state = replace(state, joint_heard=now)
-    if state.joint_senders:
+    if state.players:
+        demand = PLAYED.format(state.players)
+    elif state.joint_senders:
         demand = TWO_SENDERS.format(state.joint_senders)
     if isinstance(demand, str):
         return replace(drop(state, demand) if drives else state, refused=demand, refused_at=now)

@@ -10,7 +10,7 @@ from motor_control.configuration import config_of
 from motor_control.controller import controller
 from motor_control.controller.output import DISABLED, RUNNING, STOPPED, Output
 from motor_control.controller.reference.demand import Demand, Kind, Source
-from motor_control.controller.state import introduce
+from motor_control.controller.state import introduce, meet_players
 from motor_model.sample import Info, Sample
 
 INFO = Info(single_channel=False)
@@ -178,6 +178,30 @@ def test_a_reference_that_is_refused_is_said_and_changes_nothing() -> None:
     output = loop.run(0.1)
     assert (output.state, output.reason, output.warning) == (DISABLED, "It may be an old one.", True)
     assert loop.run(0.5).reason != "It may be an old one."
+
+
+@pytest.mark.parametrize("joint", [False, True])
+def test_while_a_recording_is_played_nothing_is_obeyed(joint: bool) -> None:
+    loop = Loop()
+
+    def ask(value: float, duration: float) -> Output:
+        if joint:
+            return loop.run(duration, Demand(value, source=Source.JOINT))
+        loop.state = controller.refer(loop.state, value, loop.now)
+        return loop.run(duration)
+
+    ask(0.0, DT)
+    assert ask(20.0, 0.1).terms.voltage > 0.0
+    loop.state = meet_players(loop.state, "/rosbag2_player")
+    output = loop.run(0.02)
+    assert output.terms.voltage == 0.0 and "A recording is played" in output.reason
+    for value in (20.0, 0.0, 20.0):
+        output = ask(value, 0.1)
+        assert output.terms.voltage == 0.0 and "(/rosbag2_player)" in output.reason
+    loop.state = meet_players(loop.state, "")
+    assert loop.run(0.1).terms.voltage == 0.0  # nobody asks
+    ask(0.0, DT)
+    assert ask(20.0, 0.1).terms.voltage > 0.0
 
 
 @pytest.mark.parametrize("kind", [Kind.SPEED, Kind.VOLTAGE])
