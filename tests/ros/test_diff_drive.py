@@ -5,6 +5,7 @@ from math import sin
 from subprocess import Popen
 
 import pytest
+import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
@@ -70,6 +71,13 @@ def test_a_robot_is_driven_and_stops_where_one_wheel_does(bench: Bench, start: S
     bench.wait(lambda: poses[-1].pose.pose.position.y > 0.1, "a way to the left")
     assert poses[-1].twist.twist.linear.x == pytest.approx(0.4, abs=0.2)
     assert (poses[-1].header.frame_id, poses[-1].child_frame_id) == ("odom", "base_link")
+
+    player = rclpy.create_node("rosbag2_player", context=bench._context)
+    player.create_publisher(Twist, "cmd_vel", qos.REFERENCE)
+    bench.wait(lambda: "A recording of cmd_vel is played (/rosbag2_player)" in driver.reason, "the words")
+    bench.wait(lambda: abs(poses[-1].twist.twist.linear.x) < 0.01, "the robot to stand")
+    player.destroy_node()
+    bench.wait(lambda: poses[-1].twist.twist.linear.x > 0.3, "the robot to go on")
 
     driver.begins_again = False
     assert bench.call(SetBool, "left/motor/enable", SetBool.Request(data=False)).success

@@ -44,6 +44,10 @@ OLD = (
     "The stamp of cmd_vel is older than cmd_vel_timeout ({:g} s), or ahead by more: send it sooner, or set both "
     "computers' clocks."
 )
+PLAYED = (
+    "A recording of cmd_vel is played ({}), and nothing is obeyed until that has ended. To drive a robot by a "
+    "recording, use ros2 run motor_identification play BAG --topics cmd_vel."
+)
 NOT_A_NUMBER = "cmd_vel is not a number: send a finite velocity."
 BEGIN = "{} Both wheels stop. Then send a cmd_vel of 0, or pause, before the next velocity."
 

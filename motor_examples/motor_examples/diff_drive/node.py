@@ -25,6 +25,7 @@ from motor_ros.interface_types import NotInstalled, load_message
 from motor_ros.numbered_input import NumberedInput
 from motor_ros.parameters import declare
 from motor_ros.run import quick_executor, run
+from motor_ros.topics import players_of
 
 NO_TF = "tf2_msgs is not installed here: no transforms on /tf; the pose is on odom."
 
@@ -69,6 +70,9 @@ class DiffDrive(Node):
         if isinstance(message, TwistStamped):
             told, age = message.twist, stamp_age(message.header.stamp, self.get_clock().now().nanoseconds)
         twist = Twist(told.linear.x, told.angular.z)
+        if players := players_of(self, "cmd_vel"):
+            self._state = drive.refuse_command(self._state, drive.PLAYED.format(players), time.monotonic())
+            return
         if twist != STILL and self._hold_ups.bars(waited):
             self._state = drive.refuse_command(self._state, STOOD_STILL, time.monotonic())
             return
