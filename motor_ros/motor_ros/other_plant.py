@@ -99,9 +99,9 @@ class OtherPlant:
         return ANOTHER.format(self._topic, ", ".join(publishers_of(self._node, self._topic)))
 
     def meet_sender(self) -> None:
-        """Somebody sends his first voltage: see whose it is."""
+        """Somebody sends his first voltage: look at once who is there."""
         self._commanders = -1
-        self._look_for_players(time.monotonic_ns())
+        self._look()
 
     def _look_for_players(self, now: int) -> None:
         if (count := self._node.count_publishers(self._commands)) != self._commanders:
