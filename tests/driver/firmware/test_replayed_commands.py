@@ -78,7 +78,7 @@ def test_commands_of_a_session_far_back_keep_no_motor_running(running: Rig) -> N
     session = running.driver.session
     assert session is not None
     for _ in range(40):  # the driver goes on to numbers from which the old ones are ahead, but not near
-        session.encoder._seq = (session.encoder.seq + 1000) % 65536
+        session.encoder._next, session.count = (session.encoder.seq + 1000) % 65536, session.count + 1000
         running.run(20)
     assert running.stops == [] and running.pins == 6.0
     running.alive = False
