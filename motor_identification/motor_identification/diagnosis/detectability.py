@@ -28,7 +28,7 @@ def find_undetectable(model: Model) -> tuple[str, ...]:
     """
     problem, theta = model.estimate.problem, model.estimate.theta
     columns, without = problem.jacobian(theta), problem.residuals(theta)
-    hidden, judged = [], list_candidates(model.effects, model.held)
+    hidden, judged = [], list_candidates(model.effects, model.held, model.beside_torque)
     for effect in list_candidates(model.effects):
         if EFFECT_BY_NAME[effect].periodic:
             if effect not in judged or model.turns < LEAST_TURNS:  # of one response, any line explains some
