@@ -96,7 +96,7 @@ def test_a_flywheel_under_full_voltage_is_none(time_constant: float, share: floa
     motion = known or Motion(steady_speed=174.0 * share, steady_voltage=12.0 * share, most=174.0 * share)
     for coasts in (0.1, 0.15, 0.2, 0.3, 0.5, 1.0):
         speed, mean, rows = 174.0 * share, 12.0 * share, []
-        for k in range(3000):
+        for k in range(1500):  # what stops it wrongly does within a second of the whole voltage
             voltage = 12.0 * share if k < 200 else 0.0 if k < 200 + 200 * coasts else 12.0
             speed += 0.005 / time_constant * (voltage / LIMIT * 174.0 - speed)
             mean += 0.033 * (voltage - mean)
