@@ -55,7 +55,7 @@ ROOMS = {
     ),
     "motor_control": (
         "checks filter controller announcements tuning configuration parameters warm_up preparation settings "
-        "messages answers speakers node cli programs"
+        "toggles messages answers speakers node cli programs"
     ),
     "motor_identification": (
         "recording progress experiment bag sensor measurement noise estimation timing periodic uncertainty physical "

@@ -144,7 +144,8 @@ class OtherPlant:
             self._node.get_logger().warning(DENIED.format(self._topic))
 
     def _hear(self, data: bytes) -> None:
-        if (stamp := read_stamp(data)) in self._ours:
+        stamp = read_stamp(data)
+        if stamp is not None and stamp in self._ours:
             self._ours.remove(stamp)
             return
         now = time.monotonic_ns()
