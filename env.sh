@@ -14,7 +14,10 @@ fi
 # ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET before this (motor_ros/motor_ros/loopback.py says the same to programs).
 export ROS_AUTOMATIC_DISCOVERY_RANGE="${ROS_AUTOMATIC_DISCOVERY_RANGE:-LOCALHOST}"
 case "$ROS_AUTOMATIC_DISCOVERY_RANGE" in
-  SUBNET | SYSTEM_DEFAULT) _motor_profile=quick_discovery.xml ;;
+  SUBNET | SYSTEM_DEFAULT)
+    _motor_profile=quick_discovery.xml
+    echo "ROS_AUTOMATIC_DISCOVERY_RANGE opens the network: everybody on it hears the motors and drives them; unset it to stay on this machine." >&2
+    ;;
   *) _motor_profile=loopback.xml ;;
 esac
 case "${FASTRTPS_DEFAULT_PROFILES_FILE:-loopback.xml}" in

@@ -35,8 +35,8 @@ def start_ros(args: list[str] | None = None) -> None:
     Raises:
         MotorError: the arguments or the environment do not allow it.
     """
-    if unused := stay_on_this_machine():
-        print(unused, file=sys.stderr)
+    if said := stay_on_this_machine():
+        print(said, file=sys.stderr)
     check_security(os.environ)
     try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)

@@ -25,7 +25,8 @@ CASES = [
 @pytest.mark.parametrize(("environment", "wanted", "profile"), CASES)
 def test_sockets_are_closed_unless_the_user_opens_them(environment: dict[str, str], wanted: str, profile: str) -> None:
     ours = dict(environment)
-    stay_on_this_machine(ours)
+    said = stay_on_this_machine(ours)
+    assert ("everybody on it hears the motors" in said) == (profile == OPEN.name)
     assert (ours[RANGE], Path(ours[PROFILE]).name, ours["SKIP_DEFAULT_XML_FILE"]) == (wanted, profile, "1")
     assert profile == "own.xml" or Path(ours[PROFILE]).is_file()
 
@@ -40,6 +41,7 @@ def test_env_sh_says_the_same(environment: dict[str, str], wanted: str, profile:
     said = done.stdout.split()
     assert (said[0], Path(said[1]).name, said[2]) == (wanted, profile, "1")
     assert ("is your own" in done.stderr) == (profile == "own.xml")
+    assert ("everybody on it hears the motors" in done.stderr) == (profile == OPEN.name)
 
 
 @pytest.mark.parametrize("name", ["ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"])
