@@ -6,6 +6,7 @@ from pathlib import Path
 from motor_identification.logs.columns.direction import join_two_ways
 from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.said import Said
+from motor_identification.logs.csv.graph_export import name_plots
 from motor_identification.logs.csv.mending import mend_table, take_off_units
 from motor_identification.logs.csv.sparse import fill_gaps
 from motor_identification.logs.csv.table import Table
@@ -48,7 +49,7 @@ def import_log(path: Path, said: Said) -> Imported:
     Raises:
         RecordingError: it cannot be read, or what cannot be guessed has to be said: the sentence asks for it.
     """
-    return import_source(read_source(path, said.sheet), said)
+    return import_source(read_source(path, said), said)
 
 
 def import_source(source: Source, said: Said) -> Imported:
@@ -57,7 +58,7 @@ def import_source(source: Source, said: Said) -> Imported:
     Raises:
         RecordingError: as above.
     """
-    given = take_off_units(source.table)
+    given = take_off_units(name_plots(source.table))
     said = said.with_names(given.names)
     motors: list[Motor] = []
     findings: list[str] = []

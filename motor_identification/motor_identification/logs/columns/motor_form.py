@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from motor_identification.logs.columns.behaviour.codes import find_codes
 from motor_identification.logs.columns.behaviour.following import is_speed_by_drive
 from motor_identification.logs.columns.behaviour.standing_start import begins_at_rest
+from motor_identification.logs.columns.behaviour.swings import goes_to_and_fro
 from motor_identification.logs.columns.cautions import (
     caution_beyond_full,
     caution_no_means,
@@ -214,6 +215,8 @@ def _ask_for_times(table: Table, pair: Pair, kind: Kind, notes: Notes) -> None:
         notes.questions.append((pair.motion, f"is a {kind.value}, {times}"))
     elif share_of_changes(table.numbers(pair.voltage)) < STEPS_BETWEEN:
         notes.questions.append((pair.voltage, f"stays from row to row, {times}; or --steady"))
+    elif goes_to_and_fro(table.numbers(pair.voltage)):
+        notes.questions.append((pair.voltage, f"goes to and fro, {times}; or --steady"))
 
 
 def share_of_changes(values: Floats) -> float:

@@ -52,6 +52,11 @@ class Said:
     motors: tuple[Pair, ...] = ()
     sheet: str | None = None  # of a workbook
 
+    def columns(self) -> frozenset[str]:
+        """The names, or numbers, of columns that were said."""
+        own = (self.time, self.voltage, self.motion, self.supply, self.direction, self.split)
+        return frozenset(filter(None, (*own, *(name for one in self.motors for name in (one.voltage, one.motion)))))
+
     def with_names(self, names: Sequence[str]) -> "Said":
         """Name the columns that were said by number: 4 is the fourth, if none is called 4."""
 

@@ -1,15 +1,12 @@
 """MATLAB files (version 4 to 7.3), Octave's and NumPy's as a table: vectors of one length, columns of matrices."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from motor_identification.logs.columns.clock import runs_forward
-from motor_identification.logs.columns.drive import drives
-from motor_identification.logs.columns.heading import read_heading
-from motor_identification.logs.columns.vocabulary import MOVES
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.formats.hdf5.reader import SIGNATURE
 from motor_identification.logs.formats.mat_7_3 import MARK, read_variables_7_3
@@ -21,18 +18,18 @@ from motor_identification.logs.formats.numpy_arrays import is_archive_of_arrays,
 from motor_identification.logs.formats.octave_text import MARK as OCTAVE
 from motor_identification.logs.formats.octave_text import read_octave_text
 from motor_identification.logs.rows.row_times import tells_how_often
+from motor_identification.logs.rows.several_clocks import choose_columns
 from motor_model.errors import RecordingError
 
-SIGNALS = 3  # time, voltage and motion: vectors of one length, of which more tell nothing
 OBJECTS = "objects of MATLAB (a timeseries, Simulink's output)"
 SAVE_THEM = "save their Time and Data as vectors (t = y.Time; y = y.Data)"
 MOST_COLUMNS = 64  # of a matrix of signals: a wider one is a picture or a model
 
 
-def read_matlab(path: Path) -> Table:
+def read_matlab(path: Path, wanted: Collection[str] = ()) -> Table:
     """The vectors of one length by name; a struct's fields as `struct.field`.
 
-    Of several lengths, those whose names tell a drive and a motion; then the longest of which there are three.
+    Of several lengths, those that the user said (`wanted`), then what `choose_columns` finds.
 
     Raises:
         RecordingError: the file is damaged, too large, or has no two vectors of one length.
@@ -61,18 +58,19 @@ def read_matlab(path: Path) -> Table:
         raise RecordingError(f"{path} is a damaged {kind} file ({error}): {cure}.") from error
     if objects and len(vectors) < 2:
         raise RecordingError(f"{path} holds {OBJECTS}, which only MATLAB reads: {SAVE_THEM}.")
-    lengths = [len(vector) for vector in vectors.values() if len(vector) >= 2]
-    if not lengths:
+    signals = {name: vector for name, vector in vectors.items() if len(vector) >= 2}
+    if not signals:
         raise RecordingError(f"{path} has no vectors of numbers: save time, voltage and motion as vectors.")
-    named = {n: [name for name, vector in vectors.items() if len(vector) == n] for n in set(lengths)}
-    length = max(named, key=lambda n: (_tell_a_motor(named[n]), min(len(named[n]), SIGNALS), n))
-    fitting = {name: vectors[name] for name in named[length]}
+    lengths = {len(vector) for vector in signals.values()}
+    groups = {n: _share_clock({name: one for name, one in signals.items() if len(one) == n}) for n in lengths}
+    fitting = choose_columns(groups, wanted)
     if len(fitting) < 2:
         raise RecordingError(f"{path} has no two vectors of one length: save time, voltage and motion with one.")
-    fitting = _share_clock(fitting)
+    length = len(next(iter(fitting.values())))
     told = {name: vector for name, vector in vectors.items() if len(vector) == 1 and tells_how_often(name)}
     fitting.update({name: np.full(length, vector[0]) for name, vector in told.items() if name not in fitting})
-    others = [name for name, vector in vectors.items() if name and 2 <= len(vector) != length]
+    taken = {length for length, group in groups.items() if not group.keys().isdisjoint(fitting)}
+    others = [name for name, vector in signals.items() if name and len(vector) not in taken]
     notes = [f"Left out, as they have other lengths: {', '.join(others[:8])}."] if others else []
     notes += [f"Left out, as another iddata is longer: {', '.join(other_sets[:8])}."] if other_sets else []
     notes += [f"Not read: {OBJECTS}; {SAVE_THEM}, if the motion is in them."] if objects else []
@@ -85,12 +83,6 @@ def _read_signals(data: bytes) -> dict[str, Value]:
         return read_objects(data)
     except BrokenFileError:
         return {}
-
-
-def _tell_a_motor(names: Sequence[str]) -> bool:
-    """Whether there is a drive among the names, and a motion."""
-    headings = [read_heading(name) for name in names]
-    return any(map(drives, headings)) and any(heading.quantity in MOVES for heading in headings)
 
 
 _KINDS: dict[Callable[[bytes], dict[str, Value]], tuple[str, str]] = {

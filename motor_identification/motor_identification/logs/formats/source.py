@@ -45,34 +45,35 @@ class Source:
         return replace(said, **unsaid)
 
 
-def read_source(path: Path, sheet: str | None = None) -> Source:
-    """Read a log file; of a workbook, the sheet that is named, or the one with the most numbers.
+def read_source(path: Path, said: Said | None = None) -> Source:
+    """Read a log file; of a workbook, the sheet that is said, or the one with the most numbers.
 
     Raises:
         RecordingError: it cannot be read, or is of a format that is not known.
     """
     check_file(path)
+    said = said or Said()
     try:
         with path.open("rb") as file:
             head = file.read(HEAD)
     except OSError as error:
         raise RecordingError(f"{path} cannot be read ({error.strerror}): give a log file.") from error
     if head.startswith(_ZIP) and is_workbook(path):
-        lines, note = read_workbook(path, sheet)
+        lines, note = read_workbook(path, said.sheet)
         return Source(table_of(path, lines, [note]), "workbook")
-    if sheet is not None:
+    if said.sheet is not None:
         raise RecordingError(f"{path} has no sheets: leave out --sheet.")
-    return _read_other(path, head)
+    return _read_other(path, head, said)
 
 
-def _read_other(path: Path, head: bytes) -> Source:
+def _read_other(path: Path, head: bytes, said: Said) -> Source:
     """Read a file of one table, whose first bytes tell its format."""
     for is_format, cure in _REFUSED:
         if is_format(head):
             raise RecordingError(f"{path} is {cure}.")
     for is_format, name in _OF_VARIABLES:
         if is_format(head):
-            return Source(read_matlab(path), name)
+            return Source(read_matlab(path, said.columns()), name)
     if head.startswith(LABVIEW):
         return Source(read_lvm(path), "file of LabVIEW (LVM)")
     if head.startswith(LETTERS):

@@ -28,6 +28,7 @@ _PERIOD_IN_NAME = re.compile(
 )
 _WORDS = re.compile(r"[^\W_\d]+|\d+")
 _SECONDS, _NANOSECONDS = frozenset({"sec", "secs", "seconds"}), frozenset({"nanosec", "nsec", "nsecs", "nanoseconds"})
+SAME_PERIOD = 1e-3  # of it, within which `Ts` and `fs` beside each other are one
 ROW_TIMES = "(row times)"  # column: where a row stands, and then when it was
 
 
@@ -154,11 +155,14 @@ def tells_how_often(name: str) -> bool:
 def space_evenly(table: Table) -> Table:
     """Add a column of times where there is none, and one, or its first cell alone, says how often rows came: `fs`."""
     headings = [read_heading(name) for name in table.names]
-    told = [one for one in headings if tells_how_often(one.name) and (period := _period(table, one)) is not None]
+    periods = {one: _period(table, one) for one in headings if tells_how_often(one.name)}
+    told = [one for one, period in periods.items() if period is not None]
     others = [one for one in headings if one not in told]
-    if len(told) != 1 or any(one.quantity is Quantity.TIME for one in others):
+    if not told or any(one.quantity is Quantity.TIME for one in others):
         return table
-    period = _period(table, told[0]) or 0.0
+    period = periods[told[0]] or 0.0
+    if any(abs((periods[one] or 0.0) - period) > SAME_PERIOD * period for one in told):
+        return table
     time = np.arange(len(table)) * period
     note = f"No column of times: rows are {period * 1e3:.6g} ms apart, as {told[0].name} says (assumed)."
     cells = {"time [s]": time, **{one.name: table.column(one.name) for one in others}}

@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
+from motor_identification.logs.columns.said import Said
+from motor_identification.logs.form import Kind
 from motor_identification.logs.formats.matlab import read_matlab
+from motor_identification.logs.imported import import_log
 from motor_model.errors import RecordingError
 
 TIME = np.arange(50) * 0.01
@@ -130,3 +133,33 @@ def test_the_signals_of_a_scope(tmp_path: Path, labels: tuple[str, str], names: 
     table = read_matlab(tmp_path / "log.mat")
     assert table.names == names
     assert [float(table.numbers(name)[-1] / TIME[-1]) for name in names] == pytest.approx([1.0, 2.0, 3.0])
+
+
+def test_a_column_that_is_named_is_found_in_any_experiment(tmp_path: Path) -> None:
+    """A struct of experiments, of which the longest is taken unless the user names columns of another one."""
+    experiments = {
+        name: {"t": np.arange(count) * 0.01, "u": np.sign(np.sin(np.arange(count) * 0.05)), "wl": np.ones(count) * size}
+        for name, count, size in (("short", 400, 2.0), ("long", 900, 3.0))
+    }
+    savemat(tmp_path / "log.mat", {"data": experiments})
+    assert "data.long.u" in read_matlab(tmp_path / "log.mat").names
+    table = read_matlab(tmp_path / "log.mat", ("data.short.u",))
+    assert sorted(table.names) == ["data.short.t", "data.short.u", "data.short.wl"]
+    assert table.notes == ("Left out, as they have other lengths: data.long.t, data.long.u, data.long.wl.",)
+    wave = experiments["short"]
+    wave["speed"] = np.cumsum(wave["u"] - 0.1 * wave["t"])
+    savemat(tmp_path / "log.mat", {"data": experiments})
+    said = Said(voltage="data.short.u", motion="data.short.speed", kind=Kind.SPEED, unit="rad/s")
+    (motor,) = import_log(tmp_path / "log.mat", said).motors
+    assert sum(len(run.samples) for run in motor.log.runs) == 400
+
+
+def test_a_played_signal_is_put_beside_what_was_logged_meanwhile(tmp_path: Path) -> None:
+    """Simulink logs a sample more than the signal has that was played, and each has times of its own."""
+    volts = np.sign(np.sin(20.0 * TIME[:-1]))
+    savemat(tmp_path / "log.mat", {"t": TIME[:-1], "u": volts, "log": {"time": TIME, "speed": TIME * 5}})
+    table = read_matlab(tmp_path / "log.mat")
+    assert sorted(table.names) == ["log.speed", "time", "u"] and table.notes == ()
+    assert table.numbers("time") == pytest.approx(TIME)
+    (motor,) = import_log(tmp_path / "log.mat", Said(unit="rad/s")).motors
+    assert sum(len(run.samples) for run in motor.log.runs) == 50  # the last voltage holds

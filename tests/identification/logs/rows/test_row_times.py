@@ -194,6 +194,36 @@ def test_a_column_that_says_how_often_rows_came(name: str, cells: list[object], 
     assert space_evenly(timed) is timed
 
 
+@pytest.mark.parametrize(("rate", "period"), [(500.0, 0.002), (500.4, 0.002), (501.0, None)])
+def test_a_period_and_a_rate_that_agree_are_one(rate: float, period: float | None) -> None:
+    cells = {"u": np.ones(8), "Ts": np.full(8, 0.002), "fs": np.full(8, rate)}
+    given = Table(Path("log.csv"), np.arange(2, 10), cells)
+    spaced = space_evenly(given)
+    assert spaced.names == (["time [s]", "u"] if period else given.names)
+    if period:
+        assert spaced.numbers("time [s]") == pytest.approx(np.arange(8) * period)
+
+
+@pytest.mark.parametrize(
+    ("count", "sweeps", "asked"),
+    [(101, 4, False), (101, 6, True), (150, 0, False), (250, 0, True)],
+)
+def test_a_drive_that_goes_to_and_fro_is_no_steady_curve(tmp_path: Path, count: int, sweeps: int, asked: bool) -> None:
+    """Up and down twice is a steady curve, thrice is a wave; in any order, 250 are more than somebody takes by hand."""
+    place = np.arange(count)
+    volts = np.random.default_rng(3).uniform(0.0, 12.0, count)
+    if sweeps:
+        volts = 6.0 - 6.0 * np.cos(np.pi * sweeps * place / (count - 1)) + 1e-4 * place
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["u,speed [rad/s]", *(f"{u:.5f},{5 * u:.5f}" for u in volts)]) + "\n")
+    if asked:
+        with pytest.raises(RecordingError, match=r"u goes to and fro, .*--sample-period S .*; or --steady\."):
+            import_log(path, Said())
+    else:
+        assert any("--time, or --sample-period" in line for line in import_log(path, Said()).findings)
+    assert import_log(path, Said(steady=True)).motors
+
+
 @pytest.mark.parametrize(
     ("name", "bare", "period"),
     [

@@ -8,7 +8,7 @@ from motor_identification.logs.columns.behaviour.position import find_position
 from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_motion, lack_motion, miss_motion
-from motor_identification.logs.columns.vocabulary import FILTERED, MEASURED, RAW, UNITS, Quantity
+from motor_identification.logs.columns.vocabulary import BODIES, FILTERED, MEASURED, MOVES, RAW, UNITS, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
@@ -23,6 +23,7 @@ def find_motion_column(
     table: Table, headings: Sequence[Heading], side: str, time: str | None = None, unit: str | None = None
 ) -> str:
     """Name the column of motion; a unit that was said is one of its kind, if there is one."""
+    headings = _without_bodies(headings)
     told = UNITS[unit][0] if unit in UNITS else None
     for quantity in sorted(_BEST_FIRST, key=lambda one: one is not told):
         found = [one.name for one in headings if one.quantity is quantity and one.side == side]
@@ -52,6 +53,13 @@ def find_motion_column(
     if len(unnamed) > 1:
         raise ask_motion(table, headings, None, unnamed)
     raise lack_motion(table, time)
+
+
+def _without_bodies(headings: Sequence[Heading]) -> list[Heading]:
+    """Leave out the motions of what a motor moves, such as a pendulum, beside one that may be the motor's."""
+    of_bodies = [one for one in headings if one.quantity in MOVES and BODIES & set(one.words)]
+    others = [one for one in headings if one not in of_bodies]
+    return others if any(one.quantity in MOVES for one in others) else list(headings)
 
 
 def _is_summed_up(table: Table, name: str, others: Sequence[str]) -> bool:

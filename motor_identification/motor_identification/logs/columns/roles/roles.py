@@ -56,7 +56,7 @@ def find_roles(table: Table, said: Said) -> Roles:
         RecordingError: a column is not there, or which one is meant cannot be told: the sentence asks for it.
     """
     headings = [read_heading(name) for name in table.names if is_numeric(table, name)]
-    time = said.time or (None if said.steady else _time_of(table, headings))
+    time = said.time or (None if said.steady else _time_of(table, headings) or _clock_left(table, headings, said))
     if said.time:
         table.column(said.time)
     others = [heading for heading in headings if heading.name not in (time, said.supply)]
@@ -99,6 +99,18 @@ def _time_of(table: Table, headings: Sequence[Heading]) -> str | None:
     if dates and clock and correlate(table.numbers(clock), read_clock(table, dates)) > SAME_CLOCK:
         return clock
     return dates or clock
+
+
+def _clock_left(table: Table, headings: Sequence[Heading], said: Said) -> str | None:
+    """The only column that the user left, where he named drive and motion: times, if it goes on in every row.
+
+    However unevenly it does: rows come as a busy board sends them.
+    """
+    left = [one for one in headings if one.name not in (said.voltage, said.motion, said.supply)]
+    if not (said.voltage and said.motion) or len(left) != 1 or left[0].quantity is not None:
+        return None
+    values = table.numbers(left[0].name)
+    return left[0].name if len(values) > FEWEST_ROWS and bool(np.all(np.diff(values) > 0.0)) else None
 
 
 def _find_dates(table: Table) -> str | None:

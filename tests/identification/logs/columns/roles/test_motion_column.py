@@ -87,3 +87,13 @@ def test_of_several_speeds_the_one_with_a_unit_is_taken() -> None:
     assert vesc.pairs == (Pair("", "duty_cycle", "erpm"),)
     with pytest.raises(RecordingError, match="the speed\\? Say --speed and one of rpm_a, rpm_b"):
         find_roles(table(t="t", u="u", rpm_a="y", rpm_b="n"), Said())
+
+
+def test_a_pendulum_is_what_the_motor_moves() -> None:
+    """An angle comes before a speed, but for one of another body than the motor's shaft."""
+    pendulum = "Pendulum angle [rad]"
+    given = table(t="t", u="u", **{"Motor velocity [rad/s]": "y", pendulum: "n"})
+    assert find_roles(given, Said()).pairs == (Pair("", "u", "Motor velocity [rad/s]"),)
+    assert find_roles(table(t="t", u="u", **{pendulum: "n"}), Said()).pairs == (Pair("", "u", pendulum),)
+    angles = table(t="t", u="u", **{"arm angle [rad]": "y", pendulum: "n"})
+    assert find_roles(angles, Said()).pairs == (Pair("", "u", "arm angle [rad]"),)

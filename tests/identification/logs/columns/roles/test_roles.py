@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from log_columns import DRIVE, KINDS, MOVED, TIME, columns, table
+from log_columns import DRIVE, FOLLOWS, KINDS, MOVED, TIME, columns, table
 
 from motor_identification.logs.columns.drive import leave_out_idle_efforts
 from motor_identification.logs.columns.heading import read_heading
@@ -157,3 +157,15 @@ def test_the_motion_under_another_name_does_not_drive_it(changed: int, again: bo
             find_roles(found, Said())
     else:
         assert find_roles(found, Said()).pairs == (Pair("", "x", "speed"),)
+
+
+@pytest.mark.parametrize(("back", "time"), [(False, "c"), (True, None)])
+def test_the_column_that_is_left_is_the_clock_if_it_always_goes_on(back: bool, time: str | None) -> None:
+    """Where the user named drive and motion; rows may come four times as far apart as others."""
+    steps = np.random.default_rng(2).choice([0.001, 0.004], 200)
+    clock = np.cumsum(steps)
+    if back:
+        clock[100] = clock[98]
+    given = columns(a=FOLLOWS, b=DRIVE, c=clock)
+    assert find_roles(given, Said(voltage="b", motion="a")).time == time
+    assert find_roles(columns(**given.cells, d=np.sin(TIME)), Said(voltage="b", motion="a")).time is None
