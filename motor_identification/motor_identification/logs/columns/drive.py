@@ -21,8 +21,9 @@ LEAST_LEVELS = 2
 
 # What a duty column shows at full duty: shares, per cent, and the registers of timers.
 FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
-# Full duties where they are reached: of VEX and of motor controllers on a serial line, and of Pololu's motor drivers.
-FULL_WHERE_REACHED = (127.0, 400.0)
+# Full duties where they are reached: of VEX and of motor controllers on a serial line, of Pololu's motor drivers,
+# and of timers of 11 bits: half of 12 bits is 2048 or 2000 to whoever writes it.
+FULL_WHERE_REACHED = (127.0, 400.0, 2047.0)
 _PER_CENT = frozenset({"duty", "power", "throttle", "output", "effort", "control"})
 # What is written to a timer, or a share by its name; a command of another name may be in volts.
 _TIMERS = words_of(

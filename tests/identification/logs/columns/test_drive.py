@@ -148,3 +148,8 @@ def test_an_esc_gets_pulses_and_no_duty(largest: float, pulse: bool) -> None:
     drive = duty_drive(read_heading("ESC signal"), np.array([0.0, largest]))
     assert ("ESC's pulse" in drive.why) == pulse == (not drive.sure)
     assert duty_drive(read_heading("pwm"), np.array([0.0, largest])).sure
+
+
+@pytest.mark.parametrize(("largest", "full"), [(2046.0, 4095.0), (2047.0, 2047.0), (2048.0, 4095.0)])
+def test_a_timer_of_eleven_bits_is_known_where_it_is_full(largest: float, full: float) -> None:
+    assert duty_drive(read_heading("PWM"), np.array([0.0, 100.0, largest])).full == full
