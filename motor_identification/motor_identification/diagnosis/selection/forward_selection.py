@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refit_without
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, share_explained
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
@@ -19,7 +20,11 @@ from motor_identification.diagnosis.effect_test import (
     list_candidates,
     try_effects,
 )
-from motor_identification.diagnosis.selection.promised_pairs import find_promised_pair, promises_anything
+from motor_identification.diagnosis.selection.promised_pairs import (
+    find_promised_pair,
+    list_promised,
+    promises_anything,
+)
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
@@ -106,8 +111,8 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
         gap = min(test.model.held.gap, current.held.gap)
         reporter.report(f"step {number}: {test.effect}", share, test.effect, gap)
 
-    quiet = current.quiet and not (current.beside_torque and promises_anything(current))
-    plain = [] if quiet else [effect for effect in left if not _is_periodic(effect)]
+    hopeful = _list_promised(current) if current.quiet else left
+    plain = [effect for effect in left if effect in hopeful and not _is_periodic(effect)]
     tests = try_effects(current, selection.hold_out, plain, selection.workers, heard)
     best = choose_finding(tests)
     if best is None or best.model.above_floor:
@@ -116,6 +121,14 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
             least = max((test.evidence for test in tests), default=0.0)
             tests += try_effects(current, selection.hold_out, [effect], selection.workers, heard, max(least, 0.0))
     return sorted(tests, key=lambda test: -test.evidence)
+
+
+def _list_promised(model: Model) -> list[str]:
+    """List what is promised where nothing that lasts is left, which likelihoods beside a torque tell alone.
+
+    Anything else that is found there takes up what is missing: a limit what a friction on a coasting bridge leaves.
+    """
+    return list_promised(model) if model.beside_torque else []
 
 
 def _is_periodic(effect: str) -> bool:

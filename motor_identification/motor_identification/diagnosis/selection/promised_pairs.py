@@ -43,6 +43,11 @@ def promises_anything(model: Model) -> bool:
     return bool(list_likely(singles, 1) or list_likely(pairs, 2))
 
 
+def list_promised(model: Model) -> list[str]:
+    """List the effects that are promised to be likely alone."""
+    return [one.effects[0] for one in list_likely(scan_promises(model)[0], 1)]
+
+
 def list_likely(promises: Iterable[Promise], count: int) -> list[Promise]:
     """List the promises of so many effects each that would be likely."""
     return [one for one in promises if one.gain > count * likelihood_threshold()]

@@ -80,6 +80,7 @@ class Fake:
         names = ["coulomb_friction", "load_bias"]
         monkeypatch.setattr(forward_selection, "list_candidates", lambda effects, judged, beside_torque: names)
         monkeypatch.setattr(forward_selection, "promises_anything", lambda model: False)
+        monkeypatch.setattr(forward_selection, "list_promised", lambda model: [])
         monkeypatch.setattr(Model, "effects", ())
 
     def try_effects(self, current: Model, hold_out: Any, effects: list[str], *rest: Any) -> list[CandidateTest]:
@@ -175,18 +176,21 @@ def test_it_is_told_where_something_is_promised_at_the_floor(
     assert found.refused is refused and found.model.at_floor is (gap < 1.0)
 
 
-@pytest.mark.parametrize(("beside", "promised", "tried"), [(True, True, 2), (True, False, 0), (False, True, 0)])
+@pytest.mark.parametrize(
+    ("beside", "promised", "tried"),
+    [(True, ["load_bias"], ["load_bias"]), (True, [], []), (False, ["load_bias"], []), (True, ["warm_up"], [])],
+)
 def test_what_leaves_nothing_that_lasts_is_given_only_what_is_promised(
-    beside: bool, promised: bool, tried: int, monkeypatch: pytest.MonkeyPatch
+    beside: bool, promised: list[str], tried: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     fake = Fake(monkeypatch, [])
-    monkeypatch.setattr(forward_selection, "promises_anything", lambda model: promised)
+    monkeypatch.setattr(forward_selection, "list_promised", lambda model: promised)
     monkeypatch.setattr(forward_selection, "find_promised_pair", lambda selection: [])
     errors = ErrorModel(0.0, 0.0, 0.0, 1.0)
     quiet = replace(stub_model(0.9, 0.0), learned=errors if beside else None)
     assert quiet.quiet
     select_forward(selection_of(quiet), SILENT)
-    assert sum(map(len, fake.tried)) == tried
+    assert [effect for effects in fake.tried for effect in effects] == tried
 
 
 @pytest.mark.parametrize("beside", [True, False])
