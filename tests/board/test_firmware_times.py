@@ -41,7 +41,8 @@ def test_every_edge_has_its_exact_time(bench: Bench) -> None:
     def spy(until: int):  # type: ignore[no-untyped-def]
         planned = plan(until)
         known = bench.emulator.shaft._cycle
-        edges[:] = [cycle for cycle in edges if cycle <= known] + planned.cycle.tolist()
+        # One that comes as the plan is made anew is in both plans; the chip sees it once.
+        edges[:] = sorted({*(cycle for cycle in edges if cycle <= known), *planned.cycle.tolist()})
         return planned
 
     bench.emulator.shaft.plan = spy  # type: ignore[method-assign]
