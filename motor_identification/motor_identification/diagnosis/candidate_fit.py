@@ -21,7 +21,7 @@ from motor_identification.noise.error_model import ErrorModel
 from motor_identification.noise.gain_learning import learn_errors_of_runs
 from motor_identification.noise.likelihood import estimate_noise, log_likelihood
 from motor_identification.validation.hold_out import HoldOut
-from motor_model.effects import EFFECT_BY_NAME, normalised
+from motor_model.effects import EFFECT_BY_NAME
 
 END_ITERATIONS, END_TOLERANCE = 60, 1e-12
 
@@ -84,7 +84,7 @@ def fit_again(model: Model, hold_out: HoldOut) -> Model:
 def fit_constant(model: Model, effect: str, constant: str, hold_out: HoldOut) -> Model:
     """Fit a model again with a constant effect in the place of one that began, of the same size to begin with."""
     bare, size = drop_effect(model.estimate, effect), EFFECT_BY_NAME[effect].parameters[0].name
-    larger = bare.problem.with_effects(normalised((*bare.problem.unknowns.effects, constant)))
+    larger = bare.problem.adding(constant)
     values = {EFFECT_BY_NAME[constant].parameters[0].name: np.array(model.estimate.parameters.value(size))}
     theta = map_theta(bare.problem.unknowns, bare.theta, larger.unknowns, values)
     return fit_again(validate_model(hold_out, Estimate(larger, theta, bare.simulations), model), hold_out)

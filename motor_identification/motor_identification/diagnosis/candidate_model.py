@@ -141,11 +141,16 @@ class Model:
         return self.lasting.gap > thresholds.LASTING_GAP * self.lasting.floor(self.noise.share)
 
     @cached_property
+    def errors_beside_torque(self) -> ErrorModel:
+        """What sensor and random torque leave in the training data."""
+        return self.learned or learn_errors(self.estimate)
+
+    @property
     def errors(self) -> ErrorModel:
-        """What sensor and random torque leave in the training data; only the sensor where it explains what is left."""
-        if self.learned is not None:
-            return self.learned
-        return learn_errors(self.estimate) if self.above_floor else ErrorModel(self.noise.share, 0.0, 0.0, 1.0)
+        """The same; only the sensor where it explains what is left, and nothing was learned."""
+        if self.learned is None and not self.above_floor:
+            return ErrorModel(self.noise.share, 0.0, 0.0, 1.0)
+        return self.errors_beside_torque
 
     @cached_property
     def structure(self) -> tuple[Structure, ...]:

@@ -10,7 +10,7 @@ from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
 from motor_identification.diagnosis.evidence.standstill_evidence import was_held
 from motor_identification.diagnosis.evidence.torque_evidence import measure_speaking, measure_steadiness
 from motor_identification.validation.held_out import HeldOut
-from motor_identification.validation.instants import needs_instant
+from motor_identification.validation.instants import comes_slowly, needs_instant
 from motor_model.effects import EFFECT_BY_NAME, LAGS
 
 
@@ -92,7 +92,7 @@ class CandidateTest:
 
     @property
     def _comes_slowly_as_seen(self) -> bool:
-        return self.before.held.seen and EFFECT_BY_NAME[self.effect].anywhere and not needs_instant(self.effect)
+        return self.before.held.seen and comes_slowly(self.effect)
 
     @cached_property
     def relevant(self) -> bool:

@@ -17,7 +17,12 @@ from motor_identification.measurement.command_swing import is_sweep
 from motor_identification.recording import Floats
 from motor_identification.validation.held_out import HeldOut
 from motor_identification.validation.hold_out import HoldOut
-from motor_identification.validation.instants import list_first_motions, list_instant_columns, needs_instant
+from motor_identification.validation.instants import (
+    comes_slowly,
+    list_first_motions,
+    list_instant_columns,
+    needs_instant,
+)
 from motor_model.effect import Effect
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -48,16 +53,12 @@ def list_candidates(effects: Sequence[str], judged: HeldOut | None = None, besid
 def _can_be_judged(effect: Effect, judged: HeldOut, beside_torque: bool) -> bool:
     if effect.on_disc and not any(data.tells_of_disc for data in judged.intervals):
         return False
-    if _comes_slowly(effect) and judged.recordings and all(map(is_sweep, judged.recordings)):
+    if comes_slowly(effect.name) and judged.recordings and all(map(is_sweep, judged.recordings)):
         return False
     if not judged.seen or not (effect.anywhere or effect.periodic):
         return True
     once = (needs_instant(effect.name) or beside_torque) and len(judged.recordings) == 1
     return judged.confirms and (effect.periodic or once)
-
-
-def _comes_slowly(effect: Effect) -> bool:
-    return effect.anywhere and not needs_instant(effect.name)
 
 
 def try_effects(

@@ -4,7 +4,7 @@ import numpy as np
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import judge_beside_torque
-from motor_identification.diagnosis.candidate_model import Model, learn_errors
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import likelihood_threshold
 from motor_identification.diagnosis.selection.selection import SelectionStep
 from motor_identification.noise.run_gain import FEWEST_RUNS
@@ -15,7 +15,7 @@ from motor_identification.validation.hold_out import HoldOut
 def gains_may_differ(model: Model) -> bool:
     """Decide whether what a model leaves of several runs is likelier where each has a gain of its own."""
     several = len(model.estimate.problem.recordings) >= FEWEST_RUNS
-    return several and (model.learned or learn_errors(model.estimate)).gain > 0.0
+    return several and model.errors_beside_torque.gain > 0.0
 
 
 def may_be_of_gains(step: SelectionStep, hold_out: HoldOut) -> bool:

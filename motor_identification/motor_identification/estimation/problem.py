@@ -17,7 +17,7 @@ from motor_identification.measurement.request_checks import check_effects
 from motor_identification.measurement.time_blocks import TimeBlocks
 from motor_identification.progress import Stopped
 from motor_identification.recording import Bools, Floats, Recording
-from motor_model.effects import INDEX
+from motor_model.effects import INDEX, normalised
 from motor_model.errors import RecordingError
 from motor_model.sensing.encoder import show
 from motor_model.simulate import NOWHERE, roll_out
@@ -64,6 +64,10 @@ class Problem:
     def with_effects(self, effects: tuple[str, ...]) -> "Problem":
         """The problem with other unknowns."""
         return replace(self, unknowns=make_unknowns(self.recordings, effects))
+
+    def adding(self, *effects: str) -> "Problem":
+        """The problem with more effects, in the table's order."""
+        return self.with_effects(normalised((*self.unknowns.effects, *effects)))
 
     def on_measured_angle(self, theta: Floats, effects: tuple[str, ...]) -> "Problem":
         """The problem with other effects, on the measured angle; a fitted θ (D,) bridges its gaps."""

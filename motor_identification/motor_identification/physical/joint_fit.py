@@ -14,7 +14,7 @@ from motor_identification.physical.current_samples import CurrentSamples
 from motor_identification.physical.residuals import ElectricalResiduals, simulate_currents
 from motor_identification.physical.unknowns import ElectricalUnknowns, add_electrical_unknowns, join_theta
 from motor_identification.recording import Floats
-from motor_model.effects import EFFECTS, normalised
+from motor_model.effects import EFFECTS
 from motor_model.errors import RecordingError
 
 TURNS = 4  # that fit, encoders and noise of the current are learned from each other
@@ -71,7 +71,7 @@ def fit_with_current(fit: WhitenedFit, currents: tuple[CurrentSamples, ...]) -> 
 
 def add_inductance(fit: WhitenedFit) -> list[WhitenedFit]:
     """Add an inductance to a fit of the motion: one start for each of its local minima; not fitted."""
-    problem = fit.problem.with_effects(normalised((*fit.problem.unknowns.effects, INDUCTANCE.name)))
+    problem = fit.problem.adding(INDUCTANCE.name)
     (spec,) = INDUCTANCE.parameters
     sizes = [share * spec.scale.of(problem.unknowns.extent) for share in spec.starts]
     thetas = [map_theta(fit.problem.unknowns, fit.theta, problem.unknowns, {LAG: np.array(size)}) for size in sizes]

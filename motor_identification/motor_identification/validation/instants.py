@@ -18,6 +18,11 @@ def needs_instant(effect: str) -> bool:
     return any(spec.is_instant for spec in EFFECT_BY_NAME[effect].parameters)
 
 
+def comes_slowly(effect: str) -> bool:
+    """Tell whether an effect comes over all of a recording, and so at no instant, but not in a few pieces either."""
+    return EFFECT_BY_NAME[effect].anywhere and not needs_instant(effect)
+
+
 def list_instants(estimate: Estimate) -> tuple[list[float], ...]:
     """List the instants [s] of every recording at which something begins in a motor, such as a load step."""
     unknowns = estimate.problem.unknowns

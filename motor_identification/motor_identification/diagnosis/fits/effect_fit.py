@@ -25,7 +25,7 @@ from motor_identification.noise.error_model import ErrorModel
 from motor_identification.periodic import periodic_fit
 from motor_identification.recording import Floats
 from motor_identification.validation.instants import list_instant_columns, needs_instant, try_instants
-from motor_model.effects import EFFECT_BY_NAME, normalised
+from motor_model.effects import EFFECT_BY_NAME
 
 QUICK_SAMPLES = 4.0  # of the intervals of a quick look from every start,
 QUICK_ITERATIONS, QUICK_TOLERANCE = 10, 1e-4  # which shall only tell the starts apart
@@ -47,7 +47,7 @@ def fit_with_effect(
     if EFFECT_BY_NAME[effect].periodic:
         periodic = periodic_fit.add_periodic_effect(estimate, effect, max(least, LEAST_GAIN), freely=errors is None)
         return periodic if errors is None or periodic is None else fit_beside_torque(periodic, errors)
-    larger = estimate.problem.with_effects(normalised((*estimate.problem.unknowns.effects, effect)))
+    larger = estimate.problem.adding(effect)
     quick, bare = larger.coarsen(QUICK_SAMPLES), estimate.problem.coarsen(QUICK_SAMPLES)
     look = _make_target(estimate.on(bare), errors)
     best, start, spent = np.inf, estimate.theta, estimate.simulations
@@ -68,7 +68,7 @@ def fit_with_effect(
 
 def fit_promised(estimate: Estimate, promise: Promise, errors: ErrorModel) -> Estimate:
     """Fit a motor beside a random torque with the effects of a promise more, from the sizes that it has."""
-    larger = estimate.problem.with_effects(normalised((*estimate.problem.unknowns.effects, *promise.effects)))
+    larger = estimate.problem.adding(*promise.effects)
     sizes = {name: size for one in promise.sizes for name, size in one.items()}
     begin = Estimate(larger, start_with(estimate, larger, sizes), estimate.simulations)
     target = replace(make_disturbed_residuals(estimate, errors), problem=larger)
@@ -136,5 +136,5 @@ def promises_gain(before: float, after: float, count: int, white: bool) -> bool:
 
 def add_noticeable_effect(estimate: Estimate, effect: str) -> Estimate:
     """Add an effect to a fitted motor, of a size that would matter to its user; not fitted."""
-    larger = estimate.problem.with_effects(normalised((*estimate.problem.unknowns.effects, effect)))
+    larger = estimate.problem.adding(effect)
     return Estimate(larger, list_starts(estimate, larger)[0].theta, estimate.simulations)

@@ -18,7 +18,7 @@ from motor_identification.diagnosis.fits.starts import list_starts
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.recording import Floats
-from motor_model.effects import EFFECT_BY_NAME, normalised
+from motor_model.effects import EFFECT_BY_NAME
 
 LEAST_SHARE = 1e-6  # of a column's power, that the fitted parameters leave: the rest is rounding
 SINGULAR = 1e-4  # of the larger of two columns, which the other leaves: they are one column
@@ -65,7 +65,7 @@ def scan_scores(
         none = _find_none(effect, estimate)
         if not np.isfinite(none):
             continue
-        larger = estimate.problem.with_effects(normalised((*estimate.problem.unknowns.effects, effect)))
+        larger = estimate.problem.adding(effect)
         for sizes, theta in list_starts(estimate, larger):
             change = replace(target, problem=larger).residuals(theta) - white
             left = change - taken @ (taken.T @ change)

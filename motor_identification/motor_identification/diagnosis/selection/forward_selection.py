@@ -9,7 +9,6 @@ from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refit_without
-from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold, share_explained
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
@@ -42,12 +41,13 @@ def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool
             step = SelectionStep(selection.model, best, tuple(tests), find_rivals(best, tests), best.explains)
             selection = selection.add([step])
             continue
+        plain = not selection.model.beside_torque
         refused = any(is_supported(test) and not test.relevant for test in tests)
-        refused = refused or (selection.model.at_floor and promises_anything(selection.model))
-        selection = replace(selection, refused=refused)
+        refused = refused or (plain and selection.model.at_floor and promises_anything(selection))
         pair = find_pair(selection, tests, reporter) if pairs and may_hide_pair(selection) else []
-        if not pair and pairs and selection.model.beside_torque and _may_add_pair(selection):
+        if not pair and pairs and not plain and _may_add_pair(selection):
             pair = find_promised_pair(selection)
+        selection = replace(selection, refused=refused)
         if not pair:
             return selection
         further = select_forward(selection.add(pair), reporter, pairs=False)
@@ -111,7 +111,7 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
         gap = min(test.model.held.gap, current.held.gap)
         reporter.report(f"step {number}: {test.effect}", share, test.effect, gap)
 
-    hopeful = _list_promised(current) if current.quiet else left
+    hopeful = _list_promised(selection) if current.quiet else left
     plain = [effect for effect in left if effect in hopeful and not _is_periodic(effect)]
     tests = try_effects(current, selection.hold_out, plain, selection.workers, heard)
     best = choose_finding(tests)
@@ -123,12 +123,12 @@ def _try_all_effects(selection: Selection, reporter: ProgressReporter) -> list[C
     return sorted(tests, key=lambda test: -test.evidence)
 
 
-def _list_promised(model: Model) -> list[str]:
+def _list_promised(selection: Selection) -> list[str]:
     """List what is promised where nothing that lasts is left, which likelihoods beside a torque tell alone.
 
     Anything else that is found there takes up what is missing: a limit what a friction on a coasting bridge leaves.
     """
-    return list_promised(model) if model.beside_torque else []
+    return list_promised(selection) if selection.model.beside_torque else []
 
 
 def _is_periodic(effect: str) -> bool:

@@ -8,44 +8,27 @@ from collections.abc import Iterable
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refine_beside_torque, refit_without, validate_model
-from motor_identification.diagnosis.candidate_model import Model, learn_errors
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
     EFFECT_ORDER,
     choose_finding,
     count_parameters,
-    list_candidates,
     sort_by_table,
 )
 from motor_identification.diagnosis.fits.effect_fit import fit_promised
-from motor_identification.diagnosis.fits.score_scan import Promise, scan_scores
+from motor_identification.diagnosis.fits.score_scan import Promise
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
-from motor_identification.validation.instants import needs_instant
-from motor_model.effects import EFFECT_BY_NAME
 
 
-def scan_promises(model: Model) -> tuple[tuple[Promise, ...], tuple[Promise, ...]]:
-    """Scan what each effect that a model can be given, and each two, would gain beside what it leaves; best first.
-
-    Not what has a phase or an instant, which have scans of their own.
-    """
-    left = [
-        effect
-        for effect in list_candidates(model.effects, model.held, model.beside_torque)
-        if not EFFECT_BY_NAME[effect].periodic and not needs_instant(effect)
-    ]
-    return scan_scores(model.estimate, model.learned or learn_errors(model.estimate), left)
-
-
-def promises_anything(model: Model) -> bool:
+def promises_anything(selection: Selection) -> bool:
     """Decide whether one effect more, or two, are promised to be likely."""
-    singles, pairs = scan_promises(model)
+    singles, pairs = selection.promises
     return bool(list_likely(singles, 1) or list_likely(pairs, 2))
 
 
-def list_promised(model: Model) -> list[str]:
+def list_promised(selection: Selection) -> list[str]:
     """List the effects that are promised to be likely alone."""
-    return [one.effects[0] for one in list_likely(scan_promises(model)[0], 1)]
+    return [one.effects[0] for one in list_likely(selection.promises[0], 1)]
 
 
 def list_likely(promises: Iterable[Promise], count: int) -> list[Promise]:
@@ -63,7 +46,7 @@ def list_joint(singles: tuple[Promise, ...], pairs: tuple[Promise, ...]) -> list
 
 def find_promised_pair(selection: Selection) -> list[SelectionStep]:
     """Find the two effects of which each is a finding beside the other, as two steps, if there are such."""
-    pairs = list_joint(*scan_promises(selection.model))
+    pairs = list_joint(*selection.promises)
     least = max((one.gain for one in pairs), default=0.0) - thresholds.RIVAL_MARGIN
     found = [_try_pair(selection, one) for one in pairs[: thresholds.PROMISES_TRIED] if one.gain >= least]
     likely = [steps for steps in found if steps]

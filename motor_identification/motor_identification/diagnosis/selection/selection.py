@@ -2,20 +2,25 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import sqrt
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import judge_beside_torque, validate_model
-from motor_identification.diagnosis.candidate_model import Model, learn_errors
+from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest
+from motor_identification.diagnosis.effect_test import list_candidates
 from motor_identification.diagnosis.fits.disturbed_fit import fit_beside_torque
 from motor_identification.diagnosis.fits.effect_fit import place_instants
+from motor_identification.diagnosis.fits.score_scan import Promise, scan_scores
 from motor_identification.discrepancy.structure import Structure
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.least_squares import fit_speeds, measure_scatter
 from motor_identification.estimation.miscounts import exclude_miscounts, find_miscounts, fit_robustly
 from motor_identification.validation.hold_out import HoldOut
+from motor_identification.validation.instants import needs_instant
+from motor_model.effects import EFFECT_BY_NAME
 
 
 @dataclass(frozen=True)
@@ -50,6 +55,20 @@ class Selection:
         """Whether nothing is left that can be predicted, and no effect was dropped that stood in for something."""
         return self.model.complete and self.outside is None
 
+    @cached_property
+    def promises(self) -> tuple[tuple[Promise, ...], tuple[Promise, ...]]:
+        """What each effect that its model can be given, and each two, would gain beside what it leaves; best first.
+
+        Not what has a phase or an instant, which have scans of their own.
+        """
+        model = self.model
+        left = [
+            effect
+            for effect in list_candidates(model.effects, model.held, model.beside_torque)
+            if not EFFECT_BY_NAME[effect].periodic and not needs_instant(effect)
+        ]
+        return scan_scores(model.estimate, model.errors_beside_torque, left)
+
     def add(self, steps: Sequence[SelectionStep]) -> "Selection":
         """Add steps, and fit the model that they lead to once more on corrected recordings."""
         last, every = steps[-1].found.model, (*self.steps, *steps)
@@ -71,7 +90,7 @@ def begin_beside_torque(
 
     Nothing is left out: the density of what is left has wide tails.
     """
-    errors = model.learned or learn_errors(model.estimate)
+    errors = model.errors_beside_torque
     estimate = place_instants(fit_beside_torque(correct_directions(model.estimate), errors), errors)
     hold_out = hold_out.correct_directions(estimate)
     again = judge_beside_torque(validate_model(hold_out, estimate), hold_out, errors, thresholds.FINAL_EVALUATIONS)

@@ -47,9 +47,9 @@ def test_no_pair_is_made_of_one_or_none(hidden: dict[str, float]) -> None:
 
 @pytest.mark.parametrize(("hidden", "more"), [({}, False), ({"ks": 0.5}, True), (HIDING, True)])
 def test_what_is_missing_is_promised_at_the_floor_too(hidden: dict[str, float], more: bool) -> None:
-    assert promises_anything(begun(**hidden).model) is more
+    assert promises_anything(begun(**hidden)) is more
     alone = {"load_bias", "coulomb_friction", "dead_zone"} if hidden == {"ks": 0.5} else set()
-    assert set(list_promised(begun(**hidden).model)) == alone  # a motor that turns one way does not tell these apart
+    assert set(list_promised(begun(**hidden))) == alone  # a motor that turns one way does not tell these apart
 
 
 @pytest.mark.parametrize(("count", "effects"), [(1, ("load_bias",)), (2, ("load_bias", "supply_sag"))])
