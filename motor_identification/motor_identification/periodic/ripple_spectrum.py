@@ -8,7 +8,7 @@ best of those.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import tau
 
 import numpy as np
@@ -25,10 +25,10 @@ from motor_model.effects import SPEC_BY_NAME
 POINTS_PER_LINE = 4.0  # grid points to the width of a line
 ROUGH_PEAKS, PEAK_REACH = 32, 2.0  # of the rough spectrum, and how many of its grid points around each are searched
 FINE_CANDIDATES = 3  # of those, which are searched in the whole recording
-KNOT_DISTANCE = 16  # grid points
-# Cycles between two knots, at least, and as a share of the cycles: where grid points are further apart than those that
-# lines of a whole turn need, 16 of them are too far. Measured: 2 % off where knots are that far apart.
-KNOT_CYCLES, KNOT_SHARE = 4.0, 0.02
+# Between two knots: grid points, or cycles where grid points are further apart than those that lines of a whole turn
+# need; and a share of the cycles where that is more. Measured: 2 % off where knots are that far apart.
+KNOT_DISTANCE, KNOT_CYCLES, KNOT_SHARE = 16, 4.0, 0.02
+KNOT_TOLERANCE = 0.01  # that a disc's table is solved within there. Measured: responses' squares are 0.2 % off
 LEAST_TURNS = 0.01  # of travel: less is no turning
 SPILLED = 2.0  # times the sum of a block's white squares: no more of it is explained, as whitening mixes neighbours
 # Numbers of cycles, from the most on, of which the finest that could be seen is; and what is tried beside each.
@@ -146,13 +146,14 @@ def _powers(run: WhitenedRun, cycles: Floats, block: Integers, most: float, go_o
     """The same in one recording.
 
     The products with the residual are exact; those of the responses among themselves change slowly with the cycles, and
-    are had at every KNOT_DISTANCE-th only. Where whole waves pass between two rows next to nothing answers, and only a
+    are had at some (`place_knots`) only. Where whole waves pass between two rows next to nothing answers, and only a
     ripple of many volts would explain anything: its size has a prior, of a standard deviation of `most`. And no block
     has more explained than is there, which products that spill over from the next one would.
     """
     there = SPILLED * np.bincount(block, run.white**2)
     places = place_knots(cycles)
-    shapes = np.array([run.sum_products(knot, block) for knot in cycles[places]])
+    rough = replace(run, encoder=run.encoder.within(KNOT_TOLERANCE))
+    shapes = np.array([rough.sum_products(knot, block) for knot in cycles[places]])
     knots = 0.5 * (shapes[:, :, 0] + shapes[:, :, 2])  # sine and cosine are as good as independent in every block
     powers: list[Floats] = []
     done = 0
@@ -170,13 +171,13 @@ def _powers(run: WhitenedRun, cycles: Floats, block: Integers, most: float, go_o
 
 
 def place_knots(cycles: Floats) -> Integers:
-    """Place the knots among numbers of cycles (C,), as indices: every 16th, or closer where the grid is coarse."""
-    places = np.arange(0, len(cycles), KNOT_DISTANCE)
-    if len(cycles) < 2 or KNOT_DISTANCE * (cycles[1] - cycles[0]) <= KNOT_CYCLES:
-        return places
+    """Place the knots among evenly spaced numbers of cycles (C,), as indices: closer where cycles are few."""
+    if len(cycles) < 2:
+        return np.arange(len(cycles))
+    least = min(KNOT_DISTANCE * (cycles[1] - cycles[0]), KNOT_CYCLES)
     chosen = [0]
     while chosen[-1] < len(cycles) - 1:
-        next_one = cycles[chosen[-1]] + max(KNOT_CYCLES, KNOT_SHARE * cycles[chosen[-1]])
+        next_one = cycles[chosen[-1]] + max(least, KNOT_SHARE * cycles[chosen[-1]])
         chosen.append(min(max(int(np.searchsorted(cycles, next_one)), chosen[-1] + 1), len(cycles) - 1))
     return np.array(chosen)
 

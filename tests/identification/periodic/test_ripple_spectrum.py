@@ -182,8 +182,12 @@ def test_a_line_is_as_wide_as_the_motion_is_short(turns: float, width: float) ->
 
 
 def test_knots_are_no_further_apart_than_responses_change() -> None:
-    fine = np.arange(1.0, 100.0, 0.25)
-    assert place_knots(fine).tolist() == list(range(0, len(fine), 16))
+    fine = np.arange(1.0, 300.0, 0.25)
+    places = place_knots(fine)
+    few = places[fine[places] < 16 * 0.25 / KNOT_SHARE]  # where a share of them is less than 16 points
+    assert few.tolist() == list(range(0, len(few) * 16, 16)) and len(few) > 40
+    apart = np.diff(fine[places[len(few) :]])
+    assert np.all(apart <= KNOT_SHARE * fine[places[len(few) : -1]] + 0.25) and np.max(apart) > 5.0
     coarse = np.arange(1.0, 2000.0, 6.25)
     places = place_knots(coarse)
     assert places[0] == 0 and places[-1] == len(coarse) - 1 and np.all(np.diff(places) > 0)

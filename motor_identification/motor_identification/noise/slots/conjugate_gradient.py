@@ -7,7 +7,7 @@ entries are many each has little part in that: preconditioned by its diagonal (M
 Bur. Standards 49, 1952), some ten products give all digits that a fit uses.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -93,13 +93,18 @@ class IterativeSolver:
     root: Floats  # U (C, 2N), see `eigenmodes.py`
     diagonal: Floats  # (2N,) [1/rad²] about what the recording knows of each entry
     seen: Bools  # (2N,)
+    tolerance: float = TOLERANCE
+
+    def within(self, tolerance: float) -> "IterativeSolver":
+        """Solve up to a tolerance, a share of the right-hand side."""
+        return replace(self, tolerance=tolerance)
 
     def coordinates(self, scores: Floats, variance: float, guess: Floats | None = None) -> Floats:
         """Compute y (2N,) from Aᵀz (2N,), from a guess on, such as the solution for another variance [rad²]."""
         solution = np.zeros(len(scores)) if guess is None else guess.copy()
         right = np.array(scores)
         reduce_by(self.root, right)
-        fill_solution(*self.filter, self.root, self.diagonal, 1.0 / variance, right, TOLERANCE, MOST_PRODUCTS, solution)
+        fill_solution(*self.filter, self.root, self.diagonal, 1.0 / variance, right, self.tolerance, MOST_PRODUCTS, solution)
         return solution
 
     def table(self, coordinates: Floats) -> Floats:

@@ -34,6 +34,10 @@ class Modes:
     values: Floats  # [1/rad²] what the recording knows of each
     blocks: tuple[Block, ...]
 
+    def within(self, tolerance: float) -> "Modes":  # noqa: ARG002
+        """Solve up to a tolerance: eigenmodes are exact, whatever it is."""
+        return self
+
     def coordinates(self, scores: Floats, variance: float, guess: Floats | None = None) -> Floats:  # noqa: ARG002
         """Compute the table's coordinates (2N,) from Aᵀz (2N,) over entries, under a prior's variance [rad²].
 

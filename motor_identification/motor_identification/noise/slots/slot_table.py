@@ -17,7 +17,7 @@ import numpy as np
 
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.noise.angle_noise import Whitening
-from motor_identification.noise.slots.conjugate_gradient import IterativeSolver
+from motor_identification.noise.slots.conjugate_gradient import TOLERANCE, IterativeSolver
 from motor_identification.noise.slots.eigenmodes import Modes, compute_eigenmodes, forbidden_shapes, prior_root
 from motor_identification.noise.slots.normal_equations import fill_diagonal, fill_explained, fill_gram, fill_scores
 from motor_identification.recording import Bools, Floats, Integers
@@ -152,15 +152,21 @@ class Projection:
 
     table: SlotTable
     variance: float
+    tolerance: float = TOLERANCE  # that a table of many slots is solved within
+
+    @property
+    def solver(self) -> Modes | IterativeSolver:
+        """What solves for the table within the tolerance."""
+        return self.table.solver.within(self.tolerance)
 
     def best(self, white: Floats) -> Floats:
         """Compute the most likely table [rad] for whitened residuals (I,), shape (2N,)."""
-        solver = self.table.solver
+        solver = self.solver
         return solver.table(solver.coordinates(self.table.scores(white), self.variance))
 
     def __call__(self, white: Floats) -> Floats:
         """(I,) → (I + 2N,): what is left, then the table's own share of the cost."""
-        solver = self.table.solver
+        solver = self.solver
         coordinates = solver.coordinates(self.table.scores(white), self.variance)
         left = self.table.left(white, solver.table(coordinates))
         return np.concatenate([left, coordinates / np.sqrt(self.variance)])
