@@ -34,17 +34,20 @@ ENDS = (0.02, 0.98)  # quantiles of the speeds, between which slots are tried
 
 def find_slot_by_stays(time: Floats, speed: Floats) -> float:
     """Find the slot [rad] over whose times speeds (K,) [rad/s] at times (K,) [s] were computed; 0 where none shows."""
-    changed = np.flatnonzero((np.diff(speed) != 0.0) & (speed[1:] != 0.0)) + 1
+    changed = _list_changed(speed)
     if len(changed) < FEWEST:
         return 0.0
-    row = float(np.median(np.diff(time)))
-    low, high = np.quantile(np.abs(speed[changed]), ENDS) * row
+    low, high = np.quantile(np.abs(speed[changed]), ENDS) * float(np.median(np.diff(time)))
     slots = low * GRID ** np.arange(log(LONGEST * high / low) / log(GRID))
-    fine = np.abs(speed) >= STEPS * find_lattice(speed)
-    stays = [_measure_stays(time, speed, changed, fine, slot, row) for slot in slots]
+    stays = _measure_stays(time, speed, slots)
     most = max((stay.score for stay in stays if stay.tells), default=0.0)
     alike = [stay.tells and stay.score >= ALIKE * most for stay in stays]
     return float(np.exp(np.mean(np.log(slots[alike])))) if any(alike) else 0.0
+
+
+def contradicts_stays(time: Floats, speed: Floats, slot: float) -> bool:
+    """Decide whether speeds (K,) [rad/s] at times (K,) [s] come more often than a slot [rad] passes, or never so."""
+    return _measure_stays(time, speed, np.array([slot]))[0].score < -FEWEST
 
 
 def divide_slot(slot: float, speed: Floats) -> Floats:
@@ -85,7 +88,19 @@ class _Stays:
         return float(np.sum((self.apart - self.period) ** 2)) < LEFT * varied
 
 
-def _measure_stays(time: Floats, speed: Floats, changed: Integers, fine: Bools, slot: float, row: float) -> _Stays:
+def _list_changed(speed: Floats) -> Integers:
+    """List the rows with another value than the one before, of a motor that turns."""
+    return np.flatnonzero((np.diff(speed) != 0.0) & (speed[1:] != 0.0)) + 1
+
+
+def _measure_stays(time: Floats, speed: Floats, slots: Floats) -> list[_Stays]:
+    """Compare when values come with when they should by each of some slots [rad] (S,)."""
+    row, fine = float(np.median(np.diff(time))), np.abs(speed) >= STEPS * find_lattice(speed)
+    changed = _list_changed(speed)
+    return [_measure_stays_of(time, speed, changed, fine, slot, row) for slot in slots]
+
+
+def _measure_stays_of(time: Floats, speed: Floats, changed: Integers, fine: Bools, slot: float, row: float) -> _Stays:
     """Compare when values come with when they should: from the last edge to this one a slot's time has passed.
 
     fine: rows (K,) whose values are many of the steps that they are rounded to.

@@ -13,7 +13,7 @@ import numpy as np
 
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Bools, Floats, Integers, Recording
-from motor_identification.sensor.pulse_periods import find_slot_by_stays
+from motor_identification.sensor.pulse_periods import contradicts_stays, find_slot_by_stays
 from motor_identification.timing.shaped_fit import ShapedFit, Shaper, measure_gain
 from motor_identification.timing.timing import Timing
 from motor_model.errors import RecordingError
@@ -61,6 +61,8 @@ def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> Slot
 def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit) -> SlotGain:
     """Judge a timing with a slot beside another one without. plain: the recordings fitted by that."""
     slot = timing.slot
+    if any(contradicts_stays(one.time, one.speed, slot) for one in shaper.recordings):
+        return SlotGain(slot, -np.inf, 0)
     try:
         periods = shaper.fit(timing)
     except RecordingError:  # by so long a slot hardly any row brings a value of its own
