@@ -68,6 +68,12 @@ def test_the_true_slot_is_likelier_than_others() -> None:
     assert judge(shaper, 1e6).gain == -np.inf  # by which no row would bring a value
 
 
+def test_a_slot_that_values_do_not_stay_for_is_none() -> None:
+    """A quarter of a slot is likely, too, but values stay for longer; four of them do not pass between two values."""
+    shaper, slot = shaper_of(logged(12)), 2.0 * np.pi / 12
+    assert [np.isfinite(judge(shaper, factor * slot).gain) for factor in (0.25, 1.0, 4.0)] == [False, True, False]
+
+
 def test_values_of_instants_and_means_show_none() -> None:
     for timing in (OTHERS[0], ASSUMED):
         shaper = shaper_of(check(noisy(0.05, instant=timing is OTHERS[0])))
@@ -84,6 +90,7 @@ def test_smoothed_speeds_come_late_too_and_show_none() -> None:
 def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(speed_timing, "LEAST_GAIN", -np.inf)
     monkeypatch.setattr(speed_timing, "LEAST_PULSE_GAIN_OF_ROW", -np.inf)
+    monkeypatch.setattr(pulse_slot, "contradicts_stays", lambda *_: False)
     plain = check(noisy(0.05))
     assert timing_of(plain).slot > 0.0
     assert timing_of(check(without_count(as_speed(recorded(edges=96))))).slot == 0.0
