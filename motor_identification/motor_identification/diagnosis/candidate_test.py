@@ -55,8 +55,12 @@ class CandidateTest:
 
     @cached_property
     def _speaking(self) -> float:
-        """Share of the moments in which it can speak: what holds a motor shows where that stood, and starts."""
-        if not EFFECT_BY_NAME[self.effect].holds or not was_held(self.model):
+        """Share of the moments in which it can speak: what holds a motor shows where that stood, and starts.
+
+        And a lag where the command changes: of a staircase in one of many moments.
+        """
+        holds = EFFECT_BY_NAME[self.effect].holds and was_held(self.model)
+        if not holds and self.effect not in LAGS:
             return 1.0
         return measure_speaking(self.before.score.moments, self.model.score.moments)
 

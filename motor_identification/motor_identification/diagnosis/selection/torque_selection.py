@@ -10,6 +10,7 @@ from motor_identification.diagnosis.run_gains import find_gap_less_gains, may_be
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.selection.forward_selection import select_forward
 from motor_identification.diagnosis.selection.selection import Selection, begin_beside_torque
+from motor_identification.diagnosis.selection.stand_ins import drop_stand_ins_of_either
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -17,6 +18,8 @@ from motor_model.effects import EFFECT_BY_NAME
 def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
     """Select on beside a random torque, where more is left than the sensor leaves; None if that leaves structure.
 
+    Unless nothing was found without one, and unseen motion judges: then what does not stand in for that structure is
+    kept.
     From what was found without it, and where that leads nowhere from the beginning, or to a torque that leaves less
     than it should, which is taken if the beginning leads nowhere. Where only something likely was refused, that is
     looked for beside a torque that is there, and nothing that was found is judged again.
@@ -25,6 +28,7 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
     if not (disturbed or plain.refused):
         return None
     doubtful: list[Selection] = []
+    incomplete: list[Selection] = []
     for begin in (plain, start) if plain.steps and disturbed else (plain,):
         reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
         begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
@@ -32,12 +36,20 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
         worse = predicts_far_worse(find_gap_less_gains(selection.model), plain.model.held.gap)
         if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
             worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
-        if not selection.model.complete or worse:
+        if worse:
             continue
-        if selection.model.fills_floor:
+        if not selection.model.complete:
+            incomplete.append(selection)
+        elif selection.model.fills_floor:
             return _choose_more(selection, plain, disturbed)
-        doubtful.append(selection)
-    return _choose_more(doubtful[0], plain, disturbed) if doubtful else None
+        else:
+            doubtful.append(selection)
+    if doubtful:
+        return _choose_more(doubtful[0], plain, disturbed)
+    if plain.steps or plain.model.held.seen or not incomplete:
+        return None
+    left = drop_stand_ins_of_either(incomplete[0], incomplete[0])
+    return left if left.steps else None
 
 
 def _may_be_disturbed(plain: Selection) -> bool:

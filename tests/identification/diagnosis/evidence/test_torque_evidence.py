@@ -92,9 +92,11 @@ def test_what_shows_at_the_beginning_of_most_runs_is_steady() -> None:
         ("static_friction", False, 20.0),
         ("dead_zone", True, 120.0),
         ("load_bias", True, 20.0),
+        ("transport_delay", False, 120.0),
+        ("armature_inductance", True, 120.0),
     ],
 )
-def test_what_holds_a_motor_speaks_where_it_stood(
+def test_what_holds_a_motor_speaks_where_it_stood_and_a_lag_where_its_command_changed(
     monkeypatch: pytest.MonkeyPatch, effect: str, stood: bool, steadiness: float
 ) -> None:
     monkeypatch.setattr(candidate_test, "was_held", lambda model: stood)
