@@ -55,7 +55,9 @@ class Encoder:
 
     def within(self, tolerance: float) -> "Encoder":
         """Whiten with a table that is solved within a tolerance only, a share: of many slots, several times faster."""
-        return self if self.projection is None else replace(self, projection=replace(self.projection, tolerance=tolerance))
+        if self.projection is None:
+            return self
+        return replace(self, projection=replace(self.projection, tolerance=tolerance))
 
     def pull(self, white: Floats) -> Floats:
         """Apply the transpose of `white` but for the table's prior, (I,) → (I,): for products with what is white."""

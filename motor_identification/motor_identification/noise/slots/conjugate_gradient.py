@@ -104,7 +104,8 @@ class IterativeSolver:
         solution = np.zeros(len(scores)) if guess is None else guess.copy()
         right = np.array(scores)
         reduce_by(self.root, right)
-        fill_solution(*self.filter, self.root, self.diagonal, 1.0 / variance, right, self.tolerance, MOST_PRODUCTS, solution)
+        precision, how = 1.0 / variance, (self.tolerance, MOST_PRODUCTS)
+        fill_solution(*self.filter, self.root, self.diagonal, precision, right, *how, solution)
         return solution
 
     def table(self, coordinates: Floats) -> Floats:
