@@ -8,16 +8,14 @@ import numpy as np
 from motor_identification.measurement.intervals import Intervals
 from motor_identification.recording import Bools, Floats, Integers
 
-USUAL_BLOCK = 0.5  # [s]: most motors' time constants are shorter, so that a block shows what the motor does
-BLOCK_SAMPLES = (25.0, 100.0)  # sample periods that a block has in any case: how fast a motor is sampled tells its own
+BLOCK = 100.0  # sample periods: how fast a motor is sampled tells how fast it is, and a block shows what it does
 NEAR_A_BLOCK = 0.1  # of a block: what begins so near to its end may as well have begun in the next
 LEAST_BLOCKS = 12  # of a short recording: enough for three blocks of every fourth
 
 
 def compute_block_length(data: Intervals, sample_period: float, stretch: float = 1.0) -> float:
     """Compute how long [s] the blocks of a recording are, sampled with this period [s]; stretch: of the usual ones."""
-    shortest, longest = (samples * sample_period for samples in BLOCK_SAMPLES)
-    return float(min(stretch * max(shortest, min(USUAL_BLOCK, longest)), data.time[-1] / LEAST_BLOCKS))
+    return float(min(stretch * BLOCK * sample_period, data.time[-1] / LEAST_BLOCKS))
 
 
 def number_blocks(times: Floats, length: float) -> Integers:
