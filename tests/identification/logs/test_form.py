@@ -87,11 +87,11 @@ def test_a_static_curve_is_a_stair_whose_ends_are_compared(tmp_path: Path) -> No
 
 def test_positions_that_wrap_or_jump(tmp_path: Path) -> None:
     angle = np.arange(120) * 7
-    byte = [(f"{0.005 * k:.3f}", 5, value) for k, value in enumerate(angle % 256)]
+    again = [(f"{0.005 * k:.3f}", 5, value) for k, value in enumerate(np.tile([0, 0, *range(0, 252, 7)], 3))]
     with pytest.raises(
         RecordingError, match=r"line \d+: y jumps from \d+ to \d+, and not for the first time: say"
     ) as bad:
-        read(tmp_path, byte, ANGLE)
+        read(tmp_path, again, ANGLE)  # where it stands behind each jump
     assert str(bad.value).endswith(".") and "\n" not in str(bad.value)
     once = [(f"{0.005 * k:.3f}", 5, 9999 if k == 60 else value) for k, value in enumerate(angle)]
     misread = read(tmp_path, once, ANGLE)
@@ -100,6 +100,10 @@ def test_positions_that_wrap_or_jump(tmp_path: Path) -> None:
     wrapped = [(f"{0.005 * k:.3f}", 5, value) for k, value in enumerate(angle % 256)]
     said = read(tmp_path, wrapped, replace(ANGLE, wrap=256.0))
     assert said.runs[0].samples[-1].edge_count == 119 * 7 and "y wraps at 256 deg (3 times)" in " ".join(said.findings)
+    told = read(tmp_path, wrapped, ANGLE)
+    assert told.runs[0].samples[-1].edge_count == 119 * 7 and "y wraps at 256 deg (3 times; a" in " ".join(
+        told.findings
+    )
     turning = [(f"{0.005 * k:.3f}", 5, value) for k, value in enumerate(angle % 360)]
     seen = read(tmp_path, turning, ANGLE)
     assert seen.runs[0].samples[-1].edge_count == 119 * 7 and "y wraps at 360 deg (2 times)" in " ".join(seen.findings)

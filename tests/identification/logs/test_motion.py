@@ -97,11 +97,13 @@ def test_counts_need_to_be_told_how_many_there_are_in_a_turn() -> None:
     assert read(replace(counts, edges_per_revolution=12), [0.0, 1.0, 2.0]).speed[1] == pytest.approx(tau / 12 / 0.02)
 
 
-def test_a_counter_that_wraps_is_refused_with_its_line() -> None:
+def test_a_counter_that_begins_again_and_again_is_refused_with_its_line() -> None:
+    """Unless the motor goes on meanwhile: then it wraps."""
     counts = CsvForm("t", "u", "y", Kind.COUNT, "count", edges_per_revolution=100)
-    wrapped = [float(10 * k % 190) for k in range(60)]
-    with pytest.raises(RecordingError, match=r"line 40: y jumps from 180 to 0, and not for the first time"):
-        read(counts, wrapped)
+    begun = [0.0, *[float(10 * k) for k in range(19)]] * 3
+    with pytest.raises(RecordingError, match=r"line 42: y jumps from 180 to 0, and not for the first time"):
+        read(counts, begun)
+    assert read(counts, [float(10 * k % 190) for k in range(60)]).counts[-1] == 590
 
 
 def test_speeds_say_what_they_are_the_mean_of() -> None:

@@ -13,6 +13,7 @@ Floats = NDArray[np.float64]
 
 SLOWEST = 0.4  # [s] between rows of a recording that shows motion; also the border between units, which are 1,000 apart
 LATE = 3.0  # times the usual step: a row that came later than that
+FIRST_ROWS, SLOW = 5, 0.75  # steps, and times the usual one: a motor needs rows to get going, a clock varies by less
 _SINCE_1970 = (1e9, 2.2e9)  # [s] 2001 to 2039
 SLOWEST_STEADY = 5e3  # [ms] between the rows of a static curve
 _DAYS = ((2e4, 7e4), (7e5, 8e5))  # of a date, as spreadsheets and MATLAB count them
@@ -67,10 +68,20 @@ def row_period(values: Floats) -> float:
 def find_clock(columns: Mapping[str, Floats]) -> str | None:
     """Find the column, of several by name, whose values of shape (K,) are most like times; None where none can be.
 
-    A motor's angle may go on as times do, but not from the first row on, and not so evenly.
+    A motor's angle may go on as times do, but not from the first row on, and not so evenly. At one voltage it is as
+    even as the clock: then the first rows tell it, in which a motor that stood has to get going.
     """
     able = {name: values for name, values in columns.items() if runs_forward(values)}
+    able = {name: values for name, values in able.items() if not _begins_slowly(values)} or able
     return min(able, key=lambda name: _unevenness(able[name]), default=None)
+
+
+def _begins_slowly(values: Floats) -> bool:
+    """Whether values, shape (K,), go on by less in their first rows than later, as the angle of a motor that stood."""
+    steps = np.diff(values)
+    usual = float(np.median(steps[steps > 0.0]))
+    first = steps[:FIRST_ROWS]
+    return bool(float(np.mean(np.minimum(first, LATE * usual))) < SLOW * usual)
 
 
 def _unevenness(values: Floats) -> float:

@@ -16,6 +16,7 @@ from motor_identification.logs.columns.vocabulary import (
     UNITS,
     WORDS,
     Quantity,
+    words_of,
 )
 
 _BRACKETS = re.compile(r"[\[({<]([^\])}>]*)[\])}>]")
@@ -33,6 +34,7 @@ _MOTIONS = frozenset(word for kind in MOVES for word in WORDS[kind] if len(word)
 _WRITTEN_TOGETHER = re.compile(  # the longer ones first
     "|".join(sorted((word for word in _KNOWN if "\u2e80" < word[0] < "\ua4d0"), key=len, reverse=True))
 )
+_INSIDE = words_of("rpm erpm upm krpm rad_s deg_s rad_sec deg_sec deg degrees")  # units that are no other word
 _PER = {**dict.fromkeys(("s", "sec", "second"), "s"), **dict.fromkeys(("min", "minute"), "min")}
 
 
@@ -61,6 +63,7 @@ def read_heading(name: str) -> Heading:
         words = (*before, *words[len(words) - behind :])
     side = device or _side(words)
     quantity = _quantity(words, unit)
+    unit = unit or _unit_inside(words, quantity)
     if not unit and quantity in (None, Quantity.DUTY) and _has_unit_of_others(name):  # effort (N)
         quantity = Quantity.OTHER
     return Heading(name, words, quantity, unit, side)
@@ -131,6 +134,13 @@ def _unit_at_the_end(words: tuple[str, ...]) -> tuple[str, tuple[str, ...]]:
         if unit and len(words) == length and unit not in ("A", "m", "s", "V"):
             return unit, words
     return "", words
+
+
+def _unit_inside(words: tuple[str, ...], quantity: Quantity | None) -> str:
+    """The unit of a motion with words behind it: `rpm_actual`, `RPM_Motor_DC`, `angle deg meas`; empty without one."""
+    pairs = ("_".join(pair) for pair in zip(words, words[1:], strict=False))
+    units = (UNIT_BY_SPELLING[one] for one in (*pairs, *words) if one in _INSIDE)
+    return next((unit for unit in units if UNITS[unit][0] is quantity), "")
 
 
 def _side(words: tuple[str, ...]) -> str:

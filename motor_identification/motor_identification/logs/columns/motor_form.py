@@ -32,7 +32,12 @@ from motor_identification.logs.columns.movement import (
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.roles.roles import Roles
 from motor_identification.logs.columns.said import Pair, Said
-from motor_identification.logs.columns.speed_beside import find_counted_position, tell_position_unit
+from motor_identification.logs.columns.speed_beside import (
+    Counted,
+    find_counted_position,
+    find_summed_counts,
+    tell_position_unit,
+)
 from motor_identification.logs.columns.turn_counts import say_turn_counts
 from motor_identification.logs.columns.vocabulary import MOVES, UNIT_BY_SPELLING, Quantity
 from motor_identification.logs.csv.table import Table
@@ -66,10 +71,8 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     """The form of one motor; what is guessed and what is missing goes to the notes."""
     whose = f" of {pair.label}" if pair.label else ""
     stamps = rows.stamps(table)
-    counted = None
-    if stamps is not None and (said.motion, said.unit, said.motors) == (None, None, ()):
-        others = frozenset(name for name in (rows.time, roles.supply, roles.current, said.split) if name)
-        counted = find_counted_position(table, pair, others, stamps)
+    counted = _find_counted(table, pair, roles, said, rows)
+    said = replace(said, kind=Kind.COUNT) if counted and counted.whole else said
     beside_it = f", of which {counted.speed} is the speed (otherwise: --speed {counted.speed})" if counted else ""
     pair = replace(pair, motion=counted.column) if counted else pair
     said = say_turn_counts(table, pair, stamps, said, notes)
@@ -136,6 +139,16 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     )
 
 
+def _find_counted(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows) -> Counted | None:
+    """Find what was counted, of which the column of motion is the speed; None where the user said what it is."""
+    if (said.motion, said.unit, said.motors) != (None, None, ()):
+        return None
+    taken = frozenset(name for name in (rows.time, roles.supply, roles.current, said.split) if name)
+    stamps = rows.stamps(table)
+    summed = find_summed_counts(table, pair, taken)
+    return summed or (None if stamps is None else find_counted_position(table, pair, taken, stamps))
+
+
 def _motion(
     table: Table, pair: Pair, said: Said, period: float, stamps: Floats | None, notes: Notes
 ) -> tuple[Kind, Unit]:
@@ -198,7 +211,7 @@ def _ask_about(column: str, values: Floats, kind: Kind, unit: Unit, said: Said, 
     elif not unit.name:
         options = f"{', '.join(unit.candidates[:-1])} or {unit.candidates[-1]}"
         counted = kind is Kind.SPEED and not np.any(values % 1.0)
-        counts = ", or --count where they are the counts of each row" if counted else ""
+        counts = f", or --count {column} where they are the counts of each row" if counted else ""
         notes.questions.append((column, f"in {options}, which the numbers do not tell: say --unit{counts}"))
     if unit.name in ("count", "count/s") and said.edges_per_revolution is None:
         question = f"in {unit.name}: say how many counts there are in a turn (--edges-per-revolution N)"

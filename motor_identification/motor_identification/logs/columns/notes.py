@@ -6,13 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from motor_identification.logs.columns.heading import Heading, read_heading
-from motor_identification.logs.columns.vocabulary import Quantity
+from motor_identification.logs.columns.vocabulary import Quantity, words_of
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 from motor_identification.logs.rows.row_times import ROW_TIMES
 from motor_model.errors import RecordingError
 
 SHOWN = 12  # names in a question
+GREEK = words_of("alpha beta gamma delta epsilon zeta eta theta lambda phi psi omega tau sigma")
+LETTERS, FEWEST_OTHERS = 3, 3  # of a word, and columns: `x` and `w1` may be anything, and so may two columns
 
 
 @dataclass
@@ -53,6 +55,8 @@ def ask_motion(
 
 def ask_drive(table: Table, candidates: Sequence[str]) -> RecordingError:
     """Ask for the voltage among columns whose names tell nothing, of which a log of one step has none."""
+    if complaint := _refuse_other_data(table):
+        return complaint
     asked = ask_column(table, "voltage or duty", "--voltage", candidates)
     if told := _find_reference(table):
         return RecordingError(
@@ -60,6 +64,28 @@ def ask_drive(table: Table, candidates: Sequence[str]) -> RecordingError:
             "too."
         )
     return RecordingError(f"{asked} Where it is none of them, as in a log of one step: --constant-voltage V.")
+
+
+def _refuse_other_data(table: Table) -> RecordingError | None:
+    """Say that a table is no motor's log, where words stand over its columns and none of them is of a motor's."""
+    headings = [read_heading(name) for name in table.names if name not in (ROW_TIMES, CONSTANT)]
+    told = [one for one in headings if one.quantity is not Quantity.TIME]
+    worded = [one for one in told if _says_something(one)]
+    if len(worded) < max(FEWEST_OTHERS, len(told)) or any(one.quantity not in (None, Quantity.OTHER) for one in told):
+        return None
+    names = _list_names([one.name for one in told])
+    return RecordingError(
+        f"{table.path}: no motor's log by the names of its columns ({names}): none is that of a voltage or duty, a "
+        "speed, a position or a count. If it is one, say which they are: --voltage COL, or --constant-voltage V for a "
+        "log of one step, and --speed, --position or --count COL."
+    )
+
+
+def _says_something(heading: Heading) -> bool:
+    """Whether a name has words: `close`; none are `x`, `beta`, `data.step1.th` and `column 3` of a nameless table."""
+    numbered = len(heading.words) == 2 and heading.words[1].isdigit()
+    worded = any(len(word) >= LETTERS and word not in GREEK for word in heading.words)
+    return worded and not numbered and "." not in heading.name
 
 
 def _find_reference(table: Table) -> str:
@@ -70,6 +96,8 @@ def _find_reference(table: Table) -> str:
 
 def miss_drive(table: Table) -> RecordingError:
     """Ask for the voltage where no column can be it; a controller's log without it tells nothing of the motor."""
+    if complaint := _refuse_other_data(table):
+        return complaint
     if told := _find_reference(table):
         return RecordingError(
             f"{table.path}: no column is the voltage or duty. {told} is what a controller was told, and what it gave "

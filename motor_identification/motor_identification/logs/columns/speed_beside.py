@@ -24,15 +24,18 @@ OF_ANOTHER = 0.6  # that correlation, below which they are not
 FOLLOWS = 0.8  # a speed's correlation with what drives it, over such parts
 MORE = 0.3  # than the position's way has
 USUAL_SHARE, JUMP = 0.9, 5.0  # of the steps of a position, and times that, from which on it is a jump
+SUMMED_UP = 0.9  # of the rows in motion: there a count goes on by just what another column says
+FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
 NEAR = 0.07  # by which the ratio of a pair of units may be off; the nearest two pairs are 5 times apart
 
 
 @dataclass(frozen=True)
 class Counted:
-    """A column without a telling name that is the position of which another one is the speed."""
+    """A column without a telling name that is the position of which another one is the speed; `whole` if in counts."""
 
     column: str
     speed: str
+    whole: bool = False
 
 
 def find_counted_position(table: Table, pair: Pair, taken: frozenset[str], stamps: Floats) -> Counted | None:
@@ -59,6 +62,29 @@ def find_counted_position(table: Table, pair: Pair, taken: frozenset[str], stamp
         if ratio is not None and angle is not None and any(_is_near(ratio * angle / size) for size in sizes):
             return Counted(heading.name, speed.name)
     return None
+
+
+def find_summed_counts(table: Table, pair: Pair, taken: frozenset[str]) -> Counted | None:
+    """Find the counts, in a column whose name tells nothing, of which a motor's motion is what each row added.
+
+    Args:
+        table: the log.
+        pair: the motor's columns.
+        taken: columns that are something else.
+    """
+    speed = read_heading(pair.motion)
+    if speed.quantity not in (Quantity.SPEED, None) or speed.unit or np.any(table.numbers(pair.motion) % 1.0):
+        return None
+    named = (heading.name for heading in _unnamed(table, taken | {pair.voltage, pair.motion}))
+    sums = next((name for name in named if is_summed_up(table.numbers(name), table.numbers(pair.motion))), None)
+    return Counted(sums, pair.motion, whole=True) if sums else None
+
+
+def is_summed_up(sums: Floats, rows: Floats) -> bool:
+    """Whether a column, shape (K,), is the sum of another one, such as counts of those since the row before."""
+    ways = np.diff(sums)
+    told = ways != 0.0
+    return bool(np.count_nonzero(told) > FEWEST_CHANGES and np.mean(ways[told] == rows[1:][told]) > SUMMED_UP)
 
 
 def find_driven_speed(table: Table, pair: Pair, headings: Sequence[Heading], time: str | None) -> str:

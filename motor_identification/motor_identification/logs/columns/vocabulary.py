@@ -42,14 +42,15 @@ MEASURED = _row(
 BODIES = _row("pendulum pendulo péndulo pêndulo pendel pendule pendolo wahadło wahadlo sarkaç маятник beam ball cart")
 # Of words that are written together, these come last: Motordrehzahl, Sollspannung.
 TAILS = _row(
-    "drehzahl spannung geschwindigkeit strom winkel zeit sollwert istwert spanning snelheid toerental hastighet "
-    "hastighed spænding spänning"
+    "drehzahl spannung geschwindigkeit strom winkel zeit temperatur sollwert istwert spanning snelheid toerental "
+    "hastighet hastighed spænding spänning"
 )
 
 # Earlier rows win: a target speed is no speed, a battery's voltage is not the motor's, a speed command is a reference.
 WORDS: dict[Quantity, frozenset[str]] = {
     Quantity.OTHER: _row(
         "error err erro fehler erreur errore galat kp ki kd integral gyro temp temperature accel acceleration "
+        "temperatur temperatura température temperatuur teplota suhu sıcaklık 温度 estado état zustand stato "
         "acc derivative id index loop state mode enabled fault limited saturated lead integrator wcs acs shunt torque "
         "gain gains couple drehmoment moment coppia torsione kraft force écart ecart écarts ecarts uchyb odchylka "
         "regelabweichung "

@@ -81,3 +81,16 @@ def test_whole_milliseconds_are_told_from_counts_that_go_on_as_evenly(time_const
 )
 def test_days(first: float, step: float, days: bool) -> None:
     assert are_days(first + step * np.arange(100)) is days
+
+
+def test_an_angle_as_even_as_the_clock_is_told_by_its_first_rows() -> None:
+    """As of a step that stayed for 4 s: whatever the clock is late by, the angle is, too."""
+    for seed in range(8):
+        rows = np.random.default_rng(seed).uniform(0.004, 0.006, 1500)
+        exact = np.cumsum(rows) - rows[0]
+        time, angle = np.round(0.02 + exact, 3), np.floor(3280.0 * (exact - 0.01 * (1.0 - np.exp(-100.0 * exact))))
+        assert runs_forward(angle) and find_clock({"angle": angle, "time": time}) == "time"
+    running = 820.0 * (np.arange(300) * 0.005) + 0.3 * np.sin(np.arange(300.0))
+    assert find_clock({"angle": running, "time": np.arange(300) * 0.005}) == "time", "one that ran already is less even"
+    late = np.concatenate(([0.0, 0.001, 0.002, 0.003], 0.01 * np.arange(1.0, 300.0)))
+    assert find_clock({"late": late}) == "late", "one that begins slowly is a clock beside none"

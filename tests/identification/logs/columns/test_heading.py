@@ -45,6 +45,13 @@ pitch_velocity    | speed          |       |
 pitch rate        | other          |       |
 pitch_angle       | other          |       |
 leftSpeedRpm      | speed          | rpm   | left
+rpm_actual        | speed          | rpm   |
+RPM_Motor_DC      | speed          | rpm   |
+rpm_target        | reference      |       |
+omega_rad_s_filt  | speed          | rad/s |
+angle deg meas    | position       | deg   |
+rotation speed meas | speed        |       |
+Temperatur        | other          |       |
 r_speed           | speed          |       | right
 Rspeed            | speed          |       | right
 Lspeed            | speed          |       | left

@@ -67,3 +67,21 @@ def test_a_set_point_beside_columns_that_may_drive_is_told() -> None:
         "one of x, y. left_velocity_cmd is what a controller was told: "
         "where what it gave to the motor is none of them, log that, too."
     )
+
+
+def test_a_table_of_something_else_is_said_to_be_no_motors_log() -> None:
+    """As of stocks and of the weather: which column is the voltage is no question there."""
+
+    def asked(*names: str) -> str:
+        table = Table(Path("log.csv"), np.arange(2), {name: np.arange(2.0) for name in names})
+        return str(ask_drive(table, names[1:]))
+
+    found = asked("date", "open", "high", "low", "close")
+    assert found.startswith("log.csv: no motor's log by the names of its columns (open, high, low, close): none is")
+    assert "no motor's log" in asked("Zeit", "Temperatur", "Solltemperatur", "Heizung")
+    assert "which column is the voltage" in asked("t", "x", "w1", "enc_a") and "which" in asked("date", "open", "high")
+    assert "which column" in asked("column 1", "column 2", "column 3", "column 4")
+    assert "which column" in asked("t", "alpha", "beta_x", "data.open.step1", "close")
+    assert "which column" in asked("date", "open", "high", "low", "speed"), "one of a motor's"
+    weather = Table(Path("w.csv"), np.arange(2), {name: np.ones(2) for name in ("tavg", "prcp", "pres")})
+    assert "no motor's log" in str(miss_drive(weather))

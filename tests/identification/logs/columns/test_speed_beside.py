@@ -13,6 +13,7 @@ from motor_identification.logs.columns.speed_beside import (
     Counted,
     find_counted_position,
     find_driven_speed,
+    find_summed_counts,
     tell_position_unit,
 )
 from motor_identification.logs.csv.table import Table
@@ -112,7 +113,22 @@ def test_whole_speeds_of_no_unit_may_be_counts_of_each_row() -> None:
     for speed, offered in ((np.rint(SPEED / 9.7), True), (np.round(SPEED / 9.7, 1), False)):
         with pytest.raises(RecordingError, match="vel in .* which the numbers do not tell: say --unit") as complaint:
             guess_forms(table({**cells, "vel": speed}), Said())
-        assert ("--unit, or --count where they are the counts of each row." in str(complaint.value)) is offered
+        assert ("--unit, or --count vel where they are the counts of each row." in str(complaint.value)) is offered
+
+
+@pytest.mark.parametrize(("wrong", "found"), [(0.0, True), (0.05, True), (0.2, False)])
+def test_counts_of_each_row_are_told_by_their_sum(wrong: float, found: bool) -> None:
+    """As where a board prints `mStep` and `mVel`, which is what the row added, and nothing tells of a unit."""
+    rows = np.rint(SPEED / 9.7)
+    off = np.where(np.random.default_rng(1).uniform(size=500) < wrong, 1.0, 0.0)
+    cells = {**log("rpm"), "alpha": np.cumsum(rows), "vel": rows + off}
+    counted = find_summed_counts(table(cells), Pair("", "u", "vel"), frozenset({"t"}))
+    assert counted == (Counted("alpha", "vel", whole=True) if found else None)
+    asked = r"alpha in count: say how many counts" if found else "vel in .* say --unit"
+    with pytest.raises(RecordingError, match=asked):
+        guess_forms(table(cells), Said())
+    (form,) = guess_forms(table(cells), Said(edges_per_revolution=160, unit=None if found else "rpm")).forms
+    assert (form.motion, form.kind) == (("alpha", Kind.COUNT) if found else ("vel", Kind.SPEED))
 
 
 PENDULUM = 3.0 * np.sin(STAMPS * 9.0) + np.cumsum(np.random.default_rng(2).normal(0.0, 0.3, 500))

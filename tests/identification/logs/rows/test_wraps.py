@@ -39,3 +39,18 @@ def test_positions_that_do_not_wrap_stay() -> None:
         assert said == [] and np.array_equal(signals.motion, there)
     fast = 200.0 * np.arange(40)  # more than half a turn a row
     assert unwrap(rows(fast), form("deg"))[1] == []
+
+
+def test_a_range_of_its_own_is_found_where_the_motor_goes_on() -> None:
+    """As of a belt of 230.4 units: two wraps tell it, one may be a reset, and so may jumps behind which it stands."""
+    there = 190.0 + np.cumsum(np.linspace(2.0, 4.0, 200))
+    signals, said = unwrap(rows(there % 230.4), form("deg"))
+    assert np.allclose(np.diff(signals.motion), np.diff(there), rtol=2e-3)
+    assert "wraps at 230.4 deg (3 times; assumed" in said[0]
+    back = unwrap(rows(-there % 230.4), form("count"))[0]
+    assert np.allclose(np.diff(back.motion), -np.diff(there), rtol=2e-3)
+    assert unwrap(rows(there[:100] % 230.4), form("deg"))[1] == [], "a single jump"
+    reset = np.concatenate([np.minimum(4.0 * np.arange(-10.0, 60.0), 200.0).clip(0.0) for _ in range(4)])
+    assert unwrap(rows(reset), form("deg"))[1] == [], "it stands behind each"
+    uneven = np.concatenate([np.arange(0.0, top, 4.0) for top in (200.0, 230.0, 180.0, 220.0)])
+    assert unwrap(rows(uneven), form("deg"))[1] == [], "the jumps differ"

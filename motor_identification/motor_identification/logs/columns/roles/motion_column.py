@@ -8,14 +8,13 @@ from motor_identification.logs.columns.behaviour.position import find_position
 from motor_identification.logs.columns.drive import drives
 from motor_identification.logs.columns.heading import Heading, read_heading
 from motor_identification.logs.columns.notes import ask_motion, lack_motion, miss_motion
+from motor_identification.logs.columns.speed_beside import is_summed_up
 from motor_identification.logs.columns.vocabulary import BODIES, FILTERED, MEASURED, MOVES, RAW, UNITS, Quantity
 from motor_identification.logs.correlation import correlate
 from motor_identification.logs.csv.table import Table
 from motor_identification.logs.rows.drive.constant_voltage import CONSTANT
 
 SAME_MOTION = 0.9995  # correlation of a motion with itself in another unit, which is rounded
-SUMMED_UP = 0.9  # of the rows in motion: there a count goes on by just what another column says
-FEWEST_CHANGES = 10  # of a motion: what changes in fewer rows is a drive, or nothing
 _BEST_FIRST = (Quantity.COUNT, Quantity.POSITION, Quantity.SPEED)  # what was counted is exact; a speed was computed
 
 
@@ -31,7 +30,7 @@ def find_motion_column(
         if len(found) > 1:  # what was made of another one comes later, and is smoother than the motor
             found = [name for name in found if not FILTERED & set(read_heading(name).words)] or found
             found = [name for name in found if RAW & set(read_heading(name).words)] or found
-            found = [name for name in found if _is_summed_up(table, name, found)] or found
+            found = [one for one in found if any(_sums_up(table, one, other) for other in found)] or found
             found = _in_one_unit(table, _each_once(table, found))
             with_unit = [name for name in found if read_heading(name).unit]
             found = with_unit if quantity is Quantity.SPEED and len(with_unit) == 1 else found
@@ -62,13 +61,8 @@ def _without_bodies(headings: Sequence[Heading]) -> list[Heading]:
     return others if any(one.quantity in MOVES for one in others) else list(headings)
 
 
-def _is_summed_up(table: Table, name: str, others: Sequence[str]) -> bool:
-    """Whether a column is the sum of another one, such as counts of those since the row before."""
-    ways = np.diff(table.numbers(name))
-    told = ways != 0.0
-    return np.count_nonzero(told) > FEWEST_CHANGES and any(
-        np.mean(ways[told] == table.numbers(other)[1:][told]) > SUMMED_UP for other in others if other != name
-    )
+def _sums_up(table: Table, name: str, other: str) -> bool:
+    return name != other and is_summed_up(table.numbers(name), table.numbers(other))
 
 
 def _each_once(table: Table, names: Sequence[str]) -> list[str]:

@@ -1,0 +1,47 @@
+"""Leave out the beginning of a log in which a motor was driven and not powered: its supply was switched on later."""
+
+import numpy as np
+
+from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.signals import Bools, Floats, Signals
+
+ROWS = 20  # in which a motor stands, or runs: of fewer, a late start is its friction's, or a dead time's
+FEWEST_CHANGES = 3  # of the drive while it stands: no dead time is as long
+HALF = 0.5  # of the voltage at which it stood: it runs later by that much and less
+MOSTLY = 0.8  # of the rows with so little voltage, in which it runs
+
+
+def drop_unpowered_start(signals: Signals, form: CsvForm) -> tuple[Signals, list[str]]:
+    """Leave out the first rows of runs in which the motor stands at voltages at half of which it runs later."""
+    keep, said = np.ones(len(signals), np.bool_), []
+    for run in signals.runs.values():
+        volts, moves = np.abs(signals.voltage[run]), _mark_motion(signals.motion[run], form.kind)
+        still = int(np.argmax(moves)) if moves.any() else 0
+        stood = _find_standing_voltage(volts[:still])
+        little = (volts[still:] > 0.0) & (volts[still:] <= HALF * stood)
+        if np.count_nonzero(little) < ROWS or np.mean(moves[still:][little]) < MOSTLY:
+            continue
+        keep[run.start : run.start + still - 1] = False
+        said.append(
+            f"Left out: the first {still - 1} rows, in which {form.motion} stands at up to {stood:.3g} V and behind "
+            f"which it runs at {HALF * stood:.3g} V and less: the motor was not powered yet (assumed)."
+        )
+    return signals.only(keep), said
+
+
+def _find_standing_voltage(volts: Floats) -> float:
+    """The voltage [V] that was there in so many rows of a standstill, shape (S,), and changed; 0 where it was not."""
+    driven = volts[np.cumsum(volts) > 0.0]
+    if np.count_nonzero(driven) < ROWS or np.count_nonzero(np.diff(driven)) < FEWEST_CHANGES:
+        return 0.0
+    return float(np.sort(driven)[-ROWS])
+
+
+def _mark_motion(motion: Floats, kind: Kind) -> Bools:
+    """Mark the rows (K,) in which a motor moves: of counts, those that differ from the ones some rows away."""
+    if kind is Kind.SPEED:
+        return motion != 0.0
+    moves = np.zeros(len(motion), np.bool_)
+    moves[1:] = motion[1:] != motion[:-1]
+    moves[ROWS:] |= motion[ROWS:] != motion[:-ROWS]
+    return moves

@@ -1,0 +1,57 @@
+"""What was logged before the supply was switched on is left out, and no late start of a motor that has friction."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from motor_identification.logs.form import CsvForm, Kind
+from motor_identification.logs.rows.drive.unpowered_start import FEWEST_CHANGES, ROWS, drop_unpowered_start
+from motor_identification.logs.signals import Floats, Signals
+
+LEVELS = np.tile([2.0, 5.0, 1.0, 4.0], 30)  # V, for ten rows each
+SPEED = CsvForm("t", "u", "y", Kind.SPEED, "rad/s")
+
+
+def logged(volts: Floats, speed: Floats) -> Signals:
+    count = len(volts)
+    unknown, time = np.full(count, np.nan), np.arange(count) * 10_000_000
+    return Signals(Path("log.csv"), np.arange(count), time, volts, speed, unknown, unknown, {"": slice(0, count)})
+
+
+def late(still: int, volts: Floats) -> Signals:
+    """A motor that follows its voltage from a row on."""
+    return logged(volts, np.where(np.arange(len(volts)) < still, 0.0, 10.0 * volts))
+
+
+@pytest.mark.parametrize("kind", [Kind.SPEED, Kind.COUNT])
+def test_rows_before_the_supply_was_on_are_left_out(kind: Kind) -> None:
+    signals = late(200, np.repeat(LEVELS, 10))
+    motion = signals.motion if kind is Kind.SPEED else np.floor(np.cumsum(signals.motion) / 25.0)
+    found, said = drop_unpowered_start(replace(signals, motion=motion), replace(SPEED, kind=kind))
+    assert 1000 <= len(found) <= 1001 and found.voltage[-1] == signals.voltage[-1]
+    assert "rows, in which y stands at up to 5 V and behind which it runs at 2.5 V and less" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("still", "volts"),
+    [
+        (10 * FEWEST_CHANGES, np.repeat(LEVELS, 10)),  # a dead time of two changes
+        (200, np.repeat(np.where(np.arange(120) < 20, 0.0, LEVELS), 10)),  # nothing drives it
+        (200, np.linspace(0.0, 5.0, 1200)),  # a ramp, which it follows from its breakaway on
+        (200, np.repeat(np.where(np.arange(120) < 20, 0.3 * LEVELS, 2.0 + LEVELS), 10)),  # at more voltage later
+        (ROWS - 1, np.repeat(LEVELS, 2)),
+    ],
+)
+def test_a_late_start_is_the_motors(still: int, volts: Floats) -> None:
+    signals = late(still, volts)
+    found, said = drop_unpowered_start(signals, SPEED)
+    assert len(found) == len(signals) and said == []
+
+
+def test_a_motor_that_stands_at_little_voltage_later_has_friction() -> None:
+    volts = np.repeat(LEVELS, 10)
+    speed = np.where((np.arange(1200) < 200) | (volts < 3.0), 0.0, 10.0 * volts)
+    assert drop_unpowered_start(logged(volts, speed), SPEED)[1] == []
+    assert drop_unpowered_start(logged(volts, np.zeros(1200)), SPEED)[1] == [], "one that never runs"
