@@ -18,6 +18,7 @@ LEAST_ROWS = 0.03  # of all rows, in a band: a level that was held
 LEAST_SIZE = 0.2  # of the largest number: a motor that stands is at 0 by any drive
 SAME = 0.02  # of the largest number: within it a controlled speed is what it should be, at all levels. Measured: 0.01
 LEAST_LEVELS = 2
+USUAL, MOST = 0.99, 2.0  # quantile of a drive, and times that: beyond are cells that lost a point, 2515 for 251.5
 
 # What a duty column shows at full duty: shares, per cent, and the registers of timers.
 FULL_DUTIES = (1.0, 100.0, 255.0, 1000.0, 1023.0, 4095.0, 32767.0, 65535.0)
@@ -176,9 +177,11 @@ def find_same_levels(drive: Floats, motion: Floats) -> int:
     A controlled speed comes to the very numbers of its set-point. What drives a motor is in volts or duties, and what
     it turns in another unit: both are the same at several levels by chance once in hundreds of logs.
     """
-    top = float(np.max(np.abs(drive), initial=0.0))
+    top = float(np.quantile(np.abs(drive), USUAL)) if len(drive) else 0.0
     if top == 0.0:
         return 0
+    usual = np.abs(drive) <= MOST * top
+    drive, motion = drive[usual], motion[usual]
     with np.errstate(over="ignore"):  # a damaged cell may be any number
         drive, motion = drive / top, motion / top
     swing = float(np.ptp(drive))

@@ -45,8 +45,9 @@ def cut_stalls(signals: Signals, name: str) -> tuple[Signals, list[str]]:
     split = signals.split(begins)
     rows = np.isin(split.lines, signals.lines[keep])
     cut = split.only(rows)
+    rows_lost = "1 row" if lost == 1 else f"{lost} rows"
     said = (
-        f"Left out: {lost} rows from line {', '.join(map(str, lines))} on, in which {name} stays while the motor goes "
+        f"Left out: {rows_lost} from line {', '.join(map(str, lines))} on, in which {name} stays while the motor goes "
         f"on and then makes up for it at once, as a link hands on what it held back: {len(cut.runs)} runs, a bag each."
     )
     return cut, [said]

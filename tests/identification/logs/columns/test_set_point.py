@@ -30,6 +30,13 @@ def test_only_the_same_numbers_are_a_set_point() -> None:
     assert find_same_levels(np.zeros(9), np.zeros(9)) == find_same_levels(np.ones(9), np.ones(9)) == 0
 
 
+@pytest.mark.parametrize(("wrong", "found"), [(5, 5), (20, 0)])
+def test_a_few_cells_that_lost_their_point_hide_no_set_point(wrong: int, found: int) -> None:
+    damaged = LEVELS.copy()
+    damaged[np.linspace(160, 280, wrong).astype(int)] = 400.0
+    assert find_same_levels(damaged, answered(1.0)) == found
+
+
 @pytest.mark.parametrize(("limit", "value"), [("SAME", 1e-4), ("LEAST_LEVELS", 6), ("LEAST_ROWS", 0.5), ("BANDS", 1)])
 def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(drive, limit, value)

@@ -7,6 +7,7 @@ import numpy as np
 from motor_identification.logs.columns.behaviour.following import follows
 from motor_identification.logs.columns.behaviour.position import find_position
 from motor_identification.logs.columns.heading import Heading
+from motor_identification.logs.columns.movement import guess_position_unit
 from motor_identification.logs.columns.notes import ask_drive, miss_drive, miss_motion
 from motor_identification.logs.columns.roles.candidates import list_unnamed
 from motor_identification.logs.columns.said import Pair
@@ -18,6 +19,8 @@ from motor_identification.logs.csv.table import Table
 def pair_by_behaviour(table: Table, headings: Sequence[Heading], time: str | None) -> Pair:
     """Columns without telling names: a drive beside a motion, or beside a position and its speed."""
     unnamed = list_unnamed(table, headings)
+    if pair := _pair_with_angle(table, unnamed):
+        return pair
     changes = {name: np.count_nonzero(np.diff(table.numbers(name))) for name in unnamed}
     drive, *others = sorted(unnamed, key=lambda name: changes[name]) or [""]
     fewest = min((changes[name] for name in others), default=0)
@@ -33,6 +36,18 @@ def pair_by_behaviour(table: Table, headings: Sequence[Heading], time: str | Non
             raise miss_drive(table)
         raise ask_drive(table, unnamed or table.names)
     return Pair("", drive, position)  # what drives changes in fewer rows, and to fewer values
+
+
+def _pair_with_angle(table: Table, unnamed: Sequence[str]) -> Pair | None:
+    """Of two columns, one whose steps are a whole share of 2π, an encoder's angle in rad, and the other that drives it.
+
+    It changes in fewer rows than what a controller puts out does.
+    """
+    angles = [name for name in unnamed if guess_position_unit(table.numbers(name)).name == "rad"]
+    if len(unnamed) != 2 or len(angles) != 1:
+        return None
+    drive = next(name for name in unnamed if name not in angles)
+    return Pair("", drive, angles[0])
 
 
 def pair_channels(table: Table, headings: Sequence[Heading]) -> Pair | None:

@@ -56,3 +56,14 @@ def test_of_two_channels_in_volts_one_follows_the_other() -> None:
     assert "CH2 [Volt] drives and CH1 [Volt] moves" in roles.findings[0]
     with pytest.raises(RecordingError, match=r"one of CH1 \[Volt\], CH2 \[Volt\]"):  # both the same
         find_roles(Table(Path("log.csv"), np.arange(2, 202), {**cells, "CH1 [Volt]": DRIVE}), Said())
+
+
+@pytest.mark.parametrize(("turn", "told"), [(2.0 * np.pi, True), (6.0, False)])
+def test_an_encoders_angle_is_no_drive_however_seldom_it_changes(turn: float, told: bool) -> None:
+    """A loop holds an angle of 1,000 counts a turn: what its controller puts out changes in nearly every row."""
+    time = np.arange(4000) * 0.001
+    counts = np.rint(5000.0 * (time % 2.0 > 1.0) * (1.0 - np.exp(-20.0 * (time % 1.0))))
+    angle, output = counts * turn / 1000.0, np.random.default_rng(1).normal(0.0, 5.0, len(time)).round(3)
+    cells = {"t": time, "Data": output, "Data2": angle}
+    (pair,) = find_roles(Table(Path("log.csv"), np.arange(2, 4002), cells), Said()).pairs
+    assert pair == (Pair("", "Data", "Data2") if told else Pair("", "Data2", "Data"))
