@@ -13,7 +13,8 @@ Floats = NDArray[np.float64]
 
 SLOWEST = 0.4  # [s] between rows of a recording that shows motion; also the border between units, which are 1,000 apart
 LATE = 3.0  # times the usual step: a row that came later than that
-FIRST_ROWS, SLOW = 5, 0.75  # steps, and times the usual one: a motor needs rows to get going, a clock varies by less
+FIRST_ROWS, SLOW = 5, 0.75  # rows, and times the last rate: a motor needs rows to get going
+STEADY = 0.15  # by which the rate of the third quarter may be off that of the last one
 _SINCE_1970 = (1e9, 2.2e9)  # [s] 2001 to 2039
 SLOWEST_STEADY = 5e3  # [ms] between the rows of a static curve
 _DAYS = ((2e4, 7e4), (7e5, 8e5))  # of a date, as spreadsheets and MATLAB count them
@@ -72,16 +73,26 @@ def find_clock(columns: Mapping[str, Floats]) -> str | None:
     even as the clock: then the first rows tell it, in which a motor that stood has to get going.
     """
     able = {name: values for name, values in columns.items() if runs_forward(values)}
-    able = {name: values for name, values in able.items() if not _begins_slowly(values)} or able
+    able = {
+        name: values for name, values in able.items() if not any(_gets_going(values, one) for one in able.values())
+    } or able
     return min(able, key=lambda name: _unevenness(able[name]), default=None)
 
 
-def _begins_slowly(values: Floats) -> bool:
-    """Whether values, shape (K,), go on by less in their first rows than later, as the angle of a motor that stood."""
-    steps = np.diff(values)
-    usual = float(np.median(steps[steps > 0.0]))
-    first = steps[:FIRST_ROWS]
-    return bool(float(np.mean(np.minimum(first, LATE * usual))) < SLOW * usual)
+def _gets_going(values: Floats, clock: Floats) -> bool:
+    """Whether values, shape (K,), are the angle of a motor that stood, by other ones taken for the clock.
+
+    They go on by less in the first rows than later, and steadily at last.
+    """
+    count = len(values)
+    places = ((0, min(FIRST_ROWS, count - 1)), (count // 2, 3 * count // 4), (3 * count // 4, count - 1))
+    first, before, last = (_rate(values, clock, *place) for place in places)
+    return first < SLOW * last and abs(before - last) < STEADY * last
+
+
+def _rate(values: Floats, clock: Floats, begin: int, end: int) -> float:
+    passed = float(clock[end] - clock[begin])
+    return float(values[end] - values[begin]) / passed if passed > 0.0 else 0.0
 
 
 def _unevenness(values: Floats) -> float:

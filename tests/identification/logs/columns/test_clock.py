@@ -92,5 +92,11 @@ def test_an_angle_as_even_as_the_clock_is_told_by_its_first_rows() -> None:
         assert runs_forward(angle) and find_clock({"angle": angle, "time": time}) == "time"
     running = 820.0 * (np.arange(300) * 0.005) + 0.3 * np.sin(np.arange(300.0))
     assert find_clock({"angle": running, "time": np.arange(300) * 0.005}) == "time", "one that ran already is less even"
+    uneven = np.concatenate((np.full(20, 0.012), np.full(200, 0.006)))  # a program that was slow at first
+    time = np.cumsum(uneven) - 0.012
+    angle = np.rint(500.0 * (time - 0.08 * (1.0 - np.exp(-time / 0.08))))
+    assert runs_forward(angle) and find_clock({"angle": angle, "time": time + 0.02}) == "time"
+    coasting = np.cumsum(np.linspace(9.0, 4.0, 300))
+    assert find_clock({"coasting": coasting, "time": np.arange(300) * 0.005}) == "time", "it was fast at first"
     late = np.concatenate(([0.0, 0.001, 0.002, 0.003], 0.01 * np.arange(1.0, 300.0)))
-    assert find_clock({"late": late}) == "late", "one that begins slowly is a clock beside none"
+    assert find_clock({"late": late}) == "late"
