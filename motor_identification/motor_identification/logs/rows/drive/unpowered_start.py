@@ -40,7 +40,7 @@ def _find_standing_voltage(volts: Floats) -> float:
 def _mark_motion(motion: Floats, kind: Kind) -> Bools:
     """Mark the rows (K,) in which a motor moves: of counts, those that differ from the ones some rows away."""
     if kind is Kind.SPEED:
-        return motion != 0.0
+        return np.asarray(motion != 0.0)
     moves = np.zeros(len(motion), np.bool_)
     moves[1:] = motion[1:] != motion[:-1]
     moves[ROWS:] |= motion[ROWS:] != motion[:-ROWS]
