@@ -161,7 +161,7 @@ def _motion(
         kind = next(one for one in _ORDER if said.unit in UNITS[one])
     sure = kind is not None or not period or is_kind_sure(values, table.numbers(pair.voltage))
     if kind is None:
-        kind = guess_kind(values, table.numbers(pair.voltage)) if period else Kind.SPEED
+        kind = guess_kind(values, table.numbers(pair.voltage)) if period else _guess_untimed_kind(values)
     if _is_speed_called_angle(heading, said) and is_speed_by_drive(values, table.numbers(pair.voltage)):
         why = f"assumed: {pair.motion} is a unit alone, and a speed that follows {pair.voltage}"
         return Kind.SPEED, Unit(f"{heading.unit}/s", f"{why}; otherwise: --position {pair.motion}")
@@ -174,6 +174,11 @@ def _motion(
     asked = unit if sure else replace(unit, candidates=(*unit.candidates, *other))
     _ask_about(pair.motion, values, kind, asked, said, notes)
     return kind, unit
+
+
+def _guess_untimed_kind(values: Floats) -> Kind:
+    """Rows without times are steady states, of speeds, unless their steps, shape (K,), are an encoder's in rad."""
+    return Kind.POSITION if guess_position_unit(values).name == "rad" else Kind.SPEED
 
 
 def _is_speed_called_angle(heading: Heading, said: Said) -> bool:

@@ -1,5 +1,6 @@
 """What a guess says to the user, and what it has to ask."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -14,6 +15,7 @@ from motor_model.errors import RecordingError
 
 SHOWN = 12  # names in a question
 GREEK = words_of("alpha beta gamma delta epsilon zeta eta theta lambda phi psi omega tau sigma")
+_NUMBERS = re.compile(r"\d+")
 LETTERS, FEWEST_OTHERS = 3, 3  # of a word, and columns: `x` and `w1` may be anything, and so may two columns
 
 
@@ -71,7 +73,12 @@ def _refuse_other_data(table: Table) -> RecordingError | None:
     headings = [read_heading(name) for name in table.names if name not in (ROW_TIMES, CONSTANT)]
     told = [one for one in headings if one.quantity is not Quantity.TIME]
     worded = [one for one in told if _says_something(one)]
-    if len(worded) < max(FEWEST_OTHERS, len(told)) or any(one.quantity not in (None, Quantity.OTHER) for one in told):
+    numbered = len({_NUMBERS.sub("", one.name) for one in told}) < len(told)  # CH1_Data, CH2_Data
+    if (
+        numbered
+        or len(worded) < max(FEWEST_OTHERS, len(told))
+        or any(one.quantity not in (None, Quantity.OTHER) for one in told)
+    ):
         return None
     names = _list_names([one.name for one in told])
     return RecordingError(
@@ -82,10 +89,9 @@ def _refuse_other_data(table: Table) -> RecordingError | None:
 
 
 def _says_something(heading: Heading) -> bool:
-    """Whether a name has words: `close`; none are `x`, `beta`, `data.step1.th` and `column 3` of a nameless table."""
-    numbered = len(heading.words) == 2 and heading.words[1].isdigit()
+    """Whether a name has words: `close`, and neither `x` nor `beta` nor `data.step1.th`."""
     worded = any(len(word) >= LETTERS and word not in GREEK for word in heading.words)
-    return worded and not numbered and "." not in heading.name
+    return worded and "." not in heading.name
 
 
 def _find_reference(table: Table) -> str:

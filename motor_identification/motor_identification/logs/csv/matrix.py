@@ -1,4 +1,4 @@
-"""Tables as programs print matrices: brackets and a semicolon around each row, and a line for each column."""
+"""Tables as programs print matrices: brackets and a semicolon around each row, a line for each column, arrays of C."""
 
 import re
 from collections.abc import Sequence
@@ -8,6 +8,10 @@ from motor_identification.logs.csv.cells import COMMENT, is_number
 _IN_BRACKETS = re.compile(r"[\[(]+[^\[\]()]+[\])]+,?$")
 # `pwm = [20, 40, 60]`, of a program's own language: the separator behind the first number is put behind the name, too.
 _ASSIGNED = re.compile(r"(?P<name>[^\W\d]\w*)\s*[=:]\s*[\[({]\s*(?P<rest>[^\s,;]+(?P<first>[,;]|\s).*?)[\])}]\s*[;,]?$")
+# `CH1_Data_OutPut[1707]={`, the beginning of an array of C.
+_ARRAY = re.compile(
+    r"^[^\S\n]*(?:[\w ]+[^\S\n])?(?P<name>[^\W\d]\w*)\s*\[\s*\d*\s*\]\s*=\s*\{(?P<cells>[^{}]*)\}", re.M
+)
 MOSTLY = 0.9  # of the first lines
 _LOOKED_AT = 100  # lines
 MOST_COLUMNS, FEWEST_ROWS, LONGER = 20, 40, 5  # of a table that lies on its side: so many lines, and cells in each
@@ -28,6 +32,15 @@ def _without_brackets(line: str) -> str:
     before, bracket, row = line.partition("[")
     inside = row if bracket and (not before.strip() or before.rstrip().endswith("=")) else line
     return inside.rstrip(" \t];")
+
+
+def join_arrays(lines: Sequence[str]) -> Sequence[str]:
+    """Make a line, `name={1,2,3}`, of each array of C that has cells; other text is none of them, and stays alone."""
+    if not any("={" in line.replace(" ", "") for line in lines[:_LOOKED_AT]):
+        return lines
+    arrays = [(one["name"], "".join(one["cells"].split()).strip(",")) for one in _ARRAY.finditer("\n".join(lines))]
+    joined = [f"{name}={{{cells}}}" for name, cells in arrays if "," in cells]
+    return joined if len(joined) > 1 else lines
 
 
 def turn_lines_into_columns(lines: Sequence[str]) -> tuple[Sequence[str], tuple[str, ...]]:

@@ -14,7 +14,7 @@ from motor_identification.logs.csv.blocks import turn_blocks_into_rows
 from motor_identification.logs.csv.cells import COMMENT, SPACES, is_number, split_line
 from motor_identification.logs.csv.dialect import LOOKED_AT, Dialect, find_dialect, read_text
 from motor_identification.logs.csv.header import say_names_without_cells
-from motor_identification.logs.csv.matrix import take_off_brackets, turn_lines_into_columns
+from motor_identification.logs.csv.matrix import join_arrays, take_off_brackets, turn_lines_into_columns
 from motor_identification.logs.csv.monitor import RECEIVED, Lines, take_apart
 from motor_identification.logs.csv.oscilloscope import give_times
 from motor_identification.logs.csv.quotes import unquote_rows
@@ -52,7 +52,7 @@ def table_of(path: Path, text: Sequence[str], notes: list[str], wanted: Sequence
     """
     timed, said = give_times(unquote_rows(text))
     in_rows, of_blocks = turn_blocks_into_rows(timed)
-    upright, turned = turn_lines_into_columns(take_off_brackets(in_rows))
+    upright, turned = turn_lines_into_columns(take_off_brackets(join_arrays(in_rows)))
     notes = [*notes, *said, *of_blocks, *turned]
     taken = take_apart(upright)
     lines = taken.lines

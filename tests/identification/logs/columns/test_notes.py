@@ -81,6 +81,7 @@ def test_a_table_of_something_else_is_said_to_be_no_motors_log() -> None:
     assert "no motor's log" in asked("Zeit", "Temperatur", "Solltemperatur", "Heizung")
     assert "which column is the voltage" in asked("t", "x", "w1", "enc_a") and "which" in asked("date", "open", "high")
     assert "which column" in asked("column 1", "column 2", "column 3", "column 4")
+    assert "which column" in asked("CH1_Data_OutPut", "CH2_Data_OutPut", "CH3_Data_OutPut", "CH4_Data_OutPut")
     assert "which column" in asked("t", "alpha", "beta_x", "data.open.step1", "close")
     assert "which column" in asked("date", "open", "high", "low", "speed"), "one of a motor's"
     weather = Table(Path("w.csv"), np.arange(2), {name: np.ones(2) for name in ("tavg", "prcp", "pres")})

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from log_columns import DRIVE, KINDS, TIME, answer, table
 
+from motor_identification.logs.columns.guess import guess_forms
 from motor_identification.logs.columns.roles.roles import find_roles
 from motor_identification.logs.columns.said import Pair, Said
 from motor_identification.logs.csv.table import Table
@@ -67,3 +68,6 @@ def test_an_encoders_angle_is_no_drive_however_seldom_it_changes(turn: float, to
     cells = {"t": time, "Data": output, "Data2": angle}
     (pair,) = find_roles(Table(Path("log.csv"), np.arange(2, 4002), cells), Said()).pairs
     assert pair == (Pair("", "Data", "Data2") if told else Pair("", "Data2", "Data"))
+    untimed = Table(Path("log.csv"), np.arange(2, 4002), {"Data": output, "Data2": angle})
+    with pytest.raises(RecordingError, match="Data2 is a position, and no column is its times" if told else "--unit"):
+        guess_forms(untimed, Said())
