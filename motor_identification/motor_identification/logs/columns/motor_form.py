@@ -27,6 +27,7 @@ from motor_identification.logs.columns.movement import (
     guess_kind,
     guess_position_unit,
     guess_speed_unit,
+    is_encoders_angle,
     is_kind_sure,
 )
 from motor_identification.logs.columns.notes import Notes
@@ -178,7 +179,7 @@ def _motion(
 
 def _guess_untimed_kind(values: Floats) -> Kind:
     """Rows without times are steady states, of speeds, unless their steps, shape (K,), are an encoder's in rad."""
-    return Kind.POSITION if guess_position_unit(values).name == "rad" else Kind.SPEED
+    return Kind.POSITION if is_encoders_angle(values) else Kind.SPEED
 
 
 def _is_speed_called_angle(heading: Heading, said: Said) -> bool:

@@ -21,6 +21,7 @@ WHOLE, WHOLE_BY_POSITIONS = 0.015, 0.004
 RELATIVE = 5e-6  # of the counts of a turn: what printed digits leave of the step of speeds, and 3.1416 of radians
 SURE = 4.0  # standard errors of the step
 MOST_COUNTS = 10_000  # a turn
+MOST_TOLD = 4096  # a turn, by which columns without names are told: of more, 5 % come near to a whole number by chance
 FEWEST_MAGNETS = 3  # counts a turn of a sensor that may be meant where steps are so coarse: of one or two magnets
 FORGETS = 5.0  # time constants in a recording, from which on a column is a speed: a position forgets nothing
 UNSURE = (1.0, 20.0)  # time constants that a column of either may seem to have
@@ -107,6 +108,14 @@ def guess_position_unit(values: Floats) -> Unit:
     number = turns[whole[0]][0] / step
     why = f"steps of {step:.4g} are {number:.5g} counts a turn in {whole[0]}, and {others} in other units"
     return Unit(whole[0], f"{why}; otherwise: --unit")
+
+
+def is_encoders_angle(values: Floats) -> bool:
+    """Whether the steps of values, shape (K,), are a whole share of 2π: an encoder's in rad, and no voltages."""
+    lattice = find_position_lattice(values)
+    if lattice is None or round(tau / lattice.step) > MOST_TOLD or _is_printed(values, lattice.step):
+        return False
+    return _is_whole(tau / lattice.step, WHOLE_BY_POSITIONS, RELATIVE + SURE * lattice.error / lattice.step)
 
 
 def _is_whole(number: float, near: float = WHOLE, relative: float = RELATIVE, fewest: int = FEWEST_COUNTS) -> bool:

@@ -5,7 +5,13 @@ from math import tau
 import numpy as np
 import pytest
 
-from motor_identification.logs.columns.movement import guess_kind, guess_position_unit, guess_speed_unit, is_kind_sure
+from motor_identification.logs.columns.movement import (
+    guess_kind,
+    guess_position_unit,
+    guess_speed_unit,
+    is_encoders_angle,
+    is_kind_sure,
+)
 from motor_identification.logs.form import UNITS, Kind
 
 RANDOM = np.random.default_rng(5)
@@ -103,3 +109,12 @@ def test_every_second_or_fifth_digit_is_a_printed_one_too() -> None:
     for step in (0.1, 0.2, 0.05):
         assert guess_speed_unit(counts * step, 0.004).name == "", "0.2 rad/s in 4 ms: 7853.98 counts a turn"
     assert guess_speed_unit(counts * tau / 2800 / 0.004, 0.004).name == "rad/s"
+
+
+def test_an_encoders_angle_in_rad_is_no_voltage() -> None:
+    way = np.cumsum(np.random.default_rng(3).integers(-2, 6, 2000))
+    for counts, told in ((1000, True), (4096, True), (4100, False)):
+        assert is_encoders_angle(way * tau / counts) is told
+    for step in (0.01, 12.0 / 255.0, 5.0 / 1024.0):
+        assert not is_encoders_angle(way * step)
+    assert not is_encoders_angle(np.repeat([0.0, 5.0, 0.0], 100)), "a step of 5 V is no wrap"

@@ -7,7 +7,7 @@ import numpy as np
 from motor_identification.logs.columns.behaviour.following import follows
 from motor_identification.logs.columns.behaviour.position import find_position
 from motor_identification.logs.columns.heading import Heading
-from motor_identification.logs.columns.movement import guess_position_unit
+from motor_identification.logs.columns.movement import is_encoders_angle
 from motor_identification.logs.columns.notes import ask_drive, miss_drive, miss_motion
 from motor_identification.logs.columns.roles.candidates import list_unnamed
 from motor_identification.logs.columns.said import Pair
@@ -43,7 +43,7 @@ def _pair_with_angle(table: Table, unnamed: Sequence[str]) -> Pair | None:
 
     It changes in fewer rows than what a controller puts out does.
     """
-    angles = [name for name in unnamed if guess_position_unit(table.numbers(name)).name == "rad"]
+    angles = [name for name in unnamed if is_encoders_angle(table.numbers(name))]
     if len(unnamed) != 2 or len(angles) != 1:
         return None
     drive = next(name for name in unnamed if name not in angles)
