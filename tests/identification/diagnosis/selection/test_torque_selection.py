@@ -141,29 +141,22 @@ def test_a_torque_that_leaves_less_than_it_should_is_taken_where_the_beginning_l
 
 
 @pytest.mark.parametrize(
-    ("found", "by_fit", "stays", "kept"),
-    [
-        (False, False, True, True),
-        (False, False, False, False),
-        (True, False, True, False),
-        (False, True, True, False),
-    ],
+    ("found", "by_fit", "left", "kept"),
+    [(False, False, 0.99, True), (False, False, 1.01, False), (True, False, 0.99, False), (False, True, 0.99, False)],
 )
-def test_what_leaves_structure_is_kept_where_nothing_else_was_found(
-    found: bool, by_fit: bool, stays: bool, kept: bool, monkeypatch: pytest.MonkeyPatch
+def test_what_halves_the_gap_is_kept_where_nothing_else_was_found(
+    found: bool, by_fit: bool, left: float, kept: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A friction under a coasting bridge, neither of which shows alone, of a motor that turns back faster than both."""
     before = seen(stub_model(8.0), by_fit)
     step = step_of(stub_test("coast_drive", before, 4.0, 100.0))
     plain = selection_of(before, *([step] if found else []))
-    ended = selection_of(seen(stub_model(4.0), by_fit), step)
-    left = ended if stays else selection_of(before)
+    ended = selection_of(seen(stub_model(left * thresholds.HALVED_GAP * 8.0), by_fit), step)
     monkeypatch.setattr(Model, "complete", False)
     monkeypatch.setattr(module, "may_be_of_gains", lambda step, hold_out: False)
     monkeypatch.setattr(module, "begin_beside_torque", lambda *rest: plain)
     monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended)
-    monkeypatch.setattr(module, "drop_stand_ins_of_either", lambda *several: left)
     assert (module.select_beside_torque(plain, plain, SILENT) is ended) is kept
 
 
