@@ -1,6 +1,8 @@
 """A plant that is not alone on motor/speed gives its motor 0 V: a second plant, or a recording that is played."""
 
+import re
 import time
+import warnings
 from collections.abc import Callable, Iterator
 from subprocess import Popen
 
@@ -20,6 +22,8 @@ from motor_ros.plant import Plant
 
 Start = Callable[..., "Popen[str]"]
 DAY = 86_400_000_000_000  # [ns]
+# Why a plant that is alone again is at 0 V; the second is said of one that a busy machine held up for a second.
+STILL_SENT = re.compile("5 V (was already|went on) being sent")
 
 
 @pytest.mark.parametrize("length", range(13))
@@ -164,6 +168,10 @@ def test_two_plants_of_one_name_are_both_at_0_volt(bench: Bench, start: Start) -
     bench.wait(lambda: {sample.voltage for sample in user.samples[-400:]} == {0.0}, "0 V of both for a second")
     assert sum(sample.voltage != 0.0 for sample in user.samples[heard:]) < 50  # each looks 20 times a second
     second.kill()  # its publisher is listed for a while
-    bench.wait(lambda: bool(status) and "5 V was already being sent" in status[-1].status[0].message, "the other words")
+    alone = len(user.samples)
+    bench.wait(lambda: bool(status) and STILL_SENT.search(status[-1].status[0].message), "the other words")
+    if "went on" in status[-1].status[0].message:
+        warnings.warn("the plant was held up for a second", stacklevel=1)
+    assert {sample.voltage for sample in user.samples[alone:]} == {0.0}
     assert bench.call(SetBool, "motor/enable", SetBool.Request(data=True)).success
     user.until(lambda sample: sample.voltage == 5.0, "motion again")

@@ -75,7 +75,10 @@ def test_two_controlled_motors_in_one_bag_do_not_meet(bench: Bench, start: Start
     record = start("motor_identification", "record", tmp_path / "bag", *topics)
 
     def recorded() -> int:
-        return contents(tmp_path / "bag").message_count if (tmp_path / "bag").is_dir() else 0
+        """Samples that are in the bag, of the motor of which there are fewer."""
+        topics = contents(tmp_path / "bag").topics if (tmp_path / "bag").is_dir() else ()
+        counts = {topic.name: topic.message_count for topic in topics}
+        return min(counts.get(f"/{name}/motor/speed", 0) for name in MOTORS)
 
     bench.wait(  # a controller and the recorder
         lambda: all(publisher.get_subscription_count() == 2 for publisher in references.values()), "the recorder"
@@ -86,6 +89,7 @@ def test_two_controlled_motors_in_one_bag_do_not_meet(bench: Bench, start: Start
         references["right"].publish(Float64(data=right))
         counts = {name: len(samples) for name, samples in heard.items()}
         bench.wait(lambda: all(len(heard[name]) > count + 240 for name, count in counts.items()), "a second")  # noqa: B023
+    bench.wait(lambda: recorded() > 480, "what the recorder may have heard late")
     end(record)
     for name, parameters in MOTORS.items():
         recording = read_recording(tmp_path / "bag", name)
