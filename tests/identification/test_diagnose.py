@@ -100,13 +100,13 @@ def test_two_that_hide_each_other_are_found_beside_a_third() -> None:
     hidden = {"ks": 0.3, "breakaway_voltage": 0.8, "stribeck_speed": 4.0, "drag": 5e-5, "delay": 0.006}
     names = {"coulomb_friction", "static_friction", "quadratic_drag", "transport_delay"}
     tried: list[str] = []
-    drive = profiles.joined(profiles.staircase(12.0, 4, 0.25), profiles.ramps(12.0, 0.8), profiles.random(12.0, 3.5, 1))
+    drive = profiles.joined(profiles.staircase(12.0, 4, 0.25), profiles.random(12.0, 2.5, 1))
     recording = made({"kv": PAPER_KV, "ka": PAPER_KA} | hidden, drive, 1)
     found = diagnose([recording], request=Request(workers=2), progress=lambda stage: tried.append(stage.text))
     assert any(" with " in text for text in tried)  # pairs: none of what is left is a finding alone
     assert {one.effect for one in found.findings} == names and found.verdict is Verdict.EXPLAINED
     for name, value in hidden.items():
-        assert found.model.parameters.value(name) == pytest.approx(value, rel=1e-3)
+        assert found.model.parameters.value(name) == pytest.approx(value, rel=2e-3)
     assert 5.0 < found.gap_before / found.gap_after < 50.0
 
 

@@ -233,9 +233,9 @@ def test_diagnosis_of_steps_both_ways_by_a_coarse_encoder() -> None:
     """Dead band, asymmetry and lag of the EV3 motor, under a floor that hides them from sample to sample.
 
     Its runs are 10 to 34 ms late, its time constant is 56 to 75 ms in fits of one run each; in whatever order they are:
-    benchmarks/real_motors.py has them as they were recorded, here the last one is the first.
+    benchmarks/real_motors.py has all as they were recorded, here the last one is the first, without those at 60 %.
     """
-    found, named = found_in(ev3()[::-1])
+    found, named = found_in([run for run in ev3()[::-1] if abs(float(run.uri)) != 60.0])
     assert found.verdict is Verdict.UNDECIDED and found.after.seen and found.after.confirms
     lag = {"transport_delay": ("armature_inductance",)}
     assert named == {"coulomb_friction": ("dead_zone",), "direction_asymmetry": (), **lag}

@@ -15,7 +15,7 @@ from hostile.live import garbled_messages
 from hostile.named import CASES, LIVE
 
 ROOT = Path(__file__).resolve().parents[2]
-SHARE = 0.07  # of the benchmark's
+SHARE = 0.035  # of the benchmark's
 SEED = 2
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"}
 
@@ -35,7 +35,7 @@ def run_trials() -> list[list[Any]]:
 def test_nothing_breaks_hangs_floods_or_runs() -> None:
     trials = run_trials()
     assert [(kind, number, words, known) for kind, number, words, _, faults, known in trials if faults] == []
-    assert len(trials) >= 300 and {trial[3] for trial in trials} <= {0, 1, 2, 130}
+    assert len(trials) >= 250 and {trial[3] for trial in trials} <= {0, 1, 2, 130}
     named = {f"named: {case.name}" for case in CASES if not case.large}
     assert {trial[0] for trial in trials} == {kind.name for kind in KINDS} | named
     of_bags = [trial[3] for trial in trials if trial[0].startswith("MCAP file")]

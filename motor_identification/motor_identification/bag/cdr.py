@@ -76,7 +76,8 @@ class SpeedDecoder:
             for name in set(layout.names or ()) & set(ROW.names or ()):
                 rows[name][where] = data[name]
             seconds: NDArray[np.int64] = data["sec"].astype(np.int64)
-            rows["stamp"][where] = seconds * 1_000_000_000 + data["nanosec"]
+            rest: NDArray[np.int64] = data["nanosec"].astype(np.int64)
+            rows["stamp"][where] = seconds * 1_000_000_000 + rest
         if refusal is not None and not readable.any():
             raise refusal
         return rows[readable]
