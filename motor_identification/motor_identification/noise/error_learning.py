@@ -33,11 +33,7 @@ class _Box:
 
     def clip(self, x: Floats) -> Floats:
         """Move what is outside onto the bound."""
-        return np.clip(x, self.low, self.high)
-
-    def measure_excess(self, x: Floats) -> float:
-        """Measure how far outside a point is; 0 inside."""
-        return float(np.sum(np.maximum(self.low - x, 0.0) + np.maximum(x - self.high, 0.0)))
+        return np.asarray(np.minimum(np.maximum(x, self.low), self.high))  # np.clip takes twice as long
 
 
 @dataclass(frozen=True)
@@ -80,7 +76,7 @@ def learn_error_model(
     box = scale.bound(shares)
 
     def of(x: Floats) -> ErrorModel:
-        share, rms, time = np.exp(box.clip(x))
+        share, rms, time = np.exp(x)
         return ErrorModel(float(share), 0.0, float(rms), float(time))
 
     @cache  # searches begin where a grid has been
@@ -88,7 +84,8 @@ def learn_error_model(
         return log_likelihood(rows, model, lag)
 
     def cost(x: Floats) -> float:
-        return 10.0 * box.measure_excess(x) - likelihood(of(x))
+        inside = box.clip(x)
+        return 10.0 * float(np.abs(x - inside).sum()) - likelihood(of(inside))
 
     starts = _list_starts(quiet.share, shares[0], scale)
     if guess is not None and guess.rms_voltage > 0.0:
@@ -100,7 +97,7 @@ def learn_error_model(
         begin = _choose_start(cost, others, box)
         if cost(begin) < found.fun - LIKELIHOOD_TOLERANCE:
             found = min(found, _minimise(cost, begin, evaluations), key=lambda one: one.fun)
-    return quiet if -least < found.fun + PRICE else of(found.x)
+    return quiet if -least < found.fun + PRICE else of(box.clip(found.x))
 
 
 def _measure_scale(rows: Sequence[ErrorData], lag: Lag) -> _Scale:
