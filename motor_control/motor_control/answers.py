@@ -17,8 +17,8 @@ from motor_control.controller.run import Config
 from motor_control.messages import control_state_message, diagnostics_message
 from motor_msgs.msg import ControlState, MotorVoltage
 from motor_ros import qos
+from motor_ros.graph.publishers import publishers_of
 from motor_ros.messages import voltage_message
-from motor_ros.topics import publishers_of
 
 FAREWELL = Duration(seconds=0.3)  # what the last 0 V may take to arrive
 

@@ -1,21 +1,16 @@
 """Control a motor's speed as a ROS node: answer the newest motor/speed, and leave the motor at 0 V in the end."""
 
 import time
-from dataclasses import replace
-from functools import partial
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from motor_control.announcements import describe_start
 from motor_control.answers import Answers
 from motor_control.controller import controller
-from motor_control.controller.reference.demand import Demand, Kind
-from motor_control.messages import joint_demand_of
+from motor_control.demands import Demands
 from motor_control.parameters import PROGRAM, ROWS
 from motor_control.settings import Settings
 from motor_control.speakers import Speakers
@@ -23,13 +18,10 @@ from motor_control.toggles import Toggles
 from motor_model.errors import MotorError
 from motor_msgs.msg import MotorInfo, MotorSpeed
 from motor_ros import qos
-from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
 from motor_ros.clocks.steady_timer import steady_timer
 from motor_ros.messages import info_of, sample_of
-from motor_ros.numbered_input import NumberedInput
 from motor_ros.parameters import declare
 from motor_ros.run import quick_executor, run
-from motor_ros.topics import publishers_of
 
 WATCH_EVERY = 0.02  # [s]
 
@@ -47,13 +39,7 @@ class MotorControl(Node):
         self._answers = Answers(self)
         self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
-        self._hold_ups = held = HoldUps(self)
-        refer, approach = partial(self._refer, Kind.SPEED), partial(self._refer, Kind.POSITION)
-        self._inputs = (
-            NumberedInput(self, Float64, "motor/reference", qos.COMMANDS, refer, hold_ups=held),
-            NumberedInput(self, Float64, "motor/position_reference", qos.COMMANDS, approach, hold_ups=held),
-            NumberedInput(self, JointState, "motor/joint_command", qos.COMMANDS, self._on_joint_command, hold_ups=held),
-        )
+        self._demands = Demands(self, self._settings.config)
         self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
         self.create_service(Trigger, "motor/release", lambda _, response: self._on_release(response))
         steady_timer(self, WATCH_EVERY, self._on_watch)
@@ -76,35 +62,14 @@ class MotorControl(Node):
     def _on_watch(self) -> None:
         self._poll()
         self._settings.refresh()
-        self._state = self._speakers.look_for_players(self._speakers.name(self._state), time.monotonic())
-        several = self.count_publishers("motor/joint_command") > 1
-        if several != bool(self._state.joint_senders):
-            names = ", ".join(publishers_of(self, "motor/joint_command"))
-            self._state = replace(self._state, joint_senders=f"({names})" if several else "")
+        self._state = self._demands.look(self._speakers.name(self._state))
         output, self._state = controller.watch(self._settings.config, self._state, time.monotonic())
         if output is not None:
             self._answers.announce_silence(output, self._settings.config, self._state.demand)
 
     def _poll(self) -> None:
         """Take what is asked for, before what acts on it."""
-        self._state = self._speakers.introduce(self._state, time.monotonic())
-        for one in self._inputs:
-            one.poll()
-
-    def _refer(self, kind: Kind, message: Float64, number: int | None, waited: int) -> None:
-        now, asks = time.monotonic(), kind is Kind.POSITION or message.data != 0.0
-        if asks and self._hold_ups.bars(waited):
-            self._state = controller.doubt(self._state, STOOD_STILL, now, kind, number)
-        else:
-            self._state = controller.refer(self._state, message.data, now, kind, number)
-
-    def _on_joint_command(self, message: JointState, number: int | None, waited: int) -> None:
-        demand = joint_demand_of(message, self._settings.config)
-        if isinstance(demand, Demand) and demand.value != 0.0 and self._hold_ups.bars(waited):
-            demand = STOOD_STILL
-        if demand is not None:
-            config, now = self._settings.config, time.monotonic()
-            self._state = controller.command_joint(config, self._state, demand, now, number)
+        self._state = self._demands.poll(self._settings.config, self._state)
 
     def _on_reset(self, response: Trigger.Response) -> Trigger.Response:
         response.message, self._state = controller.reset(self._state, time.monotonic())

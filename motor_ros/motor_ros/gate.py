@@ -113,6 +113,12 @@ class Gate:
             return replace(told, first=replace(first, number=None), begun=False, away=True)
         return replace(told, begun=begun)
 
+    def goes_on(self, name: str, number: int | None, now: int) -> bool:
+        """Whether a command at `now` [ns] is the next one of the sender that is obeyed."""
+        holder = self.sender
+        heard = holder is not None and now - holder.at <= HOLD and holder.sent(name, number, now)
+        return heard and not self._goes_on(name, number, now)
+
     def _goes_on_unheard(self, holder: Sender, ours: bool, number: int | None, now: int) -> bool:
         """Whether a sender, the latest or another, has sent for long while nothing was heard, and the motor stood."""
         if number is None or now - holder.at <= max(AWAY, self.timeout * 1e9):

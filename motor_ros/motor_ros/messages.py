@@ -91,3 +91,9 @@ def time_message(nanoseconds: int) -> Time:
     """Integer nanoseconds, 0 if negative, as a ROS time; no float in between, which would lose 240 ns."""
     nanoseconds = max(nanoseconds, 0)
     return Time(sec=nanoseconds // 1_000_000_000, nanosec=nanoseconds % 1_000_000_000)
+
+
+def stamp_age(stamp: Time, now: int) -> float:
+    """Compute how old [s] a stamp is at `now` [ns] of ROS time; 0 of an empty one, or while no time runs."""
+    then = stamp.sec * 1_000_000_000 + stamp.nanosec
+    return (now - then) * 1e-9 if then and now else 0.0

@@ -1,21 +1,45 @@
 """Subscribe to a topic with the numbers that the middleware gives a publisher's messages, which tell senders apart."""
 
 import time
+from collections import deque
 from collections.abc import Callable
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 from motor_ros.clocks.hold_ups import HELD_UP, HoldUps
-from motor_ros.topics import publishers_of
+from motor_ros.graph.acquaintances import Verdict
+from motor_ros.graph.commanders import Commanders
+from motor_ros.graph.publishers import publishers_of
 
 MessageType = TypeVar("MessageType")
 NOT_COUNTED = 2**63  # numbers from here on: the middleware does not count (rmw says 2^64 - 1)
+MOST_HELD = 400  # messages that wait for their sender to be known: those of 2 s at 200 Hz
+NOBODY = (
+    "A message on {} is not obeyed: its publisher's node was not known when it came, or has turned out to play a "
+    "recording. Send it again if it was yours."
+)
+
+
+class Arrival(NamedTuple):
+    """What is known of a message beside what it says."""
+
+    number: int | None  # how many its publisher has sent; None: nobody counts
+    waited: int  # [ns] to be taken
+    at: int  # [ns] when it was taken, on a clock that is never set
+
+
+Counts = Callable[[Any, Arrival], bool]
+
+
+def never(message: Any, arrival: Arrival) -> bool:
+    """No message counts before its sender is known."""
+    return False
 
 
 class NumberedInput(Generic[MessageType]):
-    """Hands each message on with its number, None if nobody counts, and how long it has waited to be taken [ns].
+    """Hands each message on with how it came, once those who may have sent it are known.
 
     Told by the executor, or `polled`: the EventsExecutor of rclpy 7.1 fails for callbacks that want to know more than
     the message. What is polled is taken before each sample, which is when it acts; no storm of messages keeps a sample
@@ -28,29 +52,56 @@ class NumberedInput(Generic[MessageType]):
         kind: type[MessageType],
         topic: str,
         profile: QoSProfile,
-        take: Callable[[MessageType, int | None, int], None],
+        take: Callable[[MessageType, Arrival], None],
         polled: bool = True,
         hold_ups: HoldUps | None = None,
+        commanders: Commanders | None = None,
+        counts: Counts = never,
     ) -> None:
-        """`hold_ups`: after one, messages are as old as their sender says; it may be on a computer of another time."""
-        self._hold_ups = hold_ups
+        """`hold_ups`: after one, messages are as old as their sender says; it may be on a computer of another time.
+
+        `commanders`: they have to be known first, but for a message that `counts` whoever has sent it: a stop, or the
+        next one of who is known. It ends what others have sent and what waits.
+        """
+        self._node, self._hold_ups, self._commanders, self._counts = node, hold_ups, commanders, counts
+        self._held: deque[tuple[MessageType, Arrival]] = deque(maxlen=MOST_HELD)
         self._kind, self._take, self._most = kind, take, profile.depth if polled else 0
         self._subscription = node.create_subscription(kind, topic, self._on_message, profile)
         if polled:
             node._subscriptions.remove(self._subscription)  # so that no executor takes what is to be polled
 
     def poll(self) -> None:
-        """Take what has come, if nobody else does."""
+        """Take what has come, if nobody else does, and hand on what has waited."""
         for _ in range(self._most):
             if not (taken := self._subscription.handle.take_message(self._kind, False)):
-                return
+                break
             self._on_message(*taken)
+        self._hand_on()
 
     def _on_message(self, message: MessageType, about: dict[str, Any]) -> None:
         number = about["publication_sequence_number"]
         counted = number is not None and 0 < number < NOT_COUNTED
         doubt = self._hold_ups is not None and self._hold_ups.in_doubt()
-        self._take(message, number if counted else None, _wait_of(about, time.time_ns(), doubt))
+        waited = _wait_of(about, time.time_ns(), doubt)
+        arrival = Arrival(number if counted else None, waited, time.monotonic_ns())
+        if self._commanders is None or self._counts(message, arrival):
+            self._held.clear()
+            self._take(message, arrival)
+        else:
+            self._held.append((message, arrival))
+            self._hand_on()
+
+    def _hand_on(self) -> None:
+        """Hand on what has waited for long enough."""
+        while self._held and self._commanders is not None:
+            verdict = self._commanders.judge(self._held[0][1].at)
+            if verdict is Verdict.WAITS:
+                return
+            message, arrival = self._held.popleft()
+            if verdict is Verdict.OBEYED:
+                self._take(message, arrival)
+            else:
+                self._node.get_logger().warning(NOBODY.format(self._subscription.topic_name), throttle_duration_sec=1.0)
 
     def senders(self, node: Node) -> str:
         """The nodes that can send, in words."""

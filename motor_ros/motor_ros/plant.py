@@ -14,10 +14,21 @@ from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.clocks.hold_ups import HoldUps
-from motor_ros.gate import OFF, STOPPED, Gate
-from motor_ros.messages import diagnostic_message, info_message, speed_message
-from motor_ros.numbered_input import NumberedInput
-from motor_ros.other_plant import OtherPlant
+from motor_ros.gate import AWAY, CONFLICT, OFF, STOPPED, Gate
+from motor_ros.graph.commanders import Commanders
+from motor_ros.graph.other_plant import OtherPlant
+from motor_ros.messages import diagnostic_message, info_message, speed_message, stamp_age
+from motor_ros.numbered_input import Arrival, NumberedInput
+
+PLAYED = (
+    "A recording of {} is played ({}): the motor gets 0 V until that has ended, and then until 0 V is sent, or "
+    "motor/enable is called with data: true. To drive a motor by a recording, use ros2 run motor_identification play "
+    "BAG --topics motor/voltage."
+)
+OLD = (
+    "{:.3g} V on motor/voltage is stamped {:.3g} s {}, as what is played from a recording: it is not obeyed. If it is "
+    "yours, set both computers' clocks, or leave the stamp empty."
+)
 
 
 class Plant:
@@ -43,8 +54,19 @@ class Plant:
         self._info = node.create_publisher(MotorInfo, "motor/info", qos.INFO)
         self._joint = node.create_publisher(JointState, "joint_states", qos.JOINT_STATES)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
-        taken = MotorVoltage, "motor/voltage", qos.COMMANDS, self._on_voltage
-        self._input = NumberedInput(node, *taken, polled=changed is None, hold_ups=HoldUps(node))
+        self._commanders, self._played = Commanders(node, "motor/voltage"), ""
+        self._old, self._old_at = "", 0  # the latest voltage with an old stamp, as a sentence, and when [ns] that was
+        self._input = NumberedInput(
+            node,
+            MotorVoltage,
+            "motor/voltage",
+            qos.COMMANDS,
+            self._on_voltage,
+            polled=changed is None,
+            hold_ups=HoldUps(node),
+            commanders=self._commanders,
+            counts=lambda message, arrival: self.gate.goes_on(message.header.frame_id, arrival.number, arrival.at),
+        )
         node.create_service(SetBool, "motor/enable", self._on_enable)
         self.publish_info()
 
@@ -56,7 +78,10 @@ class Plant:
         """[V] to apply now; the age of commands is judged by a clock that is never set."""
         self._input.poll()
         limit, now = self.info.max_voltage, time.monotonic_ns()
-        if self._other.speaks(now):
+        if self._commanders.players != self._played:
+            self._played = self._commanders.players
+            self._node.get_logger().error(self._find_others(now) or "The recording has ended.")
+        if self._played or self._other.speaks(now):
             self.gate = self.gate.come_up(now)
         return min(max(self.gate.voltage(now), -limit), limit)
 
@@ -95,7 +120,8 @@ class Plant:
             self.publish_info()  # what a recording, or whoever it is, says of another motor does not hold for this one
         now = time.monotonic_ns()
         gate = self.gate.problem(now, self._input.senders(self._node))
-        message = " ".join(filter(None, (problem, self._other.problem(now), gate)))
+        old = self._old if now - self._old_at <= CONFLICT else ""
+        message = " ".join(filter(None, (problem, self._find_others(now), old, gate)))
         level = DiagnosticStatus.WARN if message else DiagnosticStatus.OK
         sender = self.gate.sender.name if self.gate.sender and self.gate.fresh(now) else ""
         told = diagnostic_message(
@@ -108,11 +134,18 @@ class Plant:
         )
         self._diagnostics.publish(told)
 
-    def _on_voltage(self, message: MotorVoltage, number: int | None, waited: int) -> None:
+    def _find_others(self, now: int) -> str:
+        """Say who else is there whom the motor is not to be driven by; empty if nobody is."""
+        if players := self._commanders.players:
+            return PLAYED.format(self._node.resolve_topic_name("motor/voltage"), players)
+        return self._other.problem(now)
+
+    def _on_voltage(self, message: MotorVoltage, arrival: Arrival) -> None:
         now, before, voltage = time.monotonic_ns(), self.gate, message.voltage
-        self.gate = before.take(voltage, now, message.header.frame_id, number, waited)
-        if self.gate.first is not before.first:
-            self._other.meet_sender()
+        if self._is_old(message, now):
+            self._node.get_logger().error(self._old, throttle_duration_sec=1.0)
+            return
+        self.gate = before.take(voltage, arrival.at, message.header.frame_id, arrival.number, arrival.waited)
         if self.gate.refused > before.refused:
             self._node.get_logger().error(
                 f"{voltage} on motor/voltage is not a number: the motor gets 0 V.", throttle_duration_sec=1.0
@@ -121,11 +154,19 @@ class Plant:
             self._node.get_logger().warning(problem)
         self._changed()
 
+    def _is_old(self, message: MotorVoltage, now: int) -> bool:
+        """Whether a voltage is of another time by its stamp; a controller's is that of the sample."""
+        age = stamp_age(message.header.stamp, self.now())
+        if message.voltage == 0.0 or abs(age) * 1e9 <= max(AWAY, self.gate.timeout * 1e9):
+            return False
+        self._old, self._old_at = OLD.format(message.voltage, abs(age), "ago" if age > 0.0 else "ahead"), now
+        return True
+
     def _on_enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         was_on = self.gate.enabled
         self._changed()  # a stop that is due comes before what is asked for now
         now = time.monotonic_ns()
-        refusal = (self.gate.refusal(now) or self._other.problem(now) or self._refusal()) if request.data else ""
+        refusal = (self.gate.refusal(now) or self._find_others(now) or self._refusal()) if request.data else ""
         self.gate = self.gate.call(now) if request.data else self.gate
         if request.data and was_on and not self.gate.enabled:
             refusal = f"Just now, {self.gate.stopped}: look, then call again."

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 from motor_ros import qos
@@ -69,24 +68,3 @@ SERVICES = (
     Service("motor/cancel", "std_srvs/srv/Trigger", "end the fits that are computed or wait", "identification"),
     Service("motor/diagnose", "motor_msgs/action/Diagnose", "find what the model lacks", "identification"),
 )  # fmt: skip
-
-# How `ros2 bag play` calls its node. A recording that it plays asks nobody, and leaves a motor as it is at its end.
-PLAYER = "rosbag2_player"
-NAMED_WITHIN = 2.0  # [s] a publisher may be there so much earlier than its node's name
-
-
-def publishers_of(node: Node, topic: str) -> list[str]:
-    """Name the nodes that publish a topic, in alphabetical order; one with two publishers stands there twice."""
-    found = node.get_publishers_info_by_topic(topic)
-    return sorted(f"{one.node_namespace.rstrip('/')}/{one.node_name}" for one in found)
-
-
-def players_of(node: Node, *topics: str) -> str:
-    """Name the nodes of `ros2 bag play` that publish one of these topics; empty if none does."""
-    names = {name for topic in topics for name in publishers_of(node, topic)}
-    return ", ".join(sorted(name for name in names if name.rpartition("/")[2] == PLAYER))
-
-
-def publisher_ids(node: Node, topic: str) -> frozenset[tuple[int, ...]]:
-    """List the publishers of a topic by what the middleware knows them by: one that is started again is another one."""
-    return frozenset(tuple(one.endpoint_gid) for one in node.get_publishers_info_by_topic(topic))

@@ -49,6 +49,7 @@ def play_arguments(parser: argparse.ArgumentParser) -> None:
 def play(args: argparse.Namespace) -> int:
     """Become the workbench's player."""
     command = [str(packages.executable(_PACKAGE, "play")), args.bag_path, "--rate", str(args.rate)]
+    command += ["--node-name", "rosbag2_player"]  # as the genuine one, which moves no motor
     optional = {"--topics": args.topics, "--remap": args.remap}
     optional["--start-offset"] = [str(args.start_offset)] if args.start_offset else []
     words = [word for option, values in optional.items() if values for word in (option, *values)]

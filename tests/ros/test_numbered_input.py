@@ -9,13 +9,13 @@ from workbench import Bench
 from motor_msgs.msg import MotorVoltage
 from motor_ros import qos
 from motor_ros.clocks.hold_ups import HoldUps
-from motor_ros.numbered_input import NumberedInput, _wait_of
+from motor_ros.numbered_input import Arrival, NumberedInput, _wait_of
 
 WAIT = 0.2  # [s]
 
 
 def test_a_message_that_is_taken_late_says_how_late(bench: Bench) -> None:  # noqa: F811
-    taken: list[tuple[MotorVoltage, int | None, int]] = []
+    taken: list[tuple[MotorVoltage, Arrival]] = []
     arrives = MotorVoltage, "motor/voltage", qos.COMMANDS
     voltages = NumberedInput(bench.node, *arrives, lambda *one: taken.append(one))
     publisher = bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
@@ -31,9 +31,9 @@ def test_a_message_that_is_taken_late_says_how_late(bench: Bench) -> None:  # no
     published = time.monotonic()
     time.sleep(WAIT)  # a plant that is held up
     bench.wait(lambda: arrived() and len(taken) == 2, "the next one")
-    message, number, waited = taken[1]
-    assert (message.voltage, number) == (2.0, 2)
-    assert 0.5 * WAIT < waited * 1e-9 <= time.monotonic() - published
+    message, arrival = taken[1]
+    assert (message.voltage, arrival.number) == (2.0, 2)
+    assert 0.5 * WAIT < arrival.waited * 1e-9 <= time.monotonic() - published
 
 
 @pytest.mark.parametrize(
@@ -59,7 +59,7 @@ def test_a_voltage_that_was_sent_while_the_plant_stood_still_is_an_old_one(bench
     """Who is stopped receives nothing: what was sent meanwhile seemed to have come just now, and drove for 0.1 s."""
     taken: list[int] = []
     now = [0.0]
-    arrives = MotorVoltage, "motor/voltage", qos.COMMANDS, lambda *one: taken.append(one[2])
+    arrives = MotorVoltage, "motor/voltage", qos.COMMANDS, lambda *one: taken.append(one[1].waited)
     voltages = NumberedInput(bench.node, *arrives, hold_ups=HoldUps(bench.node, lambda: now[0]))
     sent = {"source_timestamp": time.time_ns() - 4 * 10**9, "publication_sequence_number": 1}
     for now[0] in (0.0, 4.0):

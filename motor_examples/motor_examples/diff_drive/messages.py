@@ -1,10 +1,11 @@
 """Turn poses, velocities and decisions into messages."""
 
 from math import cos, sin
+from typing import Any
 
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from geometry_msgs.msg import Quaternion, TransformStamped
+from geometry_msgs.msg import Quaternion, TransformStamped, TwistStamped
 from nav_msgs.msg import Odometry
 
 from motor_examples.diff_drive.drive import Decision
@@ -19,10 +20,10 @@ def quaternion_of(heading: float) -> Quaternion:
     return Quaternion(z=sin(0.5 * heading), w=cos(0.5 * heading))
 
 
-def stamp_age(stamp: Time, now: int) -> float:
-    """Compute how old [s] a stamp is at `now` [ns] of ROS time; 0 for one that was left empty."""
-    then = stamp.sec * 10**9 + stamp.nanosec
-    return (now - then) * 1e-9 if then else 0.0
+def twist_of(message: Any) -> Twist:
+    """Read the velocity of a Twist or a TwistStamped."""
+    told = message.twist if isinstance(message, TwistStamped) else message
+    return Twist(told.linear.x, told.angular.z)
 
 
 def odometry_message(pose: Pose, twist: Twist, stamp: Time, frames: tuple[str, str]) -> Odometry:

@@ -12,8 +12,8 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from motor_examples.diff_drive import drive
-from motor_examples.diff_drive.kinematics import STILL, Twist, Wheels, body_twist
-from motor_examples.diff_drive.messages import diagnostics_message, odometry_message, stamp_age, transform_message
+from motor_examples.diff_drive.kinematics import STILL, Wheels, body_twist
+from motor_examples.diff_drive.messages import diagnostics_message, odometry_message, transform_message, twist_of
 from motor_examples.diff_drive.motor import Motor
 from motor_examples.diff_drive.odometry import Pose, advance_pose
 from motor_examples.diff_drive.parameters import PROGRAM, ROWS, config_of
@@ -21,11 +21,12 @@ from motor_model.errors import MotorError
 from motor_ros import qos
 from motor_ros.clocks.hold_ups import STOOD_STILL, HoldUps
 from motor_ros.clocks.steady_timer import steady_timer
+from motor_ros.graph.commanders import Commanders
 from motor_ros.interface_types import NotInstalled, load_message
-from motor_ros.numbered_input import NumberedInput
+from motor_ros.messages import stamp_age
+from motor_ros.numbered_input import Arrival, NumberedInput
 from motor_ros.parameters import declare
 from motor_ros.run import quick_executor, run
-from motor_ros.topics import players_of
 
 NO_TF = "tf2_msgs is not installed here: no transforms on /tf; the pose is on odom."
 
@@ -48,8 +49,17 @@ class DiffDrive(Node):
         self._tf = self.create_publisher(self._transforms, "/tf", qos.TRANSFORMS) if self._transforms else None
         self._hold_ups = HoldUps(self)
         kind = TwistStamped if self._values["stamped"] else TwistMessage
-        taken = kind, "cmd_vel", qos.REFERENCE, self._on_cmd_vel
-        self._input: NumberedInput[Any] = NumberedInput(self, *taken, hold_ups=self._hold_ups)
+        self._commanders = Commanders(self, "cmd_vel")
+        self._input: NumberedInput[Any] = NumberedInput(
+            self,
+            kind,
+            "cmd_vel",
+            qos.REFERENCE,
+            self._on_cmd_vel,
+            hold_ups=self._hold_ups,
+            commanders=self._commanders,
+            counts=lambda message, _: twist_of(message) == STILL,
+        )
         steady_timer(self, 1.0 / float(self._values["rate"]), self._on_timer)
         steady_timer(self, 1.0, self._on_second)
         self.add_on_set_parameters_callback(self._on_parameters)
@@ -65,21 +75,19 @@ class DiffDrive(Node):
             self.get_logger().warning(NO_TF)
             return None
 
-    def _on_cmd_vel(self, message: Any, _: int | None, waited: int) -> None:
-        told, age = message, 0.0
+    def _on_cmd_vel(self, message: Any, arrival: Arrival) -> None:
+        twist, age, now = twist_of(message), 0.0, time.monotonic()
         if isinstance(message, TwistStamped):
-            told, age = message.twist, stamp_age(message.header.stamp, self.get_clock().now().nanoseconds)
-        twist = Twist(told.linear.x, told.angular.z)
-        if players := players_of(self, "cmd_vel"):
-            self._state = drive.refuse_command(self._state, drive.PLAYED.format(players), time.monotonic())
-            return
-        if twist != STILL and self._hold_ups.bars(waited):
-            self._state = drive.refuse_command(self._state, STOOD_STILL, time.monotonic())
-            return
-        self._state = drive.take_command(self._config, self._state, twist, time.monotonic(), age)
+            age = stamp_age(message.header.stamp, self.get_clock().now().nanoseconds)
+        if twist != STILL and self._hold_ups.bars(arrival.waited):
+            self._state = drive.refuse_command(self._state, STOOD_STILL, now)
+        else:
+            self._state = drive.take_command(self._config, self._state, twist, now, age)
 
     def _on_timer(self) -> None:
         self._input.poll()
+        if players := self._commanders.players:
+            self._state = drive.refuse_command(self._state, drive.PLAYED.format(players), time.monotonic())
         wheels = (self._left.wheel, self._right.wheel)
         decision, self._state = drive.step(self._config, self._state, wheels, time.monotonic())
         self._tell(decision)

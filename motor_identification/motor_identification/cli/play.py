@@ -31,8 +31,8 @@ def parser() -> argparse.ArgumentParser:
         "motor_identification",
         "play",
         "Publish the messages of a bag again, with their original spacing and QoS, as they were "
-        "serialised. A plant that listens to motor/voltage will move its motor; at the end it gets 0 V, and a "
-        "controller a reference of 0.",
+        "serialised; commands are stamped anew. A plant that listens to motor/voltage will move its motor; at the end "
+        "it gets 0 V, and a controller a reference of 0.",
         _EXAMPLE,
     )
     parser.add_argument("bag", metavar="BAG", help="a rosbag2 directory or a .mcap or .db3 file")
@@ -53,6 +53,9 @@ def parser() -> argparse.ArgumentParser:
     )
     parser.add_argument(
         "--remap", nargs="+", type=_renamed, default=[], metavar="OLD:=NEW", help="publish a topic under another name"
+    )
+    parser.add_argument(
+        "--node-name", default="play", metavar="NAME", help="of this node; what rosbag2_player plays moves no motor"
     )
     return parser
 
@@ -87,7 +90,7 @@ def _play(options: argparse.Namespace) -> int:
     schedule = Schedule(options.rate)
     start_ros([])
     try:
-        node = rclpy.create_node("play", enable_rosout=False, start_parameter_services=False)
+        node = rclpy.create_node(options.node_name, enable_rosout=False, start_parameter_services=False)
         publishers = Publishers(node, options.bag, bag, chosen, names)
         publishers.wait_for_subscribers(lambda: bool(interrupt))
         publishers.warn_of_others()

@@ -4,6 +4,7 @@ import time
 from dataclasses import replace
 from math import inf
 
+from builtin_interfaces.msg import Time as Stamp
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.duration import Duration
 from rclpy.node import Node
@@ -16,8 +17,8 @@ from motor_model.excitation import Profile
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
+from motor_ros.graph.publishers import publishers_of
 from motor_ros.messages import info_of, sample_of, voltage_message
-from motor_ros.topics import publishers_of
 
 SILENCE = 1.0  # [s] without samples after which the plant is gone
 QUEUED = 0.5  # [s] after which no sample from before can come out of the queue any more
@@ -48,6 +49,7 @@ class Driver(Node):
         self.heard: float | None = None  # [s] monotonic time of the latest sample
         self._start: int | None = None  # [ns] plant's clock
         self._asked = 0.0  # [V] the latest command
+        self._stamp = Stamp()  # of the latest sample, which its answer has, too: the plant's computer has its own time
         self._plant = PlantWatch(limit or inf)
         self.plant_says = ""  # what the plant's diagnostics said since its output is off
         self._voltage = self.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
@@ -66,7 +68,7 @@ class Driver(Node):
     def send(self, voltage: float) -> None:
         """Ask the plant for a voltage [V]."""
         self._asked = voltage
-        self._voltage.publish(voltage_message(voltage, self.get_clock().now().to_msg(), OURS))
+        self._voltage.publish(voltage_message(voltage, self._stamp, OURS))
 
     def stop(self) -> None:
         """Send 0 V, see that it arrives, and send nothing else any more."""
@@ -95,7 +97,7 @@ class Driver(Node):
             self.problem = str(error)
 
     def _on_sample(self, message: MotorSpeed) -> None:
-        self.heard = time.monotonic()
+        self.heard, self._stamp = time.monotonic(), message.header.stamp
         if self._following is None or self.problem or self._is_old(message):
             return
         if self._enough is not None:

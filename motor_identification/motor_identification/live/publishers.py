@@ -75,9 +75,13 @@ class Publishers:
         except RMWError:
             self.garbled += 1
             return
-        publisher.publish(data)
-        if topic in self._rests:
-            self._last[topic] = message
+        if topic not in self._rests:
+            publisher.publish(data)
+            return
+        if hasattr(message, "header"):  # a command of another day is not obeyed
+            message.header.stamp = self._node.get_clock().now().to_msg()
+        publisher.publish(message)
+        self._last[topic] = message
 
     def wait_for_subscribers(self, interrupted: Callable[[], bool]) -> None:
         """Let those connect who listen already, so that they get the first message too; finding them takes a while."""

@@ -6,9 +6,6 @@ they are heard while there is more than one publisher, and are another's where t
 that comes while this plant runs has not died: it is another's before it has said anything. A recording may begin with
 references or voltages, and only then have samples.
 
-Nor does a recording without samples command anything, if `ros2 bag play` plays it, which names its node. Where a motor
-shall be driven by one, there is the workbench's own `play`, of the topics that are named, with 0 V in the end.
-
 A sample is this plant's once for each time that it was sent. Its stamp alone is not enough: ROS time may stand still
 (`use_sim_time` without a /clock), and then all samples of all plants have the same one.
 """
@@ -25,7 +22,7 @@ from rclpy.subscription import Subscription
 from motor_msgs.msg import MotorSpeed
 from motor_ros import qos
 from motor_ros.clocks.steady_timer import steady_timer
-from motor_ros.topics import NAMED_WITHIN, players_of, publisher_ids, publishers_of
+from motor_ros.graph.publishers import Id, publisher_ids, publishers_of
 
 RCLError = rclpy_implementation.RCLError
 LOOK_EVERY = 0.05  # [s] all that has come is looked at then: an executor would take as long for it as for the sampling
@@ -37,18 +34,11 @@ ANOTHER = (
     "has ended, and then until 0 V is sent, or motor/enable is called with data: true."
 )
 
-PLAYED = (
-    "A recording of {} is played ({}): the motor gets 0 V until that has ended, and then until 0 V is sent, or "
-    "motor/enable is called with data: true. To drive a motor by a recording, use ros2 run motor_identification play "
-    "BAG --topics motor/voltage."
-)
-
 DENIED = (
     "This node may not subscribe to {}, and does not notice a second plant there: make keys of the present policy.xml "
     "(docs/security.md)."
 )
 
-COMMANDS = "motor/voltage"
 STAMP = {0: struct.Struct(">iI"), 1: struct.Struct("<iI")}  # by the second byte: how the header's stamp is serialised
 BEFORE = 4  # bytes before it
 
@@ -71,14 +61,10 @@ class OtherPlant:
         self._ours: deque[Stamp] = deque(maxlen=REMEMBERED)  # sent since this plant listens, and not heard yet
         self._heard: int | None = None  # [ns] another's latest sample
         self._count = 0  # of publishers
-        self._ids: frozenset[tuple[int, ...]] = frozenset()  # at the first look ours, and what was there before
-        self._unheard: frozenset[tuple[int, ...]] = frozenset()  # those that came, and have said nothing yet
+        self._ids: frozenset[Id] = frozenset()  # at the first look ours, and what was there before
+        self._unheard: frozenset[Id] = frozenset()  # those that came, and have said nothing yet
         self._subscription: Subscription | None = None
         self._may_listen = True
-        self._commands = node.resolve_topic_name(COMMANDS)
-        self._commanders = 0  # publishers of voltages
-        self._named = 0  # [ns] when all of them have names
-        self._players = ""  # those of recordings
         steady_timer(node, LOOK_EVERY, self._look)
 
     def sent(self, message: MotorSpeed) -> None:
@@ -88,32 +74,15 @@ class OtherPlant:
 
     def speaks(self, now: int) -> bool:
         """Whether another plant's samples were heard just before `now` [ns], or are to be expected."""
-        return bool(self._players) or bool(self._unheard) or (self._heard is not None and now - self._heard <= SILENT)
+        return bool(self._unheard) or (self._heard is not None and now - self._heard <= SILENT)
 
     def problem(self, now: int) -> str:
         """What is wrong at `now` [ns], as a sentence; empty if nothing is."""
         if not self.speaks(now):
             return ""
-        if self._players:
-            return PLAYED.format(self._commands, self._players)
         return ANOTHER.format(self._topic, ", ".join(publishers_of(self._node, self._topic)))
 
-    def meet_sender(self) -> None:
-        """Somebody sends his first voltage: look at once who is there."""
-        self._commanders = -1
-        self._look()
-
-    def _look_for_players(self, now: int) -> None:
-        if (count := self._node.count_publishers(self._commands)) != self._commanders:
-            self._commanders, self._named = count, now + round(NAMED_WITHIN * 1e9)
-        if now > self._named:
-            return
-        spoke, self._players = self.speaks(now), players_of(self._node, self._commands)
-        if self._players and not spoke:
-            self._node.get_logger().error(self.problem(now))
-
     def _look(self) -> None:
-        self._look_for_players(time.monotonic_ns())
         if (count := self._node.count_publishers(self._topic)) != self._count:
             self._count = count
             self._meet(publisher_ids(self._node, self._topic), time.monotonic_ns())
@@ -126,7 +95,7 @@ class OtherPlant:
         while self._subscription and (taken := self._subscription.handle.take_message(MotorSpeed, True)):
             self._hear(taken[0])
 
-    def _meet(self, ids: frozenset[tuple[int, ...]], now: int) -> None:
+    def _meet(self, ids: frozenset[Id], now: int) -> None:
         new = ids - self._ids if self._ids else frozenset()
         spoke, self._ids, self._unheard = self.speaks(now), ids, (self._unheard | new) & ids
         if new and not spoke:

@@ -7,18 +7,17 @@ from collections.abc import Callable, Iterator
 from subprocess import Popen
 
 import pytest
-import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
+from plant_rig import Rig
 from plant_user import User
 from std_srvs.srv import SetBool
 from workbench import Bench
 
-from motor_model.sample import Info, Sample
-from motor_msgs.msg import MotorSpeed, MotorVoltage
-from motor_ros import other_plant, qos
-from motor_ros.gate import Gate
+from motor_model.sample import Sample
+from motor_msgs.msg import MotorSpeed
+from motor_ros import qos
+from motor_ros.graph import other_plant
 from motor_ros.messages import speed_message, time_message
-from motor_ros.plant import Plant
 
 Start = Callable[..., "Popen[str]"]
 DAY = 86_400_000_000_000  # [ns]
@@ -39,26 +38,6 @@ def quiet() -> Iterator[Bench]:
     bench = Bench()
     yield bench
     bench.close()
-
-
-class Rig:
-    """A plant that samples whenever its executor is spun, driven with 6 V."""
-
-    def __init__(self, bench: Bench) -> None:
-        self.bench, self.count = bench, 0
-        self.plant = Plant(bench.node, Info(), Gate(True, 10.0), changed=lambda: None)
-        self.plant.gate = self.plant.gate.take(0.0, time.monotonic_ns()).take(6.0, time.monotonic_ns())
-
-    def stamp(self) -> int:
-        return self.bench.node.get_clock().now().nanoseconds
-
-    def sample(self) -> float:
-        """One sample [V]."""
-        self.count += 5_000_000
-        voltage = self.plant.voltage()
-        self.plant.publish(Sample(self.count, 0.0, voltage), time_message(self.stamp()))
-        self.bench.executor.spin_once(timeout_sec=0.001)
-        return voltage
 
 
 def test_a_recording_that_is_played_is_no_command(quiet: Bench) -> None:
@@ -102,29 +81,6 @@ def test_a_publisher_that_comes_is_another_plant_before_it_says_anything(quiet: 
     assert rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response()).success
     rig.plant.gate = rig.plant.gate.take(6.0, time.monotonic_ns())
     assert rig.sample() == 6.0
-
-
-def test_voltages_of_a_recording_alone_are_no_command(quiet: Bench) -> None:
-    """Nobody else had samples, so that the motor ran as it had run then."""
-    rig = Rig(quiet)
-    quiet.wait(lambda: rig.sample() == 6.0 and bool(rig.plant._other._ids), "a first look")
-    player = rclpy.create_node("rosbag2_player", context=quiet._context)
-    player.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
-    rig.plant._other.meet_sender()
-    quiet.wait(lambda: rig.sample() == 0.0, "0 V")
-    assert "A recording of /motor/voltage is played (/rosbag2_player)" in rig.plant._other.problem(time.monotonic_ns())
-    refused = rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response())
-    assert not refused.success and "play BAG --topics motor/voltage" in refused.message
-    player.destroy_node()
-
-    def send() -> float:
-        rig.plant.gate = rig.plant.gate.take(6.0, time.monotonic_ns())
-        return rig.sample()
-
-    quiet.wait(lambda: not rig.plant._other.speaks(time.monotonic_ns()) and send() == 0.0, "its end")
-    assert [send() for _ in range(20)] == [0.0] * 20  # who sent meanwhile begins at 0 V
-    assert rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response()).success
-    assert send() == 6.0
 
 
 class StandingRig(Rig):

@@ -1,0 +1,63 @@
+"""Nobody is obeyed before his node is known, and nobody who plays a recording."""
+
+import pytest
+
+from motor_ros.graph.acquaintances import PATIENCE, SETTLED, WATCHED, Acquaintances, Verdict
+from motor_ros.graph.publishers import Publisher
+
+USER, PLAYER = Publisher((1,), "/user"), Publisher((2,), "/x")
+NAMELESS = Publisher((2,), "")
+OBEYED, WAITS, REFUSED = Verdict
+
+
+def met(*there: Publisher, at: int = 0, players: tuple[str, ...] = ()) -> Acquaintances:
+    return Acquaintances().look(there, set(players), at)
+
+
+def test_a_node_is_obeyed_once_it_has_been_known_for_a_while() -> None:
+    user = met(USER)
+    assert user.judge(1, SETTLED - 1) is WAITS
+    assert user.judge(1, SETTLED) is OBEYED
+
+
+def test_one_whose_node_is_not_known_lets_everybody_wait_and_at_last_be_refused() -> None:
+    """Whose message it is nobody says."""
+    two = met(USER).look((USER, NAMELESS), set(), 10 * SETTLED)
+    at = 10 * SETTLED
+    assert two.judge(at, at + SETTLED) is WAITS
+    assert two.judge(at, at + PATIENCE) is WAITS
+    assert two.judge(at, at + PATIENCE + 1) is REFUSED
+    known = two.look((USER, PLAYER), set(), at + 5)
+    assert known.judge(at, at + 5) is WAITS
+    assert known.judge(at, at + 5 + SETTLED) is OBEYED
+
+
+def test_what_somebody_may_have_sent_who_has_gone_unknown_is_refused() -> None:
+    gone = met(USER, NAMELESS).look((USER,), set(), 10 * SETTLED)
+    assert gone.judge(10 * SETTLED, 10 * SETTLED) is REFUSED
+    assert gone.judge(10 * SETTLED + 1, 10 * SETTLED + 1) is OBEYED
+
+
+def test_who_has_sent_once_and_has_gone_is_obeyed_if_he_was_known() -> None:
+    """`ros2 topic pub --once` ends a tenth of a second later."""
+    gone = met(USER).look((), set(), SETTLED // 2)
+    assert gone.judge(1, SETTLED // 2) is OBEYED
+
+
+def test_nothing_that_came_while_a_player_was_there_is_obeyed() -> None:
+    two = met(USER).look((USER, PLAYER), {"/x"}, 10 * SETTLED)
+    assert two.players == "/x"
+    assert two.judge(10 * SETTLED, 20 * SETTLED) is REFUSED
+    after = two.look((USER,), set(), 11 * SETTLED)
+    assert after.players == "" and after.judge(11 * SETTLED, 11 * SETTLED) is REFUSED
+    assert after.judge(11 * SETTLED + 1, 11 * SETTLED + 1) is OBEYED
+
+
+@pytest.mark.parametrize(("after", "watched"), [(WATCHED, True), (WATCHED + 1, False)])
+def test_services_are_looked_at_for_a_while(after: int, watched: bool) -> None:
+    assert met(USER, at=5).watches(5 + after) is watched
+
+
+def test_services_are_looked_at_while_somebody_is_not_known_or_plays() -> None:
+    assert met(NAMELESS).watches(10 * WATCHED) and met(PLAYER, players=("/x",)).watches(10 * WATCHED)
+    assert not Acquaintances().watches(0)

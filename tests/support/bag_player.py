@@ -1,0 +1,50 @@
+"""A player of recordings as rosbag2's: publishers of its topics first, then messages at once, whoever listens.
+
+`ros2 bag play` itself is not to be had from PyPI. A process of its own, so that its messages may come before its name.
+"""
+
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from workbench import ENVIRONMENT
+
+RATE = 200.0  # [Hz]
+DAY = 86_400_000_000_000  # [ns]
+
+
+@contextmanager
+def play(name: str, topic: str, recorded: bool) -> Iterator["subprocess.Popen[bytes]"]:
+    """Play 5 V or 50 rad/s on a topic as a node of this name; recorded: with the stamps of yesterday."""
+    environment = {**ENVIRONMENT, "PYTHONPATH": os.pathsep.join(sys.path)}
+    process = subprocess.Popen([sys.executable, __file__, name, topic, "recorded" if recorded else ""], env=environment)
+    try:
+        yield process
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def _run(name: str, topic: str, recorded: bool) -> None:
+    import rclpy
+    from std_msgs.msg import Float64
+
+    from motor_msgs.msg import MotorVoltage
+    from motor_ros import qos
+    from motor_ros.messages import time_message, voltage_message
+
+    rclpy.init()
+    node = rclpy.create_node(name, enable_rosout=False, start_parameter_services=False)
+    voltages = topic.endswith("voltage")
+    publisher = node.create_publisher(MotorVoltage if voltages else Float64, topic, qos.VOLTAGE)
+    while True:
+        stamp = time_message(time.time_ns() - DAY if recorded else 0)
+        publisher.publish(voltage_message(5.0, stamp, "motor") if voltages else Float64(data=50.0))
+        time.sleep(1.0 / RATE)
+
+
+if __name__ == "__main__":
+    _run(sys.argv[1], sys.argv[2], bool(sys.argv[3]))
