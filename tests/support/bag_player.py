@@ -1,4 +1,4 @@
-"""A player of recordings as rosbag2's: publishers of its topics first, then messages at once, whoever listens.
+"""A player of recordings as rosbag2's: publishers of its topics first, and messages as soon as somebody listens.
 
 `ros2 bag play` itself is not to be had from PyPI. A process of its own, so that its messages may come before its name.
 """
@@ -23,6 +23,7 @@ def play(name: str, topic: str, recorded: bool) -> Iterator["subprocess.Popen[by
     process = subprocess.Popen([sys.executable, __file__, name, topic, "recorded" if recorded else ""], env=environment)
     try:
         yield process
+        assert process.poll() is None, "the player has ended"
     finally:
         process.terminate()
         process.wait()
@@ -34,12 +35,16 @@ def _run(name: str, topic: str, recorded: bool) -> None:
 
     from motor_msgs.msg import MotorVoltage
     from motor_ros import qos
+    from motor_ros.loopback import stay_on_this_machine
     from motor_ros.messages import time_message, voltage_message
 
+    stay_on_this_machine()
     rclpy.init()
     node = rclpy.create_node(name, enable_rosout=False, start_parameter_services=False)
     voltages = topic.endswith("voltage")
     publisher = node.create_publisher(MotorVoltage if voltages else Float64, topic, qos.VOLTAGE)
+    while not publisher.get_subscription_count():  # it opens the recording meanwhile
+        time.sleep(1e-4)
     while True:
         stamp = time_message(time.time_ns() - DAY if recorded else 0)
         publisher.publish(voltage_message(5.0, stamp, "motor") if voltages else Float64(data=50.0))
