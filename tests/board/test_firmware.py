@@ -22,7 +22,7 @@ def test_says_hello_by_itself_at_power_up(bench: Bench, chip: str) -> None:
     bench.run(4)
     hello = bench.last(Hello)
     kind = Board[chip.upper()]
-    assert hello == Hello(1, 4, 3, kind, 0, 0, 1, 500, 256, 0, 10_000, 2_000, 100, ResetCause.POWER_ON, hello.boot, 0)
+    assert hello == Hello(1, 4, 4, kind, 0, 0, 1, 500, 256, 0, 10_000, 2_000, 100, ResetCause.POWER_ON, hello.boot, 0)
     assert bench.events[0].seq == 0 and bench.chip.pins.share == 0.0
 
 
@@ -191,13 +191,17 @@ def test_after_a_reset_the_output_stays_off_until_an_enable_of_this_boot(bench: 
 def test_no_start_has_the_number_of_a_recent_one(bench: Bench) -> None:
     """Over power-downs, too: an enable that was recorded before them is of another start."""
     bench.run(8)
-    numbers = [bench.last(Hello).boot]
+    first = bench.last(Hello)
+    numbers, latches = [first.boot], [first.latch]
     for k in range(270):
         (bench.emulator.reset if k % 3 else bench.emulator.power_up)()
         bench.run(6)
         assert bench.last(Hello).reset_cause == (ResetCause.EXTERNAL if k % 3 else ResetCause.POWER_ON)
         numbers.append(bench.last(Hello).boot)
+        latches.append(bench.last(Hello).latch)
     assert numbers == [(numbers[0] + k) % 256 for k in range(271)]
+    turned = numbers.index(128)  # in between, so that no boot comes again with the same latch
+    assert set(latches[:turned]) == {0} and set(latches[turned:]) == {159}
 
 
 def test_another_version_is_answered_with_a_hello_and_has_no_effect(bench: Bench) -> None:

@@ -187,7 +187,7 @@ ARGUMENTS: dict[str, list[Any]] = {
     "guard_check": [c_void_p, c_uint16, c_uint32],
     "guard_keep": [c_void_p, c_void_p],
     "guard_recall": [c_void_p, c_void_p],
-    "device_start": [c_void_p, c_void_p, c_uint8, c_uint8],
+    "device_start": [c_void_p, c_void_p, c_uint16, c_uint8],
     "device_overflow": [c_void_p],
     "device_capture": [c_void_p, c_uint16, c_bool],
     "device_rise": [c_void_p, c_uint16, c_bool, c_bool],

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-/* Counts one start, and returns the count; it wraps. */
-uint8_t starts_next(void);
+/* Counts one start, and returns a number that no other of 65,536 starts has. */
+uint16_t starts_next(void);
 
 #endif

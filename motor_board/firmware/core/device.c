@@ -6,7 +6,11 @@
 
 #define FIRMWARE_MAJOR 1
 #define FIRMWARE_MINOR 4
-#define FIRMWARE_PATCH 3
+#define FIRMWARE_PATCH 4
+
+/* 256 over the golden ratio: rounds of starts begin with latches that are far apart for long, so that a session which is
+ * sent again without some of its ways off does not meet the one of another round. */
+#define LATCH_STEP 159u
 
 static uint32_t limited(uint32_t value, uint32_t low, uint32_t high)
 {
@@ -32,13 +36,14 @@ static uint16_t next_compare(struct device *device)
     return (uint16_t)device->compare;
 }
 
-void device_start(struct device *device, const struct device_config *config, uint8_t boot, uint8_t reset_cause)
+void device_start(struct device *device, const struct device_config *config, uint16_t start, uint8_t reset_cause)
 {
     *device = (struct device){0};
     device->config = config;
     device->reset_cause = reset_cause;
     device->supply = device->current = UNMEASURED;
-    device->output.boot = boot;
+    device->output.boot = (uint8_t)start;
+    device->output.latch = (uint8_t)((start >> 8) * LATCH_STEP);
     device->output.top = (int16_t)config->top;
     device->output.decay = config->first_decay;
     device->period = config->first_period;

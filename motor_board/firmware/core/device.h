@@ -63,7 +63,7 @@ struct device_frame {
 };
 
 /* Power-up: off, and a hello to send. */
-void device_start(struct device *device, const struct device_config *config, uint8_t boot, uint8_t reset_cause);
+void device_start(struct device *device, const struct device_config *config, uint16_t start, uint8_t reset_cause);
 
 void device_overflow(struct device *device);
 void device_capture(struct device *device, uint16_t counter, bool overflow_pending); /* one channel */

@@ -148,7 +148,7 @@ struct wire_hello {
     uint16_t command_timeout; /* [ms] */
     uint8_t reset_cause; /* 0: not known, some bootloaders clear it */
     uint8_t boot; /* resets from an arbitrary start, over power-downs since firmware 1.4.3, wraps */
-    uint8_t latch; /* times the output was switched off since the reset, wraps */
+    uint8_t latch; /* times the output was switched off since the reset, from a start that changes as `boot` wraps; wraps */
 };
 static inline uint8_t *wire_put_hello(uint8_t *at, const struct wire_hello *frame)
 {

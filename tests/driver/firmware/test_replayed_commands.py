@@ -26,11 +26,11 @@ def recorded(rig: Rig) -> list[bytes]:
 
 
 def pins_under(rig: Rig, bursts: list[bytes]) -> list[float]:
-    """[V] at the pins, every millisecond; a burst comes again every 5 ms."""
+    """[V] at the pins, every millisecond; a burst comes again every 5 ms, and all of them for long enough."""
     pins = []
-    for k in range(5 * len(bursts)):
+    for k in range(max(5 * len(bursts), round(2.0 * MOST))):
         if k % 5 == 0:
-            rig._in.send(bursts[k // 5], rig.faults, rig.now)
+            rig._in.send(bursts[k // 5 % len(bursts)], rig.faults, rig.now)
         rig.run(1)
         pins.append(rig.pins)
     return pins
@@ -62,8 +62,10 @@ def test_a_whole_session_that_comes_again_after_a_power_down_drives_nothing(make
     session = recorded_with_times(rig, lambda: (rig.plug(), rig.run(600)))
     assert rig.pins == 6.0
     rig.alive = False
-    for _ in range(2):
-        rig.emulator.power_up()
+    for starts in (1, 255, 1):  # all in all 256, after which their numbers of 8 bits come again
+        for _ in range(starts):
+            rig.run(6)
+            rig.emulator.power_up()
         start, pins = rig.emulator.chip.cycle, set()
         for cycle, burst in session:
             rig.run((start + cycle - rig.emulator.chip.cycle) / MS)
