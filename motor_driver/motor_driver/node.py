@@ -14,7 +14,7 @@ from motor_ros.gate import Gate
 from motor_ros.messages import time_message
 from motor_ros.parameters import declare
 from motor_ros.plant import Plant
-from motor_ros.run import run
+from motor_ros.run import quick_executor, run
 
 WATCH_EVERY = 0.01  # [s]
 NO_THREAD = "The thread of the serial port has ended, which is a mistake in the driver: start it again, and report it."
@@ -35,9 +35,9 @@ class MotorDriver(Node):
         period = 1.0 / float(values["sample_rate"])
         gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]), period)
         self._plant = Plant(self, self._driver.info, gate, self._driver.refusal, self._work)
-        wake = self.create_guard_condition(self._work)
+        self._woken = False
         config = self._driver.config
-        self._link = Link(str(values["port"]), config.baud, wake.trigger, search=config.board_id is not None)
+        self._link = Link(str(values["port"]), config.baud, self._wake, search=config.board_id is not None)
         steady_timer(self, WATCH_EVERY, self._work)
         steady_timer(self, 1.0, self._on_second)
 
@@ -51,8 +51,15 @@ class MotorDriver(Node):
         self._link.close()
         super().destroy_node()
 
+    def _wake(self) -> None:
+        """Have the node's thread work, from the link's; what wakes it while it has not begun to is the same."""
+        if not self._woken and self.executor is not None:
+            self._woken = True
+            self.executor.create_task(self._work)
+
     def _work(self) -> None:
         """Take what has come, then send what is due."""
+        self._woken = False
         to_ros = self._plant.now() - time.monotonic_ns()
         for event in self._link.take():
             for reading in self._hear(event):
@@ -114,4 +121,4 @@ class MotorDriver(Node):
 
 def main(args: list[str] | None = None) -> int:
     """`ros2 run motor_driver motor_driver`."""
-    return run(MotorDriver, args, program=PROGRAM)
+    return run(MotorDriver, args, quick_executor, PROGRAM)

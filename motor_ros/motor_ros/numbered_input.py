@@ -41,9 +41,9 @@ def never(message: Any, arrival: Arrival) -> bool:
 class NumberedInput(Generic[MessageType]):
     """Hands each message on with how it came, once those who may have sent it are known.
 
-    Told by the executor, or `polled`: the EventsExecutor of rclpy 7.1 fails for callbacks that want to know more than
-    the message. What is polled is taken before each sample, which is when it acts; no storm of messages keeps a sample
-    waiting, for no more are taken at once than are kept.
+    They are polled: the EventsExecutor of rclpy 7.1 fails for callbacks that want to know more than the message. They
+    are taken before each sample, which is when they act; no storm of messages keeps a sample waiting, for no more are
+    taken at once than are kept.
     """
 
     def __init__(
@@ -53,25 +53,27 @@ class NumberedInput(Generic[MessageType]):
         topic: str,
         profile: QoSProfile,
         take: Callable[[MessageType, Arrival], None],
-        polled: bool = True,
+        rings: Callable[[], None] | None = None,
         hold_ups: HoldUps | None = None,
         commanders: Commanders | None = None,
         counts: Counts = never,
     ) -> None:
         """`hold_ups`: after one, messages are as old as their sender says; it may be on a computer of another time.
 
+        `rings` is called when a message may have come: where they act at once, and not with the next sample.
         `commanders`: they have to be known first, but for a message that `counts` whoever has sent it: a stop, or the
         next one of who is known. It ends what others have sent and what waits.
         """
         self._node, self._hold_ups, self._commanders, self._counts = node, hold_ups, commanders, counts
         self._held: deque[tuple[MessageType, Arrival]] = deque(maxlen=MOST_HELD)
-        self._kind, self._take, self._most = kind, take, profile.depth if polled else 0
+        self._kind, self._take, self._most = kind, take, profile.depth
         self._subscription = node.create_subscription(kind, topic, self._on_message, profile)
-        if polled:
-            node._subscriptions.remove(self._subscription)  # so that no executor takes what is to be polled
+        node._subscriptions.remove(self._subscription)  # so that no executor takes what is to be polled
+        if rings is not None:  # made later, so that it hears of a message later
+            node.create_subscription(kind, topic, lambda _: rings(), profile, raw=True)
 
     def poll(self) -> None:
-        """Take what has come, if nobody else does, and hand on what has waited."""
+        """Take what has come, and hand on what has waited."""
         for _ in range(self._most):
             if not (taken := self._subscription.handle.take_message(self._kind, False)):
                 break

@@ -44,7 +44,7 @@ class Plant:
     ) -> None:
         """`refusal` says why the output cannot be switched on now; `changed` is called after a command, at a switch.
 
-        Without `changed` commands are taken when `voltage` is asked for, and the node may have a quick executor.
+        Commands are taken when `voltage` is asked for: where that is not soon, `changed` has to ask.
         """
         self._node, self.info, self.gate = node, info, gate.come_up(time.monotonic_ns())
         self._refusal, self._changed = refusal, changed or (lambda: None)
@@ -62,7 +62,7 @@ class Plant:
             "motor/voltage",
             qos.COMMANDS,
             self._on_voltage,
-            polled=changed is None,
+            rings=changed,
             hold_ups=HoldUps(node),
             commanders=self._commanders,
             counts=lambda message, arrival: self.gate.goes_on(message.header.frame_id, arrival.number, arrival.at),
@@ -109,6 +109,10 @@ class Plant:
             turned = -turned
         self._turned += turned
         self._count = sample.edge_count
+        if (
+            not self._joint.get_subscription_count()
+        ):  # a viewer is seldom there, and a fifth of the work at 1 kHz is saved
+            return
         angle = angle_of_count(self._turned, self.info.edges_per_revolution, self.info.gear)
         joint = JointState(name=[self.info.name], position=[angle], velocity=[sample.speed])
         joint.header.stamp = stamp
@@ -152,7 +156,6 @@ class Plant:
             )
         elif not before.problem(now) and (problem := self.gate.problem(now, self._input.senders(self._node))):
             self._node.get_logger().warning(problem)
-        self._changed()
 
     def _is_old(self, message: MotorVoltage, now: int) -> bool:
         """Whether a voltage is of another time by its stamp; a controller's is that of the sample."""

@@ -10,7 +10,7 @@ from std_srvs.srv import SetBool
 from workbench import Bench
 
 from motor_model.sample import Info, Sample
-from motor_msgs.msg import MotorInfo
+from motor_msgs.msg import MotorInfo, MotorVoltage
 from motor_ros import qos
 from motor_ros.gate import Gate
 from motor_ros.messages import info_message, time_message
@@ -83,7 +83,7 @@ def test_joint_states_are_the_angle_that_was_counted(quiet: Bench, single: bool,
     """Three slots on, two back: two channels count down, and one knows the direction by the speed's sign alone."""
     plant = Plant(quiet.node, Info(single_channel=single, edges_per_revolution=4), Gate(True, 0.1))
     joints: list[JointState] = []
-    plant._joint = SimpleNamespace(publish=joints.append)
+    plant._joint = SimpleNamespace(publish=joints.append, get_subscription_count=lambda: 1)
     down = -1 if not single else 1
     for count, speed in ((3, 5.0), (3 + 2 * down, 5.0)):
         plant.publish(Sample(0, speed, 0.0, edge_count=count), time_message(0))
@@ -108,3 +108,19 @@ def test_a_plant_says_again_what_it_is_while_another_says_it_too(quiet: Bench) -
 
     quiet.wait(said_again, "what it says after the other one")
     assert heard[-1].max_voltage == 12.0
+
+
+def test_a_voltage_is_acted_on_when_it_comes_and_not_with_the_next_sample(quiet: Bench) -> None:
+    """The board takes it with its next tick: told of it at the next sample, it would be late by one."""
+    applied: list[float] = []
+    plant = Plant(quiet.node, Info(), Gate(True, 10.0), changed=lambda: applied.append(plant.voltage()))
+    sender = quiet.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+
+    def sent(volt: float) -> bool:
+        sender.publish(MotorVoltage(voltage=volt))
+        quiet.executor.spin_once(timeout_sec=0.02)
+        return applied[-1:] == [volt]
+
+    quiet.wait(lambda: sent(0.0), "0 V")
+    quiet.wait(lambda: sent(3.0), "3 V")
+    assert plant.gate.begun
