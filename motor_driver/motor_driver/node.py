@@ -35,10 +35,11 @@ class MotorDriver(Node):
         period = 1.0 / float(values["sample_rate"])
         gate = Gate(bool(values["enabled_at_start"]), float(values["command_timeout"]), period)
         self._plant = Plant(self, self._driver.info, gate, self._driver.refusal, self._work)
-        self._woken = False
+        self._woken = False  # and has not begun to work
+        self._mistake: Exception | None = None
         config = self._driver.config
         self._link = Link(str(values["port"]), config.baud, self._wake, search=config.board_id is not None)
-        steady_timer(self, WATCH_EVERY, self._work)
+        steady_timer(self, WATCH_EVERY, self._on_watch)
         steady_timer(self, 1.0, self._on_second)
 
     def close(self) -> None:
@@ -55,11 +56,23 @@ class MotorDriver(Node):
         """Have the node's thread work, from the link's; what wakes it while it has not begun to is the same."""
         if not self._woken and self.executor is not None:
             self._woken = True
-            self.executor.create_task(self._work)
+            self.executor.create_task(self._on_wake)
+
+    def _on_wake(self) -> None:
+        """Work; a mistake that shows itself then ends the node as one in a timer does: a task's ends the process."""
+        self._woken = False
+        try:
+            self._work()
+        except Exception as error:
+            self._mistake = error
+
+    def _on_watch(self) -> None:
+        if self._mistake is not None:
+            raise self._mistake
+        self._work()
 
     def _work(self) -> None:
         """Take what has come, then send what is due."""
-        self._woken = False
         to_ros = self._plant.now() - time.monotonic_ns()
         for event in self._link.take():
             for reading in self._hear(event):

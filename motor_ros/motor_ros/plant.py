@@ -109,9 +109,7 @@ class Plant:
             turned = -turned
         self._turned += turned
         self._count = sample.edge_count
-        if (
-            not self._joint.get_subscription_count()
-        ):  # a viewer is seldom there, and a fifth of the work at 1 kHz is saved
+        if not self._joint.get_subscription_count():  # a viewer is seldom there, and it is 20 us of every sample
             return
         angle = angle_of_count(self._turned, self.info.edges_per_revolution, self.info.gear)
         joint = JointState(name=[self.info.name], position=[angle], velocity=[sample.speed])

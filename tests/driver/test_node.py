@@ -19,6 +19,7 @@ from motor_driver.node import NO_THREAD, MotorDriver
 from motor_model.errors import MotorError
 from motor_model.parameters import paper_motor
 from motor_ros.loopback import stay_on_this_machine
+from motor_ros.run import quick_executor
 
 Make = Callable[..., MotorDriver]
 
@@ -127,3 +128,20 @@ def test_a_number_that_two_boards_have_or_none_is_a_sentence_and_nothing_runs(
     assert not node._driver.runs and node._driver.board is None
     assert "retrying" in node._driver.trouble
     node._link.close()
+
+
+def test_a_mistake_that_a_chunk_of_bytes_shows_ends_the_node(make: Make, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a task of the quick executor it ended the process, without closing the port or saying what it was."""
+    node, executor = make(), quick_executor()
+
+    def mistaken() -> None:
+        raise ValueError("of the driver")
+
+    executor.add_node(node)
+    with monkeypatch.context() as patch:
+        patch.setattr(node, "_work", mistaken)
+        node._on_wake()
+    with pytest.raises(ValueError, match="of the driver"):
+        for _ in range(100):
+            executor.spin_once(timeout_sec=0.05)
+    executor.shutdown()
