@@ -153,7 +153,7 @@ class Plant:
                 f"{voltage} on motor/voltage is not a number: the motor gets 0 V.", throttle_duration_sec=1.0
             )
         elif not before.problem(now) and (problem := self.gate.problem(now, self._input.senders(self._node))):
-            self._node.get_logger().warning(problem)
+            self._node.get_logger().warning(problem, throttle_duration_sec=1.0)
 
     def _is_old(self, message: MotorVoltage, now: int) -> bool:
         """Whether a voltage is of another time by its stamp; a controller's is that of the sample."""

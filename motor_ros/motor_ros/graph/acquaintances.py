@@ -56,7 +56,7 @@ class Acquaintances:
 
     def judge(self, at: int, now: int) -> Verdict:
         """Judge at `now` a message that came at `at`."""
-        if self.doubted is not None and self.doubted >= at:
+        if self.players or (self.doubted is not None and self.doubted >= at):
             return Verdict.REFUSED
         if not self.unknown and all(now - since >= SETTLED for since in self.known.values()):
             return Verdict.OBEYED

@@ -48,6 +48,7 @@ def test_nothing_that_came_while_a_player_was_there_is_obeyed() -> None:
     two = met(USER).look((USER, PLAYER), {"/x"}, 10 * SETTLED)
     assert two.players == "/x"
     assert two.judge(10 * SETTLED, 20 * SETTLED) is REFUSED
+    assert two.judge(10 * SETTLED + 1, 10 * SETTLED + 1) is REFUSED  # nor what has come since the latest look
     after = two.look((USER,), set(), 11 * SETTLED)
     assert after.players == "" and after.judge(11 * SETTLED, 11 * SETTLED) is REFUSED
     assert after.judge(11 * SETTLED + 1, 11 * SETTLED + 1) is OBEYED
