@@ -111,13 +111,13 @@ def handed_on(ros2, tmp_path):
         ("record -o run /motor/speed /motor/info", "record run /motor/speed /motor/info"),
         ("record -s mcap --output run --topics /motor/speed", "record run /motor/speed"),
         ("record -a -o run", "record run --all"),
-        ("play run", "play run --rate 1.0"),
-        ("play run -r 2.5 -l --topics /a /b", "play run --rate 2.5 --loop --topics /a /b"),
+        ("play run", "play run --rate 1.0 --node-name rosbag2_player"),
+        ("play run -r 2.5 -l --topics /a /b", "play run --rate 2.5 --node-name rosbag2_player --loop --topics /a /b"),
         (
             "play run --start-offset 1.5 --remap motor/speed:=old/speed",
-            "play run --rate 1.0 --remap motor/speed:=old/speed --start-offset 1.5",
+            "play run --rate 1.0 --node-name rosbag2_player --remap motor/speed:=old/speed --start-offset 1.5",
         ),
-        ("play run -m a:=b c:=d", "play run --rate 1.0 --remap a:=b c:=d"),
+        ("play run -m a:=b c:=d", "play run --rate 1.0 --node-name rosbag2_player --remap a:=b c:=d"),
     ],
 )
 def test_recording_and_playing_are_handed_on(handed_on, words, command):
