@@ -110,15 +110,17 @@ def test_nobody_is_obeyed_whose_node_is_not_known(quiet: Bench, monkeypatch: pyt
 
     monkeypatch.setattr(node, "get_publishers_info_by_topic", nameless)
 
-    def send() -> float:
-        sender.publish(voltage_message(5.0, time_message(0), "us"))
+    def send(volts: float) -> float:
+        sender.publish(voltage_message(volts, time_message(0), "us"))
         return rig.sample()
 
     end = time.monotonic() + 1.0
     while time.monotonic() < end:
-        assert send() == 0.0
+        assert send(5.0) == 0.0
+    assert rig.plant.gate.sender is not None and rig.plant.gate.sender.name == ""  # the rig's own
     names.append("known")
-    quiet.wait(lambda: send() == 5.0 or not rig.plant.gate.begun and rig.plant.gate.away, "the known one")
+    quiet.wait(lambda: send(0.0) == 0.0 and rig.plant.gate.begun, "the known one")
+    quiet.wait(lambda: send(5.0) == 5.0, "its voltage")
 
 
 @pytest.mark.parametrize("name", ["rosbag2_player", "x"])
