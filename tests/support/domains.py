@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 HIGHEST = 101  # above it, DDS takes ports that Linux gives to anybody
-EACH = 4  # domains that a process of tests has for itself: some tests take a new one each, in turn
+EACH = 6  # domains that a process of tests has for itself: some tests take a new one each, in turn
 PORTS = 250  # a domain, from 7400 on
 
 
@@ -21,6 +21,13 @@ def free_domain() -> int:
         if domain not in used:
             return domain
     raise AssertionError("in each of this test process's ROS domains something still runs")
+
+
+def free_domains(count: int) -> list[int]:
+    """Different such domains, where those who meet in one would be taken for one another's."""
+    found = list(dict.fromkeys(free_domain() for _ in range(EACH)))[:count]
+    assert len(found) == count, "in too many of this test process's ROS domains something still runs"
+    return found
 
 
 @cache

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from domains import free_domain
+from domains import free_domain, free_domains
 from patience import PATIENCE
 from workbench import program
 
@@ -48,7 +48,7 @@ def test_a_stranger_hears_nothing_and_moves_nothing() -> None:
     """The plant as a program, as `ros2 run` in a shell with env.sh, a node of the user's own there; and one opened."""
     if why := namespaces_missing():
         pytest.skip(why)
-    sim, closed, shell, own, opened = program("motor_sim", "motor_sim"), *(free_domain() for _ in range(4))
+    sim, closed, shell, own, opened = program("motor_sim", "motor_sim"), *free_domains(4)
     sourced = f"source {ROOT}/env.sh &&"
     plants = f"""
         ROS_DOMAIN_ID={closed} {sim} >/dev/null 2>&1 &
