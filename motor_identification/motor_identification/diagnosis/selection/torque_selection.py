@@ -10,6 +10,7 @@ from motor_identification.diagnosis.run_gains import find_gap_less_gains, may_be
 from motor_identification.diagnosis.selection.backward_elimination import eliminate_backward
 from motor_identification.diagnosis.selection.forward_selection import select_forward
 from motor_identification.diagnosis.selection.selection import Selection, begin_beside_torque
+from motor_identification.diagnosis.selection.stand_ins import drop_stand_ins_of_either
 from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 
@@ -17,8 +18,8 @@ from motor_model.effects import EFFECT_BY_NAME
 def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
     """Select on beside a random torque, where more is left than the sensor leaves; None if that leaves structure.
 
-    Unless nothing was found without one, and what was found beside it halves the gap on unseen motion: two effects that
-    hide each other, and more that is missing.
+    Unless nothing certain was found without one, and what was found beside it halves the gap on unseen motion: two
+    effects that hide each other, and more that is missing.
     From what was found without it, and where that leads nowhere from the beginning, or to a torque that leaves less
     than it should, which is taken if the beginning leads nowhere. Where only something likely was refused, that is
     looked for beside a torque that is there, and nothing that was found is judged again.
@@ -45,10 +46,18 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
             doubtful.append(selection)
     if doubtful:
         return _choose_more(doubtful[0], plain, disturbed)
-    if plain.steps or plain.model.held.seen or not incomplete:
+    return _choose_incomplete(incomplete, plain)
+
+
+def _choose_incomplete(found: list[Selection], plain: Selection) -> Selection | None:
+    """Choose what was found beside a torque though structure is left, from wherever that was begun; None for the rest.
+
+    Where what was found without one only stands in, if anything was, and unseen motion says that much is gone.
+    """
+    if not found or plain.model.held.seen or not all(_have_same_effects(found[0], other) for other in found):
         return None
-    halved = incomplete[0].model.held.gap < thresholds.HALVED_GAP * plain.model.held.gap
-    return incomplete[0] if halved else None
+    halved = found[0].model.held.gap < thresholds.HALVED_GAP * plain.model.held.gap
+    return found[0] if halved and not drop_stand_ins_of_either(plain, plain).steps else None
 
 
 def _may_be_disturbed(plain: Selection) -> bool:

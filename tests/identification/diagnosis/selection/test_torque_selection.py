@@ -141,23 +141,32 @@ def test_a_torque_that_leaves_less_than_it_should_is_taken_where_the_beginning_l
 
 
 @pytest.mark.parametrize(
-    ("found", "by_fit", "left", "kept"),
+    ("certain", "by_fit", "left", "kept"),
     [(False, False, 0.99, True), (False, False, 1.01, False), (True, False, 0.99, False), (False, True, 0.99, False)],
 )
-def test_what_halves_the_gap_is_kept_where_nothing_else_was_found(
-    found: bool, by_fit: bool, left: float, kept: bool, monkeypatch: pytest.MonkeyPatch
+def test_what_halves_the_gap_is_kept_where_nothing_else_is_certain(
+    certain: bool, by_fit: bool, left: float, kept: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A friction under a coasting bridge, neither of which shows alone, of a motor that turns back faster than both."""
-    before = seen(stub_model(8.0), by_fit)
-    step = step_of(stub_test("coast_drive", before, 4.0, 100.0))
-    plain = selection_of(before, *([step] if found else []))
-    ended = selection_of(seen(stub_model(left * thresholds.HALVED_GAP * 8.0), by_fit), step)
+    plain = selection_of(seen(stub_model(8.0), by_fit))
+    stays = selection_of(plain.model, step_of(stub_test("voltage_limit", plain.model, 4.0, 100.0)))
+    ended = selection_of(seen(stub_model(left * thresholds.HALVED_GAP * 8.0), by_fit))
     monkeypatch.setattr(Model, "complete", False)
     monkeypatch.setattr(module, "may_be_of_gains", lambda step, hold_out: False)
     monkeypatch.setattr(module, "begin_beside_torque", lambda *rest: plain)
     monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended)
+    monkeypatch.setattr(module, "drop_stand_ins_of_either", lambda *several: stays if certain else plain)
     assert (module.select_beside_torque(plain, plain, SILENT) is ended) is kept
+
+
+@pytest.mark.parametrize("same", [True, False])
+def test_what_depends_on_where_it_was_begun_is_not_kept(same: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    plain, one, other = (selection_of(seen(stub_model(gap), False)) for gap in (8.0, 1.0, 1.1))
+    effects = {id(one.model): ("coast_drive",), id(other.model): ("coast_drive" if same else "voltage_limit",)}
+    monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
+    monkeypatch.setattr(module, "drop_stand_ins_of_either", lambda *several: plain)
+    assert (module._choose_incomplete([one, other], plain) is one) is same
 
 
 @pytest.mark.parametrize("differ", [True, False])
