@@ -74,6 +74,8 @@ motor's, a third the fault checks', a sixth copies of frozen records, and no fun
 | a71083d | 3010000, 3020000 on | 1 kHz | usual | 1000 | 10.0 | none |
 | 25ad2ca | 1401000 on | 200 Hz | usual | 82 | 0.8 | none |
 | 25ad2ca | 1401000 on | 1 kHz | usual | 33 | 0.3 | none |
+| 6df98317 | 1500000 on | 200 Hz | usual | 1000 | 10.0 | none |
+| 70cf593e | 1530000 on | 1 kHz | usual | 125 | 1.25 | none |
 | 6df9831 | 1500000 on | 200 Hz | usual | 1000 | 10.0 | none |
 
 Of the rules as they are since 25ad2ca (later only a `voltage_limit` of 0 and other parameters that come and go were
