@@ -19,7 +19,7 @@ from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.speed_sensor import find_speed_sensor
 from motor_identification.timing.held_until import held_until
-from motor_identification.timing.pulse_slot import find_likeliest_slot, find_stays_slot
+from motor_identification.timing.pulse_slot import find_likeliest_slot, find_stays_slot, judge_slot
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row_times
 from motor_identification.timing.shaped_fit import Shaper, measure_gain
 from motor_identification.timing.smoothing import AS_LIKELY, Likelihood, find_filter
@@ -109,14 +109,19 @@ def _find_as_stamped(shaper: Shaper) -> Timing | None:
 def _find_periods(shaper: Shaper, other: Timing) -> Timing | None:
     """Find that speeds are a slot over the times between edges, much likelier than by another timing; else None.
 
-    Not of counts, nor of what is held for even frames.
+    Or that they are values of instants, where these are as likely. Not of counts, nor of what is held for even frames.
     """
     sensors = [find_speed_sensor(recording) for recording in shaper.recordings]
     if not _are_open(shaper.recordings) or any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors):
         return None
-    found = find_likeliest_slot(shaper, OTHERS[2] if other.is_early else OTHERS[0], other)
-    if found.gain <= max(LEAST_GAIN, LEAST_PULSE_GAIN_OF_ROW * found.rows):
+    instants = OTHERS[2] if other.is_early else OTHERS[0]
+    found = find_likeliest_slot(shaper, instants, other)
+    if found.is_unlikely(LEAST_GAIN, LEAST_PULSE_GAIN_OF_ROW):
         return None
+    # A slot that passes many times in a row is the row's own instant, and no likelier than that.
+    beyond = judge_slot(shaper, replace(instants, slot=found.slot), instants, shaper.fit(instants))
+    if beyond.is_unlikely(LEAST_GAIN, LEAST_PULSE_GAIN_OF_ROW):
+        return instants
     return replace(_choose_instants(shaper, found.slot), slot=found.slot)
 
 

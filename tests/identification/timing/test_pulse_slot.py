@@ -98,6 +98,20 @@ def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.Monke
     assert timing_of(held).slot == 0.0
 
 
+def test_a_slot_that_passes_many_times_in_a_row_is_an_instant(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A tachogenerator at 1 kHz had a slot of a thousandth of a row, and no noise then: its friction was not named."""
+    shaper = shaper_of(check(noisy(0.05, instant=True)))
+    usual = shaper.recordings[0].sample_period * float(np.median(np.abs(shaper.recordings[0].speed)))
+    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *rest: SlotGain(1e-3 * usual, 100.0, 1000))
+    assert speed_timing._find_periods(shaper, ASSUMED) == OTHERS[0]
+    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *rest: SlotGain(1e-3 * usual, 9.0, 1000))
+    assert speed_timing._find_periods(shaper, ASSUMED) is None
+    periods = shaper_of(logged(48))
+    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *rest: SlotGain(2.0 * np.pi / 48, 100.0, 1000))
+    found = speed_timing._find_periods(periods, ASSUMED)
+    assert found is not None and found.slot == 2.0 * np.pi / 48
+
+
 @pytest.mark.parametrize("name", ["LEAST_GAIN", "LEAST_PULSE_GAIN_OF_ROW"])
 def test_what_stays_do_not_show_has_to_be_much_likelier(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     assert slot_found(48).slot > 0.0
