@@ -49,8 +49,7 @@ def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> Slot
     instants: whether voltages hold from the rows on or held until them.
     """
     plain = shaper.fit(other)
-    row = min(recording.sample_period for recording in shaper.recordings)
-    usual = row * _measure_usual_speed(shaper.recordings)
+    usual = measure_usual_travel(shaper.recordings)
 
     def judge(slot: float) -> SlotGain:
         return judge_slot(shaper, replace(instants, slot=slot), other, plain)
@@ -60,6 +59,11 @@ def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> Slot
         for step in STEPS:
             best = max(best, judge(best.slot / step), judge(best.slot * step), key=_gain_of)
     return best
+
+
+def measure_usual_travel(recordings: Sequence[Recording]) -> float:
+    """Measure how far [rad] a motor usually turns in a row."""
+    return min(recording.sample_period for recording in recordings) * _measure_usual_speed(recordings)
 
 
 def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit) -> SlotGain:

@@ -16,7 +16,13 @@ from motor_identification.identify import Request, identify
 from motor_identification.recording import Recording, check
 from motor_identification.sensor.description import tells_of_speeds
 from motor_identification.timing import pulse_slot, speed_timing
-from motor_identification.timing.pulse_slot import SlotGain, find_likeliest_slot, find_stays_slot, judge_slot
+from motor_identification.timing.pulse_slot import (
+    SlotGain,
+    find_likeliest_slot,
+    find_stays_slot,
+    judge_slot,
+    measure_usual_travel,
+)
 from motor_identification.timing.shaped_fit import Shaper
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing
@@ -90,6 +96,7 @@ def test_smoothed_speeds_come_late_too_and_show_none() -> None:
 def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(speed_timing, "LEAST_GAIN", -np.inf)
     monkeypatch.setattr(speed_timing, "LEAST_PULSE_GAIN_OF_ROW", -np.inf)
+    monkeypatch.setattr(speed_timing, "LEAST_SLOT", 0.0)
     monkeypatch.setattr(pulse_slot, "contradicts_stays", lambda *_: False)
     plain = check(noisy(0.05))
     assert timing_of(plain).slot > 0.0
@@ -101,15 +108,15 @@ def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.Monke
 def test_a_slot_that_passes_many_times_in_a_row_is_an_instant(monkeypatch: pytest.MonkeyPatch) -> None:
     """A tachogenerator at 1 kHz had a slot of a thousandth of a row, and no noise then: its friction was not named."""
     shaper = shaper_of(check(noisy(0.05, instant=True)))
-    usual = shaper.recordings[0].sample_period * float(np.median(np.abs(shaper.recordings[0].speed)))
-    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *rest: SlotGain(1e-3 * usual, 100.0, 1000))
-    assert speed_timing._find_periods(shaper, ASSUMED) == OTHERS[0]
-    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *rest: SlotGain(1e-3 * usual, 9.0, 1000))
-    assert speed_timing._find_periods(shaper, ASSUMED) is None
-    periods = shaper_of(logged(48))
-    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *rest: SlotGain(2.0 * np.pi / 48, 100.0, 1000))
-    found = speed_timing._find_periods(periods, ASSUMED)
-    assert found is not None and found.slot == 2.0 * np.pi / 48
+    least = speed_timing.LEAST_SLOT * measure_usual_travel(shaper.recordings)
+
+    def found(share: float, gain: float) -> Timing | None:
+        monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *rest: SlotGain(share * least, gain, 1000))
+        return speed_timing._find_periods(shaper, ASSUMED)
+
+    assert found(0.99, 100.0) == OTHERS[0] and found(0.99, 9.0) is None and found(1.01, 9.0) is None
+    told = found(1.01, 100.0)
+    assert told is not None and told.slot == 1.01 * least
 
 
 @pytest.mark.parametrize("name", ["LEAST_GAIN", "LEAST_PULSE_GAIN_OF_ROW"])
