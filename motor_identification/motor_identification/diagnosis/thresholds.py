@@ -90,9 +90,9 @@ PREDICTING_GAP = 0.8
 # Times the gap of a model, beyond which one without a finding, or with another in its place, predicts far worse.
 # Measured: 6 and 1.7 where a load step or a warming-up that is there goes, 1.02 and 1.13 where it is chance.
 WORSE_GAP = 1.5
-# Of a gap on unseen motion in which no effect alone was found: what leaves less is kept, though structure is left.
-# Measured: 0.44 to 0.48 for a friction under a coasting bridge on two rigs that have more; none of 100 simulated logs
-# with effects outside the table, or of any other effect, leaves less than 0.6 so.
+# Of a gap on unseen motion in which nothing certain was found alone: what leaves less is kept, though structure is
+# left. Measured: 0.34 to 0.44 for a friction under a coasting bridge in four logs of two rigs that have more; 0.9 and
+# more of 24 simulated motors with effects outside the table.
 HALVED_GAP = 0.5
 # Times the gap of a model: within it another that is as likely is the same motion in other words, such as a friction
 # and a dead zone where the motor never turns back; what differs is how far a fit of each had converged.
