@@ -1,6 +1,5 @@
 """The shell that both plants share: what motor/enable answers, and joint states that are the angle."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -17,19 +16,12 @@ from motor_ros.messages import info_message, time_message
 from motor_ros.plant import Plant
 
 
-@pytest.fixture
-def quiet() -> Iterator[Bench]:
-    bench = Bench()
-    yield bench
-    bench.close()
-
-
 def asked(plant: Plant, on: bool) -> tuple[bool, str]:
     response = plant._on_enable(SetBool.Request(data=on), SetBool.Response())
     return response.success, response.message
 
 
-def test_a_stop_that_is_due_comes_before_an_enable(quiet: Bench) -> None:
+def test_a_stop_that_is_due_comes_before_an_enable(bench: Bench) -> None:
     """The board has just said that it was reset, and nobody has looked yet: the output is not said to be on."""
     pending = ["the board was reset (watchdog)"]
 
@@ -37,7 +29,7 @@ def test_a_stop_that_is_due_comes_before_an_enable(quiet: Bench) -> None:
         if pending:
             plant.stop(pending.pop())
 
-    plant = Plant(quiet.node, Info(), Gate(True, 0.1), changed=work)
+    plant = Plant(bench.node, Info(), Gate(True, 0.1), changed=work)
     assert asked(plant, True) == (
         False,
         "The output stays off. Just now, the board was reset (watchdog): look, then call again.",
@@ -47,15 +39,15 @@ def test_a_stop_that_is_due_comes_before_an_enable(quiet: Bench) -> None:
     assert asked(plant, False) == (True, "The output is off: call motor/enable with data: true.")
 
 
-def test_what_keeps_the_output_off_is_said(quiet: Bench) -> None:
-    plant = Plant(quiet.node, Info(), Gate(True, 0.1), refusal=lambda: "There is no link to the board yet.")
+def test_what_keeps_the_output_off_is_said(bench: Bench) -> None:
+    plant = Plant(bench.node, Info(), Gate(True, 0.1), refusal=lambda: "There is no link to the board yet.")
     assert asked(plant, True) == (False, "The output stays off. There is no link to the board yet.")
     assert asked(plant, False)[0]
 
 
-def test_a_motor_that_stops_again_and_again_is_switched_on_later_and_later(quiet: Bench) -> None:
+def test_a_motor_that_stops_again_and_again_is_switched_on_later_and_later(bench: Bench) -> None:
     """A supervisor that answered every stop got the motor each time."""
-    plant = Plant(quiet.node, Info(), Gate(True, 0.1))
+    plant = Plant(bench.node, Info(), Gate(True, 0.1))
     plant.stop("no edges at 12.0 V", motor=True)
     plant.stop("no edges at 12.0 V", motor=True)  # said until the board is off: one stop
     assert asked(plant, True)[0]
@@ -71,17 +63,17 @@ def test_a_motor_that_stops_again_and_again_is_switched_on_later_and_later(quiet
     assert asked(plant, True) == (True, "The output is on.")
 
 
-def test_a_link_that_comes_and_goes_heats_no_motor(quiet: Bench) -> None:
-    plant = Plant(quiet.node, Info(), Gate(True, 0.1))
+def test_a_link_that_comes_and_goes_heats_no_motor(bench: Bench) -> None:
+    plant = Plant(bench.node, Info(), Gate(True, 0.1))
     for _ in range(5):
         plant.stop("the link to the board was lost")
         assert asked(plant, True) == (True, "The output is on.")
 
 
 @pytest.mark.parametrize(("single", "angle"), [(False, 1.0), (True, 5.0)])
-def test_joint_states_are_the_angle_that_was_counted(quiet: Bench, single: bool, angle: float) -> None:
+def test_joint_states_are_the_angle_that_was_counted(bench: Bench, single: bool, angle: float) -> None:
     """Three slots on, two back: two channels count down, and one knows the direction by the speed's sign alone."""
-    plant = Plant(quiet.node, Info(single_channel=single, edges_per_revolution=4), Gate(True, 0.1))
+    plant = Plant(bench.node, Info(single_channel=single, edges_per_revolution=4), Gate(True, 0.1))
     joints: list[JointState] = []
     plant._joint = SimpleNamespace(publish=joints.append, get_subscription_count=lambda: 1)
     down = -1 if not single else 1
@@ -90,37 +82,37 @@ def test_joint_states_are_the_angle_that_was_counted(quiet: Bench, single: bool,
     assert joints[-1].position[0] == pytest.approx(angle * 6.283185307 / 4)
 
 
-def test_a_plant_says_again_what_it_is_while_another_says_it_too(quiet: Bench) -> None:
+def test_a_plant_says_again_what_it_is_while_another_says_it_too(bench: Bench) -> None:
     """A recording that is played with its motor/info: a controller would go on with another motor's disc and limits."""
-    plant, heard = Plant(quiet.node, Info(), Gate(True, 0.1)), quiet.hear(MotorInfo, "motor/info", qos.INFO)
-    quiet.wait(lambda: len(heard) == 1, "what it says at its start")
+    plant, heard = Plant(bench.node, Info(), Gate(True, 0.1)), bench.hear(MotorInfo, "motor/info", qos.INFO)
+    bench.wait(lambda: len(heard) == 1, "what it says at its start")
     for _ in range(3):
         plant.diagnose("", {})
-    quiet.executor.spin_once(timeout_sec=0.2)
+    bench.executor.spin_once(timeout_sec=0.2)
     assert len(heard) == 1
-    stranger = quiet.publisher(MotorInfo, "motor/info", qos.INFO)
+    stranger = bench.publisher(MotorInfo, "motor/info", qos.INFO)
     stranger.publish(info_message(Info(edges_per_revolution=12, max_voltage=48.0), time_message(0)))
-    quiet.wait(lambda: heard[-1].edges_per_revolution == 12, "the other one")
+    bench.wait(lambda: heard[-1].edges_per_revolution == 12, "the other one")
 
     def said_again() -> bool:
         plant.diagnose("", {})
         return bool(heard[-1].edges_per_revolution == 96)
 
-    quiet.wait(said_again, "what it says after the other one")
+    bench.wait(said_again, "what it says after the other one")
     assert heard[-1].max_voltage == 12.0
 
 
-def test_a_voltage_is_acted_on_when_it_comes_and_not_with_the_next_sample(quiet: Bench) -> None:
+def test_a_voltage_is_acted_on_when_it_comes_and_not_with_the_next_sample(bench: Bench) -> None:
     """The board takes it with its next tick: told of it at the next sample, it would be late by one."""
     applied: list[float] = []
-    plant = Plant(quiet.node, Info(), Gate(True, 10.0), changed=lambda: applied.append(plant.voltage()))
-    sender = quiet.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+    plant = Plant(bench.node, Info(), Gate(True, 10.0), changed=lambda: applied.append(plant.voltage()))
+    sender = bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
 
     def sent(volt: float) -> bool:
         sender.publish(MotorVoltage(voltage=volt))
-        quiet.executor.spin_once(timeout_sec=0.02)
+        bench.executor.spin_once(timeout_sec=0.02)
         return applied[-1:] == [volt]
 
-    quiet.wait(lambda: sent(0.0), "0 V")
-    quiet.wait(lambda: sent(3.0), "3 V")
+    bench.wait(lambda: sent(0.0), "0 V")
+    bench.wait(lambda: sent(3.0), "3 V")
     assert plant.gate.begun

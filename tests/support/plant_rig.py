@@ -2,6 +2,7 @@
 
 import time
 
+from std_srvs.srv import SetBool
 from workbench import Bench
 
 from motor_model.sample import Info, Sample
@@ -28,3 +29,11 @@ class Rig:
         self.plant.publish(Sample(self.count, 0.0, voltage), time_message(self.stamp()))
         self.bench.executor.spin_once(timeout_sec=0.001)
         return voltage
+
+    def begin_again(self) -> None:
+        """After others have gone: who sent meanwhile begins at 0 V, or is let on."""
+        self.plant.gate = self.plant.gate.take(6.0, time.monotonic_ns())
+        assert self.sample() == 0.0
+        assert self.plant._on_enable(SetBool.Request(data=True), SetBool.Response()).success
+        self.plant.gate = self.plant.gate.take(6.0, time.monotonic_ns())
+        assert self.sample() == 6.0

@@ -32,10 +32,6 @@ class SlotGain:
     gain: float  # of log likelihood
     rows: int
 
-    def is_unlikely(self, least: float, of_row: float) -> bool:
-        """Decide whether the gain is no more than a least, in all or a row."""
-        return self.gain <= max(least, of_row * self.rows)
-
 
 def find_stays_slot(recordings: Sequence[Recording]) -> float:
     """Find the slot [rad] by how long values stay; 0 where that tells none."""

@@ -120,7 +120,7 @@ def _find_periods(shaper: Shaper, other: Timing) -> Timing | None:
         return None
     instants = OTHERS[2] if other.is_early else OTHERS[0]
     found = find_likeliest_slot(shaper, instants, other)
-    if found.is_unlikely(LEAST_GAIN, LEAST_PULSE_GAIN_OF_ROW):
+    if found.gain <= max(LEAST_GAIN, LEAST_PULSE_GAIN_OF_ROW * found.rows):
         return None
     if found.slot < LEAST_SLOT * measure_usual_travel(shaper.recordings):  # it ends at the row's own instant
         return instants

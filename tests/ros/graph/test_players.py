@@ -1,7 +1,7 @@
 """What is played from a recording moves no motor, whatever its player is called, nor before anybody knows that."""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from subprocess import Popen
 
 import pytest
@@ -20,85 +20,69 @@ Start = Callable[..., "Popen[str]"]
 DAY = 86_400_000_000_000  # [ns]
 
 
-@pytest.fixture
-def quiet() -> Iterator[Bench]:
-    bench = Bench()
-    yield bench
-    bench.close()
-
-
 def ready(bench: Bench) -> Rig:
     rig = Rig(bench)
     bench.wait(lambda: rig.sample() == 6.0 and bool(rig.plant._other._ids), "a first look")
     return rig
 
 
-def begin_again(rig: Rig) -> None:
-    """Who sent meanwhile begins at 0 V, or is let on."""
-    rig.plant.gate = rig.plant.gate.take(6.0, time.monotonic_ns())
-    assert rig.sample() == 0.0
-    assert rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response()).success
-    rig.plant.gate = rig.plant.gate.take(6.0, time.monotonic_ns())
-    assert rig.sample() == 6.0
-
-
-def test_voltages_of_a_recording_alone_are_no_command(quiet: Bench) -> None:
+def test_voltages_of_a_recording_alone_are_no_command(bench: Bench) -> None:
     """Nobody else had samples, so that the motor ran as it had run then."""
-    rig = ready(quiet)
-    player = rclpy.create_node("rosbag2_player", context=quiet._context)
+    rig = ready(bench)
+    player = rclpy.create_node("rosbag2_player", context=bench._context)
     player.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
-    quiet.wait(lambda: rig.sample() == 0.0, "0 V")
+    bench.wait(lambda: rig.sample() == 0.0, "0 V")
     assert "A recording of /motor/voltage is played (/rosbag2_player)" in rig.plant._find_others(0)
     refused = rig.plant._on_enable(SetBool.Request(data=True), SetBool.Response())
     assert not refused.success and "play BAG --topics motor/voltage" in refused.message
     player.destroy_node()
-    quiet.wait(lambda: rig.sample() == 0.0 and not rig.plant._find_others(time.monotonic_ns()), "its end")
-    begin_again(rig)
+    bench.wait(lambda: rig.sample() == 0.0 and not rig.plant._find_others(time.monotonic_ns()), "its end")
+    rig.begin_again()
 
 
-def test_a_player_of_another_name_is_known_by_what_it_serves(quiet: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
-    rig = ready(quiet)
+def test_a_player_of_another_name_is_known_by_what_it_serves(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+    rig = ready(bench)
     served = [("/x/pause", ["rosbag2_interfaces/srv/Pause"])]
     monkeypatch.setattr(rig.plant._commanders._node, "get_service_names_and_types", lambda: served)
-    player = rclpy.create_node("x", context=quiet._context)
+    player = rclpy.create_node("x", context=bench._context)
     player.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
-    quiet.wait(lambda: rig.sample() == 0.0, "0 V")
+    bench.wait(lambda: rig.sample() == 0.0, "0 V")
     assert "is played (/x)" in rig.plant._find_others(0)
     player.destroy_node()
-    quiet.wait(lambda: rig.sample() == 0.0 and not rig.plant._find_others(time.monotonic_ns()), "its end")
-    begin_again(rig)
+    bench.wait(lambda: rig.sample() == 0.0 and not rig.plant._find_others(time.monotonic_ns()), "its end")
+    rig.begin_again()
 
 
 @pytest.mark.parametrize(
     ("age", "obeyed"), [(DAY, False), (10_500_000_000, False), (9_000_000_000, True), (-DAY, False)]
 )
-def test_a_voltage_of_another_time_is_not_obeyed(quiet: Bench, age: int, obeyed: bool) -> None:
-    rig = Rig(quiet)
+def test_a_voltage_of_another_time_is_not_obeyed(bench: Bench, age: int, obeyed: bool) -> None:
+    rig = Rig(bench)
     rig.plant.gate = rig.plant.gate.come_up(0)
-    sender = quiet.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+    sender = bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
 
     def send(volts: float, stamp: int) -> float:
         sender.publish(voltage_message(volts, time_message(stamp), "recorded"))
         return rig.sample()
 
-    quiet.wait(lambda: send(0.0, 0) == 0.0 and rig.plant.gate.begun, "the sender")
+    bench.wait(lambda: send(0.0, 0) == 0.0 and rig.plant.gate.begun, "the sender")
     applied: list[float] = []
 
     def drive() -> bool:
         applied.append(send(5.0, rig.stamp() - age))
         return applied[-1] == 5.0 if obeyed else len(applied) == 100
 
-    quiet.wait(drive, "its voltages")
+    bench.wait(drive, "its voltages")
     assert set(applied) <= ({0.0, 5.0} if obeyed else {0.0})
     assert obeyed == (rig.plant._old == "")
     assert obeyed or "is stamped" in rig.plant._old and ("ahead" if age < 0 else "ago") in rig.plant._old
 
 
-def test_nobody_is_obeyed_whose_node_is_not_known(quiet: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nobody_is_obeyed_whose_node_is_not_known(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:
     """Messages come before the middleware has told whose they are: 0.14 s of a recording drove the motor."""
-    rig = Rig(quiet)
+    rig = Rig(bench)
     rig.plant.gate = rig.plant.gate.come_up(time.monotonic_ns())
-    sender = quiet.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
+    sender = bench.publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
     node, names = rig.plant._commanders._node, []
     listed = node.get_publishers_info_by_topic
 
@@ -119,8 +103,8 @@ def test_nobody_is_obeyed_whose_node_is_not_known(quiet: Bench, monkeypatch: pyt
         assert send(5.0) == 0.0
     assert rig.plant.gate.sender is not None and rig.plant.gate.sender.name == ""  # the rig's own
     names.append("known")
-    quiet.wait(lambda: send(0.0) == 0.0 and rig.plant.gate.begun, "the known one")
-    quiet.wait(lambda: send(5.0) == 5.0, "its voltage")
+    bench.wait(lambda: send(0.0) == 0.0 and rig.plant.gate.begun, "the known one")
+    bench.wait(lambda: send(5.0) == 5.0, "its voltage")
 
 
 @pytest.mark.parametrize("name", ["rosbag2_player", "x"])

@@ -72,7 +72,8 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     """The form of one motor; what is guessed and what is missing goes to the notes."""
     whose = f" of {pair.label}" if pair.label else ""
     stamps = rows.stamps(table)
-    counted = _find_counted(table, pair, roles, said, rows)
+    taken = frozenset(name for name in (rows.time, roles.supply, roles.current, said.split) if name)
+    counted = _find_counted(table, pair, taken, said, stamps)
     said = replace(said, kind=Kind.COUNT) if counted and counted.whole else said
     beside_it = f", of which {counted.speed} is the speed (otherwise: --speed {counted.speed})" if counted else ""
     pair = replace(pair, motion=counted.column) if counted else pair
@@ -140,12 +141,10 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
     )
 
 
-def _find_counted(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows) -> Counted | None:
+def _find_counted(table: Table, pair: Pair, taken: frozenset[str], said: Said, stamps: Floats | None) -> Counted | None:
     """Find what was counted, of which the column of motion is the speed; None where the user said what it is."""
     if (said.motion, said.unit, said.motors) != (None, None, ()):
         return None
-    taken = frozenset(name for name in (rows.time, roles.supply, roles.current, said.split) if name)
-    stamps = rows.stamps(table)
     summed = find_summed_counts(table, pair, taken)
     return summed or (None if stamps is None else find_counted_position(table, pair, taken, stamps))
 
