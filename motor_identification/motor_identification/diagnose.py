@@ -24,7 +24,7 @@ from motor_identification.diagnosis.selection.restarts import retry_with_another
 from motor_identification.diagnosis.selection.rivals import check_beside_torque
 from motor_identification.diagnosis.selection.selection import Selection
 from motor_identification.diagnosis.selection.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
-from motor_identification.diagnosis.selection.torque_selection import select_beside_torque
+from motor_identification.diagnosis.selection.torque_selection import list_hidden_by_torque, select_beside_torque
 from motor_identification.diagnosis.start import Start, begin, begin_as_timed, find_timing_beside
 from motor_identification.diagnosis.verdict import conclude, find_nearest
 from motor_identification.estimation.request import Request
@@ -153,9 +153,9 @@ def _select_as_timed(
 def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tuple[str, ...]]:
     """Select forward and eliminate backward, beside a random torque where there is one; and what is undetermined."""
     first = select_forward(start, reporter)
-    selection = retry_with_pair(retry_with_another_first(first, reporter), reporter)
-    reporter.report("checking", 0.9, "", selection.model.held.gap)
-    beside = select_beside_torque(start, selection, reporter)
+    selection = plain = retry_with_pair(retry_with_another_first(first, reporter), reporter)
+    reporter.report("checking", 0.9, "", plain.model.held.gap)
+    beside = select_beside_torque(start, plain, reporter)
     if beside is None:
         selection = eliminate_backward(drop_stand_ins_of_either(first, selection), reporter)
         if selection.model.complete and selection.model.above_floor:
@@ -165,6 +165,8 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     else:
         selection = beside
     left, undetermined = drop_undetermined(selection, reporter)
+    if selection is beside:
+        undetermined = undetermined or list_hidden_by_torque(plain, beside)
     if untold := set(find_untold(left.model)) - set(start.model.effects):
         return start, sort_by_table(untold | set(undetermined))
     # What is left of a model that fits a slow torque instead of the motion tells less than the one to begin with.

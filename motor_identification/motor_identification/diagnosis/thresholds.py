@@ -94,6 +94,10 @@ WORSE_GAP = 1.5
 # left. Measured: 0.34 to 0.44 for a friction under a coasting bridge in four logs of two rigs that have more; 0.9 and
 # more of 24 simulated motors with effects outside the table.
 HALVED_GAP = 0.5
+# Correlation times of a torque, below which a recording that the fits have seen whole has too few courses of it to tell
+# it from a friction or a load. Measured: 3.6 in one step from 5 to 15 V of a real gearmotor, whose friction is likelier
+# by 540 alone; 30 of a torque of 0.2 s in the shortest recordings of the tables.
+FEW_COURSES = 5.0
 # Times the gap of a model: within it another that is as likely is the same motion in other words, such as a friction
 # and a dead zone where the motor never turns back; what differs is how far a fit of each had converged.
 SAME_GAP = 1.001

@@ -3,6 +3,8 @@
 Forward selection and backward elimination as without a torque, on models that are fitted and judged beside one.
 """
 
+import numpy as np
+
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_test import likelihood_threshold, predicts_far_worse, takes_away_more
 from motor_identification.diagnosis.evidence.line_evidence import count_waves
@@ -47,6 +49,22 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
     if doubtful:
         return _choose_more(doubtful[0], plain, disturbed)
     return _choose_incomplete(incomplete, plain)
+
+
+def list_hidden_by_torque(plain: Selection, beside: Selection) -> tuple[str, ...]:
+    """List what was found alone, and its rivals, where a torque as slow as the recording takes its place.
+
+    Where the fits have seen all, a torque of which that few courses fit into the motion follows what a friction or a
+    load does between two levels of the command: neither is sure.
+    """
+    learned = beside.model.learned
+    if learned is None or beside.steps or len(plain.steps) != 1 or not (plain.model.held.seen and plain.model.complete):
+        return ()
+    longest = max(float(np.ptp(data.time)) for data in beside.model.held.intervals)
+    if longest >= thresholds.FEW_COURSES * learned.correlation_time:
+        return ()
+    found = plain.steps[0]
+    return (found.found.effect, *found.rivals)
 
 
 def _choose_incomplete(found: list[Selection], plain: Selection) -> Selection | None:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 from stub_models import StubModel, rescored, stub_model, stub_test
 from stub_selections import selection_of, step_of
@@ -176,3 +177,23 @@ def test_what_runs_may_differ_in_is_judged_again(differ: bool, monkeypatch: pyte
     plain = selection_of(stub_model(1.0), step_of(stub_test("direction_asymmetry", before, 1.0, 100.0)))
     ended = selection_of(stub_model(1.2))
     assert (selected(monkeypatch, plain, plain, ended) is ended) is differ
+
+
+@pytest.mark.parametrize(
+    ("share", "by_fit", "found", "hidden"),
+    [(0.21, True, 1, True), (0.19, True, 1, False), (0.21, False, 1, False), (0.21, True, 2, False)],
+)
+def test_a_torque_as_slow_as_the_recording_hides_what_was_found(
+    share: float, by_fit: bool, found: int, hidden: bool
+) -> None:
+    """A friction gives way to a torque of which five courses fit into a motion that the fits have seen, or fewer."""
+    before = seen(stub_model(2.0, 0.0), by_fit)
+    friction = stub_test("coulomb_friction", before, 1.2, 100.0)
+    step = replace(step_of(friction), rivals=("load_bias",))
+    plain = selection_of(seen(stub_model(1.2, 0.0), by_fit), *[step] * found)
+    time = float(np.ptp(plain.model.held.intervals[0].time))
+    assert thresholds.FEW_COURSES == 5.0 and plain.model.complete
+    beside = selection_of(replace(plain.model, learned=ErrorModel(0.0, 0.0, 0.1, share * time)))
+    names = module.list_hidden_by_torque(plain, beside)
+    assert names == (("coulomb_friction", "load_bias") if hidden else ())
+    assert module.list_hidden_by_torque(plain, replace(beside, steps=(step,))) == ()
