@@ -21,6 +21,9 @@ from motor_identification.sensor.white_noise import estimate_white_noise
 LEAST_ZEROS = 5.0  # rows, from the one before to the last of values of 0: fewer may be a row or two that were lost
 UNTIL_TOLD = 2.0  # slots that a motor turns before a time between two edges is known, at rest or after a turn
 FRESH = 0.5  # of a row: with two edges within it for certain its value is a new one
+# Of a row: a slot's time by what is lost of a speed in a row, in speeds. From v on a motor stops within v²/2a, which is
+# less than a slot from 0.5 on: then it may have had no edge in the row, and its value is an old one.
+STOPS = 0.25
 OLDER = 1.1  # rows: an edge came within the row before, stamps are a little off
 STEADY = 2.0  # times its neighbours that a value may be, or they it, where it may be old
 LEAST_NOISE = 0.005  # of a value: no cheap disc is more regular
@@ -75,8 +78,20 @@ def _mark_measured(recording: Recording) -> Bools:
     alike = (before * after > 0.0) & (large < STEADY * small)
     steady = np.append(False, alike) & np.append(alike, False)
     measured = np.zeros(len(time), np.bool_)
-    measured[at[(period[at] < FRESH * row) | steady]] = True
+    measured[at[((period[at] < FRESH * row) & ~_mark_stops(time[at] / row, speed[at], period[at] / row)) | steady]] = (
+        True
+    )
     return measured
+
+
+def _mark_stops(time: Floats, speed: Floats, period: Floats) -> Bools:
+    """Mark values (N,) so near to a stop or a turn that no edge may have come since, of times and periods (N,) [rows].
+
+    By what is lost of a speed from the value before, or to the next one, in a row.
+    """
+    size, change = np.abs(speed), np.diff(speed) / np.diff(time)
+    lost = np.maximum(np.append(0.0, -change * np.sign(speed[1:])), np.append(-change * np.sign(speed[:-1]), 0.0))
+    return np.asarray(period * lost > STOPS * size) if len(speed) else np.zeros(0, np.bool_)
 
 
 def _measure_noise(speed: Floats, voltage: Floats) -> float:

@@ -13,6 +13,7 @@ of another time (`held_until.py`).
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from math import inf
 
 from motor_identification.estimation.estimate import Estimate
 from motor_identification.estimation.problem import Problem
@@ -102,15 +103,30 @@ def _find_as_stamped(shaper: Shaper) -> Timing | None:
         return None
     usual = (ASSUMED, OTHERS[0]) if _are_open(shaper.recordings) else ()
     found = find_filter(shaper, (timing, *(one for one in usual if one != timing)))
-    if found.filter:  # smoothed speeds come late: whether they come early shows in what was smoothed
-        sharp = replace(ASSUMED, filter=found.filter).set_on(shaper.recordings)
-        again = _find_instants(replace(shaper, recordings=sharp))
-        return replace(again, filter=found.filter) if again in OTHERS[1:] else found
+    if found.filter:
+        return _find_periods_instead(shaper, found) or _find_again_behind(shaper, found)
     return _find_periods(shaper, found) or found
 
 
-def _find_periods(shaper: Shaper, other: Timing) -> Timing | None:
-    """Find that speeds are a slot over the times between edges, much likelier than by another timing; else None.
+def _find_again_behind(shaper: Shaper, found: Timing) -> Timing:
+    """Find behind a filter whether the motion comes early: smoothed speeds come late, and it shows in what was."""
+    sharp = replace(ASSUMED, filter=found.filter).set_on(shaper.recordings)
+    again = _find_instants(replace(shaper, recordings=sharp))
+    return replace(again, filter=found.filter) if again in OTHERS[1:] else found
+
+
+def _find_periods_instead(shaper: Shaper, found: Timing) -> Timing | None:
+    """Find that what a filter seems to smooth are times between edges, if those are likelier; else None.
+
+    A value that stays until the next edge is one that a filter's memory keeps, too. Both beside none of them.
+    """
+    likelihood = Likelihood(shaper, found)
+    periods = _find_periods(shaper, replace(found, filter=None), likelihood.of(found.filter) - likelihood.of(None))
+    return periods if periods is not None and periods.slot > 0.0 else None
+
+
+def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing | None:
+    """Find that speeds are a slot over the times between edges, likelier by this than by another timing; else None.
 
     Or that they are values of instants, of which a slot that passes often in a row is another word. Not of counts, nor
     of what is held for even frames.
@@ -120,7 +136,7 @@ def _find_periods(shaper: Shaper, other: Timing) -> Timing | None:
         return None
     instants = OTHERS[2] if other.is_early else OTHERS[0]
     found = find_likeliest_slot(shaper, instants, other)
-    if found.gain <= max(LEAST_GAIN, LEAST_PULSE_GAIN_OF_ROW * found.rows):
+    if found.gain <= max(least, LEAST_GAIN, LEAST_PULSE_GAIN_OF_ROW * found.rows):
         return None
     if found.slot < LEAST_SLOT * measure_usual_travel(shaper.recordings):  # it ends at the row's own instant
         return instants

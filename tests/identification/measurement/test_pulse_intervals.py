@@ -9,8 +9,10 @@ from swinging import recorded
 
 from motor_identification.measurement.build_intervals import make_intervals
 from motor_identification.measurement.pulse_intervals import (
+    FRESH,
     LEAST_NOISE,
     LEAST_ZEROS,
+    STOPS,
     make_pulse_intervals,
     measure_slot,
 )
@@ -50,6 +52,23 @@ def test_values_that_repeat_or_fall_bring_nothing_new() -> None:
         edges = np.abs(np.diff(recording.edge_count))
         assert count <= np.count_nonzero(edges)
         assert count > 0.8 * np.count_nonzero(edges)
+
+
+@pytest.mark.parametrize(
+    ("values", "measured"),
+    [([14.0, 12.0, 10.0, 3.8], True), ([14.0, 12.0, 10.0, 3.7], False), ([14.0, 12.0, 10.0, -9.0], False)],
+)
+def test_a_value_before_a_stop_or_a_turn_may_be_an_old_one(values: list[float], measured: bool) -> None:
+    """Of 0.4 rows: from its speed the motor stops within a slot if it loses 6.25 rad/s of 10 in a row."""
+    recording = timed()
+    row = recording.info.sample_period
+    assert (FRESH, STOPS) == (0.5, 0.25)
+    for sign in (1.0, -1.0):
+        speed = np.full(len(recording), sign * values[-1])
+        speed[: 20 + len(values)] = sign * np.array([10.0] * 20 + values)
+        slow = replace(recording, speed=speed, edge_period=4.0 * row / np.abs(speed))
+        ends = make_pulse_intervals(slow).time
+        assert bool(np.any(np.abs(ends - 21.8 * row) < 0.01 * row)) is measured  # 0.2 rows before its own
 
 
 @pytest.mark.parametrize(("seconds", "pieces"), [(0.01, 0), (0.07, 2), (0.12, 1), (0.45, 4)])

@@ -24,6 +24,8 @@ from motor_identification.timing.pulse_slot import (
     measure_usual_travel,
 )
 from motor_identification.timing.shaped_fit import Shaper
+from motor_identification.timing.smoothing import Likelihood
+from motor_identification.timing.speed_filter import SpeedFilter
 from motor_identification.timing.speed_timing import find_timing
 from motor_identification.timing.timing import ASSUMED, INSTANT, OTHERS, Timing
 from motor_model.parameters import PAPER_KV
@@ -138,6 +140,27 @@ def test_a_voltage_that_held_until_the_row_is_told_beside_it() -> None:
     recording = logged(12)
     found = timing_of(check(replace(recording, voltage=np.append(0.0, recording.voltage[:-1]))))
     assert found.lag == -1.0 and found.slot > 0.0
+
+
+@pytest.mark.parametrize(("gain", "told"), [(1.01, True), (0.99, False)])
+def test_what_stays_is_no_filter_where_a_slot_is_likelier(
+    gain: float, told: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What stays is also what a filter's memory keeps: a log of 17 edges a row had one, and its friction was lost."""
+    shaper = shaper_of(check(noisy(0.05, instant=True)))
+    filtered = replace(OTHERS[0], filter=SpeedFilter("memory", 0.2))
+    likelihood = Likelihood(shaper, filtered)
+    lost = likelihood.of(filtered.filter) - likelihood.of(None)  # of what is no filter
+
+    def find(shaper: Shaper, timing: Timing, other: Timing) -> SlotGain:
+        assert other == OTHERS[0]  # without a filter
+        return SlotGain(0.1, 20.0 * gain, 1000) if lost < 0.0 else SlotGain(0.1, 0.0, 0)
+
+    monkeypatch.setattr(speed_timing, "find_filter", lambda *rest: filtered)
+    monkeypatch.setattr(speed_timing, "find_likeliest_slot", find)
+    found = speed_timing._find_as_stamped(shaper)
+    assert found is not None
+    assert (found.slot, found.filter) == ((0.1, None) if told else (0.0, filtered.filter))
 
 
 def test_the_motor_is_right_and_the_notes_say_how_it_was_read() -> None:
