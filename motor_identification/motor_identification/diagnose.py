@@ -23,7 +23,12 @@ from motor_identification.diagnosis.selection.forward_selection import select_fo
 from motor_identification.diagnosis.selection.restarts import retry_with_another_first, retry_with_pair
 from motor_identification.diagnosis.selection.rivals import check_beside_torque
 from motor_identification.diagnosis.selection.selection import Selection
-from motor_identification.diagnosis.selection.stand_ins import drop_stand_ins, drop_stand_ins_of_either, keep_confirmed
+from motor_identification.diagnosis.selection.stand_ins import (
+    doubt_instants,
+    drop_stand_ins,
+    drop_stand_ins_of_either,
+    keep_confirmed,
+)
 from motor_identification.diagnosis.selection.torque_selection import list_hidden_by_torque, select_beside_torque
 from motor_identification.diagnosis.start import Start, begin, begin_as_timed, find_timing_beside
 from motor_identification.diagnosis.verdict import conclude, find_nearest
@@ -165,6 +170,7 @@ def _select(start: Selection, reporter: ProgressReporter) -> tuple[Selection, tu
     else:
         selection = beside
     left, undetermined = drop_undetermined(selection, reporter)
+    left = doubt_instants(left)
     if selection is beside:
         undetermined = undetermined or list_hidden_by_torque(plain, beside)
     if untold := set(find_untold(left.model)) - set(start.model.effects):

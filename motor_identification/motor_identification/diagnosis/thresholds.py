@@ -152,6 +152,9 @@ STAND_IN_SHARE = 0.95
 # friction of a robot on a floor that is not the same everywhere. A stand-in for a friction over the angle, or a supply
 # that swings, is not even relevant.
 APART_SHARE = 0.4
+# Of the excess: what explains less by no more than that without an instant may be there instead of what needs one.
+# Measured: 0.002 between a friction and a load that stepped at the only step of a real motor's command.
+NEARLY_AS_MUCH = 0.02
 # Of the share that goes with the past: what goes with speed, voltage or drive beside that. Measured: 0.17 in a loop
 # with a filtered tachogenerator, 0.8 where a friction is not the table's.
 MINOR_SHARE = 0.3
@@ -205,6 +208,10 @@ MANY_STEPS = 3
 # First effects that are tried instead of the most likely one where the gap stays above the floor, and the share of its
 # evidence that they need: measured, right first ones had 0.8 and more of a wrong one's.
 SECOND_STARTS = 2
+# Time constants of the motor, beyond which a torque's correlation time is one of what happens at rest. Measured: 52 of
+# a limit in a staircase of 25 levels of 5 s, which stood in for a friction under a coasting bridge; 1 to 4 of those of
+# 0.2 s.
+SLOW_TORQUE = 10.0
 SECOND_START_EVIDENCE = 0.75
 # Effects that are tried instead of a finding in backward elimination: the likely ones where it was found.
 ELIMINATION_RIVALS = 3

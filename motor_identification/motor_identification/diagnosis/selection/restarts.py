@@ -15,10 +15,12 @@ from motor_identification.validation.instants import needs_instant
 def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -> Selection:
     """Select forward again from another first effect that was nearly as likely, where the gap stays above the floor.
 
-    Or where a complete model took many findings: fewer may do as well. While others are missing too, one effect can do
-    as well as another, and the wrong one ends in a local minimum of the selection, or with more than are there.
+    Or where a complete model took many findings: fewer may do as well; or is one beside a torque that is so slow that a
+    wrong static curve is one, too. While others are missing too, one effect can do as well as another, and the wrong
+    one ends in a local minimum of the selection, or with more than are there.
     """
-    if not selection.steps or (selection.model.complete and len(selection.steps) < thresholds.MANY_STEPS):
+    settled = selection.model.complete and not is_beside_slow_torque(selection.model)
+    if not selection.steps or (settled and len(selection.steps) < thresholds.MANY_STEPS):
         return selection
     first = selection.steps[0]
     for test in list_other_firsts(first):
@@ -27,7 +29,8 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
         start = begin_selection(test.model.estimate, selection.hold_out, selection.workers, (begun,))
         other = select_forward(start, reporter, pairs=False)
         if selection.model.complete:
-            selection = other if _is_simpler(other, selection) else selection
+            better = _is_simpler(other, selection) or (not settled and _leaves_less(other, selection))
+            selection = other if better else selection
             continue
         if _are_alike(other.model, selection.model):
             selection = _add_rival(selection, other)  # the one that was more likely stays
@@ -62,6 +65,20 @@ def retry_with_pair(selection: Selection, reporter: ProgressReporter) -> Selecti
     other = select_forward(start.add(pair), reporter, pairs=False)
     better = other.model.likelihood > selection.model.likelihood and other.model.held.gap < selection.model.held.gap
     return other if better else selection
+
+
+def is_beside_slow_torque(model: Model) -> bool:
+    """Decide whether what a model leaves is said to be a torque that the motor is at rest with nearly all the time.
+
+    So is what a wrong static curve leaves of a staircase, whose levels the fit has seen.
+    """
+    return model.above_floor and model.errors.correlation_time * model.lag.rate > thresholds.SLOW_TORQUE
+
+
+def _leaves_less(other: Selection, selection: Selection) -> bool:
+    """Decide whether another selection is likelier, and leaves so little that what chance leaves is no question."""
+    likelier = other.model.likelihood > selection.model.likelihood
+    return likelier and other.model.held.gap < thresholds.HALVED_GAP * selection.model.held.gap
 
 
 def _is_simpler(other: Selection, many: Selection) -> bool:

@@ -6,11 +6,13 @@ from dataclasses import replace
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import refit_without
 from motor_identification.diagnosis.candidate_model import Model
-from motor_identification.diagnosis.candidate_test import share_explained
+from motor_identification.diagnosis.candidate_test import likelihood_threshold, share_explained
+from motor_identification.diagnosis.effect_test import list_candidates, sort_by_table, try_effects
 from motor_identification.diagnosis.evidence.calm_evidence import explains_calm
 from motor_identification.diagnosis.evidence.standstill_evidence import explains_standstills
-from motor_identification.diagnosis.selection.selection import Selection
+from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.discrepancy.free_curves import PAST, REPEATING
+from motor_identification.validation.instants import needs_instant
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -90,6 +92,28 @@ def drop_unneeded(selection: Selection) -> Selection:
             break
         selection = selection.replace_step(weakest[1], None, weakest[2])
     return selection
+
+
+def doubt_instants(selection: Selection) -> Selection:
+    """Add to what begins at an instant the effects that explain nearly as much without one, where a gap is left.
+
+    The instant that fits best is the command's own, where a friction or another gain between two levels is missing.
+    """
+    if selection.model.complete:
+        return selection
+    return replace(selection, steps=tuple(_doubt_instant(step, selection) for step in selection.steps))
+
+
+def _doubt_instant(step: SelectionStep, selection: Selection) -> SelectionStep:
+    if not needs_instant(step.found.effect):
+        return step
+    model, without = selection.model, refit_without(selection.model, step.found.effect, selection.hold_out)
+    least = share_explained(without.held.gap, model.held.gap, model.unpredictable_gap) - thresholds.NEARLY_AS_MUCH
+    names = list_candidates(without.effects, without.held, without.beside_torque)
+    steady = [name for name in names if not needs_instant(name) and not EFFECT_BY_NAME[name].periodic]
+    tests = try_effects(without, selection.hold_out, steady, selection.workers, lambda test: None)
+    alike = {test.effect for test in tests if test.evidence > likelihood_threshold() and test.explains > least}
+    return replace(step, rivals=sort_by_table({*step.rivals, *alike}))
 
 
 def keep_confirmed(selection: Selection, effects: Sequence[str]) -> Selection:

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from stub_models import rescored, stub_model, stub_test
+from stub_models import StubModel, rescored, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -17,6 +17,7 @@ from motor_identification.diagnosis.selection.restarts import (
     retry_with_pair,
 )
 from motor_identification.diagnosis.selection.selection import SelectionStep
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 
 BELOW, ABOVE = 0.999, 1.001
@@ -103,6 +104,33 @@ def test_of_two_complete_models_the_one_with_fewer_findings_is_taken(
     monkeypatch.setattr(module, "begin_selection", lambda *rest: many)
     monkeypatch.setattr(module, "select_forward", lambda *rest, **how: fewer)
     assert (retry_with_another_first(many, SILENT) is fewer) is taken
+
+
+@pytest.mark.parametrize(
+    ("slow", "gap", "likelier", "taken"),
+    [
+        (1.01, 0.49, 1.0, True),
+        (1.01, 0.51, 1.0, False),
+        (1.01, 0.49, -1.0, False),
+        (0.99, 0.49, 1.0, False),  # of a motion that is not at rest with it
+    ],
+)
+def test_a_static_curve_that_a_slow_torque_makes_complete_is_doubted(
+    monkeypatch: pytest.MonkeyPatch, slow: float, gap: float, likelier: float, taken: bool
+) -> None:
+    """A limit of the voltage, where friction under a coasting bridge leaves a third: a staircase of 5 s a level."""
+    before, left = stub_model(40.0), 20.0
+    first, other = stub_test("voltage_limit", before, left, 100.0), stub_test("coast_drive", before, 25.0, 90.0)
+    begun = selection_of(replace(stub_model(left), random=True), step_of(first, other))
+    assert thresholds.HALVED_GAP == 0.5
+    errors = ErrorModel(0.0, 0.0, 1.0, slow * thresholds.SLOW_TORQUE / begun.model.lag.rate)
+    monkeypatch.setattr(StubModel, "errors", errors)
+    model = replace(stub_model(gap * left, likelihood=begun.model.likelihood + likelier), random=True)
+    pair = replace(begun, steps=(step_of(other), step_of(first)), model=model)
+    monkeypatch.setattr(module, "begin_selection", lambda *rest: begun)
+    monkeypatch.setattr(module, "select_forward", lambda *rest, **how: pair)
+    assert begun.model.complete
+    assert (retry_with_another_first(begun, SILENT) is pair) is taken
 
 
 @pytest.mark.parametrize(

@@ -6,13 +6,15 @@ from types import SimpleNamespace
 from typing import cast
 
 import pytest
-from stub_models import stub_model, with_effects
-from stub_selections import stub_selection, stub_step
+from stub_models import stub_model, stub_test, with_effects
+from stub_selections import step_of, stub_selection, stub_step
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_model import Model
+from motor_identification.diagnosis.candidate_test import CandidateTest, share_explained
 from motor_identification.diagnosis.selection import stand_ins
 from motor_identification.diagnosis.selection.stand_ins import (
+    doubt_instants,
     drop_stand_ins,
     drop_stand_ins_of_either,
     drop_unneeded,
@@ -199,3 +201,28 @@ def test_what_replaces_a_friction_explains_what_that_is_told_by(
     monkeypatch.setattr(stand_ins, "explains_standstills", lambda before, one: stands and one is model)
     monkeypatch.setattr(stand_ins, "explains_calm", lambda before, one: one is delayed)
     assert has_same_evidence(delayed, without, model) is same
+
+
+@pytest.mark.parametrize(
+    ("effect", "less", "complete", "rivals"),
+    [
+        ("load_step", 0.019, False, ("coulomb_friction",)),
+        ("load_step", 0.021, False, ()),
+        ("load_step", 0.019, True, ()),
+        ("quadratic_drag", 0.019, False, ()),  # at no instant
+    ],
+)
+def test_an_instant_is_in_doubt_where_as_much_is_explained_without_one(
+    monkeypatch: pytest.MonkeyPatch, effect: str, less: float, complete: bool, rivals: tuple[str, ...]
+) -> None:
+    """A load stepped where the command did: friction explained 0.949 of the gap, and the load step 0.951."""
+    assert thresholds.NEARLY_AS_MUCH == 0.02
+    before, after = stub_model(9.0), stub_model(1.0 if complete else 5.0, 0.0)
+    share = share_explained(9.0, 5.0, after.unpredictable_gap) - less
+    alike = CandidateTest("coulomb_friction", before, stub_model(4.0, likelihood=100.0))
+    monkeypatch.setattr(stand_ins, "refit_without", lambda *rest: before)
+    monkeypatch.setattr(stand_ins, "list_candidates", lambda *rest: ["coulomb_friction", "load_step", "torque_ripple"])
+    monkeypatch.setattr(stand_ins, "try_effects", lambda model, hold_out, names, *rest: [alike] * len(names))
+    monkeypatch.setattr(CandidateTest, "explains", share)
+    selection = replace(stub_selection(5.0, step_of(stub_test(effect, before, 5.0, 100.0))), model=after)
+    assert doubt_instants(selection).steps[0].rivals == rivals
