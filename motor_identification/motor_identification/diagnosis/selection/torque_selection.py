@@ -52,16 +52,17 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
 
 
 def list_hidden_by_torque(plain: Selection, beside: Selection) -> tuple[str, ...]:
-    """List what was found alone, and its rivals, where a torque as slow as the recording takes its place.
+    """List what was found alone, and its rivals, where a torque that may be none takes its place.
 
-    Where the fits have seen all, a torque of which that few courses fit into the motion follows what a friction or a
-    load does between two levels of the command: neither is sure.
+    Where the fits have seen all, a torque of which few courses fit into the motion follows what a friction or a load
+    does between two levels of the command; and one that is faster than rows is what rows that are stamped wrong make.
     """
-    learned = beside.model.learned
-    if learned is None or beside.steps or len(plain.steps) != 1 or not (plain.model.held.seen and plain.model.complete):
+    learned, held = beside.model.learned, plain.model.held
+    if learned is None or beside.steps or len(plain.steps) != 1 or not (held.seen and plain.model.complete):
         return ()
-    longest = max(float(np.ptp(data.time)) for data in beside.model.held.intervals)
-    if longest >= thresholds.FEW_COURSES * learned.correlation_time:
+    longest = max(float(np.ptp(data.time)) for data in held.intervals)
+    row = float(np.median(np.concatenate([data.duration for data in held.intervals])))
+    if row <= learned.correlation_time <= longest / thresholds.FEW_COURSES:
         return ()
     found = plain.steps[0]
     return (found.found.effect, *found.rivals)
