@@ -80,6 +80,7 @@ def read_direction(table: Table, column: str, drive: Floats, speed: Floats) -> D
     """
     values = _values(table, column)
     ways = [one for one in values if one.lower() not in (NEITHER if len(values) == 3 else STANDS)]
+    ways = [one for one in ways if np.any(drive[is_backward(table, column, [one])])] or ways  # 0 may be "off"
     backward = [one for one in ways if one.lower() in BACKWARD]
     known = all(one.lower() in FORWARD | BACKWARD | NEITHER for one in values)
     if len(ways) == 1 and known:

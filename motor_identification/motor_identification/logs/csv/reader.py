@@ -20,7 +20,7 @@ from motor_identification.logs.csv.oscilloscope import give_times
 from motor_identification.logs.csv.quotes import unquote_rows
 from motor_identification.logs.csv.sentences import drop_sentences, drop_words
 from motor_identification.logs.csv.table import GARBLED, Table
-from motor_identification.logs.csv.table_end import NEARLY_ALL, cut_at_end
+from motor_identification.logs.csv.table_end import NEARLY_ALL, cut_at_end, leave_out_cut_number
 from motor_model.errors import RecordingError
 
 _CHUNK = 50_000  # rows: lists of texts take ten times the memory of arrays
@@ -41,7 +41,7 @@ def read_table(path: Path, wanted: Sequence[str] = ()) -> Table:
     if not text.strip():
         raise RecordingError(f"{path} is empty: it needs a line of column names and a row for each sample.")
     notes = [f"The file is read as {encoding}, as it is not UTF-8."] if encoding else []
-    return table_of(path, text.splitlines(), notes, wanted)
+    return leave_out_cut_number(table_of(path, text.splitlines(), notes, wanted), text)
 
 
 def table_of(path: Path, text: Sequence[str], notes: list[str], wanted: Sequence[str] = ()) -> Table:

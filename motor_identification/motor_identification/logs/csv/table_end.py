@@ -2,11 +2,17 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from motor_identification.logs.csv.cells import COMMENT, is_number, split_line
 from motor_identification.logs.csv.dialect import LOOKED_AT, Dialect
 from motor_identification.logs.csv.sparse import NO_VALUE
+from motor_identification.logs.csv.table import Table
 
 NEARLY_ALL = 0.95  # of the first rows: there a column has numbers that no row lacks
+FEWEST_ROWS = 10  # whose numbers tell how many decimals a number has
+LINE_BREAKS = ("\n", "\r")
 
 
 def cut_at_end(lines: Sequence[str], dialect: Dialect) -> tuple[Sequence[str], list[str]]:
@@ -67,3 +73,28 @@ def _says_number(cells: Sequence[str], place: int, comma: bool) -> bool:
 def _is_empty(cells: Sequence[str], place: int) -> bool:
     """Whether a cell says that there is no value."""
     return place < len(cells) and cells[place] in NO_VALUE
+
+
+def leave_out_cut_number(table: Table, text: str) -> Table:
+    """Leave out the last row of a table whose file ends in fewer decimals than any row before has there; and say so.
+
+    A number with as many decimals may be whole, as is one before a line break; where rows have numbers without
+    decimals, none tells anything.
+
+    Args:
+        table: what was read of the text.
+        text: that of the whole file.
+    """
+    if text.endswith(LINE_BREAKS) or len(table) <= FEWEST_ROWS or not text.endswith(table.text(table.names[-1], -1)):
+        return table
+    decimals = _count_decimals(np.asarray(table.column(table.names[-1])).astype(np.str_))
+    if decimals[-1] >= np.min(decimals[:-1]):
+        return table
+    said = f"Line {table.lines[-1]}, the last, is cut off within its last number and left out."
+    return table.rows(np.arange(len(table)) < len(table) - 1, said)
+
+
+def _count_decimals(cells: NDArray[np.str_]) -> NDArray[np.int64]:
+    """Count the digits behind the point, or the comma, of each cell, shape (K,)."""
+    points = np.char.find(np.char.replace(cells, ",", "."), ".")
+    return np.asarray(np.where(points < 0, 0, np.char.str_len(cells) - points - 1), np.int64)

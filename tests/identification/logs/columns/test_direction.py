@@ -43,6 +43,15 @@ def test_which_value_is_backward() -> None:
     assert read_direction(made(["1", "1", "0", "0"]), "dir", DRIVE, np.abs(SPEED)) is None
 
 
+def test_a_value_that_only_stands_where_nothing_drives_is_no_way() -> None:
+    """A direction of 1 and 0, where 0 means that the motor is off."""
+    found = read_direction(made(["0", "1", "1", "1"]), "dir", DRIVE, np.abs(SPEED))
+    assert found is not None and found.backward == () and "where dir is 1" in found.why
+    assert read_direction(made(["0", "0", "1", "1"]), "dir", DRIVE, np.abs(SPEED)) is None  # 5 V where it is 0
+    off = read_direction(made(["1", "1", "1", "1"]), "dir", 0.0 * DRIVE, SPEED)
+    assert off is not None and off.backward == ()
+
+
 @pytest.mark.parametrize(
     ("way", "speed", "backward"),
     [("F", SPEED, ()), ("R", -np.abs(SPEED), ("R",)), ("R", np.abs(SPEED), ()), ("F", -np.abs(SPEED), ())],

@@ -26,3 +26,27 @@ def test_rows_that_lack_numbers_between_others_stay(tmp_path: Path) -> None:
     (tmp_path / "log.csv").write_text("\n".join(["n;t;w", *rows]) + "\n")
     found = read_table(tmp_path / "log.csv")
     assert len(found) == 40 and found.notes == ()
+
+
+@pytest.mark.parametrize(
+    ("last", "kept"),
+    [
+        ("85.00\t35.83\t7", False),  # of 77.78
+        ("85.00\t35.83\t77.", False),
+        ("85.00\t35.83\t77.78", True),
+        ("85.00\t35.83\t7\n", True),  # a whole line
+        ("85.00\t35.83\t7 ", True),
+    ],
+)
+def test_a_last_number_that_is_cut_off_is_left_out(tmp_path: Path, last: str, kept: bool) -> None:
+    rows = [f"85.00\t35.83\t{77.0 + 0.13 * k:.2f}" for k in range(20)]
+    (tmp_path / "log.txt").write_text("\n".join(["r\tu\ty", *rows, last]))
+    found = read_table(tmp_path / "log.txt")
+    assert len(found) == 20 + kept
+    assert found.notes == (() if kept else ("Line 22, the last, is cut off within its last number and left out.",))
+
+
+def test_numbers_without_decimals_do_not_tell_whether_one_is_cut_off(tmp_path: Path) -> None:
+    rows = [f"{k},{70 + k % 7}{'.5' if k % 3 else ''}" for k in range(20)]
+    (tmp_path / "log.csv").write_text("\n".join(["t,y", *rows, "20,7"]))
+    assert len(read_table(tmp_path / "log.csv")) == 21

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from motor_identification.logs.columns.behaviour.following import follows
 from motor_identification.logs.columns.behaviour.motors import named_motors, numbered_motors, share_one_drive
+from motor_identification.logs.columns.behaviour.parameters import leave_out_parameters
 from motor_identification.logs.columns.behaviour.position import find_position
 from motor_identification.logs.columns.behaviour.second_reading import (
     commands_beside_control,
@@ -63,6 +64,7 @@ def find_roles(table: Table, said: Said) -> Roles:
     free = ends_of_a_loop(
         [one for one in others if one.quantity is not None or not _numbers_rows(table, one.name, time)]
     )
+    free = free if said.motion else leave_out_parameters(table, free)
     free = commands_beside_control(table, leave_out_idle_efforts(table, free))
     free = share_one_drive(
         table, numbered_motors(speeds_called_v(table, present_values(pulses_that_drive(table, free))))

@@ -1,0 +1,40 @@
+"""Tell a program's parameters, whose names read as those of a motor, from what a motor does: `KF_W` and `KF_V`."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from motor_identification.logs.columns.drive import drives
+from motor_identification.logs.columns.heading import Heading, words_besides
+from motor_identification.logs.columns.vocabulary import MOVES, Quantity
+from motor_identification.logs.csv.table import Table
+
+MOST_CHANGES = 3  # of a parameter, which somebody sets now and then; a speed that is measured changes more often
+FEWEST_CHANGES = 10  # of the motion beside it, where a motor moves
+
+
+def leave_out_parameters(table: Table, headings: Sequence[Heading]) -> list[Heading]:
+    """Read parameters as such: speeds that stay at a number other than 0 while another motion goes on.
+
+    And what drives or moves under the same name. A motor that stands has a speed of 0.
+    """
+    changes = {one.name: _count_changes(table, one.name) for one in headings if one.quantity in MOVES}
+    set_once = [
+        one
+        for one in headings
+        if one.quantity is Quantity.SPEED and changes[one.name] <= MOST_CHANGES and np.all(table.numbers(one.name))
+    ]
+    if max(changes.values(), default=0) < FEWEST_CHANGES:
+        return list(headings)
+    names = {words_besides(one) for one in set_once} - {()}
+    return [
+        replace(one, quantity=Quantity.OTHER)
+        if one in set_once or (words_besides(one) in names and (drives(one) or one.quantity in MOVES))
+        else one
+        for one in headings
+    ]
+
+
+def _count_changes(table: Table, name: str) -> int:
+    return int(np.count_nonzero(np.diff(table.numbers(name))))

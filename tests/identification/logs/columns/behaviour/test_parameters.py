@@ -1,0 +1,37 @@
+"""Parameters of a program are told from motions by their numbers."""
+
+import numpy as np
+import pytest
+from log_columns import DRIVE, FOLLOWS, TIME, columns
+
+from motor_identification.logs.columns.behaviour.parameters import leave_out_parameters
+from motor_identification.logs.columns.heading import read_heading
+from motor_identification.logs.columns.roles.roles import find_roles
+from motor_identification.logs.columns.said import Pair, Said
+
+ROWS = len(TIME)
+SET_ONCE = np.where(np.arange(ROWS) < 120, 0.01, 1.97)
+
+
+def left(**numbers: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> list[str]:
+    """The columns that still drive or move."""
+    found = leave_out_parameters(columns(**numbers), [read_heading(name) for name in numbers])
+    told = [read_heading(one.name).quantity is one.quantity for one in found]
+    return [one.name for one, same in zip(found, told, strict=True) if same]
+
+
+@pytest.mark.parametrize("noise", [np.full(ROWS, 0.01), SET_ONCE])
+def test_a_kalman_filters_variances_are_no_motor(noise: "np.ndarray[tuple[int], np.dtype[np.float64]]") -> None:
+    logged = columns(Time_s=TIME, Voltage_V=DRIVE, Raw_RPM=40.0 * FOLLOWS, KF_W=noise, KF_V=5.0 * noise)
+    assert find_roles(logged, Said()).pairs == (Pair("", "Voltage_V", "Raw_RPM"),)
+    assert find_roles(logged, Said(motion="KF_W", voltage="KF_V")).pairs == (Pair("", "KF_V", "KF_W"),)  # as said
+
+
+def test_motors_are_no_parameters() -> None:
+    stands = dict(a_volts=np.full(ROWS, 2.0), a_rpm=np.zeros(ROWS))
+    turns = dict(b_volts=DRIVE, b_rpm=40.0 * FOLLOWS)
+    assert left(**stands, **turns) == ["a_volts", "a_rpm", "b_volts", "b_rpm"]
+    slow = np.repeat([1.0, 2.0, 3.0, 2.0, 1.0], ROWS // 5)  # of a sensor that tells a speed now and then
+    assert left(a_volts=DRIVE, a_rpm=slow, **turns) == ["a_volts", "a_rpm", "b_volts", "b_rpm"]
+    assert left(a_volts=DRIVE, a_rpm=SET_ONCE) == ["a_volts", "a_rpm"]  # nothing else moves
+    assert left(a_volts=DRIVE, a_rpm=SET_ONCE, **turns) == ["b_volts", "b_rpm"]
