@@ -28,8 +28,8 @@ def test_a_kalman_filters_variances_are_no_motor(noise: "np.ndarray[tuple[int], 
 
 
 def test_motors_are_no_parameters() -> None:
-    stands = dict(a_volts=np.full(ROWS, 2.0), a_rpm=np.zeros(ROWS))
-    turns = dict(b_volts=DRIVE, b_rpm=40.0 * FOLLOWS)
+    stands = {"a_volts": np.full(ROWS, 2.0), "a_rpm": np.zeros(ROWS)}
+    turns = {"b_volts": DRIVE, "b_rpm": 40.0 * FOLLOWS}
     assert left(**stands, **turns) == ["a_volts", "a_rpm", "b_volts", "b_rpm"]
     slow = np.repeat([1.0, 2.0, 3.0, 2.0, 1.0], ROWS // 5)  # of a sensor that tells a speed now and then
     assert left(a_volts=DRIVE, a_rpm=slow, **turns) == ["a_volts", "a_rpm", "b_volts", "b_rpm"]
