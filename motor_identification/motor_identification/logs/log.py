@@ -114,9 +114,12 @@ def _timed_log(table: Table, form: CsvForm, info: Info, signals: Signals) -> Log
     samples = _samples(motion, _hold(signals, before))
     about = f"{table.path}: {_about_time(signals)}, up to {info.max_voltage:.4g} V."
     applied = ANSWERED if found else BEFORE if before else FROM_THEN
-    rest = () if form.rest_until is None else (_about_rest(form.rest_until, len(signals.runs)),)
-    parts = signals.runs.items()
-    made = [Run(label, _from_rest(samples[rows], form, signals.voltage[rows.start])) for label, rows in parts]
+    fresh = signals.fresh_runs()
+    rest = () if form.rest_until is None else (_about_rest(form.rest_until, len(fresh), len(signals.runs)),)
+    made = [
+        Run(label, _from_rest(samples[rows], form, signals.voltage[rows.start]) if label in fresh else samples[rows])
+        for label, rows in signals.runs.items()
+    ]
     runs, still = leave_out_still_runs(made)
     info = replace(motion.info, voltage_assumed=form.voltage_before is None and not found)
     return Log(info, runs, (about, *said, *motion.findings, applied, *rest, *still))
@@ -169,8 +172,9 @@ def _from_rest(samples: tuple[Sample, ...], form: CsvForm, voltage: float) -> tu
     return (replace(first, sample_time=begin, speed=0.0, voltage=float(voltage)), *samples)
 
 
-def _about_rest(rest_until: float, runs: int) -> str:
-    which = "every run begins" if runs > 1 else "the bag begins"
+def _about_rest(rest_until: float, fresh: int, runs: int) -> str:
+    every = "every run" if fresh == runs else "every run that goes on from none before"
+    which = f"{every} begins" if runs > 1 else "the bag begins"
     return (
         f"The motor stands until {rest_until:g} s: {which} then, at speed 0, with the voltage and the count of its "
         "first row."

@@ -69,6 +69,15 @@ class Signals:
         parts = [np.diff(self.time[run]) for run in self.runs.values()]
         return np.concatenate(parts) if parts else np.zeros(0, np.int64)
 
+    def fresh_runs(self) -> dict[str, slice]:
+        """The runs whose clock begins again, or that are the first; others go on behind rows that are missing."""
+        fresh, last = {}, None
+        for label, run in self.runs.items():
+            if last is None or self.time[run.start] <= last:
+                fresh[label] = run
+            last = self.time[run.stop - 1]
+        return fresh
+
     def _rows(self, keep: Bools, runs: dict[str, slice]) -> "Signals":
         names = ("lines", "time", "voltage", "motion", "supply", "current")
         return replace(self, runs=runs, **{name: getattr(self, name)[keep] for name in names})

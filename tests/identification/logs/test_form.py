@@ -50,6 +50,15 @@ def test_every_run_of_a_split_log_begins_from_rest(tmp_path: Path) -> None:
     assert "every run begins then" in log.findings[-1] and log.info.sample_period == pytest.approx(0.005)
 
 
+def test_a_run_that_goes_on_behind_missing_rows_begins_from_no_rest(tmp_path: Path) -> None:
+    one = [(round(0.012 + 0.005 * k, 3), 5, k * k) for k in range(30)]
+    gap = [(round(time + 0.5, 3), u, y + 900) for time, u, y in one]
+    log = read(tmp_path, [*one, *gap, *one], replace(ANGLE, rest_until=0.0))
+    assert [run.samples[0].sample_time for run in log.runs] == [0, 512_000_000, 0]
+    assert log.runs[1].samples[0].edge_count == 900 and log.runs[2].samples[0].edge_count == 0
+    assert "every run that goes on from none before begins then" in log.findings[-1]
+
+
 def test_a_voltage_that_was_applied_before_its_row(tmp_path: Path) -> None:
     usual = read(tmp_path, LATE, ANGLE)
     assert [sample.voltage for sample in usual.runs[0].samples] == [5.0, 5.0, 4.0]

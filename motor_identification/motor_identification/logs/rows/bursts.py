@@ -29,6 +29,7 @@ AT_ONCE, MOST = 0.25, 12  # of the stall's time, and changes, within which it is
 FEW = 0.05  # of the changes: a motor that sticks and slips does so again and again
 # Times the speed that the motor has in a twentieth of the time: slower, it stopped and started by itself.
 FASTER, USUAL = 1.5, 0.95
+MISSING = 0.5  # of a stall without a row: rows that repeat a value come all through it
 
 
 def cut_stalls(signals: Signals, name: str) -> tuple[Signals, list[str]]:
@@ -67,6 +68,9 @@ def _find_stalls(time: Floats, position: Floats) -> list[tuple[int, int]]:
             continue
         rate = (position[before[-1]] - position[before[0]]) / (time[before[-1]] - time[before[0]])
         if rate == 0.0:  # it went forth and back
+            continue
+        stays = time[changed[k] : changed[k + 1] + 1]
+        if np.max(np.diff(stays)) > MISSING * gaps[k]:  # rows are missing there, in which nothing was repeated
             continue
         for end in range(k + 2, min(k + 2 + MOST, len(changed))):
             way = position[changed[end]] - position[before[-1]]

@@ -131,3 +131,13 @@ def test_a_motor_that_turned_back_before_it_stood_was_not_held_back() -> None:
     position = np.concatenate([there_and_back, np.zeros(100), there_and_back])
     with np.errstate(all="raise"):
         assert cut_stalls(rows_of(position), "y")[1] == []
+
+
+@pytest.mark.parametrize(("missing", "held"), [(20, False), (20, True), (60, False), (60, True)])
+def test_rows_that_are_missing_are_no_stall(missing: int, held: bool) -> None:
+    """The motor went on as fast; in a stall rows come that repeat a value."""
+    position = 10.0 * np.arange(600)
+    position[300 : 300 + missing] = position[299]
+    there = (np.arange(600) < 300) | (np.arange(600) >= 300 + missing)
+    _, said = cut_stalls(rows_of(position).only(there | held), "y")
+    assert bool(said) is held
