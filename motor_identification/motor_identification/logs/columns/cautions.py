@@ -6,6 +6,7 @@ from motor_identification.logs.columns.drive import find_same_levels
 from motor_identification.logs.columns.notes import Notes
 from motor_identification.logs.columns.said import Pair
 from motor_identification.logs.csv.table import Table
+from motor_identification.logs.form import Kind
 
 ROUNDED = 0.01  # of full duty, by which rounding may go beyond it
 FEWEST_ROWS = 50  # before any drive, in which a motor that was just switched off would become slower
@@ -27,13 +28,14 @@ def caution_beyond_full(table: Table, pair: Pair, full: float | None, notes: Not
         )
 
 
-def caution_set_point(table: Table, pair: Pair, notes: Notes) -> None:
+def caution_set_point(table: Table, pair: Pair, kind: Kind, notes: Notes) -> None:
     """Tell of a drive whose numbers are those of the motion: what it should be, or has been."""
     levels = find_same_levels(table.numbers(pair.voltage), table.numbers(pair.motion))
     if levels:
         notes.findings.append(
-            f"Caution: at {levels} levels {pair.motion} comes to the numbers of {pair.voltage} themselves, as a speed "
-            "comes to its set-point: neither may be what drives the motor. Check them, and say --voltage and --speed."
+            f"Caution: at {levels} levels {pair.motion} comes to the numbers of {pair.voltage} themselves, as a "
+            f"{kind.value} comes to its set-point: neither may be what drives the motor. Check them, and say --voltage "
+            f"and --{kind.value}."
         )
 
 

@@ -93,8 +93,9 @@ def make_form(table: Table, pair: Pair, roles: Roles, said: Said, rows: Rows, no
             replace(unit, why="; ".join(filter(None, (unit.why, far)))),
             replace(said, units_per_revolution=tau),
         )
+    if said.constant_voltage is None:
+        caution_set_point(table, pair, kind, notes)
     if kind is Kind.SPEED and said.constant_voltage is None:
-        caution_set_point(table, pair, notes)
         caution_running_without_drive(table, pair, notes)
         caution_no_means(table, pair, notes)
     why = f" ({unit.why})" if unit.why else ""

@@ -43,10 +43,13 @@ def test_every_limit_decides(limit: str, value: float, monkeypatch: pytest.Monke
     assert find_same_levels(LEVELS, answered(1.0)) == 0
 
 
+@pytest.mark.parametrize("motion", ["speed", "position"])
 @pytest.mark.parametrize(("gain", "cautions"), [(1.0, 1), (2.3, 0)])
-def test_an_import_tells_of_a_set_point(gain: float, cautions: int, tmp_path: Path) -> None:
+def test_an_import_tells_of_a_set_point(gain: float, cautions: int, motion: str, tmp_path: Path) -> None:
     log = tmp_path / "log.csv"
     rows = zip(np.arange(len(LEVELS)) * 0.01, LEVELS, answered(gain), strict=True)
-    log.write_text("t,input,speed\n" + "".join(f"{t:.2f},{u:g},{w:g}\n" for t, u, w in rows))
-    told = import_log(log, Said(full_duty=100.0, supply_voltage=12.0, unit="rad/s")).findings
-    assert sum("at 5 levels speed comes to the numbers of input themselves" in one for one in told) == cautions
+    log.write_text(f"t,input,{motion}\n" + "".join(f"{t:.2f},{u:g},{w:g}\n" for t, u, w in rows))
+    unit = {"speed": "rad/s", "position": "deg"}[motion]
+    told = import_log(log, Said(full_duty=100.0, supply_voltage=12.0, unit=unit)).findings
+    caution = f"at 5 levels {motion} comes to the numbers of input themselves, as a {motion} comes to its set-point"
+    assert sum(caution in one for one in told) == cautions
