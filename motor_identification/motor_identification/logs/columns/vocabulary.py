@@ -142,7 +142,7 @@ UNITS: dict[str, tuple[Quantity, float | None]] = {
     "count": (Quantity.COUNT, None),
 }
 _SPELLINGS = {
-    "s": "с сек s sec secs second seconds",
+    "s": "с сек seg seg. s sec secs second seconds",
     "ms": "мс ms msec msecs millis millisecond milliseconds",
     "us": "us µs μs usec micros microsecond microseconds",
     "ns": "ns nsec nanos nanosecond nanoseconds",
@@ -151,8 +151,8 @@ _SPELLINGS = {
     "A": "a amp amps ampere",
     "mA": "ma",
     "%": "% pct percent",
-    "rad/s": "rad/s рад/с рад_с rad/sec rads rads/s radps rad.s-1 rad_s rad_sec",
-    "deg/s": "deg/s град/с град_с deg/sec °/s grad/s grados/s graus/s dps degps degrees/s deg_s deg_sec",
+    "rad/s": "rad/s rad/seg рад/с рад_с rad/sec rads rads/s radps rad.s-1 rad_s rad_sec",
+    "deg/s": "deg/s grados/seg град/с град_с deg/sec °/s grad/s grados/s graus/s dps degps degrees/s deg_s deg_sec",
     "rpm": (
         "tr/mn trs/min tours/min d/dk "
         "erpm rpm upm rev/min rev_min u/min tr/min r/min 1/min min-1 umdr/min giri/min ot/min obr/min obr_min об/мин "

@@ -84,7 +84,19 @@ def read_workbook(path: Path, wanted: str | None) -> tuple[list[str], str]:
     best = max(sheets, key=lambda sheet: sheet.numbers)
     others = [sheet.name for sheet in sheets if sheet is not best and sheet.numbers]
     more = f" (others: {', '.join(others[:8])}; otherwise: --sheet)" if others else ""
-    return best.lines, f"Sheet: {best.name}{more}."
+    names = _sheet_of_names(best, sheets)
+    of_columns = f", whose columns are named on {names.name}" if names else ""
+    return [*(names.lines if names else ()), *best.lines], f"Sheet: {best.name}{more}{of_columns}."
+
+
+def _sheet_of_names(table: Sheet, sheets: list[Sheet]) -> Sheet | None:
+    """Find the only sheet that is one line of words, one for each column of a table without names; None without one."""
+    first = table.lines[0].split(SEPARATOR)
+    if len(first) < 2 or not all(is_number(cell, comma=False) for cell in first):
+        return None
+    named = [one for one in sheets if len(one.lines) == 1 and not one.numbers]
+    named = [one for one in named if len([cell for cell in one.lines[0].split(SEPARATOR) if cell]) == len(first)]
+    return named[0] if len(named) == 1 else None
 
 
 def _read_sheets(book: Workbook, wanted: str | None) -> Iterator[Sheet]:

@@ -116,6 +116,8 @@ velocidad_salida  | duty           |       |
 Commande vitesse  | reference      |       |
 POSITION [degrés] | position       | deg   |
 VIT. MOTEUR [rad/sec] | speed      | rad/s |
+Velocidad angular [rad /seg] | speed | rad/s |
+Tiempo [Seg.]     | time           | s     |
 rapport cyclique  | duty           |       |
 Sine Wave1        | voltage        |       |
 Chirp Signal      | voltage        |       |

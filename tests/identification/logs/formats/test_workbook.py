@@ -61,6 +61,25 @@ def test_the_sheet_with_the_most_numbers_and_the_one_that_is_named(tmp_path: Pat
         read_workbook(path, "two")
 
 
+def words(*texts: str) -> str:
+    return "".join(f'<c t="str"><v>{text}</v></c>' for text in texts)
+
+
+def test_a_sheet_of_one_line_of_words_names_the_columns_of_another(tmp_path: Path) -> None:
+    data = numbers((0.0, 1.0), (0.1, 2.5))
+    path = write(tmp_path / "a.xlsx", Hoja1=sheet(*data), Hoja2=sheet(words("Tiempo [Seg.]", "Torque")))
+    said = "Sheet: Hoja1, whose columns are named on Hoja2."
+    assert read_workbook(path, None) == (["Tiempo [Seg.]\tTorque", "0\t1", "0.1\t2.5"], said)
+    for others in (
+        {"b": sheet(words("t", "u", "y"))},  # another number of columns
+        {"b": sheet(words("t", "u"), words("s", "V"))},
+        {"b": sheet(words("t", "u")), "c": sheet(words("t", "y"))},  # which of both?
+    ):
+        assert read_workbook(write(tmp_path / "b.xlsx", a=sheet(*data), **others), None)[0] == ["0\t1", "0.1\t2.5"]
+    named = write(tmp_path / "c.xlsx", a=sheet(words("t", "u"), *data), b=sheet(words("x", "y")))
+    assert read_workbook(named, None)[0] == ["t\tu", "0\t1", "0.1\t2.5"]
+
+
 def test_cells_of_every_kind(tmp_path: Path) -> None:
     cells = (
         '<c t="s"><v>0</v></c><c t="s"><v>1</v></c><c t="inlineStr"><is><t>rpm</t></is></c><c t="b"><v>1</v></c>'
