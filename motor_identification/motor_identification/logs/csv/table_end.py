@@ -87,14 +87,13 @@ def leave_out_cut_number(table: Table, text: str) -> Table:
     """
     if text.endswith(LINE_BREAKS) or len(table) <= FEWEST_ROWS or not text.endswith(table.text(table.names[-1], -1)):
         return table
-    decimals = _count_decimals(np.asarray(table.column(table.names[-1])).astype(np.str_))
+    decimals = _count_decimals([table.text(table.names[-1], row) for row in range(len(table))])
     if decimals[-1] >= np.min(decimals[:-1]):
         return table
     said = f"Line {table.lines[-1]}, the last, is cut off within its last number and left out."
     return table.rows(np.arange(len(table)) < len(table) - 1, said)
 
 
-def _count_decimals(cells: NDArray[np.str_]) -> NDArray[np.int64]:
+def _count_decimals(cells: Sequence[str]) -> NDArray[np.int64]:
     """Count the digits behind the point, or the comma, of each cell, shape (K,)."""
-    points = np.char.find(np.char.replace(cells, ",", "."), ".")
-    return np.asarray(np.where(points < 0, 0, np.char.str_len(cells) - points - 1), np.int64)
+    return np.array([len(cell.replace(",", ".").partition(".")[2]) for cell in cells], np.int64)
