@@ -13,7 +13,8 @@ from motor_identification.diagnosis.evidence.standstill_evidence import explains
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
 from motor_identification.discrepancy.free_curves import PAST, REPEATING
 from motor_identification.validation.instants import needs_instant
-from motor_model.effects import EFFECT_BY_NAME
+from motor_model.effect import Effect
+from motor_model.effects import EFFECT_BY_NAME, LAGS
 
 
 def drop_stand_ins(selection: Selection) -> Selection:
@@ -22,20 +23,27 @@ def drop_stand_ins(selection: Selection) -> Selection:
     That is every finding that leaves a visible part of what it should explain, and what was found after it; a line in
     the spectrum over the angle is its own evidence, and so is a standstill under a voltage, or friction nearly all of
     the time. Where what is left comes and goes whatever the motor does, no finding that answers its motion stands in
-    for that; and no friction for what goes with the past, such as a sensor's filter.
+    for that; and no friction for what goes with the past, such as a sensor's filter. Where nothing else is left, nor
+    does anything that is said by speed and voltage of the moment, as a coasting bridge is: those are explained.
     """
     if selection.model.complete:
         return selection
     apart = leaves_mostly(selection.model, REPEATING)
     past = leaves_mostly(selection.model, (PAST, *REPEATING), thresholds.MINOR_SHARE)
+    past_alone = leaves_mostly(selection.model, (PAST, *REPEATING))
     for i, step in enumerate(selection.steps):
         effect = EFFECT_BY_NAME[step.found.effect]
-        answers = (apart and not effect.anywhere) or (past and effect.holds)
+        answers = (apart and not effect.anywhere) or (past and effect.holds) or (past_alone and _is_static(effect))
         stays = step.explains > (thresholds.APART_SHARE if answers else thresholds.STAND_IN_SHARE)
         after = selection.steps[i + 1].before if i + 1 < len(selection.steps) else selection.model
         if not stays and not is_own_evidence(step.found.effect, step.before, after):
             return replace(selection, steps=selection.steps[:i], model=step.before)
     return selection
+
+
+def _is_static(effect: Effect) -> bool:
+    """Decide whether speed and voltage of a moment say all that an effect does then."""
+    return not (effect.periodic or effect.anywhere or effect.after_reversals or effect.name in LAGS)
 
 
 def leaves_mostly(model: Model, variables: Sequence[str], minor: float = 0.0) -> bool:

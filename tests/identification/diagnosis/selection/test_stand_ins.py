@@ -60,6 +60,16 @@ def test_what_holds_the_motor_is_its_own_evidence_where_it_explains_standstills(
         ("transport_delay", BELOW * thresholds.APART_SHARE, ("spectrum",), 0),
         ("transport_delay", 0.9, ("spectrum", "past"), 0),  # its own variable: it may stand in for another lag
         ("transport_delay", 0.9, (), 0),
+        (
+            "coast_drive",
+            ABOVE * thresholds.APART_SHARE,
+            ("spectrum", "past"),
+            1,
+        ),  # of the moment alone: it is explained
+        ("coast_drive", BELOW * thresholds.APART_SHARE, ("past",), 0),
+        ("coast_drive", 0.9, ("past", "speed_voltage"), 0),
+        ("backlash", 0.9, ("past",), 0),
+        ("warm_up", 0.9, ("past",), 0),
         ("warm_up", 0.9, ("time",), 0),
         ("coulomb_friction", 0.9, ("angle", "time"), 1),
     ],
