@@ -73,10 +73,11 @@ def test_help_says_what_it_is_and_every_parameter_with_its_default(
         (("--ros-args", "--nope"), "unknown ROS arguments: '--nope'"),
     ],
 )
-def test_what_is_no_argument_of_ros_is_one_sentence(words: tuple[str, ...], said: str) -> None:
-    done = run(SIM, *words)
-    assert (done.returncode, done.stdout) == (2, "")
-    said_last = done.stderr.splitlines()[-1]
+def test_what_is_no_argument_of_ros_is_one_sentence(start: Start, words: tuple[str, ...], said: str) -> None:
+    process = start(SIM.package, SIM.name, *words)
+    out, err = process.communicate(timeout=workbench.PATIENCE)
+    assert (process.returncode, out) == (2, "")
+    said_last = err.splitlines()[-1]
     assert said_last.startswith(f"motor_sim: {said}. Parameters stand behind --ros-args, such as --ros-args -p model:=")
 
 

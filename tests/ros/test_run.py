@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import workbench
+from forked import Forked
 
 from motor_model.errors import MotorError
 from motor_ros import run
@@ -35,11 +36,11 @@ def test_a_wrong_argument_is_one_sentence(
     (tmp_path / "broken.yaml").write_text("a: [\n")
     arguments = ["--ros-args", *(word.format(tmp_path) for word in words)] if words else []
     command = [workbench.program("motor_driver", "motor_driver"), *arguments]
-    done = subprocess.run(
-        command, env=workbench.ENVIRONMENT | environment, capture_output=True, text=True, timeout=120.0, check=False
-    )
-    ours = [line for line in done.stderr.splitlines() if not line.startswith(("[ERROR] [", "[WARN] ["))]
-    assert done.returncode in (1, 2) and len(ours) == 1 and said in ours[0], done.stderr
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    process = Forked(command, env=workbench.ENVIRONMENT | environment, **pipes)  # type: ignore[call-overload]
+    _, err = process.communicate(timeout=120.0)
+    ours = [line for line in err.splitlines() if not line.startswith(("[ERROR] [", "[WARN] ["))]
+    assert process.returncode in (1, 2) and len(ours) == 1 and said in ours[0], err
 
 
 class Stubborn:
