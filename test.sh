@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# All tests; arguments go to pytest, for example ./test.sh -k swarm.
+# The tests but for the slow ones; with --all, those too. Other arguments go to pytest, for example ./test.sh -k swarm.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 ./setup.sh
@@ -8,6 +8,11 @@ source env.sh
 set -u
 unset PYTHONDONTWRITEBYTECODE # else every worker and every process of the tests compiles all sources anew
 pytest() { .venv/bin/python -m pytest "$@"; }
+tier=" and not slow"
+if [ "${1:-}" = --all ]; then
+  tier=""
+  shift
+fi
 if [ $# -gt 0 ]; then
   pytest "$@"
   exit
@@ -20,9 +25,9 @@ status=0
 run() { pytest --assert=plain "$@" || { local code=$?; [ $code -eq 1 ] || exit $code; status=1; }; } # 1: some test failed
 cores=$(nproc)
 workers=$((cores < 4 ? cores + 1 : 4)) # one more than cores, for many tests wait; each has ROS domains of its own
-run --cache-clear -n "$workers" --dist worksteal -m "not on_time"
+run --cache-clear -n "$workers" --dist worksteal -m "not on_time$tier"
 # These measure times: nothing else runs; only their files are collected.
-run -n 2 --dist worksteal -m on_time $(grep -rl --include='*.py' '^@pytest.mark.on_time$' tests)
+run -n 2 --dist worksteal -m "on_time$tier" $(grep -rl --include='*.py' '^@pytest.mark.on_time$' tests)
 failed=$(grep -sc '": true' .pytest_cache/v/cache/lastfailed || true) # in both runs
 if ((status == 1 && failed > 0 && failed <= 5)); then
   echo "[test] $failed failed, and are run once more, alone: on a busy machine a live test may fail, a mistake fails twice."

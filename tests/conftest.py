@@ -31,10 +31,11 @@ def pytest_collection() -> Generator[None, object, object]:
         gc.enable()
 
 
+@pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Begin every worker's share with some of the longest, so that at the end nobody waits for one of them.
 
-    xdist's `worksteal` cuts the list into one piece a worker before anybody steals.
+    xdist's `worksteal` cuts the list into one piece a worker before anybody steals: what `-m` leaves of it.
     """
     workers = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
     long = [item for item in items if item.get_closest_marker("long")]

@@ -25,6 +25,7 @@ def test_a_speed_that_was_not_held_has_its_reason(monkeypatch: pytest.MonkeyPatc
     assert say([""] * 200) == "the speed was not held within 2 rad/s."
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_the_demo_finds_the_hidden_motor_and_holds_the_speed() -> None:
     done = subprocess.run([sys.executable, ROOT / "demo" / "demo.py"], capture_output=True, text=True, timeout=280)

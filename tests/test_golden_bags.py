@@ -64,6 +64,7 @@ def test_the_motor_that_made_it_is_found(bag: str) -> None:
     assert 0.998 < fit.r_squared < 1.0
 
 
+@pytest.mark.slow
 def test_the_command_that_made_it_makes_it_again(tmp_path: Path) -> None:
     done = subprocess.run([BAGS / "make.sh", tmp_path, "step"], capture_output=True, text=True, timeout=120.0)
     assert done.returncode == 0, done.stderr

@@ -61,7 +61,8 @@ def assert_the_diagnosis(printed: str) -> None:
 # Blocks that need no node of another block run on their own: the board's, and what works on files alone.
 PARTS = {
     "board": lambda block: bool(BOARD.search(block)),
-    "files": lambda block: bool(re.search(r"--model |import_log|hidden", block)),
+    "diagnosis": lambda block: "hidden" in block,
+    "files": lambda block: bool(re.search(r"--model |import_log", block)),
     "live": lambda block: True,
 }
 
@@ -128,18 +129,25 @@ def test_every_command_belongs_to_a_part() -> None:
     assert sorted(sum(parts.values(), [])) == sorted(set(COMMANDS) - set(SCRIPTS)) and min(map(len, parts.values())) > 2
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_the_commands_with_a_running_motor_work_as_written(tmp_path: Path) -> None:
     run_all(commands_of("live"), tmp_path)
     assert (tmp_path / "model.yaml").exists() and (tmp_path / "gains.yaml").exists()
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_the_commands_that_work_on_files_work_as_written(tmp_path: Path) -> None:
     write_log(tmp_path / "log.csv")
     run_all(commands_of("files"), tmp_path)
     assert (tmp_path / "report" / "fit.png").stat().st_size > 20_000
     assert 50_000 < (tmp_path / "report" / "report.html").stat().st_size < 3_000_000
+
+
+@pytest.mark.long
+def test_the_diagnosis_works_as_written(tmp_path: Path) -> None:
+    run_all(commands_of("diagnosis"), tmp_path)
     assert 100_000 < (tmp_path / "diagnosis" / "report.html").stat().st_size < 3_000_000
 
 

@@ -73,6 +73,7 @@ def test_the_output_keeps_the_rules(script: list[tuple[str, int, int]], start: i
         assert (output.on, output.latch, output.newest) == (model.on, model.latch, model.newest)
 
 
+@pytest.mark.slow
 def test_samples_stay_on_their_grid_for_an_hour_while_the_clock_wraps() -> None:
     """Two wraps of the 32-bit clock: 72 min at the longest period, every tick exactly one period after the last."""
     board = CoreBoard()

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 import pytest
-from emulated_board import Bench, on_each_chip
+from emulated_board import Bench, on_the_larger_chip_slowly
 
 from motor_board.build import FirmwareConfig
 from motor_driver.frames.from_board import Features, Hello, Telemetry
@@ -12,7 +12,7 @@ from motor_driver.frames.from_host import Configure, Setup
 MakeBench = Callable[..., Bench]
 
 
-@on_each_chip
+@on_the_larger_chip_slowly
 @pytest.mark.parametrize("decay", [0, 1], ids=["brake", "coast"])
 def test_a_bridge_without_an_enable_brakes_and_coasts_by_its_inputs(make_bench: MakeBench, decay: int) -> None:
     """To brake both inputs are high in the off part, and at 0 V; to coast both are low."""
@@ -28,7 +28,7 @@ def test_a_bridge_without_an_enable_brakes_and_coasts_by_its_inputs(make_bench: 
         assert duty or (pins.forward, pins.reverse) == (rest, rest)
 
 
-@on_each_chip
+@on_the_larger_chip_slowly
 @pytest.mark.parametrize(
     ("bridge", "decay", "top"),
     [("l298n", 1, 100), ("l298n", 0, 256), ("tb6612", 0, 100), ("tb6612", 1, 256), ("drv8871", 0, 256)],

@@ -5,7 +5,8 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from emulated_board import MS, TICK, Bench, on_each_chip
+from emulated_board import MS, TICK, Bench, on_the_larger_chip_slowly
+from tiers import keep_fast
 
 from motor_board.build import FirmwareConfig
 from motor_board.emulation.edges import Edges, Line
@@ -32,7 +33,7 @@ def test_samples_exactly_at_the_period_it_was_given(bench: Bench, period: int) -
     assert bench.decode.counters.bad == bench.decode.counters.lost == 0
 
 
-@on_each_chip
+@on_the_larger_chip_slowly
 def test_every_edge_has_its_exact_time(bench: Bench) -> None:
     """A real motor's edges, through a counter that overflows many times: stamp = ⌊cycle/8⌋, latest up to the tick."""
     edges: list[int] = []
@@ -60,7 +61,7 @@ def test_every_edge_has_its_exact_time(bench: Bench) -> None:
     assert bench.decode.counters.bad == bench.decode.counters.lost == 0
 
 
-@pytest.mark.parametrize("rate", [16_700, 20_000, 25_000])
+@pytest.mark.parametrize("rate", keep_fast([16_700, 20_000, 25_000], 20_000))
 def test_no_edge_is_lost_up_to_20_000_a_second(bench: Bench, rate: int) -> None:
     """Commands, pings and telemetry at 1 kHz meanwhile; with the spacing sweeping through all phases of the tick."""
     bench.start(2_000)
@@ -78,7 +79,7 @@ def test_no_edge_is_lost_up_to_20_000_a_second(bench: Bench, rate: int) -> None:
     assert bench.decode.counters.bad == bench.decode.counters.lost == 0
 
 
-@on_each_chip
+@on_the_larger_chip_slowly
 def test_two_channels_count_down_backward(make_bench: MakeBench) -> None:
     bench = make_bench(config=FirmwareConfig(channels=2))
     bench.start()
@@ -122,6 +123,7 @@ def counted(bench: Bench, position: np.ndarray) -> int:
     return count - (count >> 31 << 32)
 
 
+@pytest.mark.slow
 def test_a_dithering_shaft_does_not_count_one_way(make_bench: MakeBench) -> None:
     """0.14 rad of true travel to and fro over one flank, 400 times: once 400 slots."""
     bench = make_bench(config=FirmwareConfig(channels=2))
@@ -137,7 +139,7 @@ def test_no_edge_of_two_channels_is_lost_up_to_10_000_a_second(make_bench: MakeB
     assert bench.decode.counters.bad == bench.decode.counters.lost == 0
 
 
-@on_each_chip
+@on_the_larger_chip_slowly
 def test_the_encoders_lines_have_pull_ups(bench: Bench) -> None:
     """What nobody drives is high: a cable that came off makes no edges."""
     assert bench.chip.pull_ups == (False, False)
@@ -148,7 +150,7 @@ def test_the_encoders_lines_have_pull_ups(bench: Bench) -> None:
     assert bench.chip.pull_ups == (True, True)
 
 
-@on_each_chip
+@on_the_larger_chip_slowly
 def test_pong_holds_the_times_of_its_first_byte_and_of_the_ping_s_last(bench: Bench) -> None:
     bench.start(2_000)
     bench.chip.drain()
@@ -204,6 +206,7 @@ def test_the_motor_on_the_pins_is_the_model(make_bench: MakeBench) -> None:
     assert abs(motion.angle[-1] - motion.angle[1] - (count[-1] - count[0]) * SLOT) < 0.05 * SLOT
 
 
+@pytest.mark.slow
 def test_every_sample_arrives_at_1_khz(bench: Bench) -> None:
     bench.start(2_000)
     bench.drive(180, 3_000, 1)
@@ -228,8 +231,10 @@ def test_stray_edges_come_at_their_rate(bench: Bench, connected: bool) -> None:
     assert turned > 500 or not connected
 
 
-@on_each_chip
-@pytest.mark.parametrize(("sensing", "decay"), [(False, 0), (False, 1), (True, 0), (True, 1)])
+@on_the_larger_chip_slowly
+@pytest.mark.parametrize(
+    ("sensing", "decay"), keep_fast([(False, 0), (False, 1), (True, 0), (True, 1)], (False, 1), (True, 0))
+)
 def test_a_sample_is_of_the_instant_at_which_the_pins_change(make_bench: MakeBench, sensing: bool, decay: int) -> None:
     """In ticks of half a microsecond, the interrupt's way to the pins taken off; R and L are identified by it."""
     bench = make_bench(config=FirmwareConfig(current_sense=sensing))

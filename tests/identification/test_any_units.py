@@ -9,6 +9,7 @@ from functools import cache
 import pytest
 from plant import profiles, record
 from scaled import Units
+from tiers import keep_fast
 
 from motor_identification.diagnose import diagnose
 from motor_identification.identify import Request, SearchConfig, identify
@@ -57,7 +58,7 @@ def fit_again(recording: Recording, effects: str) -> Fit:
 
 
 @pytest.mark.parametrize("units", UNITS)
-@pytest.mark.parametrize("effects", HIDDEN)
+@pytest.mark.parametrize("effects", keep_fast(HIDDEN, "coulomb_friction,transport_delay"))
 def test_identified_parameters_are_the_same_in_other_units(effects: str, units: str) -> None:
     new, old = UNITS[units], fitted(effects)
     fit = fit_again(new.scale(recorded(effects)), effects)
@@ -69,6 +70,7 @@ def test_identified_parameters_are_the_same_in_other_units(effects: str, units: 
         assert abs(value / (HIDDEN[effects] | {"kv": PAPER_KV, "ka": PAPER_KA})[name] - 1.0) < 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("units", ["1.2 V", "2 s, 48 V, 3.5 rad/s"])
 def test_diagnosed_names_are_the_same_in_other_units(units: str) -> None:
     effects, new = "coulomb_friction,transport_delay", UNITS[units]

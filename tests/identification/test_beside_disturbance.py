@@ -28,9 +28,9 @@ def diagnosed(hidden: dict[str, float], seed: int, drive: Callable[..., profiles
 @pytest.mark.parametrize(
     ("hidden", "named"),
     [
-        ({}, ()),
+        pytest.param({}, (), marks=pytest.mark.slow),
         ({"ks": 0.3, "delay": 0.006}, ("coulomb_friction", "transport_delay")),
-        ({"backlash_angle": 0.3, "load_fraction": 0.5}, ("backlash",)),
+        pytest.param({"backlash_angle": 0.3, "load_fraction": 0.5}, ("backlash",), marks=pytest.mark.slow),
     ],
     ids=["nothing", "friction and delay", "backlash"],
 )
@@ -52,7 +52,7 @@ def test_effects_are_named_and_the_torque_is_measured(hidden: dict[str, float], 
     ("hidden", "variables"),
     [
         ({"speed_wave": 0.5, "speed_wave_scale": 12.0}, {"speed"}),
-        ({"load_friction": 0.15}, {"drive", "speed_voltage"}),
+        pytest.param({"load_friction": 0.15}, {"drive", "speed_voltage"}, marks=pytest.mark.slow),
     ],
     ids=["a wave over the speed", "friction of loaded gears"],
 )
@@ -64,6 +64,7 @@ def test_what_is_not_in_the_table_is_told_from_the_torque(hidden: dict[str, floa
     assert found.noise_floor == found.sensor_floor < 0.2 * found.gap_after
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_a_ripple_is_named_beside_a_torque_in_which_its_phase_hardly_shows() -> None:
     """In mean speeds the torque leaves thirty times as much; beside it the ripple's size is sure to some per cent."""

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plant import profiles, record
+from tiers import keep_fast
 
 from motor_identification.diagnose import Request, Stage, Stopped, diagnose
 from motor_identification.diagnosis.candidate_fit import validate_model
@@ -49,7 +50,7 @@ SINGLES = {
 }
 
 
-@pytest.mark.parametrize("effect", SINGLES)
+@pytest.mark.parametrize("effect", keep_fast(SINGLES, "transport_delay"))
 def test_a_hidden_effect_is_named_and_sized(effect: str) -> None:
     hidden = SINGLES[effect]
     found = diagnosed(hidden)
@@ -71,6 +72,7 @@ def test_a_hidden_effect_is_named_and_sized(effect: str) -> None:
     assert finding.where and found.undetectable == () and found.suggested_experiment == ""
 
 
+@pytest.mark.slow
 def test_static_friction_comes_with_coulomb_friction() -> None:
     found = diagnosed({"ks": 0.4, "breakaway_voltage": 0.9, "stribeck_speed": 4.0})
     assert [one.effect for one in found.findings] == ["coulomb_friction", "static_friction"]
@@ -78,6 +80,7 @@ def test_static_friction_comes_with_coulomb_friction() -> None:
     assert found.model.parameters.value("breakaway_voltage") == pytest.approx(0.9, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_two_at_once_and_what_first_stood_in_for_both_is_replaced() -> None:
     """A load step at the very beginning explains more than a constant load while friction is still missing."""
     found = diagnosed({"ks": 0.4, "bias_voltage": 0.3})
@@ -94,6 +97,7 @@ def simulated(motor: Parameters, name: str) -> Recording:
     return check(recording_of(samples, config.info(motor), name))
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_two_that_hide_each_other_are_found_beside_a_third() -> None:
     """Friction lifts a static curve at its beginning, drag at its end: a line with another gain is near to both."""
@@ -110,6 +114,7 @@ def test_two_that_hide_each_other_are_found_beside_a_third() -> None:
     assert 5.0 < found.gap_before / found.gap_after < 50.0
 
 
+@pytest.mark.slow
 def test_a_friction_that_is_a_hair_off_is_no_second_effect() -> None:
     """A fit just below the true friction creeps where the motor was held, and what stops it there is not missing."""
     motor = Parameters({"kv": PAPER_KV, "ka": PAPER_KA, "ks": 0.45}, ("coulomb_friction",))
@@ -124,6 +129,7 @@ def test_nothing_hidden_nothing_named() -> None:
     assert found.gap_before == found.gap_after and 0.8 < found.gap_after / found.noise_floor < 1.15
 
 
+@pytest.mark.slow
 def test_what_is_known_is_not_found_again() -> None:
     found = diagnosed({"ks": 0.4, "delay": 0.006}, ("coulomb_friction",))
     assert found.baseline.parameters.effects == ("coulomb_friction",)
@@ -147,6 +153,7 @@ def test_a_single_step_cannot_tell_and_says_what_would() -> None:
     assert both.model.parameters.value("ks") == pytest.approx(0.4, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_part_of_one_recording_is_kept_out_of_every_fit() -> None:
     recording = made({"ks": 0.4}, profiles.compact(), 6)
     problem = make_problem([recording], ("coulomb_friction",))

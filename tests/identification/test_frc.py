@@ -4,6 +4,7 @@ from math import tau
 from pathlib import Path
 
 import pytest
+from tiers import mark_slow
 
 from motor_identification.identify import Request, identify
 from motor_identification.logs.columns.said import Said
@@ -16,7 +17,7 @@ TURN = 0.4878  # [m]
 
 @pytest.mark.parametrize(
     ("side", "kv", "ka", "ks", "regression"),
-    [("left", 1.210, 0.293, 0.718, 1.197), ("right", 1.201, 0.259, 0.710, 1.161)],
+    [("left", 1.210, 0.293, 0.718, 1.197), mark_slow("right", 1.201, 0.259, 0.710, 1.161)],
 )
 def test_either_side_of_a_drivetrain(side: str, kv: float, ka: float, ks: float, regression: float) -> None:
     motor = next(one for one in import_log(LOG, Said()).motors if one.label == side)

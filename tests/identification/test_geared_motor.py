@@ -35,6 +35,7 @@ def test_an_independent_geared_motor_is_found_within_its_errors(seed: int) -> No
     assert fit.parameters.gear_ratio == pytest.approx(34.014) and 0.01 < fit.slot_irregularity[0] < 0.03
 
 
+@pytest.mark.slow
 def test_a_ripple_of_the_motor_s_shaft_is_found_behind_the_gear() -> None:
     wave = {"ripple_voltage": 0.3, "ripple_cycles": 3.0, "ripple_phase": 0.5}
     recording = behind_the_gear({"kv": 0.0265, "ka": 0.0018, **wave}, 1, profiles.random(6.0, 8.0, 1))

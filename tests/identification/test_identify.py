@@ -7,6 +7,7 @@ import pytest
 from fits import BASE, how_sure, made, off, quick
 from plant import profiles, record
 from recorded import as_counts, as_speed
+from tiers import keep_fast
 
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import check
@@ -79,7 +80,7 @@ FOUND = {
 }
 
 
-@pytest.mark.parametrize("irregularity", [0.0, 0.01])
+@pytest.mark.parametrize("irregularity", keep_fast([0.0, 0.01], 0.01))
 @pytest.mark.parametrize("case", FOUND)
 def test_what_was_hidden_is_found(case: str, irregularity: float) -> None:
     values, drive, effects, near = FOUND[case]
@@ -141,7 +142,7 @@ SMALL = {
 }
 
 
-@pytest.mark.parametrize("case", SMALL)
+@pytest.mark.parametrize("case", keep_fast(SMALL, "irregular slots"))
 def test_standard_errors_are_true(case: str) -> None:
     """Over small recordings the errors, in units of their standard errors, scatter by about 1.
 

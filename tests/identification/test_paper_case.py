@@ -46,6 +46,7 @@ def test_static_friction_is_named_from_a_pi_run_and_a_ramp() -> None:
     assert judge.scored(dict(found.model.parameters.values), voltage).gap() == pytest.approx(found.gap_after, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_loop_with_the_effect_added_meets_the_gap_on_another_reference() -> None:
     """At 1 kHz, started and stopped; on the disc that an earlier run has shown, and on a regular one."""
     earlier = replace(HUNTING, levels=HUNTING.levels[3:6])  # some turns, which pass every hole
@@ -58,6 +59,7 @@ def test_the_loop_with_the_effect_added_meets_the_gap_on_another_reference() -> 
     assert 2.0 < of_floor(run, BASE, loop_simulated(run, BASE, *seen)) < 3.0  # the paper's model: it never sticks
 
 
+@pytest.mark.slow
 def test_where_the_loop_hunts_no_model_can_be_near_enough() -> None:
     """A millionth in kv is another motion after some slips, on the very same disc from the very same angle."""
     run = hidden_run(JUDGE, SEED, 200.0, begin=1)

@@ -150,6 +150,7 @@ def test_a_controller_that_logs_its_last_voltage() -> None:
     assert 3.6 < rms[0] < 4.2 and 2.6 < rms[1] < 3.0
 
 
+@pytest.mark.slow
 def test_recordings_of_other_days_contradict_each_other_and_that_is_seen() -> None:
     """Friction was 0.275 V on one day and 0.19 V on another; the common fit follows the longest recording."""
     recordings = undc("prbs", "static", "step")
@@ -187,6 +188,7 @@ def found_in(recordings: list[Recording]) -> tuple[Diagnosis, dict[str, tuple[st
     return found, {one.effect: one.ambiguous_with for one in found.findings}
 
 
+@pytest.mark.slow
 def test_diagnosis_of_a_telegraph_one_way() -> None:
     """A delay, and an offset that friction, a constant load and a dead zone make alike."""
     _found, with_static = found_in(undc("prbs", "static"))  # a load that pushes at standstill is out
@@ -206,6 +208,7 @@ def test_diagnosis_of_a_telegraph_one_way() -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_diagnosis_of_a_coasting_bridge_predicts_its_static_curve() -> None:
     """Two effects that only together explain anything; the same kv as years later with a braking bridge.

@@ -14,6 +14,7 @@ BASE = {"kv": 1.1 * PAPER_KV, "ka": 0.9 * PAPER_KA}
 DISC = {"irregularity": 0.006, "disc_seed": 5}
 
 
+@pytest.mark.slow
 def test_the_plant_reproduces_the_reported_gap() -> None:
     hidden = {"dead_zone_voltage": 0.5}
     train, _ = record(BASE | hidden, *profiles.compact(), seed=1, **DISC)  # type: ignore[arg-type]

@@ -13,6 +13,7 @@ from motor_identification.identify import Request, identify
 from motor_identification.recording import check
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sigma", [0.1, 5.0])
 def test_a_fit_of_speeds_with_white_noise_is_right_to_within_its_standard_errors(sigma: float) -> None:
     score = []
@@ -50,6 +51,7 @@ def test_a_scale_of_50_nm_fits_the_axis() -> None:
         assert fit.parameters.values[name] != pytest.approx(value, rel=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("instant", [True, False], ids=["of an instant", "of the whole row"])
 def test_a_ripple_is_named_in_speeds_with_white_noise(instant: bool) -> None:
     """Nothing counts the angle: it is summed up from the speeds, and is lost in what is held out."""
@@ -61,6 +63,7 @@ def test_a_ripple_is_named_in_speeds_with_white_noise(instant: bool) -> None:
     assert 0.3 < named["torque_ripple"]["ripple_voltage"][0] < 0.44  # the phase is not known better
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("held_out", [True, False])
 def test_an_eccentric_disc_is_named_where_only_its_count_is_read(held_out: bool) -> None:
     """The angle in held-out motion is measured there; and where nothing is held out, a disc has its price."""

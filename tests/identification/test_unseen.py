@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 from plant import profiles, record
+from tiers import keep_fast
 
 from motor_identification.diagnosis.effect_test import try_effects
 from motor_identification.diagnosis.selection.selection import begin_beside_torque
@@ -52,7 +53,7 @@ def list_fits(train: Recording, hold_out: HoldOut) -> tuple[list[Any], int]:
     return fits, start.model.held.miscounted
 
 
-@pytest.mark.parametrize("rule", [BlocksOfSame, OtherRecordings])
+@pytest.mark.parametrize("rule", keep_fast([BlocksOfSame, OtherRecordings], BlocksOfSame))
 def test_corrupted_held_out_samples_change_no_fit(rule: type[HoldOut]) -> None:
     swinging = profiles.joined(*[profiles.staircase(10.0, 3, 0.3)] * 4)  # enough for blocks of it to be held out
     train, other = made(swinging, 1), made(profiles.random(9.0, 5.0), 2).between(1.0, 0.0)

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tiers import mark_slow
 
 import motor_identification
 import motor_model
@@ -83,14 +84,14 @@ def changed(before: dict[str, str], after: dict[str, str]) -> set[str]:
         # a term of the equation: all that integrates it, however far up
         ("motor_model.dynamics.bridge", "return u - dead", "return u - 2.0 * dead", ALL_THAT_MOVES),
         # a constant that is imported by value
-        (
+        mark_slow(
             "motor_model.dynamics.pieces",
             "\n@compiled",
             "\nLONGER = 2.0\n\n\n@compiled",
             {"motor", "roll_out", "residual"},
         ),
         # another place in the parameter vector
-        (
+        mark_slow(
             "motor_model.effects",
             '"max_voltage", "coarseness"',
             '"coarseness", "max_voltage"',
@@ -121,6 +122,7 @@ def test_edited_sentences_recompile_nothing(copy: Path, before: dict[str, str]) 
     assert changed(before, caches(copy)) == set()
 
 
+@pytest.mark.slow
 def test_what_was_read_of_a_source_is_kept_for_exactly_that_source(copy: Path, before: dict[str, str]) -> None:
     assert caches(copy) == before
     kept = copy / "motor_identification" / "noise" / "__pycache__" / "numba-viterbi.json"

@@ -7,6 +7,7 @@ from plant import profiles
 from plant.motor import Motion, move
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
+from tiers import mark_slow
 
 KV, KA = 12 / 174.097, 0.0055
 TAU = KA / KV
@@ -191,7 +192,9 @@ MORE = {
 
 
 @pytest.mark.parametrize("parameters", [EVERYTHING, EVERYTHING | MORE], ids=["table", "table and more"])
-@pytest.mark.parametrize("profile", [profiles.reversals(), profiles.coast(), profiles.random(seed=3)])
+@pytest.mark.parametrize(
+    "profile", [profiles.reversals(), mark_slow(profiles.coast()), mark_slow(profiles.random(seed=3))]
+)
 def test_a_finer_step_changes_nothing(parameters: dict[str, float], profile: profiles.Profile) -> None:
     coarse, fine = (move(parameters, *profile, step=step) for step in (2e-5, 5e-6))
     loose = 1e3 if "load_friction" in parameters else 1.0  # |drive| has a corner that no step ends at

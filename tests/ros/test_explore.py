@@ -60,6 +60,7 @@ def test_a_terminal_that_is_closed_after_an_experiment_ends_the_exploration(monk
             signal.signal(number, handler)
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_names_what_is_missing_after_the_experiments_it_asks_for(
     bench: Bench, samples: list[MotorSpeed], tmp_path: Path

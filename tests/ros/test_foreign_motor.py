@@ -67,6 +67,7 @@ def recorded(bench: Bench, start: Start, directory: Path, mapping: Path, *names:
     raise AssertionError
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_what_record_wrote_of_other_topics_is_identified_by_the_node(
     bench: Bench, start: Start, tmp_path: Path
@@ -86,6 +87,7 @@ def test_what_record_wrote_of_other_topics_is_identified_by_the_node(
     assert np.isfinite(list(found.values())).all()
 
 
+@pytest.mark.slow
 @pytest.mark.long
 def test_a_bag_of_other_topics_is_diagnosed_by_the_node(bench: Bench, start: Start, tmp_path: Path) -> None:
     foreign_bags.write_joint_states(tmp_path / "robot", foreign_bags.move(8.0))

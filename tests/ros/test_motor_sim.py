@@ -153,7 +153,7 @@ def test_simulated_ros_time_stops_nothing(bench: Bench, start: Start, user: User
     assert user.samples[-1].header.stamp.sec == 0
 
 
-@pytest.mark.parametrize("times", [(5000.0, 10.0), (2.0e9, 0.0, 3.0)])
+@pytest.mark.parametrize("times", [pytest.param((5000.0, 10.0), marks=pytest.mark.slow), (2.0e9, 0.0, 3.0)])
 def test_a_clock_that_jumps_to_and_fro_stops_no_loop(
     bench: Bench, start: Start, user: User, times: tuple[float, ...]
 ) -> None:

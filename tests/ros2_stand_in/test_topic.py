@@ -108,6 +108,7 @@ def test_pub_once_arrives(bench):
     assert lines == ["publisher: beginning loop", "publishing #1: std_msgs.msg.Float64(data=100.0)", ""]
 
 
+@pytest.mark.slow
 def test_pub_once_arrives_at_everyone_who_listens_already(ordinary_ros2):
     listeners = [ordinary_ros2.start("topic", "echo", "/told", "std_msgs/msg/Float64") for _ in range(3)]
     while "/told [std_msgs/msg/Float64] 3 subscribers" not in ordinary_ros2("topic", "list", "-v").out:

@@ -13,6 +13,7 @@ from typing import TypeVar
 
 import pytest
 from patience import PATIENCE
+from tiers import keep_fast
 
 from motor_board.build import CHIPS, FirmwareConfig, chip_library, firmware
 from motor_board.emulation.emulator import Emulator
@@ -28,6 +29,7 @@ F = TypeVar("F", bound=Frame)
 MS = 16_000  # [cycle]
 TICK = 8  # [cycle]
 on_each_chip = pytest.mark.parametrize("chip", CHIPS)  # of `bench` and `make_bench`
+on_the_larger_chip_slowly = pytest.mark.parametrize("chip", keep_fast(CHIPS, CHIPS[0]))  # what stops no motor
 
 
 @cache

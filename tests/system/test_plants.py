@@ -117,6 +117,7 @@ def recorded(bench: Bench, start: Start, directory: Path) -> Path:
         bench.wait(lambda: switched_on(bench), "a board whose telemetry has come back")
 
 
+@pytest.mark.slow
 @pytest.mark.long
 @pytest.mark.parametrize("start_plant", ["motor_driver"], indirect=True)  # for motor_sim others show it
 def test_experiment_and_identification_find_the_motor(

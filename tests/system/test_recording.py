@@ -62,6 +62,7 @@ def test_a_killed_recorder_loses_at_most_a_second(bench: Bench, start: Start, tm
 MOTORS = {"left": {"kv": 0.07, "ka": 0.005}, "right": {"kv": 0.11, "ka": 0.012}}
 
 
+@pytest.mark.slow
 def test_two_controlled_motors_in_one_bag_do_not_meet(bench: Bench, start: Start, tmp_path: Path) -> None:
     for name, parameters in MOTORS.items():
         save(tmp_path / f"{name}.yaml", Parameters(parameters))

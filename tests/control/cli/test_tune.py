@@ -38,6 +38,7 @@ def table(printed: str) -> dict[str, float]:
     return {row[0].strip().rsplit("  ", 1)[0].strip(): float(row[0].split()[-1]) for row in rows}
 
 
+@pytest.mark.slow
 def test_the_gains_are_written_although_nobody_reads_the_table(model: Path, tmp_path: Path) -> None:
     """`tune … --output gains.yaml | head -1` wrote no file, unbuffered, and ended with 0."""
     gains = tmp_path / "gains.yaml"

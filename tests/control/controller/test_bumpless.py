@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from bench_board import drive, motor, settings
+from tiers import keep_fast
 
 from motor_control.controller import controller
 from motor_model.parameters import PAPER_KV
@@ -25,7 +26,7 @@ CHANGES: dict[str, tuple[dict[str, object], dict[str, object]]] = {
 
 
 @pytest.mark.parametrize("name", CHANGES)
-@pytest.mark.parametrize("at", [0.7, 0.065])
+@pytest.mark.parametrize("at", keep_fast([0.7, 0.065], 0.065))
 def test_the_voltage_does_not_jump(name: str, at: float) -> None:
     """Settled, and on the way to 60 rad/s; the same loop without the change is the measure."""
     before, after = CHANGES[name]

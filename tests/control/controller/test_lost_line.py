@@ -5,11 +5,12 @@ from math import tau
 import pytest
 from bench_board import motor
 from lost_line import lose_line
+from tiers import keep_fast
 
 from motor_control.controller import controller
 
 
-@pytest.mark.parametrize("rate", [200.0, 1000.0])
+@pytest.mark.parametrize("rate", keep_fast([200.0, 1000.0], 200.0))
 @pytest.mark.parametrize("strays", [0.0, 2.0, 5.0, 50.0, 100.0])
 @pytest.mark.parametrize(("source", "known"), [("measured", False), ("measured", True), ("observer", True)])
 def test_a_line_lost_at_100_rad_per_s(source: str, known: bool, strays: float, rate: float) -> None:

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 from bench_board import BREAKAWAY, TIME_CONSTANT, drive, motor
+from tiers import keep_fast
 
 FASTEST = 0.068  # [s] from 0 to 100 rad/s at 12 V without friction
-RATES = (200.0, 1000.0)
+RATES = keep_fast((200.0, 1000.0), 200.0)
 
 
 @pytest.mark.parametrize("rate", RATES)
@@ -98,7 +99,7 @@ WRONG_MODELS = {
 }
 
 
-@pytest.mark.parametrize("name", WRONG_MODELS)
+@pytest.mark.parametrize("name", keep_fast(WRONG_MODELS, "kv 5 % off", "breakaway lower"))
 def test_what_the_model_gets_wrong_leaves_no_lasting_error(name: str) -> None:
     plant = WRONG_MODELS[name]
     known = plant if name.endswith("known") else motor()

@@ -93,6 +93,7 @@ def test_an_unknown_load_is_found_and_leaves_no_error(load: float) -> None:
     assert abs((run.seen - run.true)[late].mean()) < 0.01
 
 
+@pytest.mark.slow
 def test_a_disc_worse_than_told_shows_hardly_a_jump() -> None:
     """Taken as told, its slots would be jumps of the load a tenth to a third of the time, and the error 8 times."""
     runs = [[watch(motor(), ((3.0, 1.1),), rate=1000.0, seed=s, told=told) for s in range(4)] for told in (0.01, 0.005)]

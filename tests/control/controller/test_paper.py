@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tiers import keep_fast
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "benchmarks"))
@@ -35,9 +36,9 @@ def numbers(simulated: Row, hardware: Row) -> list[float]:
     return [100.0 * share for share in shares]
 
 
-@pytest.mark.parametrize("pair", PAIRS)
-def test_the_table_of_the_pairs(pair: tuple[float, float], fitted) -> None:  # type: ignore[no-untyped-def]
-    assumption = Assumption()
+@pytest.mark.parametrize("number", keep_fast(range(len(PAIRS)), 1))
+def test_the_table_of_the_pairs(number: int, fitted) -> None:  # type: ignore[no-untyped-def]
+    pair, assumption = PAIRS[number], Assumption()
     simulated, hardware = (median_row(pair, assumption, b, 9) for b in (simulation(fitted), Bench(HARDWARE)))
     shares, rises, offsets = shown(pair)
     assert shares == pytest.approx(numbers(simulated, hardware), abs=0.06)
@@ -54,6 +55,7 @@ def test_what_the_table_says_of_the_paper() -> None:
     assert "| holds for slow references only |" in PAGE
 
 
+@pytest.mark.slow
 def test_friction_and_not_quantisation_moves_10_1_at_a_slow_reference(fitted) -> None:  # type: ignore[no-untyped-def]
     slow, pair = Assumption(reference=20.0), PAIRS[0]
     model = median_row(pair, slow, simulation(fitted), 1).mean
@@ -64,6 +66,7 @@ def test_friction_and_not_quantisation_moves_10_1_at_a_slow_reference(fitted) ->
     assert -0.1 < free < 0.1
 
 
+@pytest.mark.slow
 def test_a_cell_of_the_sweep(fitted) -> None:  # type: ignore[no-untyped-def]
     row = re.search(r"^\| 8-bit duty counts \| 200 Hz \| `(\S+)` \| `(\S+)` \| `(\S+)` \|", PAGE, re.MULTILINE)
     assert row is not None
@@ -72,6 +75,7 @@ def test_a_cell_of_the_sweep(fitted) -> None:  # type: ignore[no-untyped-def]
     assert verdicts(Assumption(rate=200.0, reference=20.0), fitted, discs).letters() == row[1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("brakes", "low", "high"), [(False, 0.15, 0.3), (True, 0.3, 0.55)])
 def test_volts_at_200_hz_are_bang_bang(brakes: bool, low: float, high: float) -> None:
     """What rules that assumption out: none of the four pairs looks like the paper's figures."""

@@ -4,6 +4,7 @@ from statistics import fmean
 
 import pytest
 from bench_motor import SLOT, Plant, Trace, close_loop
+from tiers import keep_fast
 
 from motor_control.configuration import config_of
 from motor_control.controller import controller
@@ -12,7 +13,7 @@ from motor_control.controller.controller import Config, State
 from motor_control.parameters import ROWS
 from motor_model.sample import Info, Sample
 
-SEEDS = range(4)
+SEEDS = keep_fast(range(4), 0)
 DEFAULTS = {row.name: row.default for row in ROWS}
 
 
@@ -114,6 +115,7 @@ def test_a_board_that_takes_the_sign_from_the_voltage(seed: int) -> None:
     assert unruled.voltage_flips() > 20 and len(unruled.wrong_signs()) > 20
 
 
+@pytest.mark.slow
 def test_a_board_that_is_slow_to_see_the_turn(monkeypatch: pytest.MonkeyPatch) -> None:
     """It needs the voltage to stay: a reversal that is broken off at `reversal_speed` leaves it wrong for 90 ms."""
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from tiers import mark_slow
 
 from motor_control.controller import controller, pi
 from motor_control.tuning.design import Tuning, Wish, tune
@@ -172,7 +173,7 @@ def run(tuning: Tuning, references: tuple[float, ...], seed: int, hold: float = 
     return np.array(speeds)
 
 
-@pytest.mark.parametrize(("rate", "speed"), [(200.0, 10.0), (200.0, 100.0), (1000.0, 30.0)])
+@pytest.mark.parametrize(("rate", "speed"), [(200.0, 10.0), (200.0, 100.0), mark_slow(1000.0, 30.0)])
 def test_the_disc_makes_the_shaft_swing_as_predicted(rate: float, speed: float) -> None:
     bare, sight = plant_of(paper_motor(), 1.0 / rate), Measured(Encoder())
     gains = fast_gains(sight.plant(bare, 10.0))
@@ -192,7 +193,7 @@ def test_a_perfect_disc_leaves_the_timer() -> None:
     assert rough == pytest.approx(2.0 * usual, rel=0.02)
 
 
-@pytest.mark.parametrize(("rate", "wanted"), [(200.0, 0.06), (1000.0, 0.035)])
+@pytest.mark.parametrize(("rate", "wanted"), [(200.0, 0.06), mark_slow(1000.0, 0.035)])
 def test_the_wished_time_constant_is_what_the_shaft_has(rate: float, wanted: float) -> None:
     """A step from 40 to 44 rad/s, with the real encoder; the period method's lag there is below the 10 rad/s' one."""
     tuning = measured(Wish(1.0 / rate, 40.0, wanted), Encoder(slot_irregularity=0.0))

@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from tiers import keep_fast
 
 from motor_control.configuration import config_of
 from motor_control.controller import controller
@@ -62,6 +63,7 @@ def swing_after_a_nudge(rate: float, speed: float, late: int = 0, factor: float 
     return float(np.ptp(speeds[-round(0.4 * rate) :]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", [30.0, 100.0])
 def test_delay_margin(speed: float) -> None:
     margin = margins(tuned(1000.0), speed).delay * 1000.0  # [sample]
@@ -70,7 +72,7 @@ def test_delay_margin(speed: float) -> None:
     assert swing_after_a_nudge(1000.0, speed, late=int(margin) + 2) > 5.0
 
 
-@pytest.mark.parametrize("speed", [30.0, 100.0])
+@pytest.mark.parametrize("speed", keep_fast([30.0, 100.0], 100.0))
 def test_gain_margin(speed: float) -> None:
     margin = margins(tuned(200.0), speed).gain
     assert 2.3 < margin < 3.0
@@ -78,7 +80,10 @@ def test_gain_margin(speed: float) -> None:
     assert swing_after_a_nudge(200.0, speed, factor=1.05 * margin) > 5.0
 
 
-@pytest.mark.parametrize(("rate", "speed"), [(200.0, 3.0), (200.0, 10.0), (200.0, 30.0), (1000.0, 10.0)])
+@pytest.mark.parametrize(
+    ("rate", "speed"),
+    keep_fast([(200.0, 3.0), (200.0, 10.0), (200.0, 30.0), (1000.0, 10.0)], (200.0, 3.0), (200.0, 30.0)),
+)
 def test_the_disc_makes_the_shaft_swing_as_predicted(rate: float, speed: float) -> None:
     tuning = tuned(rate)
     swing = tuning.sight.ripple(plant_of(MOTOR, 1.0 / rate), tuning.gains, speed)

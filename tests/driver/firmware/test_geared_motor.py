@@ -7,6 +7,7 @@ from math import tau
 import numpy as np
 import pytest
 from driver_rig import Rig
+from tiers import keep_fast
 
 from motor_board.build import FirmwareConfig
 from motor_board.emulation.shaft import EncoderConfig
@@ -22,7 +23,7 @@ ENCODER = EncoderConfig(11, 0.02, 3, lines=Lines(0.44, 0.21), gear=GEAR)
 TWO = FirmwareConfig(channels=2, edges_per_revolution=11)
 
 
-@pytest.mark.parametrize("quadrature", [1, 2, 4])
+@pytest.mark.parametrize("quadrature", keep_fast([1, 2, 4], 4))
 def test_speed_and_count_are_of_the_output(make_rig: Callable[..., Rig], quadrature: int) -> None:
     """Forward, backward, and at rest: the count is the angle within a count, the speed that of the output."""
     config = Config(edges_per_revolution=11 * quadrature, single_channel=False, quadrature=quadrature, gear=GEAR)

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import pytest
 from driver_rig import MakeRig, Rig, problem
+from tiers import mark_slow
 
 from motor_board.emulation.chip import Hang
 from motor_board.emulation.faults import Faults
@@ -95,7 +96,7 @@ def test_a_reset_board_stays_off_until_enabled(running: Rig, hang: Hang | None) 
     assert problem(running) == ""
 
 
-@pytest.mark.parametrize(("delay", "stops"), [(40, False), (60, True), (1000, True)])
+@pytest.mark.parametrize(("delay", "stops"), [(40, False), (60, True), mark_slow(1000, True)])
 def test_a_link_that_holds_bytes_back_is_no_link_to_a_motor(running: Rig, delay: int, stops: bool) -> None:
     """So many ms each way, more and more of them: nothing is lost, and no time-out sees it."""
     running._in, running._out = HeldBack(), HeldBack()

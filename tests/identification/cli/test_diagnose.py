@@ -18,6 +18,7 @@ import pytest
 import yaml
 from friction import KS
 from patience import PATIENCE
+from tiers import keep_fast
 
 from motor_identification.cli.diagnose import main as diagnose
 from motor_identification.cli.explore import main as explore
@@ -168,7 +169,7 @@ raise SystemExit(main())
 """
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", keep_fast([signal.SIGINT, signal.SIGTERM], signal.SIGINT))
 def test_shows_progress_on_a_terminal_and_ends_at_ctrl_c(bags: Path, number: signal.Signals) -> None:
     terminal, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 100, 0, 0))
@@ -188,6 +189,7 @@ def test_shows_progress_on_a_terminal_and_ends_at_ctrl_c(bags: Path, number: sig
     assert shown.endswith(b"The diagnosis was interrupted; nothing was written.\r\n")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("undrawn")
 def test_explores_until_nothing_is_open(bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     directory = tmp_path / "found"

@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from tiers import keep_fast
 
 from motor_identification.cli.identify import main
 from motor_model.model_file import load
@@ -14,7 +15,9 @@ QUICK = ["--particles", "8", "--epochs", "4"]  # how good a fit is, is not asked
 COMMAND = [sys.executable, "-u", "-m", "motor_identification.cli.identify"]  # not buffered
 
 
-@pytest.mark.parametrize(("where", "status"), [("| true", 0), ("> /dev/full", 1), (">&-", 0)])
+@pytest.mark.parametrize(
+    ("where", "status"), keep_fast([("| true", 0), ("> /dev/full", 1), (">&-", 0)], ("> /dev/full", 1))
+)
 def test_the_model_is_written_wherever_the_words_go(bags: Path, tmp_path: Path, where: str, status: int) -> None:
     """`identify … --output x | true` wrote no file and ended with 0."""
     words = " ".join([*COMMAND, str(bags / "staircase"), *QUICK, "--output", str(tmp_path / "model.yaml")])
@@ -25,7 +28,7 @@ def test_the_model_is_written_wherever_the_words_go(bags: Path, tmp_path: Path, 
     assert load(tmp_path / "model.yaml").gain > 0.0
 
 
-@pytest.mark.parametrize("command", ["inspect", "import_log"])
+@pytest.mark.parametrize("command", keep_fast(["inspect", "import_log"], "inspect"))
 def test_what_is_found_is_written_although_nobody_reads_it(bags: Path, tmp_path: Path, command: str) -> None:
     log = tmp_path / "log.csv"
     log.write_text("t,u,speed\n" + "".join(f"{0.01 * k},{k % 50 // 25},{k % 50}\n" for k in range(300)))
@@ -50,6 +53,7 @@ def test_a_file_that_cannot_be_written_costs_neither_the_fit_nor_the_others(
     )
 
 
+@pytest.mark.slow
 def test_a_name_with_odd_characters_is_drawn_as_it_is(
     bags: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

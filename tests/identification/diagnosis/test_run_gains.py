@@ -50,6 +50,7 @@ def test_nothing_is_named_for_a_supply_that_differs() -> None:
     assert found(0.0).model.parameters.value("kv") == pytest.approx(PAPER_KV, rel=0.03)
 
 
+@pytest.mark.slow
 def test_a_friction_is_named_beside_it_and_the_scatter_is_told() -> None:
     (finding,) = found(0.8).findings
     assert "coulomb_friction" in (finding.effect, *finding.ambiguous_with)

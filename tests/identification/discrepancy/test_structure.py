@@ -6,6 +6,7 @@ from typing import cast
 import numpy as np
 import pytest
 from plant import profiles, record
+from tiers import mark_slow
 
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.selection.selection import begin_selection
@@ -52,9 +53,9 @@ def test_a_random_torque_is_no_structure() -> None:
     ("hidden", "effects", "variables"),
     [
         ({"speed_wave": 0.4, "speed_wave_scale": 12.0}, (), {"speed"}),
-        ({"ks": 0.4, "angle_friction": 0.8}, ("coulomb_friction",), {"angle"}),
-        ({"load_friction": 0.15}, (), {"drive", "speed_voltage", "past"}),
-        ({"current_limit_voltage": 8.0}, (), {"drive", "speed_voltage"}),
+        mark_slow({"ks": 0.4, "angle_friction": 0.8}, ("coulomb_friction",), {"angle"}),
+        mark_slow({"load_friction": 0.15}, (), {"drive", "speed_voltage", "past"}),
+        mark_slow({"current_limit_voltage": 8.0}, (), {"drive", "speed_voltage"}),
     ],
     ids=["speed", "angle", "drive", "limited current"],
 )
@@ -92,6 +93,7 @@ def test_time_comes_first_only_where_no_motion_tells_half_as_much(motion: float,
     assert ranked[-1].variable == ("past" if motion < LEAST_SHARE else "angle")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("angle_friction", "certain"), [(0.6, True), (0.0, False)])
 def test_a_friction_over_the_angle_is_told_from_a_disc_beside_a_strong_torque(
     angle_friction: float, certain: bool
@@ -113,6 +115,7 @@ def test_ridge_finds_what_is_there_and_nothing_else(scale: float) -> None:
     assert np.sqrt(np.mean((knots - true) ** 2)) < (0.03 if scale else 0.008)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("slew", "random"), [(0.0, True), (150.0, False)])
 def test_what_a_stand_in_leaves_is_no_random_torque(slew: float, random: bool) -> None:
     """A bridge that slews, which an inductance stands in for, leaves rare large errors and nothing between them."""

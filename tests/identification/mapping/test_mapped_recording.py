@@ -10,6 +10,7 @@ import pytest
 import yaml
 from foreign_bags import KA, KS, KV
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
+from tiers import mark_slow
 
 from motor_identification.bag import Source, Window
 from motor_identification.diagnose import diagnose
@@ -47,7 +48,12 @@ def fit(bag: Path, mapping: Mapping) -> Fit:
 
 @pytest.mark.parametrize(
     ("bag", "mapping"),
-    [("joints", SPEED), ("joints_sql", ANGLE), ("driver", TICKS), ("driver", replace(OMEGA, speed_lag=0.0))],
+    [
+        ("joints", SPEED),
+        mark_slow("joints_sql", ANGLE),
+        ("driver", TICKS),
+        mark_slow("driver", replace(OMEGA, speed_lag=0.0)),
+    ],
 )
 def test_the_motor_is_found_through_messages_of_others(bags: Path, bag: str, mapping: Mapping) -> None:
     found = fit(bags / bag, mapping).parameters.values
@@ -84,12 +90,14 @@ def test_a_bag_that_was_recorded_with_compression_says_the_same(
         assert np.array_equal(getattr(packed, name), getattr(plain, name))
 
 
+@pytest.mark.slow
 def test_a_speed_without_a_word_is_of_when_its_motion_says(bags: Path) -> None:
     """These are of an instant: taken for the mean of a period, half a period early, ka would be 4 % too small."""
     found = fit(bags / "joints", replace(SPEED, speed_lag=None)).parameters.values
     assert found["kv"] == pytest.approx(KV, rel=0.015) and found["ka"] == pytest.approx(KA, rel=0.015)
 
 
+@pytest.mark.slow
 def test_what_is_missing_is_named(bags: Path) -> None:
     found = diagnose([read_mapped(bags / "joints", SPEED)])
     assert [finding.effect for finding in found.findings] == ["coulomb_friction"]

@@ -8,6 +8,7 @@ import pytest
 from numpy.typing import NDArray
 from plant import Truth, profiles, record
 from recorded import as_counts, as_speed
+from tiers import keep_fast
 
 from motor_identification.estimation.residual import compute_residuals
 from motor_identification.measurement.build_intervals import make_intervals
@@ -45,7 +46,7 @@ def true_number(edges: Edges, truth: Truth) -> NDArray[np.int64]:
     return np.asarray(later - earlier)
 
 
-@pytest.mark.parametrize("drive", DRIVES)
+@pytest.mark.parametrize("drive", keep_fast(DRIVES, "reversals", "random"))
 @pytest.mark.parametrize("motor", MOTORS)
 def test_no_interval_that_is_kept_has_a_wrong_direction(motor: str, drive: str) -> None:
     for seed, irregularity in enumerate((0.0, 0.01)):
@@ -150,7 +151,7 @@ def scores(recording: Recording, truth: Truth) -> tuple[Intervals, Floats]:
     return intervals, residual[known] / intervals.sigma[known]
 
 
-@pytest.mark.parametrize("drive", DRIVES)
+@pytest.mark.parametrize("drive", keep_fast(DRIVES, "reversals", "random"))
 @pytest.mark.parametrize("motor", MOTORS)
 def test_the_truth_scores_what_the_timer_leaves(motor: str, drive: str) -> None:
     recording, truth = record(MOTORS[motor], *DRIVES[drive], seed=7)

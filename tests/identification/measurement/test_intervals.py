@@ -140,6 +140,7 @@ HONEST = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", HONEST)
 def test_counts_alone_find_the_motor_without_bias_and_with_true_standard_errors(case: str) -> None:
     drive, how = HONEST[case]

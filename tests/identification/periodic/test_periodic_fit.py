@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from plant import profiles, record
 from recorded import as_speed
+from tiers import keep_fast
 
 from motor_identification.estimation.direction_correction import correct_directions
 from motor_identification.estimation.estimate import Estimate
@@ -36,6 +37,7 @@ def near(a: float, b: float) -> float:
     return abs(float(np.angle(np.exp(1j * (a - b)))))
 
 
+@pytest.mark.slow
 def test_a_ripple_in_two_recordings_with_a_phase_each() -> None:
     phases = (0.8, -2.0)
     drives = (profiles.staircase(10.0, 3, 0.25), profiles.staircase(7.0, 2, 0.3))
@@ -65,7 +67,7 @@ def without_ripple(recording: Recording, values: dict[str, float]) -> tuple[Esti
 SWINGING = {"kv": 0.071, "ka": 0.0056, "ripple_voltage": 0.39, "ripple_cycles": 10.866, "ripple_phase": 0.4}
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.4], ids=["swings on its ripple", "with friction"])
+@pytest.mark.parametrize("friction", keep_fast([0.0, 0.4], 0.4), ids=["swings on its ripple", "with friction"])
 def test_a_ripple_is_followed_through_every_standstill(friction: float) -> None:
     """Without friction the shaft swings where it should stand, no edge says which way, and a fit takes it for noise."""
     values = SWINGING | ({"ks": friction} if friction else {})
@@ -89,6 +91,7 @@ def test_a_ripple_is_followed_through_every_standstill(friction: float) -> None:
     assert 0.99 * best < found.cost < 1.02 * best < 0.5 * bare.problem.cost(guess)
 
 
+@pytest.mark.slow
 def test_a_ripple_is_found_that_is_not_among_the_highest_lines_of_the_blocks() -> None:
     """A small one beside an irregular disc: in blocks of a few turns eleven other lines look more likely."""
     values = {"kv": 0.05004, "ka": 0.005761, "ripple_voltage": 0.26745, "ripple_cycles": 10.8622, "ripple_phase": -1.21}

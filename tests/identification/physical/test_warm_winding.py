@@ -21,6 +21,7 @@ def test_a_change_is_measured_with_its_error() -> None:
     assert abs(change - 0.05) < 4.0 * error and 3e-4 < error < 3e-3
 
 
+@pytest.mark.slow
 def test_it_is_named_where_the_model_has_none_and_found_where_it_has() -> None:
     recording = measured(HEATED, drive=LONG)
     fit = fit_with_current(fit_motion(recording), (select_current(recording),))

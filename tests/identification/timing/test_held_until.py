@@ -51,6 +51,7 @@ def timing_of(*recordings: Recording) -> Timing | None:
     return find_timing(recordings, estimate)
 
 
+@pytest.mark.slow
 def test_the_voltages_that_counts_answer_are_told() -> None:
     assert timing_of(counted()) is None
     assert timing_of(until(counted())) == UNTIL
@@ -148,6 +149,7 @@ def test_a_timing_of_counts_is_that_of_their_voltages_alone() -> None:
     assert read_again(said, UNTIL).voltage is said.voltage and read_again(said, UNTIL).notes == ()
 
 
+@pytest.mark.slow
 def test_a_fit_and_a_diagnosis_use_what_was_found() -> None:
     late = until(counted())
     fit = identify([late], Request(("coulomb_friction",)))

@@ -88,6 +88,7 @@ def test_values_of_instants_and_means_show_none() -> None:
         assert find_likeliest_slot(shaper, OTHERS[0], timing).gain < 0.0
 
 
+@pytest.mark.slow
 def test_smoothed_speeds_come_late_too_and_show_none() -> None:
     recording = check(noisy(0.05))
     speed = np.asarray(lfilter([0.3], [1.0, -0.7], recording.speed))
@@ -95,6 +96,7 @@ def test_smoothed_speeds_come_late_too_and_show_none() -> None:
     assert found.slot == 0.0 and found.filter is not None
 
 
+@pytest.mark.slow
 def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(speed_timing, "LEAST_GAIN", -np.inf)
     monkeypatch.setattr(speed_timing, "LEAST_PULSE_GAIN_OF_ROW", -np.inf)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 from swinging import noisy
+from tiers import keep_fast
 
 from motor_identification.estimation.problem import make_problem
 from motor_identification.estimation.request import SearchConfig
@@ -54,7 +55,7 @@ def timing_of(recording: Recording) -> Timing:
     return find_timing([recording], estimate) or ASSUMED
 
 
-@pytest.mark.parametrize("memory", [0.0, 0.7])
+@pytest.mark.parametrize("memory", keep_fast([0.0, 0.7], 0.0))
 def test_the_clock_that_stamps_are_late_on_shows_in_the_motion(memory: float) -> None:
     """Smoothed or not: rows are put on an even clock, and that is said."""
     recording = logged(EVEN, LATE, memory=memory)
@@ -79,6 +80,7 @@ def test_a_clock_has_to_be_much_likelier(limit: float, kept: bool, monkeypatch: 
     assert (found.rows == AS_STAMPED) == kept
 
 
+@pytest.mark.slow
 def test_smoothed_counts_of_uneven_rows_are_divided_by_their_lengths() -> None:
     """Once what smoothed them is undone; to the count."""
     recording = logged(UNEVEN, ON_TIME, edges=480, nominal=True, memory=0.5)
@@ -91,6 +93,7 @@ def test_smoothed_counts_of_uneven_rows_are_divided_by_their_lengths() -> None:
     assert any(note.startswith("The speeds were computed as if every row took") for note in timed.notes)
 
 
+@pytest.mark.slow
 def test_counts_of_their_own_rows_are_not_divided_again() -> None:
     assert timing_of(logged(UNEVEN, ON_TIME, edges=480, memory=0.5)).rows == AS_STAMPED
 
@@ -114,6 +117,7 @@ def test_what_is_tried_depends_on_the_stamps() -> None:
     assert RowTimes(1.0).set_on(on_time) is on_time
 
 
+@pytest.mark.slow
 def test_uneven_rows_that_hold_the_voltage_until_them_are_read_so() -> None:
     """A row later is not a time later: nothing was found of such a log."""
     recording = logged(UNEVEN, ON_TIME)

@@ -10,6 +10,7 @@ import pytest
 from recorded import as_speed, without_count
 from scipy.signal import butter, lfilter
 from swinging import RUBBING, held_late, noisy, recorded
+from tiers import keep_fast, mark_slow
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.result import Diagnosis, Verdict
@@ -64,11 +65,12 @@ def filter_of(recording: Recording) -> SpeedFilter | None:
     return found.filter if found else None
 
 
-@pytest.mark.parametrize("memory", [0.5, 0.85])
+@pytest.mark.parametrize("memory", keep_fast([0.5, 0.85], 0.5))
 def test_speeds_with_noise_show_how_they_were_smoothed(memory: float) -> None:
     assert memory_of(smoothed(noisy(0.5), memory)) == pytest.approx(memory, abs=0.03)
 
 
+@pytest.mark.slow
 def test_values_of_an_instant_are_told_when_smoothed_too() -> None:
     found = timing_of(smoothed(noisy(0.5, instant=True), 0.7))
     assert found is not None and (found.window, found.lag) == (INSTANT, 0.0)
@@ -79,8 +81,8 @@ def test_values_of_an_instant_are_told_when_smoothed_too() -> None:
     ("kind", "number", "program"),
     [
         ("bilinear", 0.854, ([0.073, 0.073], [1.0, -0.854])),
-        ("twice", 0.6, ([0.16], [1.0, -1.2, 0.36])),
-        ("butterworth", 0.7, butter(2, 0.3)),
+        mark_slow("twice", 0.6, ([0.16], [1.0, -1.2, 0.36])),
+        mark_slow("butterworth", 0.7, butter(2, 0.3)),
         ("mean", 7, ([1.0 / 7.0] * 7, [1.0])),
     ],
 )
@@ -90,6 +92,7 @@ def test_every_kind_of_filter_is_told_from_the_others(kind: str, number: float, 
     assert found.number == pytest.approx(number, abs=0.03)
 
 
+@pytest.mark.slow
 def test_filtered_counts_are_told_too() -> None:
     """Behind a pole by their lattice; a mean of them lies on one itself."""
     counted = without_count(as_speed(recorded(edges=96)))
@@ -97,7 +100,7 @@ def test_filtered_counts_are_told_too() -> None:
     assert filter_of(filtered(counted, [0.0728, 0.0728], [1.0, -0.854])) == SpeedFilter("bilinear", 0.854)
 
 
-@pytest.mark.parametrize("memory", [0.35, 0.9])
+@pytest.mark.parametrize("memory", keep_fast([0.35, 0.9], 0.35))
 def test_counted_speeds_lie_on_a_lattice_for_the_right_share(memory: float) -> None:
     """To the last digit, though nothing but counting is their noise."""
     counted = without_count(as_speed(recorded(edges=96)))
@@ -134,7 +137,11 @@ def test_whole_counts_a_second_are_no_counts_that_passed_a_filter() -> None:
 
 
 @pytest.mark.parametrize(
-    "lag", [{}, {"delay": 0.013}, {"electrical_time_constant": 0.02}, {"electrical_time_constant": 0.06}]
+    "lag",
+    keep_fast(
+        [{}, {"delay": 0.013}, {"electrical_time_constant": 0.02}, {"electrical_time_constant": 0.06}],
+        {"electrical_time_constant": 0.02},
+    ),
 )
 def test_what_lags_in_the_motor_is_no_smoothing(lag: dict[str, float]) -> None:
     assert memory_of(check(noisy(0.5, **lag))) == 0.0
@@ -146,6 +153,7 @@ def test_hardly_smoothed_or_held_speeds_are_left_as_they_are() -> None:
     assert memory_of(check(held_late(smoothed(noisy(0.5), 0.8), 4, 0))) == 0.0  # shown four times each
 
 
+@pytest.mark.slow
 def test_every_limit_decides(monkeypatch: pytest.MonkeyPatch) -> None:
     logged = smoothed(noisy(0.5), 0.7)
     estimate, _ = search_globally(make_problem([logged], ()), SearchConfig())
@@ -198,6 +206,7 @@ def diagnosis_of_smoothed() -> Diagnosis:
     return diagnose([smoothed(noisy(0.5), 0.8)])
 
 
+@pytest.mark.slow
 def test_a_model_is_watched_on_speeds_that_are_smoothed_the_same_way(tmp_path: Path) -> None:
     """By fit and by diagnosis, through its file: no change is seen where there is none."""
     for number, one in enumerate((fit_of_smoothed(), diagnosis_of_smoothed().model)):
@@ -217,6 +226,7 @@ def test_a_model_is_watched_on_speeds_that_are_smoothed_the_same_way(tmp_path: P
         load_watch(str(tmp_path / "model_0.yaml"), "", "", Limits())
 
 
+@pytest.mark.slow
 def test_a_fit_and_a_diagnosis_use_what_was_smoothed() -> None:
     """Read as they are, the motor would be slower by the filter, and a lag missing."""
     fit = fit_of_smoothed()
@@ -226,6 +236,7 @@ def test_a_fit_and_a_diagnosis_use_what_was_smoothed() -> None:
     assert_only_friction(diagnosis_of_smoothed())
 
 
+@pytest.mark.slow
 def test_what_a_tutorial_filters_by_is_no_inductance() -> None:
     """By v = 0.854*v + 0.0728*x + 0.0728*x_before, as many small robots have it."""
     assert_only_friction(diagnose([filtered(noisy(0.5), [0.0728, 0.0728], [1.0, -0.854])]))

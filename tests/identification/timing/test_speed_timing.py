@@ -9,6 +9,7 @@ import pytest
 from plant import profiles, record
 from recorded import as_speed, without_count
 from swinging import RUBBING, noisy
+from tiers import keep_fast
 
 from motor_identification import diagnose as diagnose_module
 from motor_identification.diagnose import diagnose
@@ -42,8 +43,10 @@ def with_voltage_of_next_row(recording: Recording) -> Recording:
     return replace(recording, voltage=np.append(0.0, recording.voltage[:-1]))
 
 
-@pytest.mark.parametrize("sigma", [0.05, 1.0])
-@pytest.mark.parametrize("values", [{}, {"reverse_gain": 0.9, "bias_voltage": 0.3}])
+@pytest.mark.parametrize("sigma", keep_fast([0.05, 1.0], 1.0))
+@pytest.mark.parametrize(
+    "values", keep_fast([{}, {"reverse_gain": 0.9, "bias_voltage": 0.3}], {"reverse_gain": 0.9, "bias_voltage": 0.3})
+)
 def test_values_of_an_instant_are_told_from_means_over_a_row(sigma: float, values: dict[str, float]) -> None:
     """Whatever shapes the motion beside it, one way or the other."""
     found = timing_of(check(noisy(sigma, instant=True, **values)))
@@ -118,6 +121,7 @@ def test_what_is_known_to_be_in_a_motor_tells_how_speeds_were_made(known: tuple[
     assert found is not None and found.lag == lag
 
 
+@pytest.mark.slow
 def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it(monkeypatch: pytest.MonkeyPatch) -> None:
     timings = iter((OTHERS[1], OTHERS[0]))
     monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda first, selection: next(timings))
@@ -128,6 +132,7 @@ def test_a_diagnosis_finds_the_timing_again_where_a_lag_undoes_it(monkeypatch: p
     assert found.verdict is Verdict.EXPLAINED and found.model.timing == OTHERS[0]
 
 
+@pytest.mark.slow
 def test_a_timing_by_which_more_is_left_is_none(monkeypatch: pytest.MonkeyPatch) -> None:
     timings = iter((OTHERS[1], Timing(1.0, 9.5, "")))
     monkeypatch.setattr(diagnose_module, "find_timing_beside", lambda first, selection: next(timings))
@@ -169,6 +174,7 @@ def test_a_timing_is_judged_by_what_a_fit_may_see() -> None:
     assert 0.6 < max(seen) / len(recordings[0]) < 0.9
 
 
+@pytest.mark.slow
 def test_a_fit_and_a_diagnosis_use_what_was_found() -> None:
     """Read as means, kv or ka would be wrong, and half a row of lead missing."""
     early = check(noisy(0.05, instant=True))

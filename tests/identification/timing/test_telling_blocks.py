@@ -61,6 +61,7 @@ def test_increments_of_blocks_forget_what_was_before() -> None:
     assert all(part.fresh[0] and part.pause[0] == np.inf for part in parts)
 
 
+@pytest.mark.slow
 def test_a_filter_is_found_in_a_few_of_many_rows(monkeypatch: pytest.MonkeyPatch) -> None:
     plain = noisy(0.5)
     logged = check(replace(plain, speed=np.round(lfilter([0.2], [1.0, -0.8], plain.speed), 5)))

@@ -6,6 +6,7 @@ from math import isnan
 import numpy as np
 import pytest
 from plant import profiles, record
+from tiers import keep_fast
 
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import Recording, check
@@ -40,6 +41,7 @@ def disturbed(seed: int, volts: float = 0.1, memory: float = 0.1) -> Recording:
     return replace(made({}, (time, command + hidden), seed, 0.01), voltage=command)
 
 
+@pytest.mark.slow
 def test_standard_errors_are_true_for_coloured_residuals() -> None:
     """The study with a thousand recordings is benchmarks/coverage.py; the errors that white residuals would have had
     are several times too small here."""
@@ -53,7 +55,7 @@ def test_standard_errors_are_true_for_coloured_residuals() -> None:
     assert np.mean(np.abs(rows) < 1.96) > 0.85
 
 
-@pytest.mark.parametrize("length", [1, 20, 60])
+@pytest.mark.parametrize("length", keep_fast([1, 20, 60], 20))
 def test_the_jackknife_is_true_whatever_the_colour(length: int) -> None:
     """A straight line through noise that repeats itself `length` times: 95 % of the intervals hold the truth."""
     root = _root(LINE)

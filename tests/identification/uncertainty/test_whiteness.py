@@ -8,6 +8,7 @@ import pytest
 from plant import profiles, record
 from scipy.signal import lfilter
 from scipy.stats import kstest
+from tiers import keep_fast
 
 from motor_identification.identify import Request, SearchConfig, identify
 from motor_identification.recording import check
@@ -116,7 +117,7 @@ MISSING = {
 }
 
 
-@pytest.mark.parametrize("effect", MISSING)
+@pytest.mark.parametrize("effect", keep_fast(MISSING, "quadratic_drag"))
 def test_a_missing_effect_is_said_and_one_that_is_fitted_is_not(effect: str) -> None:
     wrong = fitted(("coulomb_friction",), MISSING[effect])
     assert wrong.whiteness.p_value < 1e-6 and wrong.whiteness.autocorrelation > 0.5

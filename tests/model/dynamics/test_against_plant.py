@@ -8,6 +8,7 @@ import numpy as np
 import plant
 import pytest
 from numpy.typing import NDArray
+from tiers import keep_fast
 
 from motor_model.effects import EFFECTS, normalised, specs_of
 from motor_model.parameters import PAPER_KA, PAPER_KV, Parameters
@@ -171,7 +172,7 @@ def drawn(seed: int, effects: list[str], count: int) -> tuple[tuple[str, ...], V
     return names, values, switched.repeat(hold)[: len(TIME)]
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", keep_fast(range(40), *range(8)))
 def test_random_linear_motors_agree_to_rounding(seed: int) -> None:
     names, values, voltage = drawn(seed, list(LINEAR), 3)
     truth = theirs(values, voltage)
@@ -179,6 +180,7 @@ def test_random_linear_motors_agree_to_rounding(seed: int) -> None:
     assert np.ptp(truth.angle) > 1.0
 
 
+@pytest.mark.slow
 def test_random_curved_motors_agree_closely() -> None:
     at_samples, dense = [], []
     for seed in range(20):

@@ -207,3 +207,13 @@ CASES = (
     *(*CODE, *STRANGE_MOTION, *ARGUMENTS, *FILES, *NAMES, *DAMAGE, *PLAYED, *TABLES, *EXPLORED),
     *(*BOMBS, *WORKBOOKS, *NUMBERS),
 )
+# Half a second of a processor and more, and beside each another of its kind.
+DEAR = frozenset(
+    {
+        "import_csv: --split over values that alternate",
+        "a motor called $\\frac{, diagnosed, with a report",
+        "a motor whose name is not UTF-8",
+        "a workbook whose rows are far apart",
+        "a workbook whose cells are far apart",
+    }
+)

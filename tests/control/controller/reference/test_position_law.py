@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from bench_board import motor, settings
 from lost_line import LostLine
+from tiers import mark_slow
 
 from motor_control.controller import controller
 from motor_control.controller.output import Output
@@ -51,8 +52,8 @@ def test_every_angle_is_reached_and_rested_at(edges: int) -> None:
     "plant",
     [
         motor(ks=0.6, breakaway_voltage=1.3),
-        motor(ks=0.2, breakaway_voltage=0.4),
-        motor(("backlash",), backlash_angle=0.1, load_fraction=0.5),
+        mark_slow(motor(ks=0.2, breakaway_voltage=0.4)),
+        mark_slow(motor(("backlash",), backlash_angle=0.1, load_fraction=0.5)),
         motor(("load_bias",), bias_voltage=0.7),
         FREE,
     ],

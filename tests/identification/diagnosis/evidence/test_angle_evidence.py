@@ -33,6 +33,7 @@ def selected(hidden: str) -> Selection:
     return select_beside_friction(recording, "torque_ripple")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("hidden", "stands_in"), [("friction", True), ("ripple", False)])
 def test_a_ripple_stands_in_for_a_friction_over_the_angle(hidden: str, stands_in: bool) -> None:
     (step,) = selected(hidden).steps

@@ -30,6 +30,7 @@ def wandering() -> Recording:
     return check(replace(logged, voltage=triangle, speed=200.0 + walk + random.normal(0.0, 6.0, count)))
 
 
+@pytest.mark.slow
 def test_a_motion_that_does_not_follow_its_command_is_no_motor_with_nothing_missing() -> None:
     said = diagnosed(wandering())
     assert said.verdict is Verdict.UNDECIDED and said.findings == () and said.suggested_experiment == ""

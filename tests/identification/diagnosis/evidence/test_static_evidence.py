@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from plant import profiles, record
 from recorded import as_speed, without_count
+from tiers import mark_slow
 
 from motor_identification.diagnose import diagnose
 from motor_identification.diagnosis.candidate_model import Model
@@ -40,12 +41,13 @@ def judged(recording: Recording, seen: bool = True, confirms: bool = True) -> He
     return HeldOut((recording,), (data,), (none,), None, everything, 0, (), seen, confirms)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(("levels", "places"), [(LEVELS, 3), ((12.0,), 1), (tuple(np.arange(1.0, 13.0)), 8)])
+@pytest.mark.parametrize(("levels", "places"), [(LEVELS, 3), ((12.0,), 1), mark_slow(tuple(np.arange(1.0, 13.0)), 8)])
 def test_places_are_where_a_motor_stays(levels: tuple[float, ...], places: int) -> None:
     """Rest at 0 V is none; of twelve levels some are within a fifth of the largest of each other."""
     assert count_places(judged(staying(levels))) == places
 
 
+@pytest.mark.slow
 def test_a_motor_that_hardly_stays_passes_many_places() -> None:
     swinging = staying(tuple(9.0 * np.sin(0.5 * np.arange(100.0))), 0.3)
     assert 8 < count_places(judged(swinging)) < 40
@@ -76,6 +78,7 @@ def test_motion_without_a_torque_tells_and_what_is_held_out_and_one_steps_shape(
     assert find_untold(stub(("coulomb_friction", "coast_drive", "dead_zone"), **other)) == ()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shaken", [False, True])
 def test_three_levels_beside_a_torque_do_not_tell_three_static_effects(shaken: bool) -> None:
     """Exact motion between the levels does."""

@@ -3,6 +3,7 @@
 from functools import cache
 
 import numpy as np
+import pytest
 from plant import profiles, record
 
 from motor_identification.diagnosis.candidate_model import learn_errors
@@ -44,6 +45,7 @@ def test_residuals_are_white_and_of_unit_variance() -> None:
     assert np.mean(speeds[1:] * speeds[:-1]) > 0.5 * np.mean(speeds**2)  # mean speeds themselves err alike
 
 
+@pytest.mark.slow
 def test_it_scatters_less_than_least_squares_of_mean_speeds() -> None:
     true = np.log([PAPER_KV, PAPER_KA])
     ordinary, disturbed = (

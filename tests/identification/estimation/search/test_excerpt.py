@@ -71,6 +71,7 @@ def test_short_recordings_and_effects_that_happen_anywhere_are_searched_whole(lo
         assert take_excerpt(whole) is whole
 
 
+@pytest.mark.slow
 def test_phases_count_from_the_beginning_and_a_turning_motor_has_one_initial_speed(long: Recording) -> None:
     for recording, effects in ((long, (*EFFECTS, "torque_ripple")), (recorded(6, first=300), EFFECTS)):
         pieces = take_excerpt(coarse([recording], effects))

@@ -68,6 +68,7 @@ def test_residuals_of_the_truth_are_white(irregularity: float) -> None:
     assert abs(np.corrcoef(white[1:], white[:-1])[0, 1]) < 0.1
 
 
+@pytest.mark.slow
 def test_irregular_slots_cost_little_accuracy() -> None:
     """RMS errors over seeds: with 1 % irregular slots at most twice those of a perfect disc, and parts per million."""
     errors = {}

@@ -127,12 +127,14 @@ def test_names_cannot_break_the_page(found: Diagnosis) -> None:
     assert "diagnose '<b>&'\"'\"'bag' rich" in Reader(text).text  # and neither the shell
 
 
+@pytest.mark.slow
 def test_without_findings_there_is_one_curve(variants: dict[Verdict, Diagnosis]) -> None:
     reader = Reader(render_diagnosis(variants[Verdict.UNEXPLAINED], NO_FILES))
     assert reader.tags.count("svg") == 14 and "before and after" not in reader.text
     assert "simulated" in reader.text and "worst 1" in reader.text
 
 
+@pytest.mark.slow
 def test_a_recording_too_short_to_hold_anything_out(variants: dict[Verdict, Diagnosis]) -> None:
     one = variants[Verdict.UNEXPLAINED]
     empty = replace(one.after, scored=tuple(np.zeros_like(marks) for marks in one.after.scored), miscounted=0)
