@@ -13,7 +13,7 @@ import numpy as np
 
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Bools, Floats, Integers, Recording
-from motor_identification.sensor.pulse_periods import contradicts_stays, find_slot_by_stays
+from motor_identification.sensor.pulse_periods import contradicts_stays, find_slot_by_decays, find_slot_by_stays
 from motor_identification.timing.shaped_fit import ShapedFit, Shaper, measure_gain
 from motor_identification.timing.timing import Timing
 from motor_model.errors import RecordingError
@@ -39,8 +39,14 @@ def find_stays_slot(recordings: Sequence[Recording]) -> float:
     return float(np.median(found)) if found else 0.0
 
 
+def find_decay_slot(recordings: Sequence[Recording]) -> float:
+    """Find the slot [rad] by how values fall between edges; 0 where that tells none."""
+    found = [slot for one in recordings if (slot := find_slot_by_decays(one.time, one.speed)) > 0.0]
+    return float(np.median(found)) if found else 0.0
+
+
 def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> SlotGain:
-    """Find the slot by which a shaper's speeds are likeliest beside another timing.
+    """Find the slot by which a shaper's speeds are likeliest beside another timing; the one that their falls tell.
 
     instants: whether voltages hold from the rows on or held until them.
     """
@@ -50,6 +56,9 @@ def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> Slot
     def judge(slot: float) -> SlotGain:
         return judge_slot(shaper, replace(instants, slot=slot), other, plain)
 
+    known = find_decay_slot(shaper.recordings)
+    if known > 0.0:
+        return judge(known)
     best = max(map(judge, (usual * share for share in GRID)), key=_gain_of)
     if best.gain > 0.0:
         for step in STEPS:

@@ -18,6 +18,7 @@ from motor_identification.measurement.pulse_intervals import (
 )
 from motor_identification.measurement.standstill import LEAST_STANDSTILL
 from motor_identification.recording import Recording
+from motor_identification.sensor.pulse_periods import divide_slot
 from motor_identification.timing.timing import OTHERS
 
 EDGES = 24
@@ -56,7 +57,14 @@ def test_values_that_repeat_or_fall_bring_nothing_new() -> None:
 
 @pytest.mark.parametrize(
     ("values", "measured"),
-    [([14.0, 12.0, 10.0, 3.8], True), ([14.0, 12.0, 10.0, 3.7], False), ([14.0, 12.0, 10.0, -9.0], False)],
+    [
+        ([14.0, 12.0, 10.0, 3.8], True),
+        ([14.0, 12.0, 10.0, 3.7], False),
+        ([14.0, 12.0, 10.0, -9.0], False),
+        ([14.0, 10.0, 10.0, 5.1], True),  # a timer that tells no more
+        ([14.0, 10.0, 10.0, 4.9], False),  # no edge came in the row of the second
+        ([14.0, 10.0, 10.0, 0.0], False),
+    ],
 )
 def test_a_value_before_a_stop_or_a_turn_may_be_an_old_one(values: list[float], measured: bool) -> None:
     """Of 0.4 rows: from its speed the motor stops within a slot if it loses 6.25 rad/s of 10 in a row."""
@@ -66,7 +74,7 @@ def test_a_value_before_a_stop_or_a_turn_may_be_an_old_one(values: list[float], 
     for sign in (1.0, -1.0):
         speed = np.full(len(recording), sign * values[-1])
         speed[: 20 + len(values)] = sign * np.array([10.0] * 20 + values)
-        slow = replace(recording, speed=speed, edge_period=4.0 * row / np.abs(speed))
+        slow = replace(recording, speed=speed, edge_period=divide_slot(4.0 * row, speed))
         ends = make_pulse_intervals(slow).time
         assert bool(np.any(np.abs(ends - 21.8 * row) < 0.01 * row)) is measured  # 0.2 rows before its own
 

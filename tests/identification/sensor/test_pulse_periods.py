@@ -7,7 +7,12 @@ from swinging import noisy, recorded
 
 from motor_identification.recording import Floats
 from motor_identification.sensor import pulse_periods
-from motor_identification.sensor.pulse_periods import contradicts_stays, find_slot_by_stays, mark_decays
+from motor_identification.sensor.pulse_periods import (
+    contradicts_stays,
+    find_slot_by_decays,
+    find_slot_by_stays,
+    mark_decays,
+)
 
 
 def logged(edges: int, rate: float, falls: bool = False) -> tuple[Floats, Floats]:
@@ -80,3 +85,30 @@ def test_the_time_since_an_edge_grows_with_the_rows() -> None:
     time = np.array([0.0, 1.0, 2.0, 3.0, 4.0])
     period = np.array([0.0, 2.0, 3.0, 4.04, 5.1])
     assert mark_decays(time, period, 1.0).tolist() == [False, True, True, True, False]
+
+
+@pytest.mark.parametrize(("edges", "rate"), [(6, 50.0), (12, 200.0), (48, 200.0), (96, 500.0)])
+def test_values_that_fall_between_edges_tell_their_slot_exactly(edges: int, rate: float) -> None:
+    slot = 2.0 * np.pi / edges
+    assert find_slot_by_decays(*logged(edges, rate, falls=True)) == pytest.approx(slot, rel=1e-4)
+    assert find_slot_by_decays(*logged(edges, rate)) == 0.0
+
+
+def test_what_falls_for_other_reasons_tells_none() -> None:
+    """A motor that coasts, noise, a lattice of counts, and one of a timer's ticks."""
+    time = 0.005 * np.arange(1000)
+    slow = 100.0 * np.exp(-time / 0.7)
+    noise = 1.0 + 0.01 * np.random.default_rng(2).standard_normal(len(time))
+    ticks = 1.0 / (np.round(1.0 / slow / 2e-4) * 2e-4)
+    for speed in (slow, slow * noise, np.round(slow), ticks):
+        assert find_slot_by_decays(time, speed) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("name", "strict"), [("FEWEST_DECAYS", 10_000), ("BEYOND_CHANCE", 1e6), ("OF_ALL_FALLS", 1.01)]
+)
+def test_each_limit_of_falling_values_decides(name: str, strict: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    time, speed = logged(12, 200.0, falls=True)
+    assert find_slot_by_decays(time, speed) > 0.0
+    monkeypatch.setattr(pulse_periods, name, strict)
+    assert find_slot_by_decays(time, speed) == 0.0

@@ -18,6 +18,7 @@ from motor_identification.sensor.description import tells_of_speeds
 from motor_identification.timing import pulse_slot, speed_timing
 from motor_identification.timing.pulse_slot import (
     SlotGain,
+    find_decay_slot,
     find_likeliest_slot,
     find_stays_slot,
     judge_slot,
@@ -142,6 +143,18 @@ def test_a_voltage_that_held_until_the_row_is_told_beside_it() -> None:
     recording = logged(12)
     found = timing_of(check(replace(recording, voltage=np.append(0.0, recording.voltage[:-1]))))
     assert found.lag == -1.0 and found.slot > 0.0
+
+
+def test_the_slot_that_falling_values_tell_is_the_one_that_is_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Any other was up to a half of it, or twice as large, by a likelihood that is nearly as flat as it is high."""
+    recording = check(as_period_speed(recorded(edges=12, sample_rate=200.0), falls=True))
+    slot = 2.0 * np.pi / 12
+    assert find_decay_slot([recording]) == pytest.approx(slot, rel=1e-4)
+    shaper = shaper_of(recording)
+    judged = find_likeliest_slot(shaper, OTHERS[0], OTHERS[0])
+    assert judged.slot == find_decay_slot([recording]) and judged.gain > 100.0
+    monkeypatch.setattr(pulse_slot, "find_slot_by_decays", lambda *_: 0.0)
+    assert find_likeliest_slot(shaper, OTHERS[0], OTHERS[0]).slot != judged.slot
 
 
 @pytest.mark.parametrize(("gain", "told"), [(1.01, True), (0.99, False)])
