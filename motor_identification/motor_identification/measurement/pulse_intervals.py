@@ -80,16 +80,7 @@ def _mark_measured(recording: Recording) -> Bools:
     measured = np.zeros(len(time), np.bool_)
     fresh = (period[at] < FRESH * row) & ~_mark_stops(time[at] / row, speed[at], period[at] / row)
     measured[at[fresh | steady]] = True
-    return measured & ~((period < row) & _mark_left(speed))
-
-
-def _mark_left(speed: Floats) -> Bools:
-    """Mark values (K,) that repeat the one before, up to one that is not alike: no edge came, as the motor stopped."""
-    new = np.diff(speed, prepend=np.nan) != 0.0
-    values, run = speed[new], np.cumsum(new) - 1
-    after = np.append(values[1:], values[-1:])  # nothing follows the last one
-    slows = (after * values <= 0.0) | (np.abs(after) * STEADY < np.abs(values))
-    return np.asarray(slows[run] & ~new)
+    return measured
 
 
 def _mark_stops(time: Floats, speed: Floats, period: Floats) -> Bools:

@@ -61,9 +61,6 @@ def test_values_that_repeat_or_fall_bring_nothing_new() -> None:
         ([14.0, 12.0, 10.0, 3.8], True),
         ([14.0, 12.0, 10.0, 3.7], False),
         ([14.0, 12.0, 10.0, -9.0], False),
-        ([14.0, 10.0, 10.0, 5.1], True),  # a timer that tells no more
-        ([14.0, 10.0, 10.0, 4.9], False),  # no edge came in the row of the second
-        ([14.0, 10.0, 10.0, 0.0], False),
     ],
 )
 def test_a_value_before_a_stop_or_a_turn_may_be_an_old_one(values: list[float], measured: bool) -> None:
