@@ -24,7 +24,7 @@ status=0
 # Assertions are not rewritten to say more, which takes every worker of a fresh clone 6 s: what fails is run again.
 run() { pytest --assert=plain "$@" || { local code=$?; [ $code -eq 1 ] || exit $code; status=1; }; } # 1: some test failed
 cores=$(nproc)
-workers=$((cores < 4 ? cores + 1 : 4)) # one more than cores, for many tests wait; each has ROS domains of its own
+workers=$((cores > 1 ? 4 : 2)) # more than cores, for many tests wait; each has ROS domains of its own
 run --cache-clear -n "$workers" --dist worksteal -m "not on_time$tier"
 # These measure times: nothing else runs; only their files are collected.
 run -n 2 --dist worksteal -m "on_time$tier" $(grep -rl --include='*.py' '^@pytest.mark.on_time$' tests)
