@@ -35,13 +35,16 @@ class SlotGain:
 
 def find_stays_slot(recordings: Sequence[Recording]) -> float:
     """Find the slot [rad] by how long values stay; 0 where that tells none."""
-    found = [slot for one in recordings if (slot := find_slot_by_stays(one.time, one.speed)) > 0.0]
-    return float(np.median(found)) if found else 0.0
+    return _find_slot(find_slot_by_stays, recordings)
 
 
 def find_decay_slot(recordings: Sequence[Recording]) -> float:
     """Find the slot [rad] by how values fall between edges; 0 where that tells none."""
-    found = [slot for one in recordings if (slot := find_slot_by_decays(one.time, one.speed)) > 0.0]
+    return _find_slot(find_slot_by_decays, recordings)
+
+
+def _find_slot(find: Callable[[Floats, Floats], float], recordings: Sequence[Recording]) -> float:
+    found = [slot for one in recordings if (slot := find(one.time, one.speed)) > 0.0]
     return float(np.median(found)) if found else 0.0
 
 

@@ -19,7 +19,7 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
     wrong static curve is one, too. While others are missing too, one effect can do as well as another, and the wrong
     one ends in a local minimum of the selection, or with more than are there.
     """
-    settled = selection.model.complete and not is_beside_slow_torque(selection.model)
+    settled = selection.model.complete and not _is_beside_slow_torque(selection.model)
     if not selection.steps or (settled and len(selection.steps) < thresholds.MANY_STEPS):
         return selection
     first = selection.steps[0]
@@ -67,7 +67,7 @@ def retry_with_pair(selection: Selection, reporter: ProgressReporter) -> Selecti
     return other if better else selection
 
 
-def is_beside_slow_torque(model: Model) -> bool:
+def _is_beside_slow_torque(model: Model) -> bool:
     """Decide whether what a model leaves is said to be a torque that the motor is at rest with nearly all the time.
 
     So is what a wrong static curve leaves of a staircase, whose levels the fit has seen.
