@@ -71,7 +71,7 @@ def find_slot_by_decays(time: Floats, speed: Floats) -> float:
         most = np.argmax(np.where(likely, alike, 0))
         near = np.abs(slots - slots[most]) < SAME_DECAY
         slot = float(np.exp(np.median(slots[near])))
-        if not contradicts_stays(time, speed, slot):
+        if not contradicts(score_stays(time, speed, slot)):
             return slot
         likely &= ~near
     return 0.0
@@ -82,9 +82,14 @@ def _count_within(values: Floats, width: float) -> Integers:
     return np.asarray(np.searchsorted(values, values + width) - np.searchsorted(values, values - width))
 
 
-def contradicts_stays(time: Floats, speed: Floats, slot: float) -> bool:
-    """Decide whether speeds (K,) [rad/s] at times (K,) [s] come more often than a slot [rad] passes, or never so."""
-    return _measure_stays(time, speed, np.array([slot]))[0].score < -FEWEST
+def score_stays(time: Floats, speed: Floats, slot: float) -> float:
+    """Score how speeds (K,) [rad/s] at times (K,) [s] stay: those as long as a slot [rad] says, less what do not."""
+    return _measure_stays(time, speed, np.array([slot]))[0].score
+
+
+def contradicts(score: float) -> bool:
+    """Decide whether a score of stays says that speeds come more often than a slot passes, or never so."""
+    return score < -FEWEST
 
 
 def divide_slot(slot: float, speed: Floats) -> Floats:

@@ -13,15 +13,21 @@ import numpy as np
 
 from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Bools, Floats, Integers, Recording
-from motor_identification.sensor.pulse_periods import contradicts_stays, find_slot_by_decays, find_slot_by_stays
+from motor_identification.sensor.pulse_periods import (
+    contradicts,
+    find_slot_by_decays,
+    find_slot_by_stays,
+    score_stays,
+)
 from motor_identification.timing.shaped_fit import ShapedFit, Shaper, measure_gain
-from motor_identification.timing.timing import Timing
+from motor_identification.timing.timing import LEAST_DELAY, Timing
 from motor_model.errors import RecordingError
 
 # Slots that are tried: so many rows at the usual speed (shorter ones make no difference), then nearer to the likeliest.
 GRID = tuple(0.003 * 3.0**k for k in range(7))
-STEPS = (1.7, 1.3, 1.12)
+STEPS = (1.7, 1.3, 1.12, 1.06)
 LEAST_ROWS = 30  # that tell
+UNDONE = 0.2  # of the dead time by another timing, at most, that is left by a slot which undoes it
 
 
 @dataclass(frozen=True)
@@ -31,6 +37,8 @@ class SlotGain:
     slot: float  # [rad]
     gain: float  # of log likelihood
     rows: int
+    undoes: bool = False  # a dead time that the other timing asks for
+    stays: float = 0.0  # values that stay as long as the slot says, less those that do not
 
 
 def find_stays_slot(recordings: Sequence[Recording]) -> float:
@@ -62,10 +70,10 @@ def find_likeliest_slot(shaper: Shaper, instants: Timing, other: Timing) -> Slot
     known = find_decay_slot(shaper.recordings)
     if known > 0.0:
         return judge(known)
-    best = max(map(judge, (usual * share for share in GRID)), key=_gain_of)
+    best = max(map(judge, (usual * share for share in GRID)), key=_rate)
     if best.gain > 0.0:
         for step in STEPS:
-            best = max(best, judge(best.slot / step), judge(best.slot * step), key=_gain_of)
+            best = max(best, judge(best.slot / step), judge(best.slot * step), key=_rate)
     return best
 
 
@@ -77,7 +85,8 @@ def measure_usual_travel(recordings: Sequence[Recording]) -> float:
 def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit) -> SlotGain:
     """Judge a timing with a slot beside another one without. plain: the recordings fitted by that."""
     slot = timing.slot
-    if any(contradicts_stays(one.time, one.speed, slot) for one in shaper.recordings):
+    stays = [score_stays(one.time, one.speed, slot) for one in shaper.recordings]
+    if any(map(contradicts, stays)):
         return SlotGain(slot, -np.inf, 0)
     try:
         periods = shaper.fit(timing)
@@ -89,7 +98,8 @@ def judge_slot(shaper: Shaper, timing: Timing, other: Timing, plain: ShapedFit) 
     rows = _find_rows(plain.estimate.problem, periods.estimate.problem, moving)
     alone = replace(shaper, restrict=_restrict_to(rows, shaper.restrict)).fit(other)
     before, after = _list_errors(alone), _list_errors(periods)
-    return SlotGain(slot, measure_gain(before, after), len(after))
+    undoes = plain.delay > LEAST_DELAY * plain.estimate.problem.sample_period and periods.delay < UNDONE * plain.delay
+    return SlotGain(slot, measure_gain(before, after), len(after), undoes, sum(stays))
 
 
 def _list_errors(fitted: ShapedFit) -> Floats:
@@ -102,8 +112,9 @@ def _list_errors(fitted: ShapedFit) -> Floats:
     return np.concatenate(errors)
 
 
-def _gain_of(one: SlotGain) -> float:
-    return one.gain
+def _rate(one: SlotGain) -> float:
+    """Rate a slot beside others: a value that stays by chance as long as it says is one in three."""
+    return one.gain + one.stays
 
 
 def _find_rows(instants: Problem, periods: Problem, moving: Sequence[Integers]) -> list[Integers]:

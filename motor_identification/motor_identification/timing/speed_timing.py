@@ -35,10 +35,16 @@ LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
 # A row, of a slot that no stays show. Measured: 0.01 to 0.9 of most speeds over times between edges; of 107 other logs
 # at most 0.04 where it is 14 and less in all, and below 0.009 where it is more.
 LEAST_PULSE_GAIN_OF_ROW = 0.01
+# In all, of a slot that undoes a dead time, which is what makes the speeds late by any other timing: the age of values
+# is likelier than an effect. Measured: 5 to 16 of such speeds; of 160 logs of other sensors none, but beside filters.
+LEAST_UNDOING_GAIN = 5.0
 # Of what a motor usually turns in a row: no slot is told that is less. Measured: 0.03 to 0.5 of true ones, 0.002 and
 # 0.004 of tachogenerators at 1 kHz, which had no noise then.
 LEAST_SLOT = 0.01
 LEAST_SPEEDS = 50
+# Rows by which speeds over times between edges answer voltages that held until them, at most: a dead time is drawn by
+# chance there, and one of nearly a row is none of voltages from the rows on. Measured: 0.7 and 0.9 where they hold.
+SURELY_EARLY = 0.5
 TOO_EARLY = Timing(1.0, -1.5, "")  # half a row more than any program makes speeds early
 
 
@@ -134,19 +140,27 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
     sensors = [find_speed_sensor(recording) for recording in shaper.recordings]
     if not _are_open(shaper.recordings) or any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors):
         return None
-    instants = OTHERS[2] if other.is_early else OTHERS[0]
-    found = find_likeliest_slot(shaper, instants, other)
-    if found.gain <= max(least, LEAST_GAIN, LEAST_PULSE_GAIN_OF_ROW * found.rows):
+    instants = (OTHERS[0], OTHERS[2]) if other.is_early else (OTHERS[0],)
+    found, timing = max(
+        ((find_likeliest_slot(shaper, one, other), one) for one in instants), key=lambda one: one[0].gain
+    )
+    enough = LEAST_UNDOING_GAIN if found.undoes and not other.filter else LEAST_GAIN
+    if found.gain <= max(least, enough, LEAST_PULSE_GAIN_OF_ROW * found.rows):
         return None
     if found.slot < LEAST_SLOT * measure_usual_travel(shaper.recordings):  # it ends at the row's own instant
-        return instants
+        return timing
     return replace(_choose_instants(shaper, found.slot), slot=found.slot)
 
 
 def _choose_instants(shaper: Shaper, slot: float) -> Timing:
-    """Choose whether voltages hold from rows on or held until them, of speeds over the times of a slot [rad]."""
-    later, early = (shaper.fit(replace(timing, slot=slot)).residuals for timing in (OTHERS[0], OTHERS[2]))
-    return OTHERS[2] if _is_likelier(early, later) else OTHERS[0]
+    """Choose whether voltages hold from rows on or held until them, of speeds over the times of a slot [rad].
+
+    Until them only where the motion comes too early otherwise, and by more than such times are sure of.
+    """
+    later, early = (shaper.fit(replace(timing, slot=slot)) for timing in (OTHERS[0], OTHERS[2]))
+    row = min(recording.info.sample_period for recording in shaper.recordings)
+    too_early = later.delay <= LEAST_DELAY * row and early.delay < SURELY_EARLY * row
+    return OTHERS[2] if too_early and _is_likelier(early.residuals, later.residuals) else OTHERS[0]
 
 
 def _find_instants(shaper: Shaper) -> Timing | None:

@@ -8,10 +8,11 @@ from swinging import noisy, recorded
 from motor_identification.recording import Floats
 from motor_identification.sensor import pulse_periods
 from motor_identification.sensor.pulse_periods import (
-    contradicts_stays,
+    contradicts,
     find_slot_by_decays,
     find_slot_by_stays,
     mark_decays,
+    score_stays,
 )
 
 
@@ -68,17 +69,17 @@ def test_each_limit_decides(name: str, strict: float, monkeypatch: pytest.Monkey
 
 @pytest.mark.parametrize(("edges", "rate"), [(6, 50.0), (12, 200.0), (48, 200.0), (96, 500.0), (192, 50.0)])
 def test_no_true_slot_is_contradicted(edges: int, rate: float) -> None:
-    assert not contradicts_stays(*logged(edges, rate), 2.0 * np.pi / edges)
+    assert not contradicts(score_stays(*logged(edges, rate), 2.0 * np.pi / edges))
 
 
 def test_values_that_come_more_often_than_a_slot_passes_contradict_it(monkeypatch: pytest.MonkeyPatch) -> None:
     """A log of 100 counts a turn over rows of whole milliseconds was taken for one of four edges a turn."""
     log = noisy(0.05)
     usual = log.sample_period * float(np.quantile(log.speed, 0.9))
-    assert contradicts_stays(log.time, log.speed, usual)
-    assert not contradicts_stays(log.time, log.speed, 1e-4 * usual)
+    assert contradicts(score_stays(log.time, log.speed, usual))
+    assert not contradicts(score_stays(log.time, log.speed, 1e-4 * usual))
     monkeypatch.setattr(pulse_periods, "FEWEST", 1e9)
-    assert not contradicts_stays(log.time, log.speed, usual)
+    assert not contradicts(score_stays(log.time, log.speed, usual))
 
 
 def test_the_time_since_an_edge_grows_with_the_rows() -> None:

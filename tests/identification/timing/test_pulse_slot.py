@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -102,7 +103,7 @@ def test_counts_and_what_is_held_are_explained_already(monkeypatch: pytest.Monke
     monkeypatch.setattr(speed_timing, "LEAST_GAIN", -np.inf)
     monkeypatch.setattr(speed_timing, "LEAST_PULSE_GAIN_OF_ROW", -np.inf)
     monkeypatch.setattr(speed_timing, "LEAST_SLOT", 0.0)
-    monkeypatch.setattr(pulse_slot, "contradicts_stays", lambda *_: False)
+    monkeypatch.setattr(pulse_slot, "contradicts", lambda *_: False)
     plain = check(noisy(0.05))
     assert timing_of(plain).slot > 0.0
     assert timing_of(check(without_count(as_speed(recorded(edges=96))))).slot == 0.0
@@ -186,3 +187,76 @@ def test_the_motor_is_right_and_the_notes_say_how_it_was_read() -> None:
     (said,) = (note for note in read.notes if "latest two edges" in note)
     assert "a slot of 0.521 rad (some 12.1 a turn)" in said
     assert not any(tells_of_speeds(note) for note in read.notes)  # otherwise
+
+
+@pytest.mark.parametrize(
+    ("gain", "undoes", "told"), [(4.9, True, False), (5.1, True, True), (19.9, False, False), (20.1, False, True)]
+)
+def test_a_slot_that_undoes_a_dead_time_needs_to_be_less_likely(
+    monkeypatch: pytest.MonkeyPatch, gain: float, undoes: bool, told: bool
+) -> None:
+    """The age of values was a delay of a fifth of a row to a whole one in six of sixty logs."""
+    shaper = shaper_of(check(noisy(0.05, instant=True)))
+    monkeypatch.setattr(speed_timing, "find_likeliest_slot", lambda *_: SlotGain(0.1, gain, 200, undoes))
+    assert (speed_timing._find_periods(shaper, ASSUMED) is not None) is told
+
+
+def test_a_slot_undoes_a_dead_time_of_which_little_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    shaper, slot = shaper_of(logged(48)), 2.0 * np.pi / 48
+    late = shaper.fit(OTHERS[0])
+    assert late.delay > 0.2 * shaper.recordings[0].sample_period  # as old as the values are
+    assert judge(shaper, slot).undoes and not judge(shaper, 0.1 * slot).undoes
+    left = shaper.fit(replace(OTHERS[0], slot=0.1 * slot)).delay / late.delay
+    monkeypatch.setattr(pulse_slot, "UNDONE", 1.01 * left)
+    assert judge(shaper, 0.1 * slot).undoes
+    monkeypatch.setattr(pulse_slot, "LEAST_DELAY", np.inf)
+    assert not judge(shaper, slot).undoes  # nothing was late
+
+
+@pytest.mark.parametrize(("stays", "factor"), [(2.0, 1.0), (8.0, 1.7)])
+def test_of_slots_that_are_as_likely_the_one_that_values_stay_for_is_taken(
+    monkeypatch: pytest.MonkeyPatch, stays: float, factor: float
+) -> None:
+    """A likelihood that is flat from 0.7 to 1 of a slot left a dead time at 0.8 of it, by which no value stays."""
+    shaper = shaper_of(logged(48))
+    usual = pulse_slot.GRID[3] * measure_usual_travel(shaper.recordings)
+
+    def judged(_: object, timing: Timing, *__: object) -> SlotGain:
+        longer = bool(np.isclose(timing.slot, 1.7 * usual))
+        here = 100.0 if np.isclose(timing.slot, usual) else 95.0 if longer else 1.0
+        return SlotGain(timing.slot, here, 500, stays=stays if longer else 0.0)
+
+    monkeypatch.setattr(pulse_slot, "judge_slot", judged)
+    assert find_likeliest_slot(shaper, OTHERS[0], OTHERS[0]).slot == pytest.approx(factor * usual)
+
+
+@pytest.mark.parametrize(("later", "early"), [(30.0, 20.0), (20.0, 30.0)])
+def test_a_slot_of_voltages_that_seem_to_have_held_until_rows_is_looked_for_both_ways(
+    monkeypatch: pytest.MonkeyPatch, later: float, early: float
+) -> None:
+    """A mean over the row that is late by most of one is what the age of values looks like."""
+    shaper = shaper_of(logged(48))
+
+    def found(_: Shaper, instants: Timing, __: Timing) -> SlotGain:
+        return SlotGain(*((0.2, early) if instants.is_early else (0.1, later)), 200)
+
+    monkeypatch.setattr(speed_timing, "find_likeliest_slot", found)
+    told = speed_timing._find_periods(shaper, OTHERS[1])
+    assert told is not None and told.slot == (0.1 if later > early else 0.2)
+
+
+@pytest.mark.parametrize(
+    ("later", "early", "gain", "held_until"),
+    [(0.0, 0.49, 100.0, True), (0.0, 0.51, 100.0, False), (0.1, 0.4, 100.0, False), (0.0, 0.4, 19.0, False)],
+)
+def test_voltages_held_until_rows_only_where_the_motion_is_early_for_sure(
+    monkeypatch: pytest.MonkeyPatch, later: float, early: float, gain: float, held_until: bool
+) -> None:
+    """Early by chance, a motion had a dead time of nearly the row that had been taken away."""
+    shaper = shaper_of(logged(48))
+    row = shaper.recordings[0].sample_period
+    fits = {False: SimpleNamespace(delay=later * row, residuals=np.zeros(100)), True: None}
+    fits[True] = SimpleNamespace(delay=early * row, residuals=np.ones(100))
+    monkeypatch.setattr(Shaper, "fit", lambda self, timing: fits[timing.is_early])
+    monkeypatch.setattr(speed_timing, "measure_gain", lambda before, after: gain if np.any(after) else 0.0)
+    assert speed_timing._choose_instants(shaper, 0.1).is_early is held_until

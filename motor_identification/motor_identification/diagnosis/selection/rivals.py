@@ -47,7 +47,10 @@ def try_in_place(
     if better is None:
         return selection.replace_step(step, replace(step, rivals=_list_rivals(tests, effect, current)), current)
     rivals = find_rivals(better, tests)
-    if _is_as_likely_from_there(effect, better, selection):
+    if count_parameters(effect) <= count_parameters(better.effect) and (
+        better.model.held.gap > thresholds.SAME_GAP * current.held.gap  # likelier by what is said of the noise alone
+        or _is_as_likely_from_there(effect, better, selection)
+    ):
         rivals = sort_by_table({*rivals, effect})
     return selection.replace_step(step, replace(step, found=better, rivals=rivals), better.model)
 
@@ -149,8 +152,6 @@ def _settle(test: CandidateTest, current: Model, hold_out: HoldOut) -> Candidate
 
 def _is_as_likely_from_there(effect: str, better: CandidateTest, selection: Selection) -> bool:
     """Decide whether an effect is a rival of what is better, fitted from where that leads: as good a chance."""
-    if count_parameters(effect) > count_parameters(better.effect):
-        return False
     bare = refit_without(better.model, better.effect, selection.hold_out)
     (test,) = try_effects(bare, selection.hold_out, [effect], selection.workers, lambda test: None)
     return are_alike(test.model, better.model)

@@ -181,7 +181,6 @@ def test_a_rival_is_fitted_beside_a_torque_from_where_it_did_as_well_without(
     [
         ("coulomb_friction", "load_bias", BELOW * thresholds.RIVAL_MARGIN, True),  # the same, where nothing turns back
         ("coulomb_friction", "load_bias", ABOVE * thresholds.RIVAL_MARGIN, False),
-        ("load_step", "load_bias", 0.0, False),  # it has an instant, too
     ],
 )
 def test_what_is_replaced_is_a_rival_if_it_is_as_likely_from_where_the_other_leads(
@@ -230,3 +229,28 @@ def test_what_is_there_from_the_start_takes_no_place(monkeypatch: pytest.MonkeyP
     selection = replace(stub_selection(2.0, step), model=current)
     (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
     assert left.found.effect == ("coulomb_friction" if at_once else "load_step")
+
+
+@pytest.mark.parametrize(
+    ("effect", "gap", "rivals"),
+    [
+        ("transport_delay", BELOW, ()),
+        ("transport_delay", ABOVE, ("transport_delay",)),
+        ("load_step", ABOVE, ()),  # it has an instant, too
+    ],
+)
+def test_what_is_replaced_by_what_leaves_more_is_its_rival(
+    monkeypatch: pytest.MonkeyPatch, effect: str, gap: float, rivals: tuple[str, ...]
+) -> None:
+    """A dead time left less of unseen motion than the inductance that was likelier beside a random torque."""
+    without = with_effects(stub_model(5.0, likelihood=-900.0))
+    current = with_effects(stub_model(2.0, likelihood=-200.0), effect)
+    step = step_of(CandidateTest(effect, without, current), stub_test("armature_inductance", without, 2.0, 600.0))
+    instead = with_effects(stub_model(gap * thresholds.SAME_GAP * 2.0, likelihood=-100.0), "armature_inductance")
+    monkeypatch.setattr(module, "_catch_up", lambda current, *_: current)
+    monkeypatch.setattr(module, "try_effects", lambda *_: [CandidateTest("armature_inductance", without, instead)])
+    monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
+    monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
+    selection = replace(stub_selection(2.0, step), model=current)
+    (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
+    assert (left.found.effect, left.rivals) == ("armature_inductance", rivals)
