@@ -20,7 +20,12 @@ from motor_identification.estimation.problem import Problem
 from motor_identification.recording import Floats, Recording
 from motor_identification.sensor.speed_sensor import find_speed_sensor
 from motor_identification.timing.held_until import held_until
-from motor_identification.timing.pulse_slot import find_likeliest_slot, find_stays_slot, measure_usual_travel
+from motor_identification.timing.pulse_slot import (
+    find_decay_slot,
+    find_likeliest_slot,
+    find_stays_slot,
+    measure_usual_travel,
+)
 from motor_identification.timing.row_times import AS_STAMPED, RowTimes, list_row_times
 from motor_identification.timing.shaped_fit import Shaper, measure_gain
 from motor_identification.timing.smoothing import AS_LIKELY, Likelihood, find_filter
@@ -140,7 +145,8 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
     sensors = [find_speed_sensor(recording) for recording in shaper.recordings]
     if not _are_open(shaper.recordings) or any(sensor.step > 0.0 or sensor.frame > 0.0 for sensor in sensors):
         return None
-    instants = (OTHERS[0], OTHERS[2]) if other.is_early else (OTHERS[0],)
+    either = other.is_early or find_decay_slot(shaper.recordings) > 0.0  # the age of values makes early ones late
+    instants = (OTHERS[0], OTHERS[2]) if either else (OTHERS[0],)
     found, timing = max(
         ((find_likeliest_slot(shaper, one, other), one) for one in instants), key=lambda one: one[0].gain
     )

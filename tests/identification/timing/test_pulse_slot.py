@@ -230,19 +230,22 @@ def test_of_slots_that_are_as_likely_the_one_that_values_stay_for_is_taken(
     assert find_likeliest_slot(shaper, OTHERS[0], OTHERS[0]).slot == pytest.approx(factor * usual)
 
 
-@pytest.mark.parametrize(("later", "early"), [(30.0, 20.0), (20.0, 30.0)])
-def test_a_slot_of_voltages_that_seem_to_have_held_until_rows_is_looked_for_both_ways(
-    monkeypatch: pytest.MonkeyPatch, later: float, early: float
+@pytest.mark.parametrize(("other", "falls"), [(OTHERS[1], 0.0), (ASSUMED, 0.1), (ASSUMED, 0.0)])
+@pytest.mark.parametrize(("later", "early"), [(30.0, 25.0), (25.0, 30.0)])
+def test_a_slot_is_looked_for_both_ways_where_the_age_of_values_may_hide_when_voltages_held(
+    monkeypatch: pytest.MonkeyPatch, other: Timing, falls: float, later: float, early: float
 ) -> None:
-    """A mean over the row that is late by most of one is what the age of values looks like."""
+    """A mean over the row that is late by most of one is what that looks like; or nothing unusual at all."""
     shaper = shaper_of(logged(48))
 
     def found(_: Shaper, instants: Timing, __: Timing) -> SlotGain:
         return SlotGain(*((0.2, early) if instants.is_early else (0.1, later)), 200)
 
     monkeypatch.setattr(speed_timing, "find_likeliest_slot", found)
-    told = speed_timing._find_periods(shaper, OTHERS[1])
-    assert told is not None and told.slot == (0.1 if later > early else 0.2)
+    monkeypatch.setattr(speed_timing, "find_decay_slot", lambda _: falls)
+    told = speed_timing._find_periods(shaper, other)
+    both = other.is_early or falls > 0.0
+    assert told is not None and told.slot == (0.2 if early > later and both else 0.1)
 
 
 @pytest.mark.parametrize(
