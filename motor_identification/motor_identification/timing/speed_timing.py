@@ -176,7 +176,8 @@ def _find_instants(shaper: Shaper) -> Timing | None:
     """
     if not _are_open(shaper.recordings):
         return ASSUMED
-    least = LEAST_DELAY * min(recording.info.sample_period for recording in shaper.recordings)
+    row = min(recording.info.sample_period for recording in shaper.recordings)
+    least = LEAST_DELAY * row
     best, fitted = ASSUMED, shaper.fit(ASSUMED)
     early = fitted.delay <= least
     others = [(timing, shaper.fit(timing)) for timing in (OTHERS if early else OTHERS[:1])]
@@ -185,7 +186,9 @@ def _find_instants(shaper: Shaper) -> Timing | None:
     for timing, other in others:  # each makes the speeds younger than the one before, which is taken if as likely
         if (fitted.delay <= least or timing is OTHERS[0]) and _is_likelier(other.residuals, fitted.residuals):
             best, fitted = next(one for one in others if not _is_likelier(other.residuals, one[1].residuals))
-    return best
+    # With a dead time that brings it back to the row's own instant, none is early: it is another mean than a row's.
+    back = best.is_early and best.lag * row + fitted.delay > -least
+    return OTHERS[0] if back else best
 
 
 def _are_open(recordings: Sequence[Recording]) -> bool:

@@ -63,8 +63,17 @@ def test_a_row_with_the_voltage_until_it_is_told() -> None:
     assert found is not None and (found.window, found.lag) == (INSTANT, -1.0)  # without any dead time left
 
 
-@pytest.mark.parametrize(("gains", "lag"), [((10.0, 15.0), 0.5), ((19.0, 21.0), 0.0), ((10.0, 45.0), -0.5)])
-def test_speeds_are_made_no_younger_than_they_have_to_be(gains: tuple[float, float], lag: float) -> None:
+@pytest.mark.parametrize(
+    ("gains", "dead", "lag"),
+    [
+        ((10.0, 15.0), 0.2, 0.5),
+        ((19.0, 21.0), 0.2, 0.0),
+        ((10.0, 45.0), 0.2, -0.5),
+        ((10.0, 45.0), 0.44, -0.5),
+        ((10.0, 45.0), 0.46, 0.0),  # rows, by which it is as late as the row's own instant
+    ],
+)
+def test_speeds_are_made_no_younger_than_they_have_to_be(gains: tuple[float, float], dead: float, lag: float) -> None:
     """A dead time makes up for half a row: of two timings that are as likely the first one is meant."""
     white = np.random.default_rng(0).standard_normal(400)
     factors = dict(zip((ASSUMED, *OTHERS), np.exp(-np.array([0.0, *gains, 0.0]) / 400.0), strict=True))
@@ -75,7 +84,8 @@ def test_speeds_are_made_no_younger_than_they_have_to_be(gains: tuple[float, flo
 
         def fit(self, timing: Timing) -> SimpleNamespace:
             early = timing in (ASSUMED, OTHERS[0])
-            return SimpleNamespace(residuals=factors[timing] * white, delay=0.0 if early else 0.01)
+            row = self.recordings[0].info.sample_period
+            return SimpleNamespace(residuals=factors[timing] * white, delay=0.0 if early else dead * row)
 
     assert _find_instants(cast(Shaper, Stub())).lag == lag  # type: ignore[union-attr]
 
