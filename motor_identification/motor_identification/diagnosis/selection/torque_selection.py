@@ -13,7 +13,9 @@ from motor_identification.diagnosis.selection.backward_elimination import elimin
 from motor_identification.diagnosis.selection.forward_selection import select_forward
 from motor_identification.diagnosis.selection.selection import Selection, begin_beside_torque
 from motor_identification.diagnosis.selection.stand_ins import drop_stand_ins_of_either
+from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
+from motor_identification.validation.held_out import HeldOut
 from motor_model.effects import EFFECT_BY_NAME
 
 
@@ -52,20 +54,26 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
 
 
 def list_hidden_by_torque(plain: Selection, beside: Selection) -> tuple[str, ...]:
-    """List what was found alone, and its rivals, where a torque that may be none takes its place.
+    """List what was found alone, and its rivals, where a torque or gains that may be none take its place.
 
     Where the fits have seen all, a torque of which few courses fit into the motion follows what a friction or a load
     does between two levels of the command; and one that is faster than rows is what rows that are stamped wrong make.
+    Gains of runs at one level each scatter as a friction makes them.
     """
     learned, held = beside.model.learned, plain.model.held
-    if learned is None or beside.steps or len(plain.steps) != 1 or not (held.seen and plain.model.complete):
+    if learned is None or beside.steps or not (plain.steps and held.seen and plain.model.complete):
         return ()
-    longest = max(float(np.ptp(data.time)) for data in held.intervals)
-    row = float(np.median(np.concatenate([data.duration for data in held.intervals])))
-    if row <= learned.correlation_time <= longest / thresholds.FEW_COURSES:
+    if learned.gain == 0.0 and (len(plain.steps) != 1 or _is_told(learned, held)):
         return ()
     found = plain.steps[0]
     return (found.found.effect, *found.rivals)
+
+
+def _is_told(torque: ErrorModel, held: HeldOut) -> bool:
+    """Decide whether held-out motion tells a random torque: it is neither slower nor faster than that can show."""
+    longest = max(float(np.ptp(data.time)) for data in held.intervals)
+    row = float(np.median(np.concatenate([data.duration for data in held.intervals])))
+    return row <= torque.correlation_time <= longest / thresholds.FEW_COURSES
 
 
 def _choose_incomplete(found: list[Selection], plain: Selection) -> Selection | None:

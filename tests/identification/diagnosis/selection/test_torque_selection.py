@@ -204,3 +204,25 @@ def test_a_torque_as_slow_as_the_recording_or_faster_than_rows_hides_what_was_fo
     names = module.list_hidden_by_torque(plain, beside)
     assert names == (("coulomb_friction", "load_bias") if hidden else ())
     assert module.list_hidden_by_torque(plain, replace(beside, steps=(step,))) == ()
+
+
+@pytest.mark.parametrize(
+    ("gain", "by_fit", "found", "hidden"),
+    [
+        (0.05, True, 1, True),
+        (0.05, True, 2, True),
+        (0.05, True, 0, False),
+        (0.05, False, 1, False),
+        (0.0, True, 1, False),
+    ],
+)
+def test_gains_of_runs_hide_what_was_found(gain: float, by_fit: bool, found: int, hidden: bool) -> None:
+    """A friction makes six runs at levels of their own scatter by 6 %; nothing was missing, it was said."""
+    before = seen(stub_model(2.0, 0.0), by_fit)
+    step = replace(step_of(stub_test("coulomb_friction", before, 1.2, 100.0)), rivals=("dead_zone",))
+    plain = selection_of(seen(stub_model(1.2, 0.0), by_fit), *[step] * found)
+    time = float(np.ptp(plain.model.held.intervals[0].time))
+    beside = selection_of(replace(plain.model, learned=ErrorModel(0.0, 0.0, 0.1, 0.1 * time, gain=gain)))
+    names = module.list_hidden_by_torque(plain, beside)
+    assert names == (("coulomb_friction", "dead_zone") if hidden else ())
+    assert module.list_hidden_by_torque(plain, replace(beside, steps=(step,))) == ()
