@@ -100,7 +100,7 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
     one for every recording, has to be more likely than what needs none.
     """
     tests = drop_chance_harmonics(tests)
-    findings = [test for test in tests if _is_finding(test)]
+    findings = _drop_what_predicts_worse([test for test in tests if _is_finding(test)])
     if not findings:
         return None
     best = _choose_first(findings)
@@ -114,6 +114,15 @@ def choose_finding(tests: Sequence[CandidateTest]) -> CandidateTest | None:
     most = max(test.evidence_of_all for test in alike)
     equals = [test for test in alike if test.evidence_of_all >= most - thresholds.COMMON_LIKELIHOOD]
     return min(equals, key=lambda test: EFFECT_ORDER[test.effect])
+
+
+def _drop_what_predicts_worse(findings: Sequence[CandidateTest]) -> list[CandidateTest]:
+    """Drop findings that predict unseen motion worse than nothing, where another takes away most of what is left.
+
+    Beside a random torque a ripple follows that through a motion, likelier by hundreds than the friction that is there.
+    """
+    most = any(test.explains > thresholds.MOST_OF_GAP for test in findings)
+    return [test for test in findings if not most or test.explains >= 0.0]
 
 
 def _choose_first(findings: Sequence[CandidateTest]) -> CandidateTest:

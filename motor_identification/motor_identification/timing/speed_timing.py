@@ -178,8 +178,9 @@ def _find_instants(shaper: Shaper) -> Timing | None:
         return ASSUMED
     row = min(recording.info.sample_period for recording in shaper.recordings)
     least = LEAST_DELAY * row
-    best, fitted = ASSUMED, shaper.fit(ASSUMED)
-    early = fitted.delay <= least
+    assumed = shaper.fit(ASSUMED)
+    best, fitted = ASSUMED, assumed
+    early = assumed.delay <= least
     others = [(timing, shaper.fit(timing)) for timing in (OTHERS if early else OTHERS[:1])]
     if early and others[-1][1].delay <= least and shaper.fit(TOO_EARLY).delay <= least:
         return None  # earlier than any row says: not for its timing
@@ -188,7 +189,7 @@ def _find_instants(shaper: Shaper) -> Timing | None:
             best, fitted = next(one for one in others if not _is_likelier(other.residuals, one[1].residuals))
     # With a dead time that brings it back to the row's own instant, none is early: it is another mean than a row's.
     back = best.is_early and best.lag * row + fitted.delay > -least
-    return OTHERS[0] if back else best
+    return OTHERS[0] if back and measure_gain(assumed.residuals, others[0][1].residuals) > 0.0 else best
 
 
 def _are_open(recordings: Sequence[Recording]) -> bool:

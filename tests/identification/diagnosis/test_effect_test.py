@@ -106,6 +106,21 @@ def test_what_needs_an_instant_comes_after_what_does_about_as_well(share: float,
     assert choose_finding([step]) is step
 
 
+@pytest.mark.parametrize(
+    ("ripple", "friction", "first"),
+    [(5.1, 3.5, "load_bias"), (4.9, 3.5, "dead_zone"), (5.1, 3.7, "dead_zone")],
+)
+def test_what_predicts_worse_is_none_where_another_takes_away_most(
+    monkeypatch: pytest.MonkeyPatch, ripple: float, friction: float, first: str
+) -> None:
+    """A torque ripple beside a random torque left 1.08 of the gap, ten times as likely as a friction that left 0.4."""
+    before = stub_model(5.0)
+    tests = [stub_test("dead_zone", before, ripple, 400.0), stub_test("load_bias", before, friction, 40.0)]
+    monkeypatch.setattr(CandidateTest, "relevant", True)
+    chosen = choose_finding(tests)
+    assert chosen is not None and chosen.effect == first
+
+
 def test_rivals_are_likely_themselves() -> None:
     before = stub_model(5.0)
     weak = stub_test("load_bias", before, 1.0, 9.0)

@@ -71,6 +71,8 @@ def test_a_row_with_the_voltage_until_it_is_told() -> None:
         ((10.0, 45.0), 0.2, -0.5),
         ((10.0, 45.0), 0.44, -0.5),
         ((10.0, 45.0), 0.46, 0.0),  # rows, by which it is as late as the row's own instant
+        ((1.0, 45.0), 0.46, 0.0),
+        ((-1.0, 45.0), 0.46, -0.5),  # which is less likely than what was assumed
     ],
 )
 def test_speeds_are_made_no_younger_than_they_have_to_be(gains: tuple[float, float], dead: float, lag: float) -> None:

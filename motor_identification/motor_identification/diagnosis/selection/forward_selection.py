@@ -29,10 +29,17 @@ from motor_identification.progress import ProgressReporter
 from motor_model.effects import EFFECT_BY_NAME
 
 
-def select_forward(selection: Selection, reporter: ProgressReporter, pairs: bool = True) -> Selection:
-    """Add effects as long as one is found; where none is and a gap is left, two at once if `pairs` are allowed."""
+def select_forward(
+    selection: Selection, reporter: ProgressReporter, pairs: bool = True, known: frozenset[str] = frozenset()
+) -> Selection:
+    """Add effects as long as one is found; where none is and a gap is left, two at once if `pairs` are allowed.
+
+    known: effects from which a selection has gone on already; one that comes to them ends there.
+    """
     while True:
         reporter.keep(selection)
+        if known and set(selection.model.effects) == known:
+            return selection
         selection, tests = verify_findings(selection, _try_all_effects(selection, reporter))
         best = choose_finding(tests)
         if len(selection.steps) >= thresholds.MOST_FINDINGS or (best is not None and not _may_add(best, selection)):

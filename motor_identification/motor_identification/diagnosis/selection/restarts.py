@@ -90,7 +90,7 @@ def _is_simpler(other: Selection, many: Selection) -> bool:
 def _are_alike(one: Model, other: Model) -> bool:
     """Decide whether two models are the same motion in other words: neither their likelihood nor their gap differs."""
     low, high = sorted((one.held.gap, other.held.gap))
-    return abs(one.likelihood - other.likelihood) < thresholds.TIE_LIKELIHOOD and high < thresholds.SAME_GAP * low
+    return abs(one.likelihood - other.likelihood) < thresholds.RIVAL_MARGIN and high < thresholds.SAME_GAP * low
 
 
 def _add_rival(selection: Selection, likelier: Selection) -> Selection:

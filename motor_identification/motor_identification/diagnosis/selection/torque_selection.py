@@ -34,13 +34,8 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
     doubtful: list[Selection] = []
     incomplete: list[Selection] = []
     for begin in (plain, start) if plain.steps and disturbed else (plain,):
-        reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
-        begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
-        selection = _select_both_ways(begun, reporter)
-        worse = predicts_far_worse(find_gap_less_gains(selection.model), plain.model.held.gap)
-        if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
-            worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
-        if worse:
+        selection = _go_on_from(begin, plain, reporter)
+        if selection is None:
             continue
         if not selection.model.complete:
             incomplete.append(selection)
@@ -51,6 +46,24 @@ def select_beside_torque(start: Selection, plain: Selection, reporter: ProgressR
     if doubtful:
         return _choose_more(doubtful[0], plain, disturbed)
     return _choose_incomplete(incomplete, plain)
+
+
+def _go_on_from(begin: Selection, plain: Selection, reporter: ProgressReporter) -> Selection | None:
+    """Select on beside a random torque; None if that predicts far worse than what was found without one.
+
+    Or if it comes from the beginning to what was found, from which it was gone on already.
+    """
+    reporter.report("beside a random torque", 0.5, "", begin.model.held.gap)
+    begun = begin_beside_torque(begin.model, begin.hold_out, begin.workers, begin.steps)
+    known = frozenset() if begin is plain else frozenset(plain.model.effects)
+    selection = select_forward(begun, reporter, known=known)
+    if known and set(selection.model.effects) == known:
+        return None
+    selection = _select_both_ways(selection, reporter)
+    worse = predicts_far_worse(find_gap_less_gains(selection.model), plain.model.held.gap)
+    if worse and begin.model.held.seen:  # a gap that was fitted is no prediction
+        worse = begun.model.likelihood - selection.model.likelihood > likelihood_threshold()
+    return None if worse else selection
 
 
 def list_hidden_by_torque(plain: Selection, beside: Selection) -> tuple[str, ...]:
@@ -105,13 +118,13 @@ def _choose_more(selection: Selection, plain: Selection, disturbed: bool) -> Sel
     return selection if disturbed or (more and takes_away_more(selection.model, plain.model)) else None
 
 
-def _select_both_ways(begun: Selection, reporter: ProgressReporter) -> Selection:
-    """Select forward and eliminate backward beside a random torque, again where that changed what there is.
+def _select_both_ways(selection: Selection, reporter: ProgressReporter) -> Selection:
+    """Eliminate backward what was selected beside a random torque, and select again where that changed what there is.
 
     What stood in for two effects hides both; what is found in its place may be one of them. What is added and taken
     away again goes round in a circle: what it was added to is left, with the rivals that were tried for it.
     """
-    selection, before = select_forward(begun, reporter), None
+    before = None
     for _ in range(thresholds.ROUNDS):
         left = eliminate_backward(selection, reporter)
         if _have_same_effects(left, selection):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import stub_models
 from diagnosed import fitted
-from stub_models import rescored, stub_held, stub_model, stub_test
+from stub_models import StubModel, rescored, stub_held, stub_model, stub_test
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -98,6 +98,14 @@ def test_effects_are_added_until_none_is_a_finding(monkeypatch: pytest.MonkeyPat
     assert all(step.found.effect == "coulomb_friction" for step in found.steps)  # of equals the earlier in the table
     assert all(step.rivals == ("load_bias",) for step in found.steps)
     assert found.model.at_floor and len(fake.tried) >= 3
+
+
+@pytest.mark.parametrize(("known", "count"), [({"coulomb_friction"}, 0), ({"load_bias"}, 3), (set(), 3)])
+def test_a_selection_ends_where_another_went_on(monkeypatch: pytest.MonkeyPatch, known: set[str], count: int) -> None:
+    Fake(monkeypatch, [6.0, 3.0, 1.0])
+    monkeypatch.setattr(StubModel, "effects", ("coulomb_friction",))
+    found = select_forward(selection_of(stub_model(9.0)), SILENT, known=frozenset(known))
+    assert len(found.steps) == count
 
 
 def test_no_more_findings_than_the_most(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from stub_models import StubModel, rescored, stub_model, stub_test
+from stub_models import StubModel, rescored, stub_model, stub_test, with_effects
 from stub_selections import selection_of, step_of
 
 from motor_identification.diagnosis import thresholds
@@ -29,7 +29,7 @@ def selected(monkeypatch: pytest.MonkeyPatch, plain: Selection, begun: Selection
     monkeypatch.setattr(Model, "complete", True)
     monkeypatch.setattr(module, "may_be_of_gains", lambda step, hold_out: step.before.noise.drift > 0.0)
     monkeypatch.setattr(module, "begin_beside_torque", lambda *rest: begun)
-    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "select_forward", lambda selection, *_, **__: selection)
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended)
     return module.select_beside_torque(plain, plain, SILENT)
 
@@ -97,7 +97,7 @@ def test_what_elimination_changed_is_selected_on_from(monkeypatch: pytest.Monkey
         id(both.model): ("coast_drive", "dead_zone"),
     }
     monkeypatch.setattr(StubModel, "effects", property(lambda model: effects.get(id(model), ())))
-    further = {id(limit): limit, id(coast): both, id(both): both}
+    further = {id(coast): both, id(both): both}
     left = {id(limit): coast if dropped else limit, id(both): both}
     monkeypatch.setattr(module, "select_forward", lambda selection, reporter: further[id(selection)])
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: left[id(selection)])
@@ -121,7 +121,7 @@ def test_a_selection_that_swings_ends(monkeypatch: pytest.MonkeyPatch, circle: b
     steps = iter(several)
     monkeypatch.setattr(module, "select_forward", lambda selection, reporter: next(steps))
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: next(steps))
-    found = module._select_both_ways(several[0], SILENT)
+    found = module._select_both_ways(next(steps), SILENT)
     assert found is several[1 if circle else 2 * thresholds.ROUNDS + 1]
 
 
@@ -136,9 +136,38 @@ def test_a_torque_that_leaves_less_than_it_should_is_taken_where_the_beginning_l
     monkeypatch.setattr(Model, "complete", True)
     monkeypatch.setattr(StubModel, "noise_floor", 2.0 / thresholds.RANDOM_GAP[0])
     monkeypatch.setattr(module, "begin_beside_torque", lambda model, *rest: plain if model is plain.model else start)
-    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "select_forward", lambda selection, *_, **__: selection)
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended[selection is start])
     assert module.select_beside_torque(start, plain, SILENT) is ended[chosen]
+
+
+@pytest.mark.parametrize(("comes", "chosen"), [("dead_zone", 0), ("coulomb_friction", 1)])
+def test_a_beginning_that_comes_to_what_was_found_is_not_gone_on_from_again(
+    monkeypatch: pytest.MonkeyPatch, comes: str, chosen: int
+) -> None:
+    """Two thirds of the time that a slow sine of a real motor took, for the same friction."""
+    found = stub_test("dead_zone", stub_model(9.0), 5.0, 100.0)
+    plain, start = (
+        selection_of(with_effects(stub_model(5.0), "dead_zone"), step_of(found)),
+        selection_of(stub_model(9.0)),
+    )
+    ended = [selection_of(stub_model(2.0)), selection_of(stub_model(2.0))]
+    begun = selection_of(with_effects(stub_model(5.0), comes))
+    sought: list[frozenset[str]] = []
+
+    def select(selection: Selection, _: ProgressReporter, known: frozenset[str] = frozenset()) -> Selection:
+        sought.append(known)
+        return begun if known else selection
+
+    monkeypatch.setattr(Model, "complete", True)
+    monkeypatch.setattr(StubModel, "noise_floor", 2.5 / thresholds.RANDOM_GAP[0])
+    monkeypatch.setattr(module, "begin_beside_torque", lambda model, *rest: plain if model is plain.model else start)
+    monkeypatch.setattr(module, "select_forward", select)
+    monkeypatch.setattr(module, "_select_both_ways", lambda selection, _: ended[selection is begun])
+    monkeypatch.setattr(module, "_choose_more", lambda selection, *_: selection)
+    monkeypatch.setattr(Model, "fills_floor", property(lambda model: model is ended[1].model))
+    assert module.select_beside_torque(start, plain, SILENT) is ended[chosen]
+    assert sought == [frozenset(), frozenset(plain.model.effects)]
 
 
 @pytest.mark.parametrize(
@@ -155,7 +184,7 @@ def test_what_halves_the_gap_is_kept_where_nothing_else_is_certain(
     monkeypatch.setattr(Model, "complete", False)
     monkeypatch.setattr(module, "may_be_of_gains", lambda step, hold_out: False)
     monkeypatch.setattr(module, "begin_beside_torque", lambda *rest: plain)
-    monkeypatch.setattr(module, "select_forward", lambda selection, reporter: selection)
+    monkeypatch.setattr(module, "select_forward", lambda selection, *_, **__: selection)
     monkeypatch.setattr(module, "eliminate_backward", lambda selection, reporter: ended)
     monkeypatch.setattr(module, "drop_stand_ins_of_either", lambda *several: stays if certain else plain)
     assert (module.select_beside_torque(plain, plain, SILENT) is ended) is kept
