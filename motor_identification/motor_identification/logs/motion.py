@@ -1,7 +1,7 @@
 """The motion column of a log as speeds and counts: what it is exact about, and what had to be assumed."""
 
 from dataclasses import dataclass, replace
-from math import pi, tau
+from math import inf, pi, tau
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from motor_identification.logs.rows.speed_sign import give_signs
 from motor_identification.logs.rows.swapped_sign import turn_round
 from motor_identification.logs.rows.wraps import unwrap
 from motor_identification.logs.signals import Floats, Integers, Signals
-from motor_identification.sensor.running_mean import find_running_mean, take_single_rows
+from motor_identification.sensor.running_mean import find_running_mean, size_of_count, take_single_rows
 from motor_identification.sensor.speed_sensor import are_smoothed, find_noise
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_model.errors import RecordingError
@@ -25,6 +25,9 @@ from motor_model.gearing.gear import edge_angle
 from motor_model.sample import Info, Measurement
 
 _FAR = 5.5  # times between the steps of speeds and one count, below the 2π, 9.5 and 57.3 of mistaken units
+# Counts of a row in motion, by median, from which on its speed says as much as the angle: one is then a quarter of it.
+# Of fewer, speeds of single rows are little but their rounding, which the angle does not sum up.
+MANY_A_ROW = 4.0
 LARGEST_COUNT = 2**53  # counts and positions beyond are no whole numbers any more
 
 
@@ -61,19 +64,20 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     signals, lengths = (signals, []) if form.speed_window else divide_by_own_rows(signals, form.nominal_period)
     signals, signs = give_signs(signals)
     signals, turned = (signals, []) if form.signs_as_they_are else turn_round(signals, is_speed=True)
-    signals, means = (signals, []) if form.speed_window else _undo_running_mean(signals, info.sample_period)
+    signals, means, one = (signals, [], inf) if form.speed_window else _undo_running_mean(signals, info.sample_period)
     values = signals.motion
+    few = bool(means) and float(np.median(np.abs(values[values != 0.0]))) < MANY_A_ROW * one
+    if few and form.speed_lag is None and not form.count_quantum:
+        counted = _counts(*_sum_up_rows(form, info, signals, one))
+        return replace(counted, findings=(*signs, *turned, *means, *counted.findings))
     window = form.speed_window or info.sample_period
     lag = 0.5 * window if form.speed_lag is None else form.speed_lag
     edges = form.edges_per_revolution or 0
     if form.count_quantum:
         turn = 2.0 * pi / float(form.gear)  # of the encoder's shaft
         edges = agree_on_edges(form, turn / (form.count_quantum * unit * window), AGREE_SPEED)
-    told = 0.0 if edges or not means else _counts_a_turn(form, values, window)
-    if told:
-        edges = max(round(told), 1)
     smoothed: list[str] = []
-    if edges and not told:
+    if edges:
         edges, smoothed = _confirm_edges(form, signals, edges, edge_angle(edges, form.gear) / window / unit)
     info = replace(info, measurement=Measurement.SPEED, speed_window=window, speed_lag=lag, edges_per_revolution=edges)
     assumed = "" if form.speed_window else " (assumed: one sample period; otherwise: --speed-window)"
@@ -81,7 +85,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     findings = (
         f"Speeds without counts: each is the mean over {window * 1e3:.4g} ms{assumed}.",
         f"The middle of that window is {lag * 1e3:.4g} ms before the row's time{placed}.",
-        _about_count(form, signals, 0 if told else edges, window, told),
+        _about_count(form, signals, edges, window),
         *lengths,
         *signs,
         *turned,
@@ -91,8 +95,8 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     return Motion(signals, values * unit, np.zeros(len(values), np.int64), info, findings)
 
 
-def _undo_running_mean(signals: Signals, period: float) -> tuple[Signals, list[str]]:
-    """Take what single regular rows counted, of speeds that are running means of it by all runs; and say so."""
+def _undo_running_mean(signals: Signals, period: float) -> tuple[Signals, list[str], float]:
+    """Take what single rows counted, of speeds that are running means of it by all runs; say so, and a count's size."""
     found, motion = set(), np.array(signals.motion, np.float64)
     for run in signals.runs.values():
         steps = np.diff(signals.time[run]) * 1e-9
@@ -103,33 +107,27 @@ def _undo_running_mean(signals: Signals, period: float) -> tuple[Signals, list[s
         motion[run] = signals.motion[run] if single is None else single
     rows = found.pop() if len(found) == 1 else 0
     if not rows:
-        return signals, []
+        return signals, [], inf
     said = (
         f"Speeds are running means of {rows} rows, as their counts show: the counts of single rows are taken (assumed; "
         "otherwise: --speed-window)."
     )
-    return replace(signals, motion=motion), [said]
+    return replace(signals, motion=motion), [said], size_of_count(signals.motion, rows)
 
 
-def _counts_a_turn(form: CsvForm, values: Floats, window: float) -> float:
-    """Counts a turn of single rows' counts, shape (K,), that are too few at once for others to see them; else 0."""
-    sizes = np.abs(values[values != 0.0])
-    if not len(sizes) or find_lattice(values) > 0.0:
-        return 0.0
-    return tau / (float(np.min(sizes)) * (form.unit_size or 1.0) * window) / float(form.gear)
+def _sum_up_rows(form: CsvForm, info: Info, signals: Signals, one: float) -> tuple[CsvForm, Info, Signals]:
+    """Make positions [rad] of what single rows counted, every run from 0; `one`: a count's size in the form's unit."""
+    edges = form.edges_per_revolution
+    size = edge_angle(edges, form.gear) if edges else one * (form.unit_size or 1.0) * info.sample_period
+    position = np.zeros(len(signals))
+    for run in signals.runs.values():
+        position[run] = np.cumsum(np.rint(signals.motion[run] / one)) * size
+    return replace(form, kind=Kind.POSITION, unit="rad"), info, replace(signals, motion=position)
 
 
-def _about_count(form: CsvForm, signals: Signals, edges: int, window: float, told: float = 0.0) -> str:
-    """One count in the form's unit, said or seen by whoever reads the bag, within a window [s].
-
-    told: counts a turn that only the running means have told.
-    """
+def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> str:
+    """One count in the form's unit, said or seen by whoever reads the bag, within a window [s]."""
     unit = form.unit_size or 1.0
-    if told:
-        return (
-            f"One count within the window is one of {told:.5g} per revolution (assumed; otherwise: "
-            "--edges-per-revolution)."
-        )
     if edges:
         size = edge_angle(edges, form.gear) / window / unit
         return f"One count ({edges} per revolution) within the window is {size:.4g} {form.unit}."

@@ -55,6 +55,7 @@ def take_single_rows(values: Floats, window: int) -> Floats | None:
     if step <= 0.0 or len(values) < 2 * window:
         return None
     counts = np.rint(values / step).astype(np.int64)
+    step = _fit_step(values, counts)
     single = _single_rows(counts, window)
     if np.any(counts[:window]):
         row = np.arange(len(counts))
@@ -64,6 +65,17 @@ def take_single_rows(values: Floats, window: int) -> Floats | None:
         if int(single[:window].sum()) != counts[window - 1]:
             return None
     return np.asarray(single * (step * window)) if _is_near_mean(single, counts, window) else None
+
+
+def size_of_count(values: Floats, window: int) -> float:
+    """Size what one count is in a single row, in the unit of values (K,) that are running means over so many rows."""
+    return _fit_step(values, np.rint(values / find_lattice(values)).astype(np.int64)) * window
+
+
+def _fit_step(values: Floats, counts: Integers) -> float:
+    """Fit the step of values that are these counts, each of shape (K,): firmware rounds, and adds to all of them."""
+    beside = counts - np.mean(counts)
+    return float(beside @ values / (beside @ beside))
 
 
 def _fits(counts: Integers, window: int) -> bool:

@@ -117,7 +117,7 @@ def test_speeds_say_what_they_are_the_mean_of() -> None:
 
 def test_running_means_of_counts_are_taken_back_to_single_rows() -> None:
     """Whose counts share no error with each other; a window that is said stays."""
-    angles = np.cumsum(np.where(np.arange(3000) < 100, 0.0, 3.3 + 2.0 * np.sin(np.arange(3000) / 70.0)))
+    angles = np.cumsum(np.where(np.arange(3000) < 100, 0.0, 6.3 + 4.0 * np.sin(np.arange(3000) / 70.0)))
     single = np.diff(np.floor(angles), prepend=0.0) * tau / 100 / 0.02
     means = np.convolve(single, np.full(10, 0.1))[:3000].tolist()
     motion = read(SPEED, means)
@@ -127,13 +127,27 @@ def test_running_means_of_counts_are_taken_back_to_single_rows() -> None:
     assert read(replace(SPEED, speed_window=0.2), means).speed.tolist() == means
 
 
-def test_single_rows_of_one_count_at_most_keep_their_size() -> None:
-    """A lattice of 0 and 1 is none that a reader of the bag could see."""
+@pytest.mark.parametrize("digits", [9, 1])
+def test_single_rows_of_few_counts_are_an_angle(digits: int) -> None:
+    """Rounded speeds give it too: a speed of one count, or none, is little but rounding, and the angle is exact."""
     angles = np.cumsum(np.where(np.arange(3000) < 100, 0.0, 0.4 + 0.2 * np.sin(np.arange(3000) / 70.0)))
-    single = np.diff(np.floor(angles), prepend=0.0) * tau / 48.4 / 0.02
-    motion = read(SPEED, np.convolve(single, np.full(32, 1.0 / 32.0))[:3000].tolist())
-    assert motion.speed == pytest.approx(single, abs=1e-9) and motion.info.edges_per_revolution == 48
-    assert "One count within the window is one of 48.4 per revolution" in motion.findings[2]
+    counts = np.floor(angles)
+    means = np.convolve(np.diff(counts, prepend=0.0) / 48.4 / 0.02, np.full(32, 1.0 / 32.0))[:3000]
+    motion = read(replace(SPEED, unit="rpm"), np.round(60.0 * means, digits).tolist())
+    assert motion.counts.tolist() == counts.tolist() and motion.info.measurement is Measurement.COUNTS
+    assert motion.info.edges_per_revolution == 48
+    assert float(motion.info.edges_per_revolution * motion.info.gear) == pytest.approx(48.4, rel=3e-4)
+    assert motion.findings[0].startswith("Speeds are running means of 32 rows") and "48.4" in motion.findings[1]
+    said = read(replace(SPEED, unit="rpm", edges_per_revolution=48), np.round(60.0 * means, digits).tolist())
+    assert (said.counts.tolist(), said.info.edges_per_revolution) == (counts.tolist(), 48)
+    assert said.info.gear == 1
+
+
+def test_how_many_counts_a_row_are_few() -> None:
+    for counts, kind in ((3.4, Measurement.COUNTS), (4.6, Measurement.SPEED)):
+        angles = np.cumsum(np.where(np.arange(3000) < 100, 0.0, counts + 0.3 * np.sin(np.arange(3000) / 70.0)))
+        single = np.diff(np.floor(angles), prepend=0.0) * tau / 100 / 0.02
+        assert read(SPEED, np.convolve(single, np.full(10, 0.1))[:3000].tolist()).info.measurement is kind
 
 
 @pytest.mark.parametrize(("factor", "refused"), [(1.0, False), (5.0, False), (0.2, False), (6.0, True), (0.15, True)])
