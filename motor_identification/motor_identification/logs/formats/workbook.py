@@ -46,6 +46,7 @@ class Sheet:
 
     name: str
     lines: list[str]
+    tables: int = 1  # that stand side by side on it, and are read one below the other
 
     @property
     def numbers(self) -> int:
@@ -86,7 +87,10 @@ def read_workbook(path: Path, wanted: str | None) -> tuple[list[str], str]:
     more = f" (others: {', '.join(others[:8])}; otherwise: --sheet)" if others else ""
     names = _sheet_of_names(best, sheets)
     of_columns = f", whose columns are named on {names.name}" if names else ""
-    return [*(names.lines if names else ()), *best.lines], f"Sheet: {best.name}{more}{of_columns}."
+    beside = f" {best.tables} tables of the same columns stand side by side: read one below the other." * (
+        best.tables > 1
+    )
+    return [*(names.lines if names else ()), *best.lines], f"Sheet: {best.name}{more}{of_columns}.{beside}"
 
 
 def _sheet_of_names(table: Sheet, sheets: list[Sheet]) -> Sheet | None:
@@ -108,9 +112,9 @@ def _read_sheets(book: Workbook, wanted: str | None) -> Iterator[Sheet]:
     book.dates = _date_styles(book)
     for name, part in list(parts.items())[:MOST_SHEETS]:
         if wanted in (None, name):
-            lines = _largest_block(_lines(book, part))
+            lines, tables = _largest_block(_lines(book, part))
             if any(line.strip() for line in lines):
-                yield Sheet(name, lines)
+                yield Sheet(name, lines, tables)
 
 
 def _sheet_parts(book: Workbook) -> dict[str, str]:
@@ -165,8 +169,11 @@ def _lines(book: Workbook, part: str) -> list[str]:
     return lines
 
 
-def _largest_block(lines: list[str]) -> list[str]:
-    """Cut the block of columns with the most numbers out of a sheet, on which notes and sums stand beside the table."""
+def _largest_block(lines: list[str]) -> tuple[list[str], int]:
+    """Cut the block of columns with the most numbers out of a sheet, on which notes and sums stand beside the table.
+
+    Blocks with the same names follow below it, such as one for each voltage: how many there are is told.
+    """
     rows = [line.split(SEPARATOR) for line in lines]
     numbers = [0] * max(map(len, rows), default=0)
     filled = [False] * len(numbers)
@@ -174,11 +181,19 @@ def _largest_block(lines: list[str]) -> list[str]:
         for k, cell in enumerate(row):
             filled[k] = filled[k] or bool(cell)
             numbers[k] += bool(cell) and is_number(cell, comma=False)
-    blocks = [list(block) for there, block in groupby(range(len(filled)), key=filled.__getitem__) if there]
     if all(filled):
-        return lines
-    best = max(blocks, key=lambda block: sum(numbers[k] for k in block), default=[0])
-    return [SEPARATOR.join(row[best[0] : best[-1] + 1]) for row in rows]
+        return lines, 1
+    columns = [list(block) for there, block in groupby(range(len(filled)), key=filled.__getitem__) if there]
+    best = max(columns, key=lambda block: sum(numbers[k] for k in block), default=[0])
+    blocks = [[row[block[0] : block[-1] + 1] for row in rows] for block in columns]
+    table = blocks[columns.index(best)] if columns else rows
+    names = next((row for row in table if len(row) > 1 and all(row)), [""])
+    if is_number(names[0], comma=False) or not names[0]:
+        return [SEPARATOR.join(row) for row in table], 1
+    alike = [block[block.index(names) + 1 :] for block in blocks if names in block]
+    if len(alike) == 1:
+        return [SEPARATOR.join(row) for row in table], 1
+    return [SEPARATOR.join(row) for row in (names, *(row for block in alike for row in block if any(row)))], len(alike)
 
 
 def _line(book: Workbook, row: ElementTree.Element) -> str:

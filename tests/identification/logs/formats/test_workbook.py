@@ -105,6 +105,35 @@ def test_what_stands_beside_the_table_is_left_out(tmp_path: Path) -> None:
     assert lines == ["1\t", "2\t7", "3\t7", "4\t7"]
 
 
+def texts(row: int, **cells: str) -> str:
+    return "".join(f'<c r="{at}{row}" t="str"><v>{text}</v></c>' for at, text in cells.items())
+
+
+def test_tables_of_the_same_columns_side_by_side_follow_each_other(tmp_path: Path) -> None:
+    """As where every voltage has its own; notes, and tables of other columns, are left out as before."""
+
+    def block(columns: str, *rows: tuple[float, ...]) -> list[str]:
+        return [
+            "".join(f'<c r="{at}{k}"><v>{value}</v></c>' for at, value in zip(columns, row, strict=True))
+            for k, row in enumerate(rows, start=2)
+        ]
+
+    first, second = block("AB", (0, 1), (5, 2), (10, 3)), block("DE", (15, 4), (20, 5))
+    sums = block("GH", (7, 7))
+    rows = [
+        texts(1, A="t", B="y", D="t", E="y", G="mean", H="y"),
+        first[0] + second[0] + sums[0],
+        first[1] + second[1],
+        first[2],
+    ]
+    lines, note = read_workbook(write(tmp_path / "a.xlsx", log=sheet(*rows)), None)
+    assert lines == ["t\ty", "0\t1", "5\t2", "10\t3", "15\t4", "20\t5"]
+    assert note == "Sheet: log. 2 tables of the same columns stand side by side: read one below the other."
+    rows[0] = texts(1, A="t", B="y", D="t", E="u", G="mean", H="y")
+    lines, note = read_workbook(write(tmp_path / "b.xlsx", log=sheet(*rows)), None)
+    assert lines[:2] == ["t\ty", "0\t1"] and lines[-1] == "10\t3" and note == "Sheet: log."
+
+
 def test_dates_and_times_of_day(tmp_path: Path) -> None:
     cells = "".join(f'<c s="{style}"><v>{value}</v></c>' for style, value in ((1, 45413.5), (2, 45413.5), (3, 0.25)))
     lines, _ = read_workbook(write(tmp_path / "a.xlsx", a=sheet(cells)), None)
