@@ -27,8 +27,9 @@ def words_of(words: str) -> frozenset[str]:
 _row = words_of
 
 
-INPUTS = _row("input entrada eingang entrée entree ingresso")  # of a system: what drives it, or a controller
-OUTPUTS = _row("output saída saida salida ausgang sortie uscita")
+# Of a system: what drives it, or a controller.
+INPUTS = _row("input entrada eingang entrée entree ingresso masukan giriş wejście vstup вход")
+OUTPUTS = _row("output saída saida salida ausgang sortie uscita keluaran çıkış wyjście výstup выход")
 
 RAW = _row("raw unfiltered roh brut crudo bruto")
 FILTERED = _row(

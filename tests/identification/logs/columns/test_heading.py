@@ -140,6 +140,8 @@ Winkel [Grad]     | position       | deg   |
 Drehzahl [U/min]  | speed          | rpm   |
 Velocidad (grados/s) | speed       | deg/s |
 Kecepatan (RPM)   | speed          | rpm   |
+Masukan           | voltage        |       |
+Keluaran          | duty           |       |
 waktu (ms)        | time           | ms    |
 pulsos            | count          |       |
 MV                | duty           |       |

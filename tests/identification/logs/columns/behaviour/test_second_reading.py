@@ -22,6 +22,8 @@ def test_the_outputs_of_one_input() -> None:
     assert spanish.pairs == (Pair("", "Salida", "Entrada"),)
     plant = find_roles(table(Zeit="t", Eingang="u", Ausgang="y"), Said())
     assert plant.pairs == (Pair("", "Eingang", "Ausgang"),)
+    curve = find_roles(table(Masukan="t", Kecepatan="y"), Said())  # a static curve: its drive rises as a clock does
+    assert (curve.time, curve.pairs) == (None, (Pair("", "Masukan", "Kecepatan"),))
 
 
 def test_an_output_beside_what_drives_is_the_motors() -> None:
