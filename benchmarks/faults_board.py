@@ -46,6 +46,17 @@ def unplug(loop: BoardLoop) -> None:
     loop.driver.closed("the port is gone")
 
 
+def plug_another(loop: BoardLoop) -> None:
+    """The plug is pulled and another board is plugged in; somebody calls motor/enable after 0.6 s, and again."""
+    unplug(loop)
+    loop.run(0.2)
+    loop.exchange(number=9)
+    loop.plug()
+    for _ in range(2):
+        loop.run(0.6)
+        loop.enable()
+
+
 def stick(loop: BoardLoop) -> None:
     """The board is heard no more."""
     loop.stuck = True
@@ -98,6 +109,7 @@ BOARD_FAULTS = (
     BoardFault("driver started again under a held reference", KNOWN, restart_driver),
     BoardFault("driver started again under a plain voltage", KNOWN, restart_driver, raw=0.6),
     BoardFault("plug pulled", KNOWN, unplug),
+    BoardFault("plug pulled, another board plugged in, `motor/enable`, plain voltage", KNOWN, plug_another, raw=0.6),
     BoardFault("no telemetry", KNOWN, stick),
     BoardFault("the link holds bytes back, up to 1 s", MOTION, hold_back),
     BoardFault("the link holds bytes back, up to 1 s, plain voltage", MOTION, hold_back, raw=0.6),

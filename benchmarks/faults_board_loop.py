@@ -43,22 +43,46 @@ class BoardLoop:
     moments: list[Moment] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        scale = 60_000 if self.supply else 0
-        build = FirmwareConfig(edges_per_revolution=96, channels=self.channels, supply_full_scale=scale)
-        encoder = EncoderConfig(seed=3, channels=self.channels, slot_irregularity=0.01)
-        self.emulator = Emulator(firmware(build), self.motor.parameters(self.supply), encoder)
-        self.emulator.chip.supply(5.0 * self.supply / 60.0)
+        self.emulator = self._board()
         self._in: deque[tuple[float, bytes]] = deque()  # [s] when each is handed on
         self._out: deque[tuple[float, bytes]] = deque()
         self.start()
         self.state, self._reason, self._sent, self._worked = controller.State(), "", 0, 0.0
+
+    def _board(self, number: int = 0) -> Emulator:
+        """A board with that number, and a motor on it."""
+        scale = 60_000 if self.supply else 0
+        build = FirmwareConfig(
+            board_id=number, edges_per_revolution=96, channels=self.channels, supply_full_scale=scale
+        )
+        encoder = EncoderConfig(seed=3, channels=self.channels, slot_irregularity=0.01)
+        board = Emulator(firmware(build), self.motor.parameters(self.supply), encoder)
+        board.chip.supply(5.0 * self.supply / 60.0)
+        return board
+
+    def exchange(self, number: int) -> None:
+        """Another board, with another motor, has been where this one is, for as long."""
+        old, self.emulator = self.emulator, self._board(number)
+        self.emulator.run(old.chip.cycle)
+        self.emulator.chip.drain()
+        old.close()
+
+    def enable(self) -> None:
+        """Call motor/enable."""
+        if not (self.gate.refusal(self._now) or self.driver.refusal()):
+            self.gate = self.gate.enable(True)
+
+    def plug(self) -> None:
+        """The port opens."""
+        self.plugged = True
+        self.driver.opened("the port", self._now)
 
     def start(self) -> None:
         """The driver starts, or starts again."""
         motor = {"max_voltage": self.motor.voltage, "supply_voltage": self.told}
         config = Config(sample_rate=self.rate, single_channel=self.channels == 1, **motor)
         self.driver, self.gate, self._begun = Driver(config), Gate(True, TIMEOUT, 1.0 / self.rate), 0
-        self.driver.opened("the port", self._now)
+        self.plug()
 
     @property
     def time(self) -> float:
@@ -80,10 +104,14 @@ class BoardLoop:
         data = self._pass_on(self._in, self.emulator.chip.drain())
         if self.driving:
             self._drive(b"" if self.stuck or not self.plugged else data)
-        shaft, said = self.emulator.shaft, self.gate.problem(self._now) or self._reason
+        shaft, said = self.emulator.shaft, self._trouble() or self.gate.problem(self._now) or self._reason
         self.moments.append(Moment(self.time, shaft.voltage, shaft.speed, said))
         if late := self._pass_on(self._out, b""):
             self.emulator.chip.feed(late)
+
+    def _trouble(self) -> str:
+        """Why the board that answers is not to run; "" if it is."""
+        return self.driver.session.handshake.refusal if self.driver.session else ""
 
     def _pass_on(self, line: deque[tuple[float, bytes]], data: bytes) -> bytes:
         """Bytes go onto a line of the link: those that it hands on now."""

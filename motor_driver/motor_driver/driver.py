@@ -105,7 +105,9 @@ class Driver:
             return f"No telemetry comes from {self.session.port}."
         if self.session.exchange and self.session.exchange.late:
             return f"No voltage acts in time: {self._lateness(self.session.port)}."
-        return "" if self.session.runs else f"The board on {self.session.port} has not answered yet."
+        if self.session.runs:
+            return ""
+        return self.session.handshake.refusal or f"The board on {self.session.port} has not answered yet."
 
     def unsuitable(self, now: int) -> bool:
         """Whether the open port has no board that can be used."""
@@ -118,7 +120,7 @@ class Driver:
 
     def opened(self, port: str, now: int, roll_call: bool = False) -> None:
         """A port was opened; at a roll call its board only says who it is."""
-        self.session = Session(port, Handshake(self.config, port, now, roll_call))
+        self.session = Session(port, Handshake(self.config, port, now, roll_call, self.board))
         self.openings += 1
 
     def closed(self, why: str) -> None:

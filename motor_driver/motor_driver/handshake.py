@@ -10,6 +10,19 @@ from motor_model.errors import MotorError
 
 ASK_EVERY = 200_000_000  # [ns]
 PATIENCE = 3_000_000_000  # [ns] that a board may take after its port was opened: an Uno is reset by that
+OF_A_BOARD = {  # of a hello: what a board keeps until it is flashed, in words
+    "board_id": "board_id",
+    "board": "chip",
+    "channels": "encoder channels",
+    "edges_per_revolution": "edges per revolution",
+    "tick_ns": "tick [ns]",
+    "pwm_top": "steps of duty",
+    "firmware": "firmware",
+}
+ANOTHER = (
+    "This is another board than the one that ran ({}): plug that one in again, or start the driver again to drive this "
+    "one's motor; the parameter board_id says which is meant."
+)
 
 
 class Phase(Enum):
@@ -25,38 +38,40 @@ class Phase(Enum):
 class Handshake:
     """Asks until it is answered; time in ns is an argument."""
 
-    def __init__(self, config: Config, port: str, now: int, roll_call: bool = False) -> None:
-        """`roll_call`: the board is only to say who it is."""
-        self._config, self._port, self._roll_call = config, port, roll_call
+    def __init__(
+        self, config: Config, port: str, now: int, roll_call: bool = False, before: Hello | None = None
+    ) -> None:
+        """`roll_call`: the board is only to say who it is; `before` is the one that ran, on a port that was closed."""
+        self._config, self._port, self._roll_call, self._before = config, port, roll_call, before
         self._opened, self._asked = now, now - ASK_EVERY
         self.phase = Phase.IDENTIFY
         self.hello: Hello | None = None  # the latest
-        self._refusal = ""
+        self.refusal = ""  # why the board that answers is not to run, as a sentence
 
     def hear(self, frame: Hello) -> bool:
         """Take a hello; True when the board now runs as configured."""
         if self.hello is not None and frame.boot != self.hello.boot and self.phase is not Phase.IDENTIFY:
             self.begin_again()  # a reset board has forgotten what it was told, its current limits too
         if self.phase is Phase.IDENTIFY:
-            self._refusal = self._config.refusal(frame)
+            self.refusal = self._refusal_of(frame)
             self.hello = frame
-            if not self._refusal and not self._roll_call:
+            if not self.refusal and not self._roll_call:
                 self._go(Phase.SETUP if self._config.setup(frame) else self._after_setup(frame))
         elif self.phase is Phase.CONFIGURE and self.hello is not None:
-            self._refusal = self._config.refusal(frame)
-            if self._refusal:  # of a board that says otherwise now
+            self.refusal = self._refusal_of(frame)
+            if self.refusal:  # of a board that says otherwise now
                 return False
             done = (frame.sample_period, frame.command_timeout, frame.decay) == self._wanted()
             if done and frame.latch != self.hello.latch:  # not an old answer: to configure is to switch off
-                self.hello, self.phase = frame, Phase.RUN
+                self.hello, self._before, self.phase = frame, frame, Phase.RUN
                 return True
         return False
 
     def hear_features(self, features: Features) -> None:
         """Take what holds after a setup."""
         if self.phase is Phase.SETUP and features.quadrature == self._config.quadrature:
-            self._refusal = self._config.refusal_of(features)
-            if not self._refusal and self.hello is not None:
+            self.refusal = self._config.refusal_of(features)
+            if not self.refusal and self.hello is not None:
                 self._go(self._after_setup(self.hello))
 
     def hear_protection(self, held: Protection) -> None:
@@ -64,16 +79,22 @@ class Handshake:
         wanted = self._config.protect(self.hello) if self.phase is Phase.PROTECT and self.hello else None
         if wanted is None or (held.zero, held.rated, held.budget) != (wanted.zero, wanted.rated, wanted.budget):
             return
-        self._refusal = self._config.refusal_to_protect(held)
-        if not self._refusal and held.most == wanted.most:
+        self.refusal = self._config.refusal_to_protect(held)
+        if not self.refusal and held.most == wanted.most:
             self._go(Phase.CONFIGURE)
+
+    def _refusal_of(self, board: Hello) -> str:
+        """Why this board is not to run; "" if it may. Without a `board_id` the one that ran first is the one meant."""
+        if refusal := self._config.refusal(board):
+            return refusal
+        return refuse_another(self._before, board) if self._before and self._config.board_id is None else ""
 
     def _after_setup(self, hello: Hello) -> Phase:
         return Phase.PROTECT if self._config.protect(hello) else Phase.CONFIGURE
 
     def refuse(self, other: OtherVersion) -> None:
         """A frame of another version came."""
-        self._refusal = str(other.error(self._port))
+        self.refusal = str(other.error(self._port))
 
     def reset_in(self, frame: Telemetry | Hello) -> bool:
         """Whether this shows that the board was reset while it ran."""
@@ -97,14 +118,14 @@ class Handshake:
     @property
     def matches(self) -> bool:
         """Whether a board that was only to say who it is may be the one."""
-        return self._roll_call and self.hello is not None and not self._refusal
+        return self._roll_call and self.hello is not None and not self.refusal
 
     def problem(self, now: int) -> str:
         """What keeps the board from running, as a sentence; empty if nothing does, or it is too early to say."""
         if self.matches:
             return ""
-        if self._refusal or self.phase is Phase.RUN or now - self._opened < PATIENCE:
-            return self._refusal
+        if self.refusal or self.phase is Phase.RUN or now - self._opened < PATIENCE:
+            return self.refusal
         return (
             f"Nothing on {self._port} answers as a motor board: flash it (ros2 run motor_board flash), or set the "
             f"parameter baud ({self._config.baud}) to that of its firmware."
@@ -118,10 +139,17 @@ class Handshake:
 
     def _go(self, phase: Phase) -> None:
         self.phase, self._asked = phase, self._asked - ASK_EVERY
-        self._refusal = ""
+        self.refusal = ""
 
 
 def reset_cause(hello: Hello) -> str:
     """In words."""
     names = [cause.name.lower().replace("_", " ") for cause in ResetCause if hello.reset_cause & cause and cause.name]
     return ", ".join(names) or "unknown cause"
+
+
+def refuse_another(before: Hello, board: Hello) -> str:
+    """Say why a board is not the one that ran `before`, which drives another motor; "" if nothing tells them apart."""
+    found = ((words, getattr(board, name), getattr(before, name)) for name, words in OF_A_BOARD.items())
+    other = ", ".join(f"{words} {now} instead of {was}" for words, now, was in found if now != was)
+    return ANOTHER.format(other) if other else ""

@@ -65,17 +65,33 @@ def test_no_hello_ends_the_driver(tick: int, top: int, shortest: int, edges: int
     assert all(abs(reading.sample.voltage) <= 12.0 * 128 / max(top, 1) for reading in board.readings)
 
 
-def test_another_board_on_the_same_port_is_read_by_what_it_says() -> None:
+def test_another_board_of_the_same_number_is_read_by_what_it_says() -> None:
     """It has begun as often as the one before, and has twice as many steps of duty: half of the voltage at the same."""
-    board = Board(Driver(Config()), HELLO)
+    board = Board(Driver(Config(board_id=0)), HELLO)
     board.plug()
     board.run(100)
     assert board.readings[-1].sample.voltage == 6.0
     board.driver.closed("unplugged")
-    board.hello = replace(board.hello, pwm_top=512, board_id=9)
+    board.hello = replace(board.hello, pwm_top=512)
     board.plug()
     board.run(100)
     assert board.readings[-1].sample.voltage == 3.0
+
+
+def test_another_board_than_the_one_that_ran_is_refused() -> None:
+    board = Board(Driver(Config()), HELLO)
+    board.plug()
+    board.run(100)
+    readings = len(board.readings)
+    board.driver.closed("unplugged")
+    board.hello = replace(board.hello, firmware_minor=4, pwm_top=512, boot=8)
+    board.enabled = False
+    board.plug()
+    board.run(100)
+    session = board.driver.session
+    assert session is not None and len(board.readings) == readings
+    told = "(steps of duty 512 instead of 256, firmware 1.4.3 instead of 1.1.3)"
+    assert told in session.handshake.problem(board.now) and not board.enabled
 
 
 def test_the_same_board_on_a_port_that_was_away_goes_on() -> None:

@@ -79,6 +79,14 @@ class Rig:
         self.plugged = False
         self.driver.closed("the port is gone")
 
+    def exchange(self, other: FirmwareConfig) -> None:
+        """Another board, with a motor of its own, has been where this one is, for as long."""
+        old, encoder = self.emulator, replace(self.encoder, channels=other.channels)
+        self.emulator = Emulator(firmware(other), self.parameters, encoder)
+        self.emulator.run(old.chip.cycle)
+        self.emulator.chip.drain()
+        old.close()
+
     def enable(self, on: bool = True) -> str:
         """Call motor/enable; the refusal."""
         refusal = self.gate.refusal(self.now) or self.driver.refusal() if on else ""
