@@ -23,8 +23,7 @@ from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import time_message, voltage_message
 
-# [s] from when it could be known; where a plant that does nothing is believed for 0.5 s to be off; and watched
-KNOWN, KNOWN_BY_TIME, WATCHED = 0.15, 0.6, 3.0
+KNOWN, WATCHED = 0.15, 3.0  # [s] from when it could be known, and watched
 LOGGED = re.compile(r"^\[\w+\] \[[\d.]+\] \[\w+\]: ")  # what begins a line of a log
 HEAD = "| fault | may take | ms | speed | voltage | what was said |\n|---|---|---|---|---|---|"
 
@@ -122,10 +121,41 @@ def drive_another_plant(stage: Stage) -> None:
     stage.plant("heard", "left")
     stage.plant("driven", "right")
     stage.controller("left", "-r", "/left/motor/voltage:=/right/motor/voltage")
-    reference = stage.bench.publisher(Float64, "left/motor/reference", qos.REFERENCE)
-    stage.bench.heard(reference)
+    _refer_often(stage, "left/motor/reference")
+    stage.until(lambda: any("would be driven" in one for one in stage.said), "a sentence")
+
+
+def drive_by_another_plant(stage: Stage) -> None:
+    """A controller hears the samples of another plant than the one that its voltages go to."""
+    stage.plant("driven", "left")
+    stage.plant("heard", "right")
+    stage.controller("left", "-r", "/left/motor/speed:=/right/motor/speed", "-r", "/left/motor/info:=/right/motor/info")
+    _refer_often(stage, "left/motor/reference")
+    stage.until(lambda: any("would be driven" in one for one in stage.said), "a sentence")
+
+
+def start_in_another_namespace(stage: Stage) -> None:
+    """Of two motors one has a controller that was started in no namespace."""
+    for side in ("left", "right"):
+        stage.plant(side, side)
+    stage.controller("left")
+    stage.controller("")
+    stage.hear(2.0)
+    _refer_often(stage, "right/motor/reference")
+
+
+def remap_info(stage: Stage) -> None:
+    """A controller hears no motor/info, for it has been renamed."""
+    stage.plant()
+    stage.controller("", "-r", "/motor/info:=/motor/inf")
+    _refer_often(stage, "motor/reference")
+
+
+def _refer_often(stage: Stage, topic: str) -> None:
+    """Send references, 20 a second."""
+    reference = stage.bench.publisher(Float64, topic, qos.REFERENCE)
     stage.bench.node.create_timer(0.05, lambda: reference.publish(Float64(data=0.5 * MOTOR.top)))
-    stage.until(lambda: any(moment.voltage for moment in stage.moments), "a voltage at the wrong motor")
+    stage.until(lambda: len(stage.moments) > 50, "the plant")
 
 
 def _drive_by_stream(stage: Stage) -> None:
@@ -190,9 +220,10 @@ LIVE_FAULTS = (
     LiveFault("a plant stopped for 1.5 s, a voltage meanwhile", command_stopped_plant, "held up"),
     LiveFault("a plant stopped for 1.5 s, 200 voltages a second keep coming", resume_plant, "went on being sent"),
     LiveFault("`diff_drive` stopped for 1.5 s, a velocity meanwhile", drive_stopped_robot, "stood still"),
-    LiveFault(
-        "voltages go to another plant, references keep coming", drive_another_plant, "begin again", KNOWN_BY_TIME
-    ),
+    LiveFault("voltages go to another plant, references keep coming", drive_another_plant, "would be driven"),
+    LiveFault("samples are another plant's, references keep coming", drive_by_another_plant, "would be driven"),
+    LiveFault("one of two controllers in another namespace, references", start_in_another_namespace, "nobody hears"),
+    LiveFault("a controller that hears no motor/info, references", remap_info, "Nobody publishes"),
     LiveFault("a plant is started again, 50 references a second keep coming", restart_plant, "begin again"),
     LiveFault(
         "a controller is killed and started again, 50 references a second keep coming", restart_controller, "They began"

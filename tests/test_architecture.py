@@ -34,7 +34,7 @@ ROS |= {"builtin_interfaces", "geometry_msgs", "nav_msgs"}
 # Where ROS may be imported: node files, command files, the modules that turn messages into plain values, and the one
 # that looks up what is installed.
 SHELLS = re.compile(
-    r"(/node\.py|/messages\.py|/(answers|demands|speakers)\.py|/diagnose_action\.py|/cli/(options/)?\w+\.py|/live/\w+\.py|motor_ros/motor_ros/((clocks|command|graph)/)?\w+\.py|motor_(board|control|driver|sim)/parameters\.py|/diff_drive/(motor|parameters)\.py|/service/(parameters|call_waiter)\.py|/bag/definition\.py)$"
+    r"(/node\.py|/messages\.py|/(answers|demands|neighbours|speakers)\.py|/diagnose_action\.py|/cli/(options/)?\w+\.py|/live/\w+\.py|motor_ros/motor_ros/((clocks|command|graph)/)?\w+\.py|motor_(board|control|driver|sim)/parameters\.py|/diff_drive/(motor|parameters)\.py|/service/(parameters|call_waiter)\.py|/bag/definition\.py)$"
 )
 # Effects are rows of a table, and nothing else knows one of them by name; but for:
 SPECIAL = {
@@ -55,7 +55,7 @@ ROOMS = {
     ),
     "motor_control": (
         "checks filter controller announcements tuning configuration parameters warm_up preparation settings "
-        "toggles messages answers speakers demands node cli programs"
+        "toggles messages answers speakers neighbours demands node cli programs"
     ),
     "motor_identification": (
         "recording progress experiment bag sensor measurement noise estimation timing periodic uncertainty physical "

@@ -17,7 +17,7 @@ from motor_control.controller.run import Config
 from motor_control.messages import control_state_message, diagnostics_message
 from motor_msgs.msg import ControlState, MotorVoltage
 from motor_ros import qos
-from motor_ros.graph.publishers import publishers_of
+from motor_ros.graph.publishers import count_publishers, publishers_of
 from motor_ros.messages import voltage_message
 
 FAREWELL = Duration(seconds=0.3)  # what the last 0 V may take to arrive
@@ -30,6 +30,7 @@ class Answers:
         self._node = node
         self._header = Header()  # of the latest sample
         self._output, self._told = WAITING, Told()
+        self._missing = ""  # who was missing at the latest diagnostic, as a sentence
         self._answered, self._worst = 0, 0.0  # samples since the last diagnostic, and their largest latency [s]
         self._voltage = node.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
         self._control_state = node.create_publisher(ControlState, "motor/control_state", qos.CONTROL_STATE)
@@ -46,13 +47,16 @@ class Answers:
         self._header.stamp = self._now()
         self._publish(output, config, demand)
 
-    def diagnose(self, config: Config, demand: Demand | None) -> None:
-        """Publish the diagnostic of the second that is over; demand: what is obeyed."""
+    def diagnose(self, config: Config, demand: Demand | None, missing: str) -> None:
+        """Publish the diagnostic of the second that is over; demand: what is obeyed; missing: who is, a sentence."""
+        if missing and missing != self._missing:
+            self._node.get_logger().warning(missing)
+        self._missing = missing
         name = f"{self._node.get_fully_qualified_name()}: {self._header.frame_id or 'no motor yet'}"
-        rivals = self._node.count_publishers("motor/voltage")
+        rivals = count_publishers(self._node, "motor/voltage")
         referrers = self._referrers() if demand is not None and demand.source is Source.REFERENCE else []
         told = diagnostics_message(
-            self._output, config, self._answered, self._worst, rivals, referrers, name, self._now()
+            self._output, config, self._answered, self._worst, rivals, referrers, missing, name, self._now()
         )
         self._diagnostics.publish(told)
         self._answered, self._worst = 0, 0.0

@@ -41,6 +41,7 @@ class Demands:
 
     def __init__(self, node: Node, config: Config) -> None:
         self._node, self._config, self._state = node, config, State()
+        self._resolved = [node.resolve_topic_name(topic) for topic in TOPICS]  # only so they are counted where renamed
         self._count = -1  # of those who may ask
         self._commanders = Commanders(node, *TOPICS)
         self._hold_ups = HoldUps(node)
@@ -62,7 +63,7 @@ class Demands:
 
     def look(self, state: State) -> State:
         """Note who publishes motor/joint_command, where they are several."""
-        several = self._node.count_publishers(TOPICS[2]) > 1
+        several = self._node.count_publishers(self._resolved[2]) > 1
         if several == bool(state.joint_senders):
             return state
         names = ", ".join(publishers_of(self._node, TOPICS[2]))
@@ -76,7 +77,7 @@ class Demands:
 
     def _introduce(self, state: State, now: float) -> State:
         """Note that there are more who may ask for a motion; at first, that nobody has been seen for long."""
-        before, self._count = self._count, sum(map(self._node.count_publishers, TOPICS))
+        before, self._count = self._count, sum(map(self._node.count_publishers, self._resolved))
         return introduce(state, now) if self._count > before else state
 
     def _refer(self, kind: Kind, message: Float64, arrival: Arrival) -> None:

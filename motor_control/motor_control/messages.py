@@ -62,14 +62,15 @@ def diagnostics_message(
     worst: float,
     publishers: int,
     referrers: Sequence[str],
+    missing: str,
     name: str,
     stamp: Time,
 ) -> DiagnosticArray:
     """Make one status: state, samples `answered` in the last second, their `worst` latency [s], publishers, referrers.
 
-    Referrers: the nodes that publish a reference that is in force.
+    Referrers: the nodes that publish a reference that is in force; missing: who should be there, a sentence.
     """
-    problem = RIVALS if publishers > 1 else REFERRERS.format(", ".join(referrers)) if len(referrers) > 1 else ""
+    problem = RIVALS if publishers > 1 else REFERRERS.format(", ".join(referrers)) if len(referrers) > 1 else missing
     values = {
         "state": output.state,
         "samples per second": str(answered),

@@ -11,6 +11,7 @@ from motor_control.announcements import describe_start
 from motor_control.answers import Answers
 from motor_control.controller import controller
 from motor_control.demands import Demands
+from motor_control.neighbours import Neighbours
 from motor_control.parameters import PROGRAM, ROWS
 from motor_control.settings import Settings
 from motor_control.speakers import Speakers
@@ -24,6 +25,7 @@ from motor_ros.parameters import declare
 from motor_ros.run import quick_executor, run
 
 WATCH_EVERY = 0.02  # [s]
+LOOK_EVERY = 0.2  # [s] at who is there, which takes 0.2 ms: less than the 0.5 s after which a wrong plant shows itself
 
 
 class MotorControl(Node):
@@ -36,14 +38,15 @@ class MotorControl(Node):
         _, self._toggles = self._toggles.see(values, time.monotonic())
         self._state = controller.State(since=time.monotonic())
         self._speakers = Speakers(self)
-        self._answers = Answers(self)
+        self._answers, self._neighbours = Answers(self), Neighbours(self)
         self.create_subscription(MotorSpeed, "motor/speed", self._on_speed, qos.newest(qos.SPEED))
         self.create_subscription(MotorInfo, "motor/info", self._on_info, qos.INFO)
         self._demands = Demands(self, self._settings.config)
         self.create_service(Trigger, "motor/reset", lambda _, response: self._on_reset(response))
         self.create_service(Trigger, "motor/release", lambda _, response: self._on_release(response))
         steady_timer(self, WATCH_EVERY, self._on_watch)
-        steady_timer(self, 1.0, lambda: self._answers.diagnose(self._settings.config, self._state.demand))
+        steady_timer(self, LOOK_EVERY, lambda: self._settings.bar(self._neighbours.another_driven()))
+        steady_timer(self, 1.0, self._on_second)
         self.add_on_set_parameters_callback(self._on_parameters)
         self.get_logger().info(describe_start(self._settings.config))
 
@@ -66,6 +69,9 @@ class MotorControl(Node):
         output, self._state = controller.watch(self._settings.config, self._state, time.monotonic())
         if output is not None:
             self._answers.announce_silence(output, self._settings.config, self._state.demand)
+
+    def _on_second(self) -> None:
+        self._answers.diagnose(self._settings.config, self._state.demand, self._neighbours.missing())
 
     def _poll(self) -> None:
         """Take what is asked for, before what acts on it."""

@@ -21,11 +21,12 @@ class Speakers:
 
     def __init__(self, node: Node) -> None:
         self._node, self._count = node, 0
+        self._resolved = node.resolve_topic_name(TOPIC)  # only so it is counted where it is renamed
         self._ids: frozenset[tuple[int, ...]] = frozenset()  # when samples last began
 
     def name(self, state: State) -> State:
         """Note their names, where their number has changed."""
-        if (count := self._node.count_publishers(TOPIC)) == self._count:
+        if (count := self._node.count_publishers(self._resolved)) == self._count:
             return state
         self._count = count
         return replace(state, speakers=f"({', '.join(publishers_of(self._node, TOPIC))})")

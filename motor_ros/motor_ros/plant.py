@@ -17,6 +17,7 @@ from motor_ros.clocks.hold_ups import HoldUps
 from motor_ros.gate import AWAY, CONFLICT, OFF, STOPPED, Gate
 from motor_ros.graph.commanders import Commanders
 from motor_ros.graph.other_plant import OtherPlant
+from motor_ros.graph.publishers import count_publishers
 from motor_ros.messages import diagnostic_message, info_message, speed_message, stamp_age
 from motor_ros.numbered_input import Arrival, NumberedInput
 
@@ -29,6 +30,7 @@ OLD = (
     "{:.3g} V on motor/voltage is stamped {:.3g} s {}, as what is played from a recording: it is not obeyed. If it is "
     "yours, set both computers' clocks, or leave the stamp empty."
 )
+UNHEARD = "References are published on {} and nobody hears them: start motor_control in this namespace."
 
 
 class Plant:
@@ -55,6 +57,7 @@ class Plant:
         self._joint = node.create_publisher(JointState, "joint_states", qos.JOINT_STATES)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         self._commanders, self._played = Commanders(node, "motor/voltage"), ""
+        self._unheard = ""  # that nobody hears references, as a sentence
         self._old, self._old_at = "", 0  # the latest voltage with an old stamp, as a sentence, and when [ns] that was
         self._input = NumberedInput(
             node,
@@ -118,12 +121,12 @@ class Plant:
 
     def diagnose(self, problem: str, values: dict[str, str]) -> None:
         """Send one diagnostic status, every second: OK if nothing is wrong, with the gate's state and these values."""
-        if self._node.count_publishers("motor/info") > 1:
+        if count_publishers(self._node, "motor/info") > 1:
             self.publish_info()  # what a recording, or whoever it is, says of another motor does not hold for this one
         now = time.monotonic_ns()
         gate = self.gate.problem(now, self._input.senders(self._node))
         old = self._old if now - self._old_at <= CONFLICT else ""
-        message = " ".join(filter(None, (problem, self._find_others(now), old, gate)))
+        message = " ".join(filter(None, (problem, self._find_others(now), self._look_for_controller(), old, gate)))
         level = DiagnosticStatus.WARN if message else DiagnosticStatus.OK
         sender = self.gate.sender.name if self.gate.sender and self.gate.fresh(now) else ""
         told = diagnostic_message(
@@ -141,6 +144,15 @@ class Plant:
         if players := self._commanders.players:
             return PLAYED.format(self._node.resolve_topic_name("motor/voltage"), players)
         return self._other.problem(now)
+
+    def _look_for_controller(self) -> str:
+        """Say that references are published and no controller is there, as where it is in another namespace."""
+        before, topic = self._unheard, self._node.resolve_topic_name("motor/reference")
+        unheard = self._node.count_publishers(topic) and not self._node.count_subscribers(topic)
+        self._unheard = UNHEARD.format(topic) if unheard else ""
+        if self._unheard and not before:
+            self._node.get_logger().warning(self._unheard)
+        return self._unheard
 
     def _on_voltage(self, message: MotorVoltage, arrival: Arrival) -> None:
         now, before, voltage = time.monotonic_ns(), self.gate, message.voltage

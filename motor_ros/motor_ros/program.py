@@ -17,6 +17,11 @@ from motor_ros.parameters import Row
 from motor_ros.topics import ROBOT_TOPICS, SERVICES, TOPICS
 
 INVALID_ARGUMENTS = (rclpy_implementation.RCLInvalidROSArgsError, rclpy_implementation.UnknownROSArgsError)
+NAMESPACE = re.compile(r"/|(/[A-Za-z_][A-Za-z0-9_]*)+")
+BAD_NAMESPACE = (
+    "'{}' is no namespace: write -r __ns:=/left, which is a slash before each name, of letters, digits (not first) and "
+    "_, and none at the end"
+)
 PLANT_SUBSCRIBES = ("motor/voltage", "motor/speed")  # the latter while somebody else publishes it
 PLANT_PUBLISHES = ("motor/speed", "motor/info", "joint_states", "/diagnostics")
 
@@ -50,6 +55,8 @@ def answer(program: Program, words: Sequence[str]) -> None:
     parser = _Parser(program)
     if "_ARGCOMPLETE" in os.environ:
         _complete(program)
+    if said := refuse_namespace(words):
+        parser.error(said)
     try:
         rest = remove_ros_args([program.name, *words])[1:]
     except UnicodeEncodeError:
@@ -57,6 +64,13 @@ def answer(program: Program, words: Sequence[str]) -> None:
     except INVALID_ARGUMENTS as error:
         parser.error(plain_sentence(error))
     parser.parse_args(rest)
+
+
+def refuse_namespace(words: Sequence[str]) -> str:
+    """Say which namespace among the words is none, which ROS says in other words or none; "" if all are."""
+    parts = [word.partition("__ns:=") for word in words]
+    given = [after for before, sign, after in parts if sign and ":=" not in before]
+    return next((BAD_NAMESPACE.format(one) for one in given if not NAMESPACE.fullmatch(one)), "")
 
 
 def _complete(program: Program) -> None:

@@ -72,3 +72,23 @@ def test_a_model_named_in_a_running_loop_is_taken_once_it_is_ready(tmp_path: Pat
     with pytest.raises(MotorError, match="cannot read the model file"):
         settings.change({"model": str(tmp_path / "nowhere.yaml")})
     assert settings.config.observer is not None
+
+
+def test_nothing_is_driven_before_the_plant_has_said_what_it_is() -> None:
+    """With stray edges on a lost line a motor ran for ever, since nobody knew how wide a slot is."""
+    settings = Settings(DEFAULTS)
+    settings.change({"kp": 0.5})
+    assert "No motor/info has come yet" in settings.config.unusable
+    settings.meet(Info())
+    assert settings.config.unusable == ""
+
+
+def test_who_else_is_there_can_bar_it() -> None:
+    settings = Settings(DEFAULTS)
+    settings.meet(Info())
+    settings.bar("Another motor would be driven.")
+    settings.change({"kp": 0.5})
+    settings.meet(Info(max_voltage=6.0))
+    assert settings.config.unusable == "Another motor would be driven." and settings.config.voltage_limit == 6.0
+    settings.bar("")
+    assert settings.config.unusable == ""

@@ -77,6 +77,8 @@ def test_what_the_plant_says_of_itself_counts(plant: FakePlant) -> None:
     assert plant.answer(100.0).voltage == 0.0  # a single channel, until somebody says otherwise
     assert plant.set("motor_control", "plug_limit", 2.0) == (True, "")
     plant.tell(Info(name="wheel", single_channel=False, max_voltage=6.0))
+    plant.wait(lambda: "another one than before" in plant.answer(100.0).reason, "what it says")
+    plant.refer_anew(40.0)
     plant.wait(lambda: plant.answer(100.0).voltage != 0.0, "the brake")
     assert plant.answer(100.0).voltage == -6.0
     plant.tell(Info(name="wheel", max_voltage=1.0), measurement="tea leaves")

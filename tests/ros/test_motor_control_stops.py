@@ -104,7 +104,7 @@ def test_what_was_asked_for_while_the_controller_stood_still_is_not_obeyed(
         if topic == "motor/reference":
             plant._reference.publish(Float64(data=100.0))
         else:
-            joint.publish(JointState(name=[""], velocity=[100.0]))  # the plant has not said its name
+            joint.publish(JointState(name=["wheel"], velocity=[100.0]))
         time.sleep(1.5)
     finally:
         os.kill(process.pid, signal.SIGCONT)
@@ -187,10 +187,10 @@ def test_a_plant_that_was_restarted_waits_for_a_fresh_reference(plant: FakePlant
 def test_an_info_that_cannot_be_is_a_sentence_and_zero_volts(plant: FakePlant) -> None:
     plant.refer(100.0)
     plant.tell(Info(name="wheel", edges_per_revolution=0))
-    plant.wait(lambda: plant.answer(50.0).state == "stopped", "the stop")
+    plant.wait(lambda: plant.ask(50.0).state == "stopped", "the stop")
     assert "motor/info says edges_per_revolution = 0, which cannot be" in plant.states[-1].reason
     plant.tell(Info(name="wheel", sample_period=0.0))
-    plant.wait(lambda: "sample_period 0: it must be from" in plant.answer(50.0).reason, "the next one")
+    plant.wait(lambda: "sample_period 0: it must be from" in plant.ask(50.0).reason, "the next one")
     assert plant.states[-1].voltage == 0.0
     plant.tell(Info(name="wheel"))
     plant.wait(lambda: plant.answer(50.0).state == "disabled", "a good one")

@@ -4,7 +4,9 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from workbench import Bench
 
@@ -116,3 +118,19 @@ def test_a_voltage_is_acted_on_when_it_comes_and_not_with_the_next_sample(bench:
     bench.wait(lambda: sent(0.0), "0 V")
     bench.wait(lambda: sent(3.0), "3 V")
     assert plant.gate.begun
+
+
+def test_references_that_nobody_hears_are_said(bench: Bench) -> None:
+    """A controller that was started in another namespace hears none, and says nothing of them."""
+    plant, told = Plant(bench.node, Info(), Gate(True, 0.1)), bench.hear(DiagnosticArray, "/diagnostics")
+    said = "References are published on /motor/reference and nobody hears them: start motor_control in this namespace."
+
+    def says(wanted: bool) -> bool:
+        plant.diagnose("", {})
+        return bool(told) and (said in told[-1].status[0].message) == wanted
+
+    bench.wait(lambda: says(False), "a diagnostic")
+    bench.publisher(Float64, "motor/reference", qos.REFERENCE)
+    bench.wait(lambda: says(True), "the sentence")
+    bench.hear(Float64, "motor/reference", qos.REFERENCE)
+    bench.wait(lambda: says(False), "its end")

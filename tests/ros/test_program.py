@@ -23,7 +23,7 @@ from motor_examples.diff_drive.parameters import PROGRAM as DIFF_DRIVE
 from motor_identification.service.parameters import PROGRAM as IDENTIFICATION
 from motor_msgs.msg import MotorSpeed
 from motor_ros import qos
-from motor_ros.program import Program
+from motor_ros.program import Program, refuse_namespace
 from motor_sim.parameters import PROGRAM as SIM
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -119,3 +119,8 @@ def test_help_names_the_topics_and_services_that_the_node_has(program: Program, 
     bench.wait(agrees, "the topics and services that --help names, and no others")
     for other in others:
         node.destroy_publisher(other)
+
+
+@pytest.mark.parametrize("namespace", ["/", "/left", "/robot_1/left", "/_x"])
+def test_namespaces_that_are_some_are_let_be(namespace: str) -> None:
+    assert refuse_namespace(["--ros-args", "-r", f"__ns:={namespace}", "-p", "model:=__ns:=/x/"]) == ""

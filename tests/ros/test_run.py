@@ -17,7 +17,9 @@ BAD = [
     (("--params-file", "{0}/broken.yaml"), {}, "Couldn't parse params file"),
     (("--params-file", "/dev/zero"), {}, "Couldn't parse params file"),
     (("-p", "broken"), {}, "Couldn't parse parameter override rule"),
-    (("-r", "__ns:=bad-name"), {}, "Couldn't parse remap rule"),
+    (("-r", "__ns:=bad-name"), {}, "'bad-name' is no namespace: write -r __ns:=/left, which is a slash before each"),
+    (("-r", "__ns:=/left/"), {}, "'/left/' is no namespace: write"),  # ROS: "must not start with a number"
+    (("--remap", "motor_driver:__ns:=/1st"), {}, "'/1st' is no namespace: write"),
     (("-r", "__node:=a b"), {}, "Couldn't parse remap rule"),
     (("--log-level", "nonsense"), {}, "Couldn't parse log level"),
     (("--log-config-file", "/none"), {}, "ROS 2 cannot start: failed to initialize logging"),

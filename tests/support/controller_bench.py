@@ -5,8 +5,10 @@ from collections.abc import Iterator
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from patience import PATIENCE
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
+from rclpy.duration import Duration
 from std_msgs.msg import Float64
 from workbench import Bench, end, start
 
@@ -33,10 +35,13 @@ class FakePlant(Bench):
         self.diagnostics: list[DiagnosticArray] = self.hear(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         self.time = 0  # [ns]
         self.enabled = True
+        self.told = False  # it has said on motor/info what it is
 
     def meet(self) -> None:
         """Send samples until the controller hears everything and is heard."""
         self.heard(self._speed, self._info, self._reference)
+        if not self.told:
+            self.tell(Info(name="wheel"), measurement="speed")  # it has no edges
 
         def heard() -> bool:
             self.say(0.0)
@@ -78,6 +83,13 @@ class FakePlant(Bench):
         self.say(speed)
         return self.heard_back(count)
 
+    def ask(self, speed: float) -> ControlState:
+        """What the controller says of one more sample, whether or not it sends a voltage."""
+        self.say(speed)
+        stamp = time_message(self.time)
+        self.wait(lambda: bool(self.states) and self.states[-1].header.stamp == stamp, "an answer to a sample")
+        return self.states[-1]
+
     def heard_back(self, count: int) -> ControlState:
         """The answer to the latest sample; `count` voltages had come before it."""
         stamp = time_message(self.time)
@@ -101,7 +113,9 @@ class FakePlant(Bench):
         """What `motor/info` says, in whatever words for the kind of measurement."""
         message = info_message(info, time_message(self.time))
         message.measurement = measurement
+        self.told = True
         self._info.publish(message)
+        self._info.wait_for_all_acked(Duration(seconds=PATIENCE))  # before the next sample is
 
 
 @pytest.fixture

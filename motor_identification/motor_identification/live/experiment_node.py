@@ -17,7 +17,7 @@ from motor_model.excitation import Profile
 from motor_model.sample import Info, Sample
 from motor_msgs.msg import MotorInfo, MotorSpeed, MotorVoltage
 from motor_ros import qos
-from motor_ros.graph.publishers import publishers_of
+from motor_ros.graph.publishers import count_publishers, publishers_of
 from motor_ros.messages import info_of, sample_of, voltage_message
 
 SILENCE = 1.0  # [s] without samples after which the plant is gone
@@ -78,7 +78,7 @@ class Driver(Node):
 
     def failed(self) -> bool:
         """Whether the plant has stopped sending samples, is not alone, or there is another problem."""
-        plants = self.count_publishers("motor/speed")
+        plants = count_publishers(self, "motor/speed")
         if plants > 1:
             self.problem = f"{plants} nodes publish motor/speed: stop all but the plant that is to be driven."
         elif self.heard is not None and time.monotonic() - self.heard > SILENCE:

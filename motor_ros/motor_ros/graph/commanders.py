@@ -20,7 +20,8 @@ class Commanders:
     """Those who publish some topics."""
 
     def __init__(self, node: Node, *topics: str) -> None:
-        self._node, self._topics = node, [node.resolve_topic_name(topic) for topic in topics]
+        self._node, self._topics = node, topics
+        self._resolved = [node.resolve_topic_name(topic) for topic in topics]
         self._acquaintances = Acquaintances()
         self._looked, self._count = 0, -1
         steady_timer(node, LOOK_EVERY, self._look)
@@ -33,7 +34,7 @@ class Commanders:
     def judge(self, at: int) -> Verdict:
         """Judge a message on one of the topics that came at `at` [ns]."""
         now = time.monotonic_ns()
-        if now - self._looked > RECENT or sum(map(self._node.count_publishers, self._topics)) != self._count:
+        if now - self._looked > RECENT or sum(map(self._node.count_publishers, self._resolved)) != self._count:
             self._look()
         return self._acquaintances.judge(at, now)
 

@@ -1,8 +1,9 @@
-"""List who publishes a topic, as the middleware tells it."""
+"""List who publishes a topic, and who hears one, as the middleware tells it."""
 
 from typing import NamedTuple
 
-from rclpy.node import Node
+from rclpy.node import Node, NodeNameNonExistentError
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 UNKNOWN = "_NODE_NAME_UNKNOWN_"  # the middleware tells of a publisher before it tells of its node
 
@@ -10,7 +11,7 @@ Id = tuple[int, ...]
 
 
 class Publisher(NamedTuple):
-    """One publisher of a topic."""
+    """One publisher of a topic, or one who hears it."""
 
     id: Id  # what the middleware knows it by: who is started again is another one
     node: str  # with its namespace; "" while it is not known
@@ -18,8 +19,38 @@ class Publisher(NamedTuple):
 
 def list_publishers(node: Node, topic: str) -> list[Publisher]:
     """List the publishers of a topic."""
-    found = node.get_publishers_info_by_topic(topic)
-    return [Publisher(tuple(one.endpoint_gid), _name(one.node_namespace, one.node_name)) for one in found]
+    return list(map(_one, node.get_publishers_info_by_topic(topic)))
+
+
+def list_subscribers(node: Node, topic: str) -> list[Publisher]:
+    """List who hears a topic."""
+    return list(map(_one, node.get_subscriptions_info_by_topic(topic)))
+
+
+def count_publishers(node: Node, topic: str) -> int:
+    """Count the publishers of a topic that may have been renamed, which rclpy's own counting does not ask."""
+    return int(node.count_publishers(node.resolve_topic_name(topic)))
+
+
+def published_topics(node: Node, kind: str) -> list[str]:
+    """List the topics of a type (`package/msg/Name`) that somebody publishes, in alphabetical order."""
+    found = node.get_topic_names_and_types()
+    return sorted(name for name, kinds in found if kind in kinds and node.count_publishers(name))
+
+
+def topics_of_node(node: Node, name: str, kind: str) -> list[str]:
+    """List the topics of a type that the node of that full name publishes, in alphabetical order."""
+    namespace, _, own = name.rpartition("/")
+    try:
+        found = node.get_publisher_names_and_types_by_node(own, namespace or "/")
+    except NodeNameNonExistentError:  # it has ended
+        return []
+    return sorted(topic for topic, kinds in found if kind in kinds)
+
+
+def kind_of(message: type) -> str:
+    """Return a message's type as the middleware names it, `package/msg/Name`."""
+    return f"{message.__module__.split('.')[0]}/msg/{message.__name__}"
 
 
 def publishers_of(node: Node, topic: str) -> list[str]:
@@ -30,6 +61,10 @@ def publishers_of(node: Node, topic: str) -> list[str]:
 def publisher_ids(node: Node, topic: str) -> frozenset[Id]:
     """List the publishers of a topic by what the middleware knows them by."""
     return frozenset(one.id for one in list_publishers(node, topic))
+
+
+def _one(found: TopicEndpointInfo) -> Publisher:
+    return Publisher(tuple(found.endpoint_gid), _name(found.node_namespace, found.node_name))
 
 
 def _name(namespace: str, name: str) -> str:

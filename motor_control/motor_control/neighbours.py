@@ -1,0 +1,59 @@
+"""Know who hears this node and who is heard: what is missing is said, and another motor's voltages are not sent.
+
+A node in another namespace than its plant, or one of whose topics has been renamed, waits for ever and has nothing to
+say for itself. One that hears the samples of one plant while its voltages go to another would drive that one, by what
+this one does, until it is found out by what is not applied.
+"""
+
+from rclpy.node import Node
+
+from motor_msgs.msg import MotorInfo, MotorSpeed
+from motor_ros.graph.publishers import (
+    count_publishers,
+    kind_of,
+    list_publishers,
+    list_subscribers,
+    published_topics,
+    topics_of_node,
+)
+
+SPEED, INFO, VOLTAGE = "motor/speed", "motor/info", "motor/voltage"
+
+NO_PLANT = "Nobody publishes {}: start motor_sim or motor_driver in this namespace{}."
+ELSEWHERE = "; there is a plant that publishes {}, whose namespace this node would need (-r __ns:=/NAMESPACE)"
+NO_INFO = "Nobody publishes {}, which says what the samples on {} mean{}: see remappings and namespaces."
+INFO_ELSEWHERE = ", but {} is"
+NOBODY_HEARS = "Nobody hears {}, on which the voltages go: see remappings and namespaces of plant and controller."
+ANOTHER_DRIVEN = (
+    "{} would be driven on {} by what another plant does ({}), for its own samples are on {}: see remappings and "
+    "namespaces. The motor gets 0 V until then."
+)
+
+
+class Neighbours:
+    """Whoever has to do with this node's topics."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._speed, self._info, self._voltage = map(node.resolve_topic_name, (SPEED, INFO, VOLTAGE))
+
+    def missing(self) -> str:
+        """Say who is missing; "" if nobody is."""
+        if not count_publishers(self._node, SPEED):
+            there = published_topics(self._node, kind_of(MotorSpeed))
+            return NO_PLANT.format(self._speed, ELSEWHERE.format(" and ".join(there)) if there else "")
+        if not count_publishers(self._node, INFO):
+            there = published_topics(self._node, kind_of(MotorInfo))
+            named = INFO_ELSEWHERE.format(" and ".join(there)) if there else ""
+            return NO_INFO.format(self._info, self._speed, named)
+        return "" if self._node.count_subscribers(self._voltage) else NOBODY_HEARS.format(self._voltage)
+
+    def another_driven(self) -> str:
+        """Say which plant would be driven by another one's samples; "" if none would."""
+        heard = {one.node for one in list_publishers(self._node, SPEED)}
+        if not heard or "" in heard:  # nobody, or whoever is not known yet
+            return ""
+        for node in sorted({one.node for one in list_subscribers(self._node, VOLTAGE)} - heard - {""}):
+            if own := topics_of_node(self._node, node, kind_of(MotorSpeed)):
+                return ANOTHER_DRIVEN.format(node, self._voltage, ", ".join(sorted(heard)), own[0])
+        return ""
