@@ -5,6 +5,7 @@ late by is in it; speeds are those that the plants report.
 """
 
 import re
+import resource
 import subprocess
 import sys
 import time
@@ -23,7 +24,8 @@ from motor_msgs.msg import MotorSpeed, MotorVoltage
 from motor_ros import qos
 from motor_ros.messages import time_message, voltage_message
 
-KNOWN, WATCHED = 0.15, 3.0  # [s] from when it could be known, and watched
+# [s] from when it could be known; where what has been recorded is written every half a second; and watched
+KNOWN, KNOWN_AT_WRITING, WATCHED = 0.15, 0.65, 3.0
 LOGGED = re.compile(r"^\[\w+\] \[[\d.]+\] \[\w+\]: ")  # what begins a line of a log
 HEAD = "| fault | may take | ms | speed | voltage | what was said |\n|---|---|---|---|---|---|"
 
@@ -63,6 +65,16 @@ def resume_experiment(stage: Stage) -> None:
     one = stage.run("motor_identification", "experiment", "rich", "--output", stage.folder / "new")
     stage.until(lambda: abs(stage.moments[-1].voltage) > 1.0, "motion")
     stage.stand_still(one)
+
+
+def fill_disk(stage: Stage) -> None:
+    """No file of an experiment may grow any more in mid-run, as on a full disk."""
+    stage.plant()
+    stage.until(lambda: len(stage.moments) > 50, "the plant")
+    one = stage.run("motor_identification", "experiment", "rich", "--output", stage.folder / "new")
+    stage.until(lambda: abs(stage.moments[-1].voltage) > 1.0, "motion")
+    stage.hear(1.0)  # something has been written
+    resource.prlimit(one.pid, resource.RLIMIT_FSIZE, (1000, 1000))
 
 
 def refer_to_stopped_controller(stage: Stage) -> None:
@@ -216,6 +228,7 @@ LIVE_FAULTS = (
     LiveFault("a whole recording is played onto a plant", play_bag, "Another node publishes"),
     LiveFault("a second plant in one namespace, plain voltage", start_second_plant, "Another node publishes"),
     LiveFault("`experiment` stopped for 1.5 s (Ctrl-Z), and goes on", resume_experiment, "The samples stopped"),
+    LiveFault("`experiment`, whose disk is full in mid-run", fill_disk, "cannot be written", KNOWN_AT_WRITING),
     LiveFault("a controller stopped for 1.5 s, a reference meanwhile", refer_to_stopped_controller, "stood still"),
     LiveFault("a plant stopped for 1.5 s, a voltage meanwhile", command_stopped_plant, "held up"),
     LiveFault("a plant stopped for 1.5 s, 200 voltages a second keep coming", resume_plant, "went on being sent"),
