@@ -11,12 +11,14 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from faults_live_stage import MOTOR, Stage, stage
 from faults_loop import Outcome, outcome
 from geometry_msgs.msg import Twist
-from std_msgs.msg import Float64
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, Header
 from std_srvs.srv import SetBool
 from workbench import program
 
@@ -26,6 +28,7 @@ from motor_ros.messages import time_message, voltage_message
 
 # [s] from when it could be known; where what has been recorded is written every half a second; and watched
 KNOWN, KNOWN_AT_WRITING, WATCHED = 0.15, 0.65, 3.0
+DAY = 86_400_000_000_000  # [ns]
 LOGGED = re.compile(r"^\[\w+\] \[[\d.]+\] \[\w+\]: ")  # what begins a line of a log
 HEAD = "| fault | may take | ms | speed | voltage | what was said |\n|---|---|---|---|---|---|"
 
@@ -46,6 +49,35 @@ def play_bag(stage: Stage) -> None:
     heard = stage.bench.hear(MotorVoltage, "motor/voltage")
     stage.run("motor_identification", "play", bag, "--rate", "1")
     stage.until(lambda: any(message.voltage for message in heard), "a voltage of the recording")
+
+
+def republish(stage: Stage, kind: str, topic: str, renewed: bool) -> None:
+    """A program of somebody's own reads a recording of yesterday and publishes what was asked for then.
+
+    kind: what; renewed: with the stamps of now in place of those that were recorded.
+    """
+    stage.plant()
+    stage.controller("", "-p", "joint_command_timeout:=0.5")
+    stage.until(lambda: len(stage.moments) > 50 and bool(stage.said), "the loop")
+    messages = {
+        "voltage": (MotorVoltage, lambda now: voltage_message(6.0, time_message(now), "")),
+        "joint": (JointState, lambda now: JointState(header=header_at(now), name=["motor"], velocity=[80.0])),
+        "reference": (Float64, lambda now: Float64(data=80.0)),  # which has no stamp
+    }
+    message, make = messages[kind]
+    publisher = stage.bench.publisher(message, topic, qos.COMMANDS)
+    stage.bench.heard(publisher)
+    stage.hear(11.0 if kind == "joint" else 0.5)  # who sends joint commands has been there for 10 s
+    back = 0 if renewed else DAY
+    stage.bench.node.create_timer(
+        0.01, lambda: publisher.publish(make(stage.bench.node.get_clock().now().nanoseconds - back))
+    )
+    stage.hear(1.0)
+
+
+def header_at(now: int) -> Header:
+    """A header of that time [ns]."""
+    return Header(stamp=time_message(now))
 
 
 def start_second_plant(stage: Stage) -> None:
@@ -227,6 +259,14 @@ class LiveFault:
 LIVE_FAULTS = (
     LiveFault("a whole recording is played onto a plant", play_bag, "Another node publishes"),
     LiveFault("a second plant in one namespace, plain voltage", start_second_plant, "Another node publishes"),
+    *(
+        LiveFault(
+            f"a program of one's own publishes a recording's {topic}, with its stamps",
+            partial(republish, kind=kind, topic=topic, renewed=False),
+            "stamp",
+        )
+        for kind, topic in (("voltage", "motor/voltage"), ("joint", "motor/joint_command"))
+    ),
     LiveFault("`experiment` stopped for 1.5 s (Ctrl-Z), and goes on", resume_experiment, "The samples stopped"),
     LiveFault("`experiment`, whose disk is full in mid-run", fill_disk, "cannot be written", KNOWN_AT_WRITING),
     LiveFault("a controller stopped for 1.5 s, a reference meanwhile", refer_to_stopped_controller, "stood still"),
