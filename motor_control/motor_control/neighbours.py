@@ -49,11 +49,19 @@ class Neighbours:
         return "" if self._node.count_subscribers(self._voltage) else NOBODY_HEARS.format(self._voltage)
 
     def another_driven(self) -> str:
-        """Say which plant would be driven by another one's samples; "" if none would."""
+        """Say which plant would be driven by another one's samples; "" if none would, or only beside the right one.
+
+        A simulation may well follow the voltages of a motor.
+        """
         heard = {one.node for one in list_publishers(self._node, SPEED)}
-        if not heard or "" in heard:  # nobody, or whoever is not known yet
+        driven = self.hearers()
+        if not heard or "" in heard | driven or heard & driven:  # nobody, who is not known yet, or who should be
             return ""
-        for node in sorted({one.node for one in list_subscribers(self._node, VOLTAGE)} - heard - {""}):
+        for node in sorted(driven):
             if own := topics_of_node(self._node, node, kind_of(MotorSpeed)):
                 return ANOTHER_DRIVEN.format(node, self._voltage, ", ".join(sorted(heard)), own[0])
         return ""
+
+    def hearers(self) -> set[str]:
+        """Name the nodes that hear the motor's voltages; "" among them: of one it is not known yet."""
+        return {one.node for one in list_subscribers(self._node, VOLTAGE)}

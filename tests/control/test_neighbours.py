@@ -85,6 +85,14 @@ def test_a_plant_may_be_two_nodes_and_others_may_listen(bench: Bench, make: Make
     assert neighbours.another_driven() == ""
 
 
+def test_a_simulation_may_follow_the_voltages_of_a_motor(bench: Bench, make: MakeNode) -> None:
+    neighbours = Neighbours(make("controller"))
+    be_plant(make("motor_driver"))
+    be_plant(make("motor_sim", "twin", "motor/voltage:=/motor/voltage"))
+    bench.wait(lambda: len(neighbours.hearers()) == 2, "both")
+    assert neighbours.another_driven() == ""
+
+
 def test_renamed_topics_are_counted_by_their_new_names(bench: Bench, make: MakeNode) -> None:
     controller = make("controller", "", "motor/speed:=speed_of_wheel")
     make("plant").create_publisher(MotorSpeed, "speed_of_wheel", qos.SPEED)
