@@ -30,7 +30,7 @@ class Answers:
         self._node = node
         self._header = Header()  # of the latest sample
         self._output, self._told = WAITING, Told()
-        self._missing = ""  # who was missing at the latest diagnostic, as a sentence
+        self._missing, self._warned = "", ""  # who was missing at the latest diagnostic, as a sentence; what was logged
         self._answered, self._worst = 0, 0.0  # samples since the last diagnostic, and their largest latency [s]
         self._voltage = node.create_publisher(MotorVoltage, "motor/voltage", qos.VOLTAGE)
         self._control_state = node.create_publisher(ControlState, "motor/control_state", qos.CONTROL_STATE)
@@ -49,9 +49,10 @@ class Answers:
 
     def diagnose(self, config: Config, demand: Demand | None, missing: str) -> None:
         """Publish the diagnostic of the second that is over; demand: what is obeyed; missing: who is, a sentence."""
-        if missing and missing != self._missing:
+        if missing and missing == self._missing and missing != self._warned:  # for a second: not only just discovered
             self._node.get_logger().warning(missing)
-        self._missing = missing
+            self._warned = missing
+        self._missing, self._warned = missing, self._warned if missing else ""
         name = f"{self._node.get_fully_qualified_name()}: {self._header.frame_id or 'no motor yet'}"
         rivals = count_publishers(self._node, "motor/voltage")
         referrers = self._referrers() if demand is not None and demand.source is Source.REFERENCE else []

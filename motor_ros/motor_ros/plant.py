@@ -57,7 +57,7 @@ class Plant:
         self._joint = node.create_publisher(JointState, "joint_states", qos.JOINT_STATES)
         self._diagnostics = node.create_publisher(DiagnosticArray, "/diagnostics", qos.DIAGNOSTICS)
         self._commanders, self._played = Commanders(node, "motor/voltage"), ""
-        self._unheard = ""  # that nobody hears references, as a sentence
+        self._unheard = 0  # diagnostics in a row in which nobody heard references
         self._old, self._old_at = "", 0  # the latest voltage with an old stamp, as a sentence, and when [ns] that was
         self._input = NumberedInput(
             node,
@@ -147,12 +147,13 @@ class Plant:
 
     def _look_for_controller(self) -> str:
         """Say that references are published and no controller is there, as where it is in another namespace."""
-        before, topic = self._unheard, self._node.resolve_topic_name("motor/reference")
-        unheard = self._node.count_publishers(topic) and not self._node.count_subscribers(topic)
-        self._unheard = UNHEARD.format(topic) if unheard else ""
-        if self._unheard and not before:
-            self._node.get_logger().warning(self._unheard)
-        return self._unheard
+        topic = self._node.resolve_topic_name("motor/reference")
+        unheard = self._node.count_publishers(topic) > 0 and not self._node.count_subscribers(topic)
+        self._unheard = self._unheard + 1 if unheard else 0
+        said = UNHEARD.format(topic) if self._unheard > 1 else ""  # for a second: not only just discovered
+        if self._unheard == 2:
+            self._node.get_logger().warning(said)
+        return said
 
     def _on_voltage(self, message: MotorVoltage, arrival: Arrival) -> None:
         now, before, voltage = time.monotonic_ns(), self.gate, message.voltage

@@ -77,19 +77,20 @@ def test_a_plant_is_not_driven_by_what_another_one_does(bench: Bench, make: Make
 
 
 def test_a_plant_may_be_two_nodes_and_others_may_listen(bench: Bench, make: MakeNode) -> None:
-    neighbours = Neighbours(make("controller"))
-    be_plant(make("sensor"), "motor/speed", "motor/info")
-    be_plant(make("bridge"), "motor/voltage")
-    be_plant(make("recorder"), "motor/voltage")
+    neighbours = Neighbours(make("controller", "two"))
+    be_plant(make("sensor", "two"), "motor/speed", "motor/info")
+    be_plant(make("bridge", "two"), "motor/voltage")
+    be_plant(make("recorder", "two"), "motor/voltage")
     bench.wait(lambda: neighbours.missing() == "", "the plant")
     assert neighbours.another_driven() == ""
 
 
 def test_a_simulation_may_follow_the_voltages_of_a_motor(bench: Bench, make: MakeNode) -> None:
-    neighbours = Neighbours(make("controller"))
-    be_plant(make("motor_driver"))
-    be_plant(make("motor_sim", "twin", "motor/voltage:=/motor/voltage"))
-    bench.wait(lambda: len(neighbours.hearers()) == 2, "both")
+    neighbours = Neighbours(make("controller", "wheel"))
+    be_plant(make("motor_driver", "wheel"))
+    be_plant(make("motor_sim", "twin", "motor/voltage:=/wheel/motor/voltage"))
+    both = {"/wheel/motor_driver", "/twin/motor_sim"}
+    bench.wait(lambda: neighbours.hearers() == both and neighbours.missing() == "", "both")
     assert neighbours.another_driven() == ""
 
 
