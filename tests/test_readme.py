@@ -146,6 +146,7 @@ def test_the_commands_that_work_on_files_work_as_written(tmp_path: Path) -> None
 
 
 @pytest.mark.long
+@pytest.mark.slow
 def test_the_diagnosis_works_as_written(tmp_path: Path) -> None:
     run_all(commands_of("diagnosis"), tmp_path)
     assert 100_000 < (tmp_path / "diagnosis" / "report.html").stat().st_size < 3_000_000

@@ -17,7 +17,10 @@ from motor_ros.plant import Plant
 from motor_ros.run import quick_executor, run
 from motor_sim.parameters import PARAMETERS, PROGRAM, board_config_of
 
-MOST_BEHIND = 0.5  # [s] a process that was held up longer than this does not catch up
+MOST_BEHIND = 500_000_000  # [ns] a process that was held up longer than this does not catch up
+# [ns] that nothing is sampled then. To who estimates their age, a clock that has stood still is a link that holds samples
+# them back, for minutes, unless nothing comes for 0.4 s (`motor_control/controller/latency.py`).
+STILL = 500_000_000
 HELD_UP = (
     "The simulation was held up {} times in the last second, which is not real time: close other programs, or lower "
     "sample_rate."
@@ -55,8 +58,8 @@ class MotorSim(Node):
     def _on_timer(self) -> None:
         now = time.monotonic_ns()
         to_ros = self._plant.now() - now
-        if now - self._next > MOST_BEHIND * 1e9:
-            self._next, self._late = now, self._late + 1
+        due = find_due(self._next, now)
+        self._next, self._late = due, self._late + (due != self._next)
         while self._next <= now:
             sample = self._board.sample(self._plant.voltage())
             self._plant.publish(sample, time_message(self._next + to_ros))
@@ -71,6 +74,11 @@ class MotorSim(Node):
             {"true speed [rad/s]": f"{self._board.speed:.4f}", "true angle [rad]": f"{self._board.angle:.4f}"},
         )
         self._late = 0
+
+
+def find_due(due: int, now: int) -> int:
+    """Find when [ns] a sample is due that was at `due`: later, where the process was held up for too long."""
+    return now + STILL if now - due > MOST_BEHIND else due
 
 
 def main(args: list[str] | None = None) -> int:

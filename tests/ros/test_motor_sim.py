@@ -12,12 +12,14 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from workbench import PATIENCE, Bench, end
 
+from motor_control.controller.latency import PAUSE, track_latency
 from motor_model.model_file import save
 from motor_model.parameters import PAPER_KV, Parameters
 from motor_model.sensing.motion_check import NEVER
 from motor_msgs.msg import ControlState, MotorInfo, MotorSpeed
 from motor_ros import qos
 from motor_ros.messages import time_message
+from motor_sim.node import MOST_BEHIND, STILL, find_due
 
 Start = Callable[..., "Popen[str]"]
 PATIENT = ("--ros-args", "-p", "command_timeout:=10.0")  # a user who is held up does not interrupt
@@ -81,6 +83,17 @@ def test_a_value_out_of_range_is_one_sentence(start: Start) -> None:
     out, err = process.communicate(timeout=PATIENCE)
     assert (process.returncode, out) == (1, "")
     assert "sample_rate" in err and "10 to 1000 Hz" in err and err.count("\n") == 1
+
+
+@pytest.mark.parametrize(("behind", "still"), [(MOST_BEHIND, False), (MOST_BEHIND + 1, True)])
+def test_a_clock_that_stood_still_is_none_of_old_samples(behind: int, still: bool) -> None:
+    """A simulation that could not keep up left its loop at 0 V for minutes: its samples seemed to be seconds old."""
+    now = 10_000_000_000
+    due = find_due(now - behind, now)
+    assert due == (now + STILL if still else now - behind)
+    _, state = track_latency(None, 0, 1.0)
+    age, _ = track_latency(state, 5_000_000, 1.0 + (due - now) * 1e-9 if still else 1.3)
+    assert (age == 0.0) is still and STILL * 1e-9 > PAUSE
 
 
 def messages(status: list[DiagnosticArray]) -> str:

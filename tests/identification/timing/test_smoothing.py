@@ -153,6 +153,7 @@ def test_hardly_smoothed_or_held_speeds_are_left_as_they_are() -> None:
     assert memory_of(check(held_late(smoothed(noisy(0.5), 0.8), 4, 0))) == 0.0  # shown four times each
 
 
+@pytest.mark.slow
 def test_every_limit_decides(monkeypatch: pytest.MonkeyPatch) -> None:
     logged = smoothed(noisy(0.5), 0.7)
     estimate, _ = search_globally(make_problem([logged], ()), SearchConfig())
