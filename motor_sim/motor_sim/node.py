@@ -18,7 +18,7 @@ from motor_ros.run import quick_executor, run
 from motor_sim.parameters import PARAMETERS, PROGRAM, board_config_of
 
 MOST_BEHIND = 500_000_000  # [ns] a process that was held up longer than this does not catch up
-# [ns] that nothing is sampled then. To who estimates their age, a clock that has stood still is a link that holds samples
+# [ns] that nothing is sampled then: to who estimates their age, a clock that stood still is a link that holds samples
 # them back, for minutes, unless nothing comes for 0.4 s (`motor_control/controller/latency.py`).
 STILL = 500_000_000
 HELD_UP = (
