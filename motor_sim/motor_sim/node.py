@@ -18,8 +18,8 @@ from motor_ros.run import quick_executor, run
 from motor_sim.parameters import PARAMETERS, PROGRAM, board_config_of
 
 MOST_BEHIND = 500_000_000  # [ns] a process that was held up longer than this does not catch up
-# [ns] that nothing is sampled then: to who estimates their age, a clock that stood still is a link that holds samples
-# them back, for minutes, unless nothing comes for 0.4 s (`motor_control/controller/latency.py`).
+# [ns] without a sample, then: to who estimates their age, a clock that stood still is a link that holds samples back,
+# for minutes, unless nothing comes for 0.4 s (`motor_control/controller/latency.py`).
 STILL = 500_000_000
 HELD_UP = (
     "The simulation was held up {} times in the last second, which is not real time: close other programs, or lower "
@@ -47,7 +47,8 @@ class MotorSim(Node):
         info = replace(config.info(model), max_voltage=min(limit, supply), supply_voltage=supply)
         self._plant = Plant(self, info, gate)
         self._period = round(1e9 / config.sample_rate)  # [ns]
-        self._next, self._late = time.monotonic_ns() + self._period, 0
+        self._sampled = time.monotonic_ns()
+        self._next, self._late = self._sampled + self._period, 0
         steady_timer(self, 1.0 / config.sample_rate, self._on_timer)
         steady_timer(self, 1.0, self._on_second)
         effects = ", ".join(model.effects) or "no effects beyond kv and ka"
@@ -58,7 +59,7 @@ class MotorSim(Node):
     def _on_timer(self) -> None:
         now = time.monotonic_ns()
         to_ros = self._plant.now() - now
-        due = find_due(self._next, now)
+        due = find_due(self._next, now, self._sampled)
         self._next, self._late = due, self._late + (due != self._next)
         while self._next <= now:
             sample = self._board.sample(self._plant.voltage())
@@ -67,6 +68,7 @@ class MotorSim(Node):
             if self._check.stop and self._plant.gate.enabled:
                 self._plant.stop(self._check.stop, motor=True)
             self._next += self._period
+            self._sampled = time.monotonic_ns()
 
     def _on_second(self) -> None:
         self._plant.diagnose(
@@ -76,9 +78,12 @@ class MotorSim(Node):
         self._late = 0
 
 
-def find_due(due: int, now: int) -> int:
-    """Find when [ns] a sample is due that was at `due`: later, where the process was held up for too long."""
-    return now + STILL if now - due > MOST_BEHIND else due
+def find_due(due: int, now: int, sampled: int) -> int:
+    """Find when [ns] a sample is due that was at `due`: later, where the process was held up for too long.
+
+    sampled: when the latest one was made.
+    """
+    return max(now, sampled + STILL) if now - due > MOST_BEHIND else due
 
 
 def main(args: list[str] | None = None) -> int:

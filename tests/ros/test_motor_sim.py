@@ -85,15 +85,22 @@ def test_a_value_out_of_range_is_one_sentence(start: Start) -> None:
     assert "sample_rate" in err and "10 to 1000 Hz" in err and err.count("\n") == 1
 
 
-@pytest.mark.parametrize(("behind", "still"), [(MOST_BEHIND, False), (MOST_BEHIND + 1, True)])
-def test_a_clock_that_stood_still_is_none_of_old_samples(behind: int, still: bool) -> None:
+@pytest.mark.parametrize(
+    ("behind", "silent", "wait"),
+    [
+        (MOST_BEHIND, 0, -MOST_BEHIND),  # it catches up
+        (MOST_BEHIND + 1, 1_000_000, STILL - 1_000_000),
+        (MOST_BEHIND + 1, STILL + 1, 0),  # held up as a whole, it was silent long enough
+    ],
+)
+def test_a_clock_that_stood_still_is_none_of_old_samples(behind: int, silent: int, wait: int) -> None:
     """A simulation that could not keep up left its loop at 0 V for minutes: its samples seemed to be seconds old."""
     now = 10_000_000_000
-    due = find_due(now - behind, now)
-    assert due == (now + STILL if still else now - behind)
-    _, state = track_latency(None, 0, 1.0)
-    age, _ = track_latency(state, 5_000_000, 1.0 + (due - now) * 1e-9 if still else 1.3)
-    assert (age == 0.0) is still and STILL * 1e-9 > PAUSE
+    due = find_due(now - behind, now, now - silent)
+    assert due == now + wait
+    _, state = track_latency(None, 0, 1e-9 * (now - silent))
+    age, _ = track_latency(state, 5_000_000, 1e-9 * max(due, now))
+    assert age == 0.0 and STILL * 1e-9 > PAUSE
 
 
 def messages(status: list[DiagnosticArray]) -> str:
