@@ -41,8 +41,8 @@ LEAST_GAIN, LEAST_GAIN_OF_ROW = 20.0, 0.02
 # at most 0.04 where it is 14 and less in all, and below 0.009 where it is more.
 LEAST_PULSE_GAIN_OF_ROW = 0.01
 # In all, of a slot that undoes a dead time, which is what makes the speeds late by any other timing: the age of values
-# is likelier than an effect. Measured: 5 to 16 of such speeds; of 160 logs of other sensors none, but beside filters.
-LEAST_UNDOING_GAIN = 5.0
+# is likelier than an effect. Measured: 4.7 to 50 of such speeds; none of 160 other logs but beside filters.
+LEAST_UNDOING_GAIN = 3.0
 # Of what a motor usually turns in a row: no slot is told that is less. Measured: 0.03 to 0.5 of true ones, 0.002 and
 # 0.004 of tachogenerators at 1 kHz, which had no noise then.
 LEAST_SLOT = 0.01
