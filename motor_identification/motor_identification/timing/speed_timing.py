@@ -150,7 +150,7 @@ def _find_periods(shaper: Shaper, other: Timing, least: float = -inf) -> Timing 
     found, timing = max(
         ((find_likeliest_slot(shaper, one, other), one) for one in instants), key=lambda one: one[0].gain
     )
-    enough = LEAST_UNDOING_GAIN if found.undoes and not other.filter else LEAST_GAIN
+    enough = LEAST_UNDOING_GAIN if found.undoes else LEAST_GAIN
     if found.gain <= max(least, enough, LEAST_PULSE_GAIN_OF_ROW * found.rows):
         return None
     if found.slot < LEAST_SLOT * measure_usual_travel(shaper.recordings):  # it ends at the row's own instant
