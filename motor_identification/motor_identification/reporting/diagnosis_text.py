@@ -209,7 +209,8 @@ def _describe_no_finding(diagnosis: Diagnosis) -> str:
     if diagnosis.time_limit:
         return f"No effect was found until then: {_describe_gap(diagnosis)}."
     if diagnosis.undetermined:
-        return f"Something is missing that this recording does not determine: {_describe_gap(diagnosis)}."
+        missing = "may be" if _is_at_floor(diagnosis) else "is"  # a random torque, or gains, may be all of it
+        return f"Something {missing} missing that this recording does not determine: {_describe_gap(diagnosis)}."
     if not diagnosis.after.confirms and not _is_at_floor(diagnosis):
         return f"Something may be missing that one response does not tell: {_describe_gap(diagnosis)}."
     ignored = find_ignored(diagnosis.after)
