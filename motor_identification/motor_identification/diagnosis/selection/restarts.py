@@ -32,8 +32,8 @@ def retry_with_another_first(selection: Selection, reporter: ProgressReporter) -
             better = _is_simpler(other, selection) or (not settled and _leaves_less(other, selection))
             selection = other if better else selection
             continue
-        if _are_alike(other.model, selection.model):
-            selection = _add_rival(selection, other)  # the one that was more likely stays
+        if _is_alike(other.model, selection.model):
+            selection = _add_rival(selection, other)  # the one that was more likely at first stays
             continue
         if other.model.held.gap < selection.model.held.gap:
             selection = other if other.model.likelihood > selection.model.likelihood else _add_rival(other, selection)
@@ -87,10 +87,14 @@ def _is_simpler(other: Selection, many: Selection) -> bool:
     return fewer and other.model.likelihood >= many.model.likelihood
 
 
-def _are_alike(one: Model, other: Model) -> bool:
-    """Decide whether two models are the same motion in other words: neither their likelihood nor their gap differs."""
-    low, high = sorted((one.held.gap, other.held.gap))
-    return abs(one.likelihood - other.likelihood) < thresholds.RIVAL_MARGIN and high < thresholds.SAME_GAP * low
+def _is_alike(again: Model, first: Model) -> bool:
+    """Decide whether a model is the first one's motion in other words: neither likelihood nor gap speaks against that.
+
+    One that is likelier by less than what makes a rival is no better.
+    """
+    low, high = sorted((again.held.gap, first.held.gap))
+    gain = again.likelihood - first.likelihood
+    return -thresholds.TIE_LIKELIHOOD < gain < thresholds.RIVAL_MARGIN and high < thresholds.SAME_GAP * low
 
 
 def _add_rival(selection: Selection, likelier: Selection) -> Selection:

@@ -61,9 +61,9 @@ def test_nothing_begins_anew_without_a_step_or_at_the_floor() -> None:
         (4.9, 0.9995, "coulomb_friction", ("load_bias",)),  # the same motion in other words: both, the first as it was
         (5.1, 0.9995, "load_bias", ()),
         (4.9, 0.998, "load_bias", ()),
-        (-4.9, 1.0005, "coulomb_friction", ("load_bias",)),
-        (-5.1, 1.0005, "coulomb_friction", ()),
-        (-4.9, 1.002, "coulomb_friction", ()),
+        (-0.4, 1.0005, "coulomb_friction", ("load_bias",)),
+        (-0.6, 1.0005, "coulomb_friction", ()),
+        (-0.4, 1.002, "coulomb_friction", ()),
     ],
 )
 def test_another_first_effect_that_leads_to_the_same_motion_is_a_rival(
