@@ -48,8 +48,7 @@ def try_in_place(
         return selection.replace_step(step, replace(step, rivals=_list_rivals(tests, effect, current)), current)
     rivals = find_rivals(better, tests)
     if count_parameters(effect) <= count_parameters(better.effect) and (
-        better.model.held.gap > thresholds.SAME_GAP * current.held.gap  # likelier by what is said of the noise alone
-        or _is_as_likely_from_there(effect, better, selection)
+        _is_contradicted(better.model, current) or _is_as_likely_from_there(effect, better, selection)
     ):
         rivals = sort_by_table({*rivals, effect})
     return selection.replace_step(step, replace(step, found=better, rivals=rivals), better.model)
@@ -148,6 +147,12 @@ def _settle(test: CandidateTest, current: Model, hold_out: HoldOut) -> Candidate
         return test
     again = fit_again(model, hold_out)
     return replace(test, model=again) if again.likelihood > model.likelihood else test
+
+
+def _is_contradicted(better: Model, current: Model) -> bool:
+    """Decide whether a model that is likelier, but not by far, leaves more: what is said of the noise alone is for it."""
+    gain = better.likelihood - current.likelihood
+    return gain < thresholds.CONTRADICTED and better.held.gap > thresholds.SAME_GAP * current.held.gap
 
 
 def _is_as_likely_from_there(effect: str, better: CandidateTest, selection: Selection) -> bool:

@@ -232,21 +232,25 @@ def test_what_is_there_from_the_start_takes_no_place(monkeypatch: pytest.MonkeyP
 
 
 @pytest.mark.parametrize(
-    ("effect", "gap", "rivals"),
+    ("effect", "gap", "gain", "rivals"),
     [
-        ("transport_delay", BELOW, ()),
-        ("transport_delay", ABOVE, ("transport_delay",)),
-        ("load_step", ABOVE, ()),  # it has an instant, too
+        ("transport_delay", BELOW, BELOW, ()),
+        ("transport_delay", ABOVE, BELOW, ("transport_delay",)),
+        ("transport_delay", ABOVE, ABOVE, ()),
+        ("load_step", ABOVE, BELOW, ()),  # it has an instant, too
     ],
 )
 def test_what_is_replaced_by_what_leaves_more_is_its_rival(
-    monkeypatch: pytest.MonkeyPatch, effect: str, gap: float, rivals: tuple[str, ...]
+    monkeypatch: pytest.MonkeyPatch, effect: str, gap: float, gain: float, rivals: tuple[str, ...]
 ) -> None:
     """A dead time left less of unseen motion than the inductance that was likelier beside a random torque."""
     without = with_effects(stub_model(5.0, likelihood=-900.0))
     current = with_effects(stub_model(2.0, likelihood=-200.0), effect)
     step = step_of(CandidateTest(effect, without, current), stub_test("armature_inductance", without, 2.0, 600.0))
-    instead = with_effects(stub_model(gap * thresholds.SAME_GAP * 2.0, likelihood=-100.0), "armature_inductance")
+    instead = with_effects(
+        stub_model(gap * thresholds.SAME_GAP * 2.0, likelihood=gain * thresholds.CONTRADICTED - 200.0),
+        "armature_inductance",
+    )
     monkeypatch.setattr(module, "_catch_up", lambda current, *_: current)
     monkeypatch.setattr(module, "try_effects", lambda *_: [CandidateTest("armature_inductance", without, instead)])
     monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
