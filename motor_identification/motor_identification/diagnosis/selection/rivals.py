@@ -22,7 +22,7 @@ from motor_identification.diagnosis.selection.selection import Selection, Select
 from motor_identification.diagnosis.selection.stand_ins import has_same_evidence, is_own_evidence
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
-from motor_model.effects import EFFECT_BY_NAME
+from motor_model.effects import EFFECT_BY_NAME, LAGS
 
 
 def try_in_place(
@@ -48,7 +48,7 @@ def try_in_place(
         return selection.replace_step(step, replace(step, rivals=_list_rivals(tests, effect, current)), current)
     rivals = find_rivals(better, tests)
     if count_parameters(effect) <= count_parameters(better.effect) and (
-        _is_contradicted(better.model, current) or _is_as_likely_from_there(effect, better, selection)
+        _is_contradicted(effect, better, current) or _is_as_likely_from_there(effect, better, selection)
     ):
         rivals = sort_by_table({*rivals, effect})
     return selection.replace_step(step, replace(step, found=better, rivals=rivals), better.model)
@@ -149,10 +149,14 @@ def _settle(test: CandidateTest, current: Model, hold_out: HoldOut) -> Candidate
     return replace(test, model=again) if again.likelihood > model.likelihood else test
 
 
-def _is_contradicted(better: Model, current: Model) -> bool:
-    """Decide whether a model that is likelier, but not by far, leaves more: what is said of the noise alone is for it."""
-    gain = better.likelihood - current.likelihood
-    return gain < thresholds.CONTRADICTED and better.held.gap > thresholds.SAME_GAP * current.held.gap
+def _is_contradicted(effect: str, better: CandidateTest, current: Model) -> bool:
+    """Decide whether a lag in the place of another one is likelier, but not by far, and leaves more of unseen motion.
+
+    Only what is said of the noise speaks for it then.
+    """
+    gain, lags = better.model.likelihood - current.likelihood, {effect, better.effect} <= set(LAGS)
+    leaves_more = better.model.held.gap > thresholds.SAME_GAP * current.held.gap
+    return lags and leaves_more and gain < thresholds.CONTRADICTED
 
 
 def _is_as_likely_from_there(effect: str, better: CandidateTest, selection: Selection) -> bool:

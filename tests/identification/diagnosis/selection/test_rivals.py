@@ -237,7 +237,7 @@ def test_what_is_there_from_the_start_takes_no_place(monkeypatch: pytest.MonkeyP
         ("transport_delay", BELOW, BELOW, ()),
         ("transport_delay", ABOVE, BELOW, ("transport_delay",)),
         ("transport_delay", ABOVE, ABOVE, ()),
-        ("load_step", ABOVE, BELOW, ()),  # it has an instant, too
+        ("quadratic_drag", ABOVE, BELOW, ()),  # no lag
     ],
 )
 def test_what_is_replaced_by_what_leaves_more_is_its_rival(
