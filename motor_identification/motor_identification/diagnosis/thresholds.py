@@ -46,8 +46,8 @@ PROMISES_TRIED = 4
 # Of log likelihood: what is less likely by e^5 = 150 is no rival of a finding. Measured: where one recording tells two
 # effects apart at all, they differ by 615 and more.
 RIVAL_MARGIN = 5.0
-# The same of a lag that leaves more of unseen motion. Measured: an inductance by 7.5 beside a random torque, in place of
-# a dead time, which was likelier by 16 without one.
+# The same of a lag that leaves more of unseen motion. Measured: an inductance by 7.5 beside a random torque, in place
+# of a dead time, which was likelier by 16 without one.
 CONTRADICTED = 10.0
 # Where there are that many recordings, most must not be against it; and the share of them that may alone be for it.
 # Measured: 22 of two of ten runs of a real motor for one lag, -6 of the others.
