@@ -124,9 +124,10 @@ STRANGE_MOTION = (
     unfit("both channels are exchanged, diagnosed", named_bags.wired_backwards, "swap the two", command="diagnose"),
 )
 ARGUMENTS = tuple(
-    Case(f"{node}: {name}", text("input.yaml", "a: [\n"), [node, "--ros-args", *words], 2, "Couldn't parse")
+    Case(f"{node}: {name}", text("input.yaml", "a: [\n"), [node, "--ros-args", *words], 2, said)
     for node in NODES
     for name, words in WRONG.items()
+    for said in ["is no namespace" if "namespace" in name else "Couldn't parse"]
 )
 FILES = (
     unfit("a pipe as a bag", named_files.pipe("input.mcap"), "no regular file", "input.mcap"),
