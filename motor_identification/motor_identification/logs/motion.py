@@ -68,7 +68,7 @@ def _mean_speeds(form: CsvForm, info: Info, signals: Signals) -> Motion:
     values = signals.motion
     few = bool(means) and float(np.median(np.abs(values[values != 0.0]))) < MANY_A_ROW * one
     if few and form.speed_lag is None and not form.count_quantum:
-        counted = _counts(*_sum_up_rows(form, info, signals, one))
+        counted = _counts(replace(form, kind=Kind.POSITION, unit="rad"), info, _sum_up_rows(form, info, signals, one))
         return replace(counted, findings=(*signs, *turned, *means, *counted.findings))
     window = form.speed_window or info.sample_period
     lag = 0.5 * window if form.speed_lag is None else form.speed_lag
@@ -115,14 +115,14 @@ def _undo_running_mean(signals: Signals, period: float) -> tuple[Signals, list[s
     return replace(signals, motion=motion), [said], size_of_count(signals.motion, rows)
 
 
-def _sum_up_rows(form: CsvForm, info: Info, signals: Signals, one: float) -> tuple[CsvForm, Info, Signals]:
+def _sum_up_rows(form: CsvForm, info: Info, signals: Signals, one: float) -> Signals:
     """Make positions [rad] of what single rows counted, every run from 0; `one`: a count's size in the form's unit."""
     edges = form.edges_per_revolution
     size = edge_angle(edges, form.gear) if edges else one * (form.unit_size or 1.0) * info.sample_period
     position = np.zeros(len(signals))
     for run in signals.runs.values():
         position[run] = np.cumsum(np.rint(signals.motion[run] / one)) * size
-    return replace(form, kind=Kind.POSITION, unit="rad"), info, replace(signals, motion=position)
+    return replace(signals, motion=position)
 
 
 def _about_count(form: CsvForm, signals: Signals, edges: int, window: float) -> str:

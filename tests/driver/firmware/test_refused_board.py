@@ -89,14 +89,17 @@ def test_another_board_on_the_port_does_not_go_on_where_one_ran(
     assert problem(running).startswith(running.enable())
 
 
+def put_in(rig: Rig, board: FirmwareConfig) -> None:
+    """Pull the plug of the board that runs, and plug this one in."""
+    rig.unplug()
+    rig.exchange(board)
+    rig.plug()
+
+
 def test_the_board_that_ran_goes_on_after_another_one(running: Rig) -> None:
-    running.unplug()
-    running.exchange(replace(SAME, board_id=9))
-    running.plug()
+    put_in(running, replace(SAME, board_id=9))
     running.run(600)
-    running.unplug()
-    running.exchange(SAME)
-    running.plug()
+    put_in(running, SAME)
     running.until(lambda: running.driver.runs, 600)
     running.run(200)
     assert running.pins == 0.0 and running.enable() == ""
@@ -109,9 +112,7 @@ def test_a_board_with_the_number_that_is_wanted_may_replace_one_that_ran(make_ri
     rig.plug()
     rig.voltage = 6.0
     rig.until(lambda: rig.pins == 6.0, 600)
-    rig.unplug()
-    rig.exchange(other)
-    rig.plug()
+    put_in(rig, other)
     rig.until(lambda: rig.driver.runs, 600)
     rig.run(300)
     assert rig.pins == 0.0 and rig.enable() == ""
