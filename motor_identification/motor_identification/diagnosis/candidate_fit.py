@@ -81,11 +81,11 @@ def fit_again(model: Model, hold_out: HoldOut) -> Model:
     return judge_beside_torque(validate_model(hold_out, fitted), hold_out, None, thresholds.FINAL_EVALUATIONS)
 
 
-def fit_constant(model: Model, effect: str, constant: str, hold_out: HoldOut) -> Model:
-    """Fit a model again with a constant effect in the place of one that began, of the same size to begin with."""
+def fit_in_place(model: Model, effect: str, other: str, hold_out: HoldOut) -> Model:
+    """Fit a model again with another effect in the place of one, of the same size to begin with."""
     bare, size = drop_effect(model.estimate, effect), EFFECT_BY_NAME[effect].parameters[0].name
-    larger = bare.problem.adding(constant)
-    values = {EFFECT_BY_NAME[constant].parameters[0].name: np.array(model.estimate.parameters.value(size))}
+    larger = bare.problem.adding(other)
+    values = {EFFECT_BY_NAME[other].parameters[0].name: np.array(model.estimate.parameters.value(size))}
     theta = map_theta(bare.problem.unknowns, bare.theta, larger.unknowns, values)
     return fit_again(validate_model(hold_out, Estimate(larger, theta, bare.simulations), model), hold_out)
 

@@ -177,8 +177,20 @@ def find_rivals(found: CandidateTest, tests: Sequence[CandidateTest]) -> tuple[s
             found.evidence_of_all - test.evidence_of_all,
             np.subtract(found.model.score.by_recording, test.model.score.by_recording),
         )
+        or holds_nearly_as_well(test, found.effect, found.evidence)
     ]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(found.effect))
+
+
+def holds_nearly_as_well(test: CandidateTest, effect: str, evidence: float) -> bool:
+    """Decide whether a more common effect does most of what another does, where both hold the motor at rest.
+
+    They differ while the motor slows down and turns back: what nobody named bends a motion there, too.
+    effect, evidence: of the one that was found, beside the model that the test is beside.
+    """
+    hold = EFFECT_BY_NAME[test.effect].holds and EFFECT_BY_NAME[effect].holds
+    common = EFFECT_ORDER[test.effect] < EFFECT_ORDER[effect]
+    return hold and common and test.evidence > (1.0 - thresholds.HOLDING_LEAD) * evidence
 
 
 def is_alike(gain: float, of_all: float, by_recording: Floats) -> bool:

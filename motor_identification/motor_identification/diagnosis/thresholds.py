@@ -49,6 +49,10 @@ RIVAL_MARGIN = 5.0
 # The same of a lag that leaves more of unseen motion. Measured: an inductance by 7.5 beside a random torque, in place
 # of a dead time, which was likelier by 16 without one.
 CONTRADICTED = 10.0
+# Of the log likelihood by which a dead zone is likelier than nothing, by how much it is likelier than the friction that
+# every motor has. Measured: 0.02 to 0.29 where a friction was beside something that had no name, or was blurred by the
+# sensor; 0.42 to 1 of dead zones that were there.
+HOLDING_LEAD = 0.35
 # Where there are that many recordings, most must not be against it; and the share of them that may alone be for it.
 # Measured: 22 of two of ten runs of a real motor for one lag, -6 of the others.
 FEWEST_RUNS = 5

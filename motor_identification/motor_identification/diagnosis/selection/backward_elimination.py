@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
 from motor_identification.diagnosis.candidate_fit import (
-    fit_constant,
+    fit_in_place,
     judge_beside_torque,
     refit_without,
 )
@@ -30,14 +30,32 @@ from motor_model.effects import EFFECT_BY_NAME
 def eliminate_backward(selection: Selection, reporter: ProgressReporter) -> Selection:
     """Keep the findings that are needed beside all others, or what does better instead of them; and their rivals now.
 
-    The last one too: fitted once more, the model may come to the same motion without it.
+    The last one too: fitted once more, the model may come to the same motion without it. What was checked beside one
+    that went is checked once more without it, and may have rivals now; unless that stood in for what is outside the
+    table, which is there still.
     """
-    for step in selection.steps:
+    given, beside_more = selection.steps, tuple[SelectionStep, ...]()
+    for number, step in enumerate(given):
         if any(one is step for one in selection.steps):
-            gap = selection.model.held.gap
-            reporter.report(f"checking {step.found.effect}", 0.9, step.found.effect, gap)
-            selection = _check_step(selection, step, reporter)
+            before = selection
+            selection = _report_and_check(before, step, reporter, compared=True)
+            if len(selection.steps) < len(before.steps) and selection.outside is None:
+                beside_more = tuple(one for one in selection.steps if _is_none_of(one, given[number + 1 :]))
+    for step in beside_more:
+        if any(one is step for one in selection.steps):
+            selection = _report_and_check(selection, step, reporter, compared=False)
     return selection
+
+
+def _is_none_of(step: SelectionStep, others: Sequence[SelectionStep]) -> bool:
+    return not any(one is step for one in others)
+
+
+def _report_and_check(
+    selection: Selection, step: SelectionStep, reporter: ProgressReporter, compared: bool
+) -> Selection:
+    reporter.report(f"checking {step.found.effect}", 0.9, step.found.effect, selection.model.held.gap)
+    return _check_step(selection, step, reporter, compared)
 
 
 def _check_step(
@@ -88,7 +106,7 @@ def _find_constant(effect: str, without: Model, current: Model, hold_out: HoldOu
     constant = EFFECT_BY_NAME[effect].constant
     if constant is None or constant in current.effects:
         return None
-    test = CandidateTest(constant, without, fit_constant(current, effect, constant, hold_out))
+    test = CandidateTest(constant, without, fit_in_place(current, effect, constant, hold_out))
     return test if is_better(test, effect, current) else None
 
 

@@ -4,13 +4,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from motor_identification.diagnosis import thresholds
-from motor_identification.diagnosis.candidate_fit import fit_again, refine_beside_torque, refit_without
+from motor_identification.diagnosis.candidate_fit import fit_again, fit_in_place, refine_beside_torque, refit_without
 from motor_identification.diagnosis.candidate_model import Model
 from motor_identification.diagnosis.candidate_test import CandidateTest, likelihood_threshold
 from motor_identification.diagnosis.effect_test import (
     are_alike,
     count_parameters,
     find_rivals,
+    holds_nearly_as_well,
     is_there_from_the_start,
     list_candidates,
     sort_by_table,
@@ -40,6 +41,7 @@ def try_in_place(
     tried = try_effects(without, selection.hold_out, others, selection.workers, heard)
     tried = [test for test in drop_chance_harmonics(tried) if not is_there_from_the_start(test)]
     tried = [_start_where_found(test, step, current, selection.hold_out) for test in tried]
+    tried = [_start_from_same_size(test, effect, current, selection.hold_out) for test in tried]
     settled = [_settle(test, current, selection.hold_out) for test in tried]
     tests = sorted(settled, key=lambda test: test.evidence, reverse=True)
     current = _catch_up(current, tests, selection.hold_out)
@@ -48,7 +50,9 @@ def try_in_place(
         return selection.replace_step(step, replace(step, rivals=_list_rivals(tests, effect, current)), current)
     rivals = find_rivals(better, tests)
     if count_parameters(effect) <= count_parameters(better.effect) and (
-        _is_contradicted(effect, better, current) or _is_as_likely_from_there(effect, better, selection)
+        _is_contradicted(effect, better, current)
+        or holds_nearly_as_well(CandidateTest(effect, better.before, current), better.effect, better.evidence)
+        or _is_as_likely_from_there(effect, better, selection)
     ):
         rivals = sort_by_table({*rivals, effect})
     return selection.replace_step(step, replace(step, found=better, rivals=rivals), better.model)
@@ -114,7 +118,9 @@ def _list_rivals(tests: Sequence[CandidateTest], effect: str, current: Model) ->
     alike = [
         test.effect
         for test in tests
-        if find_loss(test, current) < thresholds.RIVAL_MARGIN or are_alike(test.model, current)
+        if find_loss(test, current) < thresholds.RIVAL_MARGIN
+        or are_alike(test.model, current)
+        or holds_nearly_as_well(test, effect, current.likelihood - test.before.likelihood)
     ]
     return sort_by_table(name for name in alike if count_parameters(name) <= count_parameters(effect))
 
@@ -134,6 +140,18 @@ def _start_where_found(test: CandidateTest, step: SelectionStep, current: Model,
         return test
     model = replace(test.model, learned=current.learned)
     return replace(test, model=refine_beside_torque(model, hold_out, begin.estimate))
+
+
+def _start_from_same_size(test: CandidateTest, effect: str, current: Model, hold_out: HoldOut) -> CandidateTest:
+    """Fit what holds the motor, in the place of another effect that does, from that one's size and motion, too.
+
+    The model without both may be far from either: beside a random torque, or where a ripple follows what they do.
+    """
+    hold = EFFECT_BY_NAME[test.effect].holds and EFFECT_BY_NAME[effect].holds
+    if not hold or find_loss(test, current) < thresholds.RIVAL_MARGIN:
+        return test
+    again = fit_in_place(current, effect, test.effect, hold_out)
+    return replace(test, model=again) if again.likelihood > test.model.likelihood else test
 
 
 def _settle(test: CandidateTest, current: Model, hold_out: HoldOut) -> CandidateTest:

@@ -1,10 +1,12 @@
 """Backward elimination: what stands in is dropped, what is not needed goes, what is better replaces it."""
 
+from dataclasses import replace
 from typing import cast
 
 import pytest
 from diagnosed import fitted, with_effect
 from stub_models import rescored, stub_model, with_effects
+from stub_selections import stub_step
 
 from motor_identification.diagnosis.candidate_fit import validate_model
 from motor_identification.diagnosis.candidate_model import Model
@@ -15,6 +17,7 @@ from motor_identification.diagnosis.selection.backward_elimination import (
     eliminate_backward,
 )
 from motor_identification.diagnosis.selection.selection import Selection, SelectionStep
+from motor_identification.discrepancy.structure import Structure
 from motor_identification.noise.error_model import ErrorModel
 from motor_identification.progress import ProgressReporter
 from motor_identification.validation.hold_out import HoldOut
@@ -110,3 +113,26 @@ def test_a_load_that_proves_constant_is_compared_with_what_does_its_work(monkeyp
     step = SelectionStep(bare, found, (found,), (), 1.0)
     left = eliminate_backward(Selection((step,), loaded, cast(HoldOut, None), 1), SILENT)
     assert [one.found.effect for one in left.steps] == ["load_bias"] == tried
+
+
+@pytest.mark.parametrize(("outside", "again"), [(False, True), (True, False)])
+def test_what_was_checked_beside_one_that_went_is_checked_without_it(
+    monkeypatch: pytest.MonkeyPatch, outside: bool, again: bool
+) -> None:
+    """A dead zone beside a delay, which stood in for a friction: alone, a friction does as well."""
+    names = ("dead_zone", "transport_delay", "quadratic_drag")
+    model, checked = with_effects(stub_model(1.0), *names), list[tuple[str, bool]]()
+    structure = Structure("past", 0.5, 100.0)
+
+    def check(selection: Selection, step: SelectionStep, _: ProgressReporter, compared: bool) -> Selection:
+        checked.append((step.found.effect, compared))
+        if step.found.effect != "transport_delay":
+            return selection
+        left = selection.replace_step(step, None, with_effects(stub_model(1.0), "dead_zone", "quadratic_drag"))
+        return replace(left, outside=structure) if outside else left
+
+    monkeypatch.setattr(backward_elimination, "_check_step", check)
+    steps = tuple(stub_step(name, 0.5) for name in names)
+    left = eliminate_backward(Selection(steps, model, cast(HoldOut, None), 1), SILENT)
+    assert [one.found.effect for one in left.steps] == ["dead_zone", "quadratic_drag"]
+    assert checked == [(name, True) for name in names] + ([("dead_zone", False)] if again else [])

@@ -258,3 +258,56 @@ def test_what_is_replaced_by_what_leaves_more_is_its_rival(
     selection = replace(stub_selection(2.0, step), model=current)
     (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
     assert (left.found.effect, left.rivals) == ("armature_inductance", rivals)
+
+
+LEAST_LEAD = thresholds.HOLDING_LEAD * 800.0  # of the evidence below
+
+
+@pytest.mark.parametrize(
+    ("effect", "instead", "gain", "found", "rivals"),
+    [
+        ("dead_zone", "coulomb_friction", BELOW * -LEAST_LEAD, "dead_zone", ("coulomb_friction",)),
+        ("dead_zone", "coulomb_friction", ABOVE * -LEAST_LEAD, "dead_zone", ()),
+        ("coulomb_friction", "dead_zone", -0.5 * LEAST_LEAD, "coulomb_friction", ()),  # which every motor has
+        ("coulomb_friction", "dead_zone", 0.5 * LEAST_LEAD, "dead_zone", ("coulomb_friction",)),
+        ("coulomb_friction", "dead_zone", 2.0 * LEAST_LEAD, "dead_zone", ()),
+    ],
+)
+def test_a_friction_in_the_place_of_a_dead_zone_is_its_rival_unless_that_is_far_likelier(
+    monkeypatch: pytest.MonkeyPatch, effect: str, instead: str, gain: float, found: str, rivals: tuple[str, ...]
+) -> None:
+    """What has no name bends a motion where it turns back, too: a dead zone was likelier beside it by up to 0.29."""
+    without = with_effects(stub_model(5.0, likelihood=-1000.0))
+    current = with_effects(stub_model(2.0, likelihood=-200.0), effect)
+    step = step_of(CandidateTest(effect, without, current), stub_test(instead, without, 2.0, 600.0))
+    other = with_effects(stub_model(2.0, likelihood=gain - 200.0), instead)
+    monkeypatch.setattr(module, "_catch_up", lambda current, *_: current)
+    monkeypatch.setattr(module, "_start_from_same_size", lambda test, *_: test)
+    monkeypatch.setattr(module, "_settle", lambda test, *_: test)
+    monkeypatch.setattr(module, "try_effects", lambda *_: [CandidateTest(instead, without, other)])
+    monkeypatch.setattr(module, "_is_as_likely_from_there", lambda *_: False)
+    monkeypatch.setattr(module, "is_own_evidence", lambda *_: False)
+    selection = replace(stub_selection(2.0, step), model=current)
+    (left,) = module.try_in_place(selection, step, without, current, SILENT).steps
+    assert (left.found.effect, left.rivals) == (found, rivals)
+
+
+@pytest.mark.parametrize(
+    ("effect", "instead", "loss", "end", "again"),
+    [
+        ("dead_zone", "coulomb_friction", ABOVE, 50.0, True),
+        ("dead_zone", "coulomb_friction", ABOVE, -50.0, False),  # which leads to worse
+        ("dead_zone", "coulomb_friction", BELOW, 50.0, False),  # it is a rival already
+        ("dead_zone", "load_bias", ABOVE, 50.0, False),  # which holds nothing
+    ],
+)
+def test_what_holds_the_motor_is_fitted_from_the_size_of_what_it_stands_in_for(
+    monkeypatch: pytest.MonkeyPatch, effect: str, instead: str, loss: float, end: float, again: bool
+) -> None:
+    """Beside a ripple a friction ended 12 % short of the gap that it leaves from a dead zone's size."""
+    current = stub_model(1.0)
+    test = CandidateTest(instead, stub_model(9.0), stub_model(2.0, likelihood=-loss * thresholds.RIVAL_MARGIN))
+    better = stub_model(1.0, likelihood=test.model.likelihood + end)
+    monkeypatch.setattr(module, "fit_in_place", lambda *_: better)
+    left = module._start_from_same_size(test, effect, current, cast(HoldOut, None))
+    assert left.model is (better if again else test.model)
