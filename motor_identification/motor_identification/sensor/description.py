@@ -11,7 +11,10 @@ from motor_identification.sensor.white_noise import LEAST_SAMPLES
 from motor_model.sample import Measurement
 
 HELD = "The sensor gives a new speed every {} ms; what repeats it in between is left out."
-WRONG = "{} of {} speeds were left out: far beside their neighbours, with no voltage to make them so."
+WRONG = (
+    "{} of {} speeds were left out: far beside their neighbours, with no voltage to make them so, or 0 while the motor "
+    "moved."
+)
 LATTICE = "Every speed{} is a multiple of {} rad/s ({} deg/s): {} counts a turn over {} ms are assumed."
 BY_ROWS = ", by the length of its row beside the usual one,"
 FEW = "There are too few speeds to tell their noise: {} rad/s is assumed."

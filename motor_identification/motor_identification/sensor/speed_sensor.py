@@ -7,6 +7,7 @@ import numpy as np
 
 from motor_identification.recording import Bools, Floats, Integers, Recording
 from motor_identification.sensor.held_samples import find_frames
+from motor_identification.sensor.unseen_starts import mark_unseen_starts
 from motor_identification.sensor.value_lattice import find_lattice
 from motor_identification.sensor.white_noise import LEAST_SAMPLES, estimate_white_noise
 from motor_identification.sensor.wrong_speeds import mark_silent_rows, mark_wrong_speeds
@@ -66,7 +67,7 @@ def find_speed_sensor(recording: Recording) -> SpeedSensor:
         row, made, frame = frames.row, frames.time, frames.period
         if is_assumed(recording.info):
             window, lag = frame, lag * frame / window
-    right = ~mark_silent_rows(speed[row])
+    right = ~(mark_silent_rows(speed[row]) | mark_unseen_starts(speed[row]))
     right[right] = ~mark_wrong_speeds(speed[row][right], recording.voltage[row][right])
     wrong, row, made = int(np.count_nonzero(~right)), row[right], made[right]
     counted = window > LEAST_COUNTED * (frame or recording.info.sample_period)

@@ -44,7 +44,8 @@ def test_every_kind_of_sensor_has_its_sentence() -> None:
 def test_wrong_speeds_are_counted_over_all_recordings() -> None:
     few = replace(sensor(step=0.1), wrong=2)
     assert said(few, replace(few, wrong=1), known=True) == (
-        "3 of 203 speeds were left out: far beside their neighbours, with no voltage to make them so."
+        "3 of 203 speeds were left out: far beside their neighbours, with no voltage to make them so, or 0 "
+        "while the motor moved."
     )
 
 
