@@ -130,6 +130,9 @@ FROM_THE_START = 0.02
 # Time constants after that, too: a motor that is on its way from its first step has shown no state in which a load was
 # not there. Measured: 1.8 for the constant load of a real motor in a speed loop.
 ON_ITS_WAY = 2.0
+# Of the largest value that physics allows: a search that ends there ends with it. The others end at what is usual: a
+# disc of 0.2 rad off its centre was fitted to a torque where there was none.
+NEAR_PHYSICS = 0.9
 # Standard errors that the size of an effect is beyond none at least: one of some twenty effects is two off by chance.
 # Measured: beside a torque of 0.1 V a load step of 0.04 ± 0.13 V in a motor with backlash, a delay of 1.5 ± 2.1 ms;
 # 2.2 of a sagging supply beside a slow torque, 2.7 of a load in a motor whose friction goes with the angle; right ones

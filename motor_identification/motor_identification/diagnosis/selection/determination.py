@@ -170,9 +170,9 @@ def find_limits_hit(model: Model) -> tuple[str, ...]:
 
 
 def _is_physical(name: str) -> bool:
-    """Whether a parameter's largest value is one that physics sets, such as a bridge that coasts all the time."""
+    """Whether a search ends where physics does, such as at a bridge that coasts all the time, and not far before."""
     spec = SPEC_BY_NAME.get(name)
-    return spec is not None and spec.maximum < inf
+    return spec is not None and spec.maximum < inf and spec.high > thresholds.NEAR_PHYSICS * spec.maximum
 
 
 def is_undetermined(effect: str, not_identifiable: tuple[str, ...]) -> bool:

@@ -344,13 +344,16 @@ def test_a_rival_that_is_determined_takes_the_place(monkeypatch: pytest.MonkeyPa
     assert names == ("coulomb_friction", "dead_zone") and left.steps == ()
 
 
-@pytest.mark.parametrize(("effect", "at_limit"), [("transport_delay", True), ("coast_drive", False)])
+@pytest.mark.parametrize(
+    ("effect", "at_limit"), [("transport_delay", True), ("encoder_eccentricity", True), ("coast_drive", False)]
+)
 def test_a_limit_of_the_search_is_no_value_but_one_of_physics_is(effect: str, at_limit: bool) -> None:
     estimate, _ = fitted(ks=0.4)
     more = estimate.problem.with_effects((effect,))
     name = EFFECT_BY_NAME[effect].parameters[0].name
     place = more.unknowns.names.index(name)
-    theta = map_theta(estimate.problem.unknowns, estimate.theta, more.unknowns, {name: np.array(1e-3)})
+    begin = {spec.name: np.array(1e-3) for spec in EFFECT_BY_NAME[effect].parameters}
+    theta = map_theta(estimate.problem.unknowns, estimate.theta, more.unknowns, begin)
     theta[place] = more.unknowns.high[place]
     model = cast(Model, SimpleNamespace(estimate=Estimate(more, theta), effects=(effect,)))
     assert find_limits_hit(model) == ((name,) if at_limit else ())
