@@ -26,8 +26,8 @@ run() { pytest --assert=plain "$@" || { local code=$?; [ $code -eq 1 ] || exit $
 cores=$(nproc)
 workers=$((cores > 1 ? 4 : 2)) # more than cores, for many tests wait; each has ROS domains of its own
 run --cache-clear -n "$workers" --dist worksteal -m "not on_time$tier"
-# These measure times: nothing else runs; only their files are collected.
-run -n 2 --dist worksteal -m "on_time$tier" $(grep -rl --include='*.py' '^@pytest.mark.on_time$' tests)
+# These measure times: nothing else runs, and they wait for most of theirs; only their files are collected.
+run -n 3 --dist worksteal -m "on_time$tier" $(grep -rl --include='*.py' '^@pytest.mark.on_time$' tests)
 failed=$(grep -sc '": true' .pytest_cache/v/cache/lastfailed || true) # in both runs
 if ((status == 1 && failed > 0 && failed <= 5)); then
   echo "[test] $failed failed, and are run once more, alone: on a busy machine a live test may fail, a mistake fails twice."

@@ -1,7 +1,6 @@
 """What holds for all tests."""
 
 import gc
-import itertools
 import os
 import signal
 from collections.abc import Generator
@@ -10,6 +9,7 @@ from pathlib import Path
 import pytest
 from friction import record_friction
 from hypothesis import settings
+from shares import share_out
 
 import motor_identification  # noqa: F401  (before NumPy: it keeps BLAS to one thread)
 
@@ -33,19 +33,8 @@ def pytest_collection() -> Generator[None, object, object]:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin every worker's share with some of the longest, so that at the end nobody waits for one of them.
-
-    xdist's `worksteal` cuts the list into one piece a worker before anybody steals: what `-m` leaves of it.
-    """
-    workers = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
-    long = [item for item in items if item.get_closest_marker("long")]
-    others = iter([item for item in items if not item.get_closest_marker("long")])
-    shares: list[pytest.Item] = []
-    for worker in range(workers):
-        size = (len(items) - len(shares)) // (workers - worker)
-        first = long[worker::workers]
-        shares += [*first, *itertools.islice(others, size - len(first))]
-    items[:] = shares
+    """Share out what `-m` leaves of them."""
+    items[:] = share_out(items, int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1")))
 
 
 def pytest_collection_finish() -> None:

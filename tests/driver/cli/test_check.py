@@ -39,6 +39,7 @@ def interrupted(board: LiveBoard, port: Path) -> "tuple[int, str]":
     return running.returncode, said
 
 
+@pytest.mark.long
 @pytest.mark.on_time
 def test_a_first_run_stops_at_ctrl_c_and_else_writes_the_parameters(live: LiveBoard, tmp_path: Path) -> None:  # noqa: F811
     """Beside six other processes the emulated chip is silent for 120 ms in three of four first runs: they stop."""
@@ -85,6 +86,7 @@ def switched_off(board: LiveBoard) -> float:
     return time.monotonic() - begun
 
 
+@pytest.mark.long
 @pytest.mark.on_time
 def test_however_a_check_ends_the_motor_gets_0_v_and_the_reason_is_said(live: LiveBoard) -> None:  # noqa: F811
     """Who no longer reads what it says is noticed at once, not at the next row, seconds of motion later."""
